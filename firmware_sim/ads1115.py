@@ -1,0 +1,150 @@
+"""A simulated ADS1115: four inputs, one 16-bit converter, I2C registers.
+
+Knows the register map, how long a conversion takes and what it makes of the volts at the pins. Knows nothing of pots or
+angles, and has no comparator: the thresholds can be written and read, the ALERT pin does nothing.
+"""
+
+from __future__ import annotations
+
+import random
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+
+CONVERSION, CONFIG, LO_THRESH, HI_THRESH = range(4)
+CONFIG_RESET = 0x8583
+
+OS_BIT = 0x8000
+SINGLE_SHOT_BIT = 0x0100
+FULL_SCALE_V = (6.144, 4.096, 2.048, 1.024, 0.512, 0.256, 0.256, 0.256)
+RATE_SPS = (8, 16, 32, 64, 128, 250, 475, 860)
+PINS = ((0, 1), (0, 3), (1, 3), (2, 3), (0, None), (1, None), (2, None), (3, None))
+"""What the multiplexer connects, positive and negative side; None is GND."""
+
+WAKE_UP_S = 25e-6
+COUNTS = 32768
+CLAMP_V = 0.3  # the protection diodes carry whatever goes further beyond the rails
+
+
+@dataclass(frozen=True, slots=True)
+class _Conversion:
+    config: int
+    ends_at_s: float
+
+
+class Ads1115:
+    """The chip. `inputs` are the volts at AIN0..3, asked for when a conversion ends.
+
+    Python runs the chip only when somebody looks at it, so a conversion that ended unobserved takes its sample at the
+    next look. Whoever simulates time can have it exact: call `settle` at the moment `due_s` names.
+    """
+
+    def __init__(
+        self,
+        clock: Callable[[], float],
+        *,
+        vdd_v: float = 3.3,
+        oscillator_error: float = 0.0,
+        noise_v_rms: float = 0.0,
+        noise: random.Random | None = None,
+    ) -> None:
+        self.inputs: list[Callable[[], float]] = [lambda: 0.0] * 4
+        self.vdd_v = vdd_v
+        self.oscillator_error = oscillator_error
+        """+0.1: an oscillator so slow that conversions take 10 % longer, the worst the datasheet allows."""
+        self.noise_v_rms = noise_v_rms
+        self.frozen = False
+        """Fault: conversions end as ever, and the result stays what it was."""
+        self.early_reads = 0
+        """Reads of the conversion register, in single-shot mode, while the conversion was still running."""
+        self._clock = clock
+        self._noise = noise or random.Random(1115)
+        self._lock = threading.RLock()
+        self._pointer = CONVERSION
+        self._registers = [0x0000, CONFIG_RESET, 0x8000, 0x7FFF]
+        self._running: _Conversion | None = None
+
+    # --- I2C
+
+    def write(self, data: bytes) -> None:
+        with self._lock:
+            self.settle()
+            if data:
+                self._pointer = data[0] & 0x03
+            if len(data) < 3:
+                return  # the pointer alone, or a register cut short, which the chip drops
+            value = int.from_bytes(data[1:3], "big")
+            match self._pointer:
+                case 0:
+                    pass  # read only
+                case 1:
+                    self._configure(value)
+                case threshold:
+                    self._registers[threshold] = value
+
+    def read(self, count: int) -> bytes:
+        with self._lock:
+            self.settle()
+            value = self._registers[self._pointer]
+            if self._pointer == CONFIG:
+                value = value & ~OS_BIT | (0 if self._running else OS_BIT)
+            elif self._pointer == CONVERSION and self._running and self._single_shot:
+                self.early_reads += 1
+            octets = value.to_bytes(2, "big")
+            return (octets * (count // 2 + 1))[:count]
+
+    # --- conversions
+
+    def due_s(self) -> float | None:
+        """When the running conversion ends; None while the chip is powered down."""
+        return self._running.ends_at_s if self._running else None
+
+    def settle(self) -> None:
+        """Finish what has ended by now."""
+        with self._lock:
+            now_s = self._clock()
+            while self._running and now_s >= self._running.ends_at_s:
+                done, self._running = self._running, None
+                if not self._single_shot:
+                    done = self._latest_by(now_s, done)
+                    self._running = _Conversion(self._registers[CONFIG], done.ends_at_s + self._period_s)
+                self._finish(done.config)
+
+    def _configure(self, value: int) -> None:
+        # A running conversion keeps the settings it began with; a start ordered meanwhile is lost.
+        self._registers[CONFIG] = value
+        ordered = bool(value & OS_BIT) or not self._single_shot
+        if ordered and self._running is None:
+            self._running = _Conversion(value, self._clock() + WAKE_UP_S + self._period_s)
+
+    def _latest_by(self, now_s: float, first: _Conversion) -> _Conversion:
+        """In continuous mode, the last of the back-to-back conversions that ended since anybody looked."""
+        more = int((now_s - first.ends_at_s) / self._period_s)
+        if more == 0:
+            return first
+        return _Conversion(self._registers[CONFIG], first.ends_at_s + more * self._period_s)
+
+    def _finish(self, config: int) -> None:
+        if not self.frozen:
+            self._registers[CONVERSION] = self._measure(config) & 0xFFFF
+
+    def _measure(self, config: int) -> int:
+        positive, negative = PINS[config >> 12 & 0b111]
+        volts = self._pin_v(positive) - self._pin_v(negative)
+        if self.noise_v_rms:
+            volts += self._noise.gauss(0.0, self.noise_v_rms)
+        counts = round(volts / FULL_SCALE_V[config >> 9 & 0b111] * COUNTS)
+        return max(-COUNTS, min(COUNTS - 1, counts))
+
+    def _pin_v(self, pin: int | None) -> float:
+        if pin is None:
+            return 0.0
+        return max(-CLAMP_V, min(self.vdd_v + CLAMP_V, self.inputs[pin]()))
+
+    @property
+    def _single_shot(self) -> bool:
+        return bool(self._registers[CONFIG] & SINGLE_SHOT_BIT)
+
+    @property
+    def _period_s(self) -> float:
+        return (1.0 + self.oscillator_error) / RATE_SPS[self._registers[CONFIG] >> 5 & 0b111]

@@ -1,0 +1,192 @@
+"""An Arduino UNO R3 as a sketch sees it: pins, converter, clock, serial port.
+
+Knows the ATmega328P behind the Arduino core: a pin is an input until told otherwise, a conversion is 10 bits against
+the 5 V supply and takes 104 us, the serial port holds 63 bytes each way. Knows nothing of what is wired to it, nor of
+the sketch. It does not spend time on instructions (a few microseconds a pin change), and it leaves out interrupts, PWM
+and the bootloader, which keeps a real UNO deaf for about 1.5 s after the port is opened.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from enum import Enum
+
+LOW = False
+HIGH = True
+
+A0, A1, A2, A3, A4, A5 = range(14, 20)
+PIN_COUNT = 20
+
+SUPPLY_V = 5.0
+ADC_STEPS = 1024
+CONVERSION_S = 104e-6
+"""13 cycles of the 125 kHz converter clock."""
+
+MICROS_STEP = 4
+"""Timer 0 ticks every 4 us at 16 MHz."""
+COUNTER_SPAN = 2**32
+"""`millis` wraps after 49.7 days, `micros` after 71.6 minutes."""
+
+BUFFER_BYTES = 63
+"""The core's rings have 64 places, of which one stays empty to tell full from empty."""
+BITS_A_BYTE = 10
+"""8N1: a start bit, eight data bits, a stop bit."""
+
+
+class PinMode(Enum):
+    INPUT = "input"
+    INPUT_PULLUP = "input with pull-up"
+    OUTPUT = "output"
+
+
+class UnoSerial:
+    """`Serial` on D0 and D1. The sketch's side is here; the other end of the line is `host_send`, `host_receive`.
+
+    The host may sit in another thread: the two sides share nothing but queues.
+    """
+
+    def __init__(self, clock: Callable[[], float], sleep: Callable[[float], None]) -> None:
+        self._clock = clock
+        self._sleep = sleep
+        self._byte_s: float | None = None
+        self._incoming: deque[tuple[float, int]] = deque()
+        self._incoming_free_s = 0.0
+        self._received: deque[int] = deque()
+        self._outgoing: deque[tuple[float, int]] = deque()
+        self._outgoing_free_s = 0.0
+
+    def begin(self, baud: int) -> None:
+        self._byte_s = BITS_A_BYTE / baud
+
+    def available(self) -> int:
+        self._listen()
+        return len(self._received)
+
+    def read(self) -> int:
+        """The oldest byte, or -1."""
+        self._listen()
+        return self._received.popleft() if self._received else -1
+
+    def write(self, data: bytes) -> int:
+        """Queue bytes for the host; like the real one, wait for room when the ring is full."""
+        if self._byte_s is None:
+            return 0
+        for byte in data:
+            self._wait_for_room(self._byte_s)
+            self._outgoing_free_s = max(self._clock(), self._outgoing_free_s) + self._byte_s
+            self._outgoing.append((self._outgoing_free_s, byte))
+        return len(data)
+
+    def print(self, text: str) -> int:
+        return self.write(text.encode("latin-1", "replace"))
+
+    def host_send(self, data: bytes) -> None:
+        """What the PC sends, at the sketch's own baud rate. Before `begin` nobody listens and it is lost."""
+        if self._byte_s is None:
+            return
+        for byte in data:
+            self._incoming_free_s = max(self._clock(), self._incoming_free_s) + self._byte_s
+            self._incoming.append((self._incoming_free_s, byte))
+
+    def host_receive(self) -> bytes:
+        """What has come over the line to the PC since the last look."""
+        now_s = self._clock()
+        came = bytearray()
+        while self._outgoing and self._outgoing[0][0] <= now_s:
+            came.append(self._outgoing.popleft()[1])
+        return bytes(came)
+
+    def _listen(self) -> None:
+        """The receive interrupt. Only a read makes room, so it may run late, just before one."""
+        now_s = self._clock()
+        while self._incoming and self._incoming[0][0] <= now_s:
+            byte = self._incoming.popleft()[1]
+            if len(self._received) < BUFFER_BYTES:
+                self._received.append(byte)
+
+    def _wait_for_room(self, byte_s: float) -> None:
+        # Judged by the line's time, not by the queue: the host may not have fetched what has long arrived.
+        full_s = BUFFER_BYTES * byte_s
+        behind_s = self._outgoing_free_s - self._clock()
+        if behind_s > full_s:
+            self._sleep(behind_s - full_s)
+
+
+class Uno:
+    """The board. `sleep` lets time pass: `SimClock.sleep` in simulated time, `time.sleep` in real time."""
+
+    def __init__(self, clock: Callable[[], float], sleep: Callable[[float], None]) -> None:
+        self.serial = UnoSerial(clock, sleep)
+        self.analog_inputs: dict[int, Callable[[], float]] = {}
+        """Volts at A0 to A5, by pin."""
+        self.digital_inputs: dict[int, Callable[[], bool]] = {}
+        """Levels put on pins from outside."""
+        self.on_pin: list[Callable[[float, int, bool], None]] = []
+        """Told the time, the pin and its level whenever the level an output drives changes."""
+        self._clock = clock
+        self._sleep = sleep
+        self._start_s = clock()
+        self._modes = [PinMode.INPUT] * PIN_COUNT
+        self._latches = [LOW] * PIN_COUNT
+        self._held_v = 0.0
+
+    def pin_mode(self, pin: int, mode: PinMode) -> None:
+        before = self.level(pin)
+        self._modes[pin] = mode
+        if mode is not PinMode.OUTPUT:
+            self._latches[pin] = mode is PinMode.INPUT_PULLUP
+        self._tell(pin, before)
+
+    def digital_write(self, pin: int, level: bool) -> None:
+        """Set a pin's latch. On an input that only switches the pull-up, and drives nothing."""
+        before = self.level(pin)
+        self._latches[pin] = level
+        self._tell(pin, before)
+
+    def digital_read(self, pin: int) -> bool:
+        """An output reads its own level; an input what is put on it, else its pull-up."""
+        if self._modes[pin] is PinMode.OUTPUT or pin not in self.digital_inputs:
+            return self._latches[pin]
+        return self.digital_inputs[pin]()
+
+    def level(self, pin: int) -> bool:
+        """What the pin drives; an input drives nothing, and a relay board takes that for LOW."""
+        return self._modes[pin] is PinMode.OUTPUT and self._latches[pin]
+
+    def analog_read(self, pin: int) -> int:
+        """0 to 1023. Takes A0 to A5, or the channel 0 to 5, as the core does.
+
+        An open input reads what the sampling capacitor still holds from the conversion before.
+        """
+        pin = pin if pin >= A0 else pin + A0
+        if pin in self.analog_inputs:
+            self._held_v = self.analog_inputs[pin]()
+        self._sleep(CONVERSION_S)
+        return min(max(int(self._held_v / SUPPLY_V * ADC_STEPS), 0), ADC_STEPS - 1)
+
+    def millis(self) -> int:
+        return int((self._clock() - self._start_s) * 1e3) % COUNTER_SPAN
+
+    def micros(self) -> int:
+        ticks = int((self._clock() - self._start_s) * 1e6 / MICROS_STEP)
+        return ticks * MICROS_STEP % COUNTER_SPAN
+
+    def delay(self, milliseconds: int) -> None:
+        self._sleep(milliseconds / 1e3)
+
+    def delay_microseconds(self, microseconds: int) -> None:
+        self._sleep(microseconds / 1e6)
+
+    def host_send(self, data: bytes) -> None:
+        self.serial.host_send(data)
+
+    def host_receive(self) -> bytes:
+        return self.serial.host_receive()
+
+    def _tell(self, pin: int, before: bool) -> None:
+        level = self.level(pin)
+        if level != before:
+            now_s = self._clock()
+            for hear in self.on_pin:
+                hear(now_s, pin, level)

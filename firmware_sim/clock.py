@@ -1,0 +1,67 @@
+"""Simulated time: it moves only when somebody sleeps.
+
+Knows the present moment and the alarms that must ring on the way to a later one. Knows nothing of rotors, chips or
+threads: everything that lives on a `SimClock` runs in one thread, so an hour of tracking takes a second.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Alarm:
+    """Something that must happen at its moment even when everybody else is asleep: a guard, a sampler.
+
+    Of two due at once the one that was added first rings first.
+    """
+
+    due_s: Callable[[], float | None]
+    ring: Callable[[float], None]
+
+
+class SimClock:
+    """A clock to read (`clock()`, seconds) and to sleep on (`clock.sleep(seconds)`)."""
+
+    def __init__(self, start_s: float = 0.0) -> None:
+        self._now_s = start_s
+        self._alarms: list[Alarm] = []
+
+    def __call__(self) -> float:
+        return self._now_s
+
+    def add_alarm(self, due_s: Callable[[], float | None], ring: Callable[[float], None]) -> None:
+        """Ring `ring(now_s)` whenever time passes `due_s()` (None: nothing due). It must move its own due time on."""
+        self._alarms.append(Alarm(due_s, ring))
+
+    def every(self, period_s: float, ring: Callable[[float], None]) -> None:
+        """Ring now and then every `period_s`, exactly: moments count from the start."""
+        start_s, count = self._now_s, 0
+
+        def due_s() -> float:
+            return start_s + count * period_s
+
+        def ring_once(now_s: float) -> None:
+            nonlocal count
+            count += 1
+            ring(now_s)
+
+        self.add_alarm(due_s, ring_once)
+
+    def sleep(self, seconds: float) -> None:
+        self.sleep_until(self._now_s + max(0.0, seconds))
+
+    def sleep_until(self, moment_s: float) -> None:
+        while True:
+            first = min(((due_s, at) for at, due_s in enumerate(self._due_s()) if due_s <= moment_s), default=None)
+            if first is None:
+                break
+            self._now_s = max(self._now_s, first[0])
+            self._alarms[first[1]].ring(self._now_s)
+        self._now_s = max(self._now_s, moment_s)
+
+    def _due_s(self) -> list[float]:
+        moments = [alarm.due_s() for alarm in self._alarms]
+        return [math.inf if moment_s is None else moment_s for moment_s in moments]

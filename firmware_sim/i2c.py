@@ -1,0 +1,219 @@
+"""A simulated I2C adapter in the shape of `smbus2.SMBus`.
+
+Knows how transfers are put together, how long they take on the wire, what Linux says when nobody answers, and how an
+adapter misbehaves. Knows no chip: whatever is attached gets the bytes and makes sense of them itself.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import threading
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from itertools import takewhile
+from typing import Any, Protocol, Self
+
+READ_FLAG = 0x0001  # I2C_M_RD, linux/i2c.h
+MESSAGES_MAX = 42  # I2C_RDWR_IOCTL_MAX_MSGS, linux/i2c-dev.h
+BLOCK_MAX = 32  # I2C_SMBUS_BLOCK_MAX, linux/i2c.h
+
+
+class Nack(Exception):  # noqa: N818 - the field's word
+    """Raised by a chip that does not acknowledge a byte."""
+
+
+class I2CChip(Protocol):
+    """What sits at an address. A chip that acts on every byte as it arrives, rather than on the whole message, says so
+    with an attribute `bytewise = True` and is then given one byte at a time."""
+
+    def write(self, data: bytes) -> None:
+        """The data bytes of one write message, address not included. Raises Nack."""
+
+    def read(self, count: int) -> bytes:
+        """The bytes of one read message. Raises Nack."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Write:
+    address: int
+    data: bytes
+
+    @property
+    def wire_bytes(self) -> int:
+        return 1 + len(self.data)
+
+
+@dataclass(frozen=True, slots=True)
+class _Read:
+    address: int
+    count: int
+
+    @property
+    def wire_bytes(self) -> int:
+        return 1 + self.count
+
+
+class SimI2CBus:
+    """The adapter. One transfer at a time, whoever asks; each takes `byte_s` for every address and data byte.
+
+    The caller's time is spent in one `sleep` a transfer, because real sleeps are too coarse for 90 us. Chips learn of a
+    transfer when it is over; a chip that must know when each byte came reads its clock through `wire_time`.
+    """
+
+    def __init__(self, sleep: Callable[[float], None] | None = None, byte_s: float = 90e-6) -> None:
+        self.gone: set[int] = set()
+        """Fault: addresses that do not answer although something is attached there."""
+        self._sleep = sleep
+        self._byte_s = byte_s
+        self._chips: dict[int, I2CChip] = {}
+        self._transfer_lock = threading.Lock()
+        self._flowing = threading.Event()
+        self._flowing.set()
+        self._hang_timeout_s: float | None = None
+        self._closed = False
+        self._undelivered_bytes = 0
+        self._unslept_s = 0.0
+
+    # --- the bench: what is wired, and what goes wrong
+
+    def attach(self, address: int, chip: I2CChip) -> None:
+        if address in self._chips:
+            raise ValueError(f"two chips at I2C address 0x{address:02x}")
+        self._chips[address] = chip
+
+    def detach(self, address: int) -> None:
+        del self._chips[address]
+
+    def hang(self, hang_timeout_s: float | None = None) -> None:
+        """Fault: from now on every transfer blocks until `release`, or fails with ETIMEDOUT after so many seconds.
+
+        These are seconds of real time: a blocked caller is a blocked thread.
+        """
+        self._hang_timeout_s = hang_timeout_s
+        self._flowing.clear()
+
+    def release(self) -> None:
+        self._flowing.set()
+
+    def wire_time(self, clock: Callable[[], float]) -> Callable[[], float]:
+        """`clock` as a chip on this bus sees it: during a transfer, the moment at which the byte in hand was complete.
+
+        On a bus without `sleep` the wire still takes its time, so this clock runs ahead of `clock` by all the transfers
+        so far: differences are right, and a display is not blamed for bytes that no wire could bring so fast.
+        """
+        return lambda: clock() + self._unslept_s - self._undelivered_bytes * self._byte_s
+
+    # --- smbus2.SMBus
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Later transfers raise OSError(EBADF). (smbus2 0.6 raises TypeError there, by passing None as the fd.)"""
+        self._closed = True
+
+    def i2c_rdwr(self, *i2c_msgs: Any) -> None:
+        """Real `smbus2.i2c_msg` objects; reads fill their buffers. Messages are joined by repeated starts."""
+        if not 0 < len(i2c_msgs) <= MESSAGES_MAX:
+            raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
+        replies = iter(self._transfer(*(_part(message) for message in i2c_msgs)))
+        for message in i2c_msgs:
+            if message.flags & READ_FLAG:
+                for index, value in enumerate(next(replies)):
+                    message.buf[index] = value
+
+    def write_quick(self, i2c_addr: int, force: bool | None = None) -> None:
+        self._transfer(_Write(i2c_addr, b""))
+
+    def write_byte(self, i2c_addr: int, value: int, force: bool | None = None) -> None:
+        self._transfer(_Write(i2c_addr, _octets(value)))
+
+    def read_byte(self, i2c_addr: int, force: bool | None = None) -> int:
+        return self._transfer(_Read(i2c_addr, 1))[0][0]
+
+    def write_byte_data(self, i2c_addr: int, register: int, value: int, force: bool | None = None) -> None:
+        self._transfer(_Write(i2c_addr, _octets(register, value)))
+
+    def read_byte_data(self, i2c_addr: int, register: int, force: bool | None = None) -> int:
+        return self._transfer(_Write(i2c_addr, _octets(register)), _Read(i2c_addr, 1))[0][0]
+
+    def write_i2c_block_data(
+        self, i2c_addr: int, register: int, data: Iterable[int], force: bool | None = None
+    ) -> None:
+        block = _octets(*data)
+        _check_block(len(block))
+        self._transfer(_Write(i2c_addr, _octets(register) + block))
+
+    def read_i2c_block_data(self, i2c_addr: int, register: int, length: int, force: bool | None = None) -> list[int]:
+        _check_block(length)
+        return list(self._transfer(_Write(i2c_addr, _octets(register)), _Read(i2c_addr, length))[0])
+
+    # --- the wire
+
+    def _transfer(self, *parts: _Write | _Read) -> list[bytes]:
+        """Carry out one transfer; returns the answers to its reads, in order."""
+        if self._closed:
+            raise OSError(errno.EBADF, os.strerror(errno.EBADF))
+        with self._transfer_lock:
+            if not self._flowing.wait(self._hang_timeout_s):
+                raise OSError(errno.ETIMEDOUT, os.strerror(errno.ETIMEDOUT))
+            heard = list(takewhile(lambda part: self._answers(part.address), parts))
+            unheard = len(heard) < len(parts)  # the first address without an ACK ends the transfer
+            self._spend(sum(part.wire_bytes for part in heard) + unheard)
+            try:
+                replies = [reply for part in heard if (reply := self._deliver(part)) is not None]
+                if unheard:
+                    raise Nack
+            except Nack:
+                raise OSError(errno.EREMOTEIO, os.strerror(errno.EREMOTEIO)) from None
+            finally:
+                self._undelivered_bytes = 0
+            return replies
+
+    def _answers(self, address: int) -> bool:
+        return address in self._chips and address not in self.gone
+
+    def _spend(self, wire_bytes: int) -> None:
+        duration_s = wire_bytes * self._byte_s
+        if self._sleep is None:
+            self._unslept_s += duration_s
+        else:
+            self._sleep(duration_s)
+        self._undelivered_bytes = wire_bytes
+
+    def _deliver(self, part: _Write | _Read) -> bytes | None:
+        chip = self._chips[part.address]
+        self._undelivered_bytes -= 1  # the address byte
+        match part:
+            case _Write(data=data) if getattr(chip, "bytewise", False):
+                for value in data:
+                    self._undelivered_bytes -= 1
+                    chip.write(bytes([value]))
+                return None
+            case _Write(data=data):
+                self._undelivered_bytes -= len(data)
+                chip.write(data)
+                return None
+            case _Read(count=count):
+                reply = chip.read(count)  # a chip fixes its answer when it is addressed, not when the last bit is out
+                self._undelivered_bytes -= count
+                return reply[:count].ljust(count, b"\xff")  # nobody pulls SDA down: ones
+
+
+def _part(message: Any) -> _Write | _Read:
+    if message.flags & READ_FLAG:
+        return _Read(message.addr, message.len)
+    return _Write(message.addr, b"".join(message.buf[index] for index in range(message.len)))
+
+
+def _octets(*values: int) -> bytes:
+    return bytes(value & 0xFF for value in values)  # smbus2 puts them into a c_uint8, which cuts them the same way
+
+
+def _check_block(length: int) -> None:
+    if length > BLOCK_MAX:
+        raise ValueError(f"Data length cannot exceed {BLOCK_MAX} bytes")

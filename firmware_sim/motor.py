@@ -1,0 +1,119 @@
+"""One axis of a rotor: relay contacts, motor, gear play, end stops.
+
+Knows mechanics: how long a contact takes, how a motor gathers speed and coasts, how much play the gear has, where the
+stops are. Knows nothing of volts, pins or protocols, and decides nothing. Motion between two contact changes is a
+closed formula, so time may be asked for in any steps and the answer is the same.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class MotorSpec:
+    """A motor with its gear. The motor is a first-order lag: switched off at full speed it coasts speed x lag."""
+
+    speed_dps: float
+    lag_s: float
+    relay_delay_s: float
+    backlash_deg: float
+    """Total play between the shaft (where the pot sits) and the boom (where the antenna is)."""
+    stop_low_deg: float
+    stop_high_deg: float
+
+
+class SimMotor:
+    """A motor behind two relay contacts. Call `coils` when a coil changes and `advance` before looking."""
+
+    def __init__(self, spec: MotorSpec, start_deg: float, now_s: float) -> None:
+        self.spec = spec
+        self.shaft_deg = start_deg
+        self.boom_deg = start_deg
+        self.speed_dps = 0.0
+        self.drive = 0
+        """What the contacts tell the motor: -1, 0, 1."""
+        self.supply = True
+        """Mains at the contacts; a master relay takes it away."""
+        self.stalled = False
+        """Fault: the motor hums and nothing turns."""
+        self.welded = 0
+        """Fault: the contact of this direction (-1, 1) stays closed whatever the coil does."""
+        self.shorted_s = 0.0
+        """How long both directions were fed at once: what burns a motor. Must stay 0."""
+        self._now_s = now_s
+        self._contacts = (False, False)
+        self._moving_contacts: deque[tuple[float, tuple[bool, bool]]] = deque()
+
+    def coils(self, plus: bool, minus: bool, now_s: float) -> None:
+        """Coil levels from now on; the contacts follow after the relay's delay."""
+        self.advance(now_s)
+        self._moving_contacts.append((now_s + self.spec.relay_delay_s, (plus, minus)))
+        self.advance(now_s)
+
+    def advance(self, now_s: float) -> None:
+        """Let time pass up to `now_s`."""
+        while self._moving_contacts and self._moving_contacts[0][0] <= now_s:
+            moment_s, contacts = self._moving_contacts.popleft()
+            self._run(moment_s)
+            self._contacts = contacts
+        self._run(now_s)
+
+    def turn_by_hand(self, delta_deg: float) -> None:
+        """Fault: something other than this motor turns the antenna."""
+        self._move_to(self.shaft_deg + delta_deg)
+
+    def _fed(self) -> int:
+        plus, minus = self._contacts
+        plus, minus = plus or self.welded > 0, minus or self.welded < 0
+        if not self.supply:
+            return 0
+        return int(plus) - int(minus)
+
+    def _run(self, until_s: float) -> None:
+        left_s = until_s - self._now_s
+        if left_s <= 0:
+            return
+        self._now_s = until_s
+        if self.supply and (self._contacts[0] or self.welded > 0) and (self._contacts[1] or self.welded < 0):
+            self.shorted_s += left_s
+        self.drive = self._fed()
+        wanted_dps = 0.0 if self.stalled else self.drive * self.spec.speed_dps
+        if self.stalled:
+            self.speed_dps = 0.0
+        # A reversal is two runs, so that the play is taken up where the shaft really turned.
+        turn_s = self._time_to_standstill(wanted_dps)
+        if turn_s is not None and turn_s < left_s:
+            self._glide(wanted_dps, turn_s)
+            left_s -= turn_s
+        self._glide(wanted_dps, left_s)
+
+    def _time_to_standstill(self, wanted_dps: float) -> float | None:
+        if self.spec.lag_s <= 0 or wanted_dps * self.speed_dps >= 0:
+            return None
+        return self.spec.lag_s * math.log((wanted_dps - self.speed_dps) / wanted_dps)
+
+    def _glide(self, wanted_dps: float, seconds: float) -> None:
+        """Run with the speed closing in on `wanted_dps`."""
+        if wanted_dps == 0.0 and self.speed_dps == 0.0:
+            return
+        lag_s = self.spec.lag_s
+        if lag_s <= 0:
+            self.speed_dps = wanted_dps
+            self._move_to(self.shaft_deg + wanted_dps * seconds)
+            return
+        fade = math.exp(-seconds / lag_s)
+        gap_dps = self.speed_dps - wanted_dps
+        self.speed_dps = wanted_dps + gap_dps * fade
+        if wanted_dps == 0.0 and abs(self.speed_dps) < 1e-6:  # a millionth of a degree a second is rest
+            self.speed_dps = 0.0
+        self._move_to(self.shaft_deg + wanted_dps * seconds + gap_dps * lag_s * (1.0 - fade))
+
+    def _move_to(self, shaft_deg: float) -> None:
+        self.shaft_deg = min(max(shaft_deg, self.spec.stop_low_deg), self.spec.stop_high_deg)
+        if self.shaft_deg != shaft_deg:
+            self.speed_dps = 0.0
+        half_deg = self.spec.backlash_deg / 2
+        self.boom_deg = min(max(self.boom_deg, self.shaft_deg - half_deg), self.shaft_deg + half_deg)

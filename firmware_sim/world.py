@@ -1,0 +1,215 @@
+"""A simulated station: the rotor, and the chips and lines through which a program drives and reads it.
+
+Knows what is wired where, and its faults by name. Knows no driver: it offers a bus in the shape of smbus2 and lines in
+the shape of gpiod, and the rest is physics.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from firmware_sim.ads1115 import Ads1115
+from firmware_sim.gpio import SimGpio
+from firmware_sim.hd44780 import Hd44780
+from firmware_sim.i2c import SimI2CBus
+from firmware_sim.motor import MotorSpec, SimMotor
+from firmware_sim.pcf8574 import Backpack
+from firmware_sim.pot import PotFault, PotSpec, SimPot
+
+POT_SUPPLY_V = 3.3
+
+
+@dataclass(frozen=True, slots=True)
+class AxisSpec:
+    """One axis of the rotor: its parts, and where they are wired."""
+
+    motor: MotorSpec
+    pot: PotSpec
+    start_deg: float
+    plus_pin: int
+    minus_pin: int
+    adc_channel: int
+
+
+@dataclass(frozen=True, slots=True)
+class LcdSpec:
+    """A display: on six lines (pins rs, e, d4 to d7), or behind an expander at `address` (bits of the same names)."""
+
+    pins: Mapping[str, int]
+    address: int | None = None
+    backlight_active_high: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class WorldSpec:
+    azimuth: AxisSpec
+    elevation: AxisSpec
+    relays_active_low: bool = False
+    master_pin: int | None = None
+    adc_address: int = 0x48
+    reference_channel: int | None = None
+    lcd: LcdSpec | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SimFault:
+    """Something that can be made to go wrong, and put right again."""
+
+    inject: Callable[[], None]
+    clear: Callable[[], None]
+
+
+class SimAxis:
+    """A motor with its pot. Looked at only through the world, under its lock."""
+
+    def __init__(self, spec: AxisSpec, now_s: float) -> None:
+        self.spec = spec
+        self.motor = SimMotor(spec.motor, spec.start_deg, now_s)
+        self.pot = SimPot(spec.pot, POT_SUPPLY_V)
+        self.coils = (False, False)
+
+
+class World:
+    """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none)."""
+
+    def __init__(
+        self, spec: WorldSpec, clock: Callable[[], float], sleep: Callable[[float], None] | None = None
+    ) -> None:
+        self._spec = spec
+        self._clock = clock
+        self._lock = threading.RLock()
+        self.gpio = SimGpio(clock)
+        self.bus = SimI2CBus(sleep)
+        self.azimuth = SimAxis(spec.azimuth, clock())
+        self.elevation = SimAxis(spec.elevation, clock())
+        self.relay_starts = 0
+        """How often a motor relay has closed."""
+        adc = Ads1115(clock)
+        for axis in (self.azimuth, self.elevation):
+            adc.inputs[axis.spec.adc_channel] = lambda axis=axis: self._wiper_v(axis)  # type: ignore[misc]
+        if spec.reference_channel is not None:
+            adc.inputs[spec.reference_channel] = lambda: POT_SUPPLY_V
+        self.bus.attach(spec.adc_address, adc)
+        self.lcd = self._wire_lcd(spec.lcd) if spec.lcd else None
+        self.gpio.on_edges.append(self._relays_changed)
+        self.faults = self._fault_table()
+        if spec.master_pin is not None:
+            self._relays_changed(clock(), {spec.master_pin: self.gpio.level(spec.master_pin)})
+
+    def antenna(self) -> tuple[float, float]:
+        """Where the boom really points: azimuth and elevation on the rotor's own scales."""
+        with self._lock:
+            self._advance()
+            return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
+
+    def drives(self) -> tuple[int, int]:
+        """The relays' coils: -1, 0, 1 for each axis."""
+        with self._lock:
+            return tuple(int(plus) - int(minus) for plus, minus in (self.azimuth.coils, self.elevation.coils))  # type: ignore[return-value]
+
+    def inject(self, name: str) -> None:
+        """Let something go wrong, by name. Raises ValueError that lists the names."""
+        self._fault(name).inject()
+
+    def clear(self, name: str) -> None:
+        self._fault(name).clear()
+
+    def _fault(self, name: str) -> SimFault:
+        if name not in self.faults:
+            raise ValueError(f"no fault called {name!r}; there are: {', '.join(sorted(self.faults))}")
+        return self.faults[name]
+
+    def _wire_lcd(self, spec: LcdSpec) -> Hd44780:
+        if spec.address is not None:
+            lcd = Hd44780(self.bus.wire_time(self._clock))
+            self.bus.attach(spec.address, Backpack(lcd, spec.pins, spec.backlight_active_high).expander)
+            return lcd
+        lcd = Hd44780(self._clock)
+        levels = {pin: self.gpio.level(pin) for pin in spec.pins.values()}
+
+        def pins_changed(_now_s: float, changes: Mapping[int, bool]) -> None:
+            if levels.keys() & changes.keys():
+                levels.update((pin, level) for pin, level in changes.items() if pin in levels)
+                lcd.pins(**{name: levels[pin] for name, pin in spec.pins.items()})
+
+        self.gpio.on_edges.append(pins_changed)
+        return lcd
+
+    def _relays_changed(self, now_s: float, changes: Mapping[int, bool]) -> None:
+        with self._lock:
+            for axis in (self.azimuth, self.elevation):
+                pins = (axis.spec.plus_pin, axis.spec.minus_pin)
+                if changes.keys() & set(pins):
+                    plus, minus = axis.coils = (self._pulled(pins[0]), self._pulled(pins[1]))
+                    axis.motor.coils(plus, minus, now_s)
+                    self.relay_starts += sum(self._pulled(pin) for pin in changes.keys() & set(pins))
+            master = self._spec.master_pin
+            if master is not None and master in changes:
+                self._advance()
+                supply = self._pulled(master)
+                self.azimuth.motor.supply = self.elevation.motor.supply = supply
+
+    def _pulled(self, pin: int) -> bool:
+        return self.gpio.level(pin) != self._spec.relays_active_low
+
+    def _advance(self) -> None:
+        now_s = self._clock()
+        self.azimuth.motor.advance(now_s)
+        self.elevation.motor.advance(now_s)
+
+    def _wiper_v(self, axis: SimAxis) -> float:
+        with self._lock:
+            self._advance()
+            return axis.pot.volts(axis.motor.shaft_deg)
+
+    def _fault_table(self) -> dict[str, SimFault]:
+        table = {
+            "adc-gone": self._gone(self._spec.adc_address),
+            "bus-hung": SimFault(self.bus.hang, self.bus.release),
+        }
+        if self._spec.lcd and self._spec.lcd.address is not None:
+            table["lcd-gone"] = self._gone(self._spec.lcd.address)
+        for name, axis, plus, minus in (
+            ("azimuth", self.azimuth, "cw", "ccw"),
+            ("elevation", self.elevation, "up", "down"),
+        ):
+            table |= {
+                f"{name}-pot-open": self._pot_fault(axis, PotFault.OPEN),
+                f"{name}-pot-shorted": self._pot_fault(axis, PotFault.SHORTED),
+                f"{name}-pot-reversed": self._pot_fault(axis, PotFault.REVERSED),
+                f"{name}-pot-stuck": self._pot_fault(axis, PotFault.STUCK),
+                f"{name}-pot-jumps": SimFault(lambda axis=axis: self._jump(axis), lambda: None),  # type: ignore[misc]
+                f"{name}-motor-stalled": self._motor_fault(axis, "stalled", True, False),
+                f"{name}-relay-welded-{plus}": self._motor_fault(axis, "welded", 1, 0),
+                f"{name}-relay-welded-{minus}": self._motor_fault(axis, "welded", -1, 0),
+            }
+        return table
+
+    def _gone(self, address: int) -> SimFault:
+        return SimFault(lambda: self.bus.gone.add(address), lambda: self.bus.gone.discard(address))
+
+    def _pot_fault(self, axis: SimAxis, fault: PotFault) -> SimFault:
+        def inject() -> None:
+            with self._lock:
+                self._advance()
+                if fault is PotFault.STUCK:
+                    axis.pot.stick(axis.motor.shaft_deg)
+                axis.pot.fault = fault
+
+        def clear() -> None:
+            axis.pot.fault = PotFault.NONE
+
+        return SimFault(inject, clear)
+
+    def _motor_fault(self, axis: SimAxis, field: str, bad: object, good: object) -> SimFault:
+        def become(value: object) -> None:
+            with self._lock:
+                self._advance()
+                setattr(axis.motor, field, value)
+
+        return SimFault(lambda: become(bad), lambda: become(good))
+
+    def _jump(self, axis: SimAxis) -> None:
+        axis.pot.jump_deg = 90.0

@@ -1,0 +1,1 @@
+"""The hardware layer: interfaces in `ports`, one small driver a device below them."""

@@ -1,0 +1,67 @@
+"""The ADS1115, a four-input 16-bit converter: single-shot readings in volts.
+
+Knows the chip's registers (TI SBAS444, tables 6 to 8). Does not know what its inputs are wired to.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+
+from hw.ports import HardwareError, I2CBus
+
+CONVERSION = 0x00
+CONFIG = 0x01
+
+START = 1 << 15
+READY = 1 << 15
+SINGLE_SHOT = 1 << 8
+COMPARATOR_OFF = 0b11
+MUX_AGAINST_GROUND = 0b100
+FULL_SCALE_V = {6.144: 0b000, 4.096: 0b001, 2.048: 0b010, 1.024: 0b011, 0.512: 0b100, 0.256: 0b101}
+RATE_SPS = {8: 0, 16: 1, 32: 2, 64: 3, 128: 4, 250: 5, 475: 6, 860: 7}
+
+CHANNELS = 4
+_STEPS = 32768
+_OSCILLATOR_TOLERANCE = 1.1
+_WAKE_UP_S = 100e-6
+_POLLS = 20
+
+
+class Ads1115:
+    """One chip. `sleep` lets time pass while it converts."""
+
+    def __init__(
+        self,
+        bus: I2CBus,
+        address: int,
+        sleep: Callable[[float], None],
+        *,
+        rate_sps: int = 860,
+        full_scale_v: float = 4.096,
+    ) -> None:
+        self._bus = bus
+        self._address = address
+        self._sleep = sleep
+        self._full_scale_v = full_scale_v
+        self._conversion_s = _OSCILLATOR_TOLERANCE / rate_sps + _WAKE_UP_S
+        self._settings = FULL_SCALE_V[full_scale_v] << 9 | SINGLE_SHOT | RATE_SPS[rate_sps] << 5 | COMPARATOR_OFF
+
+    def volts(self, channel: int) -> float:
+        """Volts on one input against ground. Raises HardwareError when the chip does not answer or never finishes."""
+        config = START | (MUX_AGAINST_GROUND | channel) << 12 | self._settings
+        self._bus.write(self._address, struct.pack(">BH", CONFIG, config))
+        self._sleep(self._conversion_s)
+        for _ in range(_POLLS):
+            if self._word(CONFIG) & READY:
+                raw: int = struct.unpack(">h", self._read(CONVERSION))[0]
+                return raw * self._full_scale_v / _STEPS
+            self._sleep(_WAKE_UP_S)
+        raise HardwareError(f"ADS1115 at 0x{self._address:02x}: a conversion does not end")
+
+    def _word(self, register: int) -> int:
+        word: int = struct.unpack(">H", self._read(register))[0]
+        return word
+
+    def _read(self, register: int) -> bytes:
+        return self._bus.write_read(self._address, bytes([register]), 2)

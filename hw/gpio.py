@@ -1,0 +1,83 @@
+"""Digital outputs on the Linux GPIO character device, through libgpiod's Python package.
+
+Knows how to find a Raspberry Pi's header among the chips and how to take lines without a glitch. Does not know what is
+wired to them. The only importer of gpiod.
+"""
+
+from __future__ import annotations
+
+import errno
+import glob
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from hw.ports import HardwareError
+
+PI_HEADER_LABEL = r"pinctrl-(bcm2835|bcm2711|bcm2712|rp1)"
+"""The chip with the 40-pin header, by label: its number changed twice on the Pi 5 alone."""
+
+
+def real_gpiod() -> Any:
+    """The gpiod package. Raises HardwareError where it is missing or is its unrelated namesake."""
+    try:
+        import gpiod  # noqa: PLC0415 - hardware packages are imported when hardware is opened
+    except ImportError as fault:
+        raise HardwareError(f"GPIO: the Python package gpiod cannot be loaded: {fault}") from fault
+    if not hasattr(gpiod, "request_lines"):
+        raise HardwareError("GPIO: this is gpiod 1.x, another interface: install gpiod 2.1 or later in the venv")
+    return gpiod
+
+
+def find_chip(api: Any, label: str = PI_HEADER_LABEL, paths: list[str] | None = None) -> str:
+    """The path of the first chip whose label matches; `api` is the gpiod package, or of its shape.
+
+    Raises HardwareError that lists what there is.
+    """
+    found = []
+    for path in sorted(glob.glob("/dev/gpiochip*")) if paths is None else paths:
+        try:
+            with api.Chip(path) as chip:
+                name = chip.get_info().label
+        except PermissionError as fault:
+            raise HardwareError(f"GPIO: no permission for {path}: add the user to the group gpio") from fault
+        except OSError:
+            continue
+        if re.fullmatch(label, name):
+            return path
+        found.append(f"{path} ({name})")
+    seen = ", ".join(found) if found else "none at all"
+    raise HardwareError(f"GPIO: no chip labelled {label}; found {seen}")
+
+
+class GpioOutputs:
+    """Named output lines on one chip, through `api`. All are off from the very call that requests them."""
+
+    def __init__(
+        self, api: Any, path: str, offsets: Mapping[str, int], *, consumer: str, active_low: bool = False
+    ) -> None:
+        gpiod = real_gpiod()
+        line = gpiod.line
+        self._on, self._off = line.Value.ACTIVE, line.Value.INACTIVE
+        self._offsets = dict(offsets)
+        setting = gpiod.LineSettings(
+            direction=line.Direction.OUTPUT, active_low=active_low, output_value=line.Value.INACTIVE
+        )
+        try:
+            self._request = api.request_lines(path, consumer=consumer, config={tuple(offsets.values()): setting})
+        except OSError as fault:
+            pins = ", ".join(f"{name} on GPIO{offset}" for name, offset in offsets.items())
+            why = "a line is taken by another program" if fault.errno == errno.EBUSY else fault.strerror or str(fault)
+            raise HardwareError(f"GPIO: {path}: cannot take {pins}: {why}") from fault
+        except ValueError as fault:
+            raise HardwareError(f"GPIO: {path}: {fault}") from fault
+
+    def set(self, levels: dict[str, bool]) -> None:
+        values = {self._offsets[name]: self._on if on else self._off for name, on in levels.items()}
+        try:
+            self._request.set_values(values)
+        except OSError as fault:
+            raise HardwareError(f"GPIO: cannot switch {', '.join(levels)}: {fault.strerror or fault}") from fault
+
+    def close(self) -> None:
+        self._request.release()

@@ -1,0 +1,52 @@
+"""The guard: a thread that opens relays whose commands have expired, and touches nothing else.
+
+Knows one relay bank. Does not know the sensors, the bus or the program that gives the commands, so none of them can
+hold a relay on by hanging.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+
+from hw.ports import HardwareError
+from hw.relays import RelayBank
+
+log = logging.getLogger(__name__)
+
+RETRY_S = 0.05
+
+
+class Guard:
+    def __init__(self, bank: RelayBank, clock: Callable[[], float]) -> None:
+        self._bank = bank
+        self._clock = clock
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._watch, name="relay-guard", daemon=True)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Everything off, then the thread ends."""
+        self._stopping.set()
+        self._bank.off()
+        if self._thread.is_alive():
+            self._thread.join(timeout=1.0)
+
+    def _watch(self) -> None:
+        while not self._stopping.is_set():
+            due_s = self._bank.due_s()
+            if due_s is None:
+                self._bank.wait(RETRY_S)
+                continue
+            left_s = due_s - self._clock()
+            if left_s > 0:
+                self._bank.wait(left_s)
+                continue
+            try:
+                self._bank.enforce(self._clock())
+            except HardwareError:
+                log.exception("the guard could not open a relay: CUT THE MOTOR POWER; trying again")
+                self._stopping.wait(RETRY_S)

@@ -1,0 +1,63 @@
+"""An I2C adapter through smbus2, with errors that a person can act on.
+
+Knows Linux's error numbers. Does not know any chip. The only importer of smbus2.
+"""
+
+from __future__ import annotations
+
+import errno
+from typing import Any
+
+from smbus2 import SMBus, i2c_msg
+
+from hw.ports import HardwareError
+
+
+class SmbusI2C:
+    """`bus` is an open smbus2.SMBus, or anything of its shape."""
+
+    def __init__(self, bus: Any, name: str) -> None:
+        self._bus = bus
+        self._name = name
+
+    def write(self, address: int, data: bytes) -> None:
+        self._transfer(address, i2c_msg.write(address, data))
+
+    def write_read(self, address: int, data: bytes, count: int) -> bytes:
+        answer = i2c_msg.read(address, count)
+        self._transfer(address, i2c_msg.write(address, data), answer)
+        return bytes(answer)
+
+    def close(self) -> None:
+        self._bus.close()
+
+    def _transfer(self, address: int, *messages: i2c_msg) -> None:
+        try:
+            self._bus.i2c_rdwr(*messages)
+        except OSError as fault:
+            raise HardwareError(f"I2C {self._name}: {_explain(fault)} (address 0x{address:02x})") from fault
+
+
+def _explain(fault: OSError) -> str:
+    match fault.errno:
+        case errno.EREMOTEIO | errno.ENXIO:
+            return "the device does not answer; check its wiring, power and address"
+        case errno.ETIMEDOUT:
+            return "the bus hangs; something holds SDA or SCL low"
+        case _:
+            return fault.strerror or str(fault)
+
+
+def open_bus(number: int) -> SmbusI2C:
+    """The adapter /dev/i2c-N. Raises HardwareError."""
+    path = f"/dev/i2c-{number}"
+    try:
+        return SmbusI2C(SMBus(number), path)
+    except FileNotFoundError as fault:
+        raise HardwareError(
+            f"I2C: there is no {path}: switch I2C on (dtparam=i2c_arm=on in /boot/firmware/config.txt) and reboot"
+        ) from fault
+    except PermissionError as fault:
+        raise HardwareError(f"I2C: no permission for {path}: add the user to the group i2c") from fault
+    except OSError as fault:
+        raise HardwareError(f"I2C: {path}: {fault.strerror or fault}") from fault

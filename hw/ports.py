@@ -1,0 +1,86 @@
+"""The interfaces between the program and whatever turns and measures an antenna.
+
+Knows what a caller may ask of a drive, a sensor and a display, and what failure looks like. Knows no device. Everything
+here is a `typing.Protocol`: a driver conforms by its shape and imports nothing but the names below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import Enum, IntEnum
+from typing import Protocol
+
+
+class Axis(Enum):
+    AZIMUTH = "azimuth"
+    ELEVATION = "elevation"
+
+
+class Direction(IntEnum):
+    """Which way along the axis's own scale: PLUS is clockwise, or up."""
+
+    MINUS = -1
+    OFF = 0
+    PLUS = 1
+
+
+class HardwareError(Exception):
+    """A device is missing, does not answer or answers nonsense. The text says what and where, for a person."""
+
+
+class AngleSensor(Protocol):
+    """Tells where an axis is, in the sensor's own unit; calibration turns that into degrees."""
+
+    source: str
+    """How the angle is known: `measured`, `counted` or `modelled`."""
+
+    def read(self) -> float:
+        """The raw reading: for a pot the share of its supply, 0 to 1. May take milliseconds.
+
+        Raises HardwareError when the device does not answer; the next call tries again.
+        """
+
+
+class SwitchedDrive(Protocol):
+    """Motors that are only on or off, two directions an axis."""
+
+    def drive(self, axis: Axis, direction: Direction, until_s: float) -> Direction:
+        """Run `axis` that way until the moment `until_s` at the latest; OFF stops it now. Returns what is on now.
+
+        Below this call, where no caller can go round it: opposite directions are never on together, a reversal waits
+        out its dead time (OFF comes back meanwhile: ask again), and no command lives longer than the longest lease.
+        Raises HardwareError when the lines cannot be set.
+        """
+
+    def off(self) -> None:
+        """Everything off, now, from any thread."""
+
+
+class CharacterDisplay(Protocol):
+    """A display of a few rows of characters."""
+
+    def show(self, rows: Sequence[str]) -> None:
+        """Make the display read `rows` (cut or padded to its width). Raises HardwareError when it does not answer."""
+
+    def reset(self) -> None:
+        """Bring the display up from any state; sparks upset the cheap ones."""
+
+
+class OutputLines(Protocol):
+    """A few digital outputs that change together, by name."""
+
+    def set(self, levels: dict[str, bool]) -> None:
+        """Switch the named outputs (True: active) in one instant. Raises HardwareError."""
+
+    def close(self) -> None:
+        """Let go of the lines; what is to be off has been switched off before."""
+
+
+class I2CBus(Protocol):
+    """An I2C adapter as drivers use it."""
+
+    def write(self, address: int, data: bytes) -> None:
+        """One write transfer. Raises HardwareError when the device does not answer."""
+
+    def write_read(self, address: int, data: bytes, count: int) -> bytes:
+        """Write, then read `count` bytes after a repeated start. Raises HardwareError."""

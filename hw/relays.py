@@ -1,0 +1,148 @@
+"""Four motor relays and the rules nobody can go round: the only code that closes a relay.
+
+Knows that opposite relays are never on together, that a reversal waits out its dead time, and that every command
+expires. Knows nothing of angles, targets or why a relay is wanted. Safe to call from any thread.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from hw.ports import Axis, Direction, OutputLines
+
+LONGEST_LEASE_S = 0.5
+"""No command lives longer, whatever its sender asks: a dead sender costs half a second of motor at most."""
+MASTER_LINGER_S = 10.0
+"""The motor supply stays on this long after the last motor, so that its relay does not click with every correction."""
+
+MASTER = "master"
+RELAYS: dict[tuple[Axis, Direction], str] = {
+    (Axis.AZIMUTH, Direction.PLUS): "azimuth_cw",
+    (Axis.AZIMUTH, Direction.MINUS): "azimuth_ccw",
+    (Axis.ELEVATION, Direction.PLUS): "elevation_up",
+    (Axis.ELEVATION, Direction.MINUS): "elevation_down",
+}
+
+
+@dataclass(slots=True)
+class _Motor:
+    on: Direction = Direction.OFF
+    until_s: float = 0.0
+    last: Direction = Direction.OFF
+    """The direction it last ran, and when it stopped: what a reversal waits for."""
+    stopped_s: float = float("-inf")
+
+
+class RelayBank:
+    """Drives two motors through four output lines, and a master where one is wired.
+
+    `clock` gives seconds; `until_s` of a command is on the same clock.
+    """
+
+    def __init__(
+        self, lines: OutputLines, clock: Callable[[], float], *, dead_time_s: float, master: bool = False
+    ) -> None:
+        self._lines = lines
+        self._clock = clock
+        self._dead_time_s = dead_time_s
+        self._master_wired = master
+        self._master_until_s: float | None = None
+        self._motors = {axis: _Motor() for axis in Axis}
+        self._lock = threading.Condition()
+        self._due_s: float | None = None
+
+    def drive(self, axis: Axis, direction: Direction, until_s: float) -> Direction:
+        with self._lock:
+            now_s = self._clock()
+            motor = self._motors[axis]
+            if direction is Direction.OFF or until_s <= now_s:
+                self._open(axis, now_s)
+            else:
+                if motor.on not in (Direction.OFF, direction):
+                    self._open(axis, now_s)
+                if motor.on is Direction.OFF and self._rested(motor, direction, now_s):
+                    self._close(axis, direction, now_s)
+                motor.until_s = min(until_s, now_s + LONGEST_LEASE_S)
+            self._plan()
+            return motor.on
+
+    def off(self) -> None:
+        with self._lock:
+            now_s = self._clock()
+            everything = dict.fromkeys(RELAYS.values(), False)
+            if self._master_wired:
+                everything[MASTER] = False
+            self._lines.set(everything)
+            self._master_until_s = None
+            for motor in self._motors.values():
+                self._note_stop(motor, now_s)
+            self._plan()
+
+    def due_s(self) -> float | None:
+        """The moment `enforce` has something to do; None: nothing is on."""
+        with self._lock:
+            return self._due_s
+
+    def enforce(self, now_s: float) -> None:
+        """Open every relay whose command has expired. The guard's only task."""
+        with self._lock:
+            for axis, motor in self._motors.items():
+                if motor.on is not Direction.OFF and motor.until_s <= now_s:
+                    self._open(axis, now_s)
+            if self._master_until_s is not None and self._master_until_s <= now_s and self._idle():
+                self._lines.set({MASTER: False})
+                self._master_until_s = None
+            self._plan()
+
+    def wait(self, timeout_s: float | None) -> None:
+        """Sleep until `due_s` may have moved, or that long. For the guard thread."""
+        with self._lock:
+            self._lock.wait(timeout_s)
+
+    def driven(self) -> dict[Axis, Direction]:
+        """What is on now."""
+        with self._lock:
+            return {axis: motor.on for axis, motor in self._motors.items()}
+
+    def _rested(self, motor: _Motor, direction: Direction, now_s: float) -> bool:
+        # A reversal at full speed breaks gears and burns contacts; the same direction may go on at once.
+        return motor.last in (Direction.OFF, direction) or now_s >= motor.stopped_s + self._dead_time_s
+
+    def _close(self, axis: Axis, direction: Direction, now_s: float) -> None:
+        levels = {RELAYS[axis, Direction(-direction)]: False, RELAYS[axis, direction]: True}
+        if self._master_wired:
+            levels[MASTER] = True
+            self._master_until_s = now_s + MASTER_LINGER_S
+        self._lines.set(levels)
+        motor = self._motors[axis]
+        motor.on = motor.last = direction
+
+    def _open(self, axis: Axis, now_s: float) -> None:
+        motor = self._motors[axis]
+        if motor.on is Direction.OFF:
+            return
+        self._lines.set({RELAYS[axis, Direction.PLUS]: False, RELAYS[axis, Direction.MINUS]: False})
+        self._note_stop(motor, now_s)
+        if self._master_wired:
+            self._master_until_s = now_s + MASTER_LINGER_S
+
+    def _note_stop(self, motor: _Motor, now_s: float) -> None:
+        if motor.on is not Direction.OFF:
+            motor.on = Direction.OFF
+            motor.stopped_s = now_s
+
+    def _idle(self) -> bool:
+        return all(motor.on is Direction.OFF for motor in self._motors.values())
+
+    def _plan(self) -> None:
+        """Work out the next moment to enforce, and wake the guard if it came nearer."""
+        moments = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
+        if self._master_until_s is not None and not moments:
+            moments.append(self._master_until_s)
+        due_s = min(moments, default=None)
+        nearer = due_s is not None and (self._due_s is None or due_s < self._due_s)
+        self._due_s = due_s
+        if nearer:
+            self._lock.notify_all()

@@ -1,0 +1,89 @@
+"""The command `rotator`: its sub-commands and their options. No logic: each hands over to a file of its own."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from hw.ports import HardwareError
+from rotator import __version__
+from rotator.config.load import ConfigError, shipped
+from rotator.links.wire import LinkError
+
+CONFIG = click.option(
+    "--config", "path", type=click.Path(path_type=Path, dir_okay=False), help="Configuration file (TOML)."
+)
+FAULT = click.option(
+    "--fault", "faults", multiple=True, metavar="NAME[@SECONDS]", help="Let the simulator misbehave; `list` tells how."
+)
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, message="rotator %(version)s")
+def cli() -> None:
+    """A rotator controller that PCs take for a Yaesu GS-232."""
+
+
+@cli.command()
+@CONFIG
+@FAULT
+@click.option("--plain", is_flag=True, help="Plain lines even in a terminal.")
+def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
+    """Run the box. Without a file: a simulated G-5500."""
+    from rotator.cli.run import run_box
+
+    run_box(path, faults, plain=plain or not sys.stdout.isatty())
+
+
+@cli.command()
+@CONFIG
+@FAULT
+@click.argument("pass_file", type=click.Path(path_type=Path, dir_okay=False), metavar="PASS.csv")
+@click.option("--via", type=click.Choice(["gs232", "rotctld"]), default="gs232", help="The protocol orders come by.")
+@click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write what happened, as CSV.")
+@click.option("--json", "as_json", is_flag=True, help="The summary as JSON.")
+@click.option("--arduino", is_flag=True, help="Fly the pass with the emulated Arduino instead of the box.")
+def rehearse(  # noqa: PLR0917 - click calls it by keyword
+    path: Path | None,
+    faults: tuple[str, ...],
+    pass_file: Path,
+    via: str,
+    trace: Path | None,
+    as_json: bool,
+    arduino: bool,
+) -> None:
+    """Fly a satellite pass (t,az,el) on the simulated rotor, in simulated time."""
+    from rotator.cli.rehearse import rehearse_pass
+
+    rehearse_pass(pass_file, path, faults, via=via, trace=trace, as_json=as_json, arduino=arduino)
+
+
+@cli.command()
+@click.option("--pty", default="run/arduino", type=click.Path(path_type=Path), help="Where to open its serial port.")
+@CONFIG
+@click.option("--plain", is_flag=True, help="Plain lines even in a terminal.")
+def arduino(pty: Path, path: Path | None, plain: bool) -> None:
+    """Run the Arduino that this box replaces, emulated, to compare the two."""
+    from rotator.cli.arduino import run_arduino
+
+    run_arduino(pty, path, plain=plain or not sys.stdout.isatty())
+
+
+@cli.command(name="config")
+def show_config() -> None:
+    """Print the shipped configuration, a start for your own."""
+    click.echo(shipped(), nl=False)
+
+
+def main() -> None:
+    """Errors that are a person's to mend become a sentence; the exit code is 2 for the configuration, else 1."""
+    try:
+        cli(standalone_mode=True)
+    except ConfigError as fault:
+        click.echo(str(fault), err=True)
+        sys.exit(2)
+    except (HardwareError, LinkError) as fault:
+        click.echo(f"rotator: {fault}", err=True)
+        sys.exit(1)

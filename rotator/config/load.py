@@ -1,0 +1,119 @@
+"""Reads the configuration file, or says everything that is wrong with it at once.
+
+Knows TOML and how to tell a person what to change. Knows none of the keys: those are the model's.
+"""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+from collections.abc import Mapping
+from importlib.resources import files
+from pathlib import Path
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from rotator.config.model import Config
+
+
+class ConfigError(Exception):
+    """The file cannot be used. `faults` holds a line for each thing to change."""
+
+    def __init__(self, name: str, faults: list[str]) -> None:
+        super().__init__(name, faults)
+        self.name = name
+        self.faults = faults
+
+    def __str__(self) -> str:
+        count = "1 fault" if len(self.faults) == 1 else f"{len(self.faults)} faults"
+        return "\n".join((f"{self.name}: {count}", *(f"  {fault}" for fault in self.faults)))
+
+
+def load(path: Path | None) -> Config:
+    """The configuration in the file, or the shipped simulated station's. Raises ConfigError."""
+    if path is None:
+        return parse(shipped(), "the shipped configuration")
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as fault:
+        raise ConfigError(str(path), [f"cannot be read: {fault}"]) from fault
+    return parse(text, str(path))
+
+
+def shipped() -> str:
+    """The text of the simulated station's configuration: a start for one's own."""
+    return files("rotator.config").joinpath("simulated.toml").read_text(encoding="utf-8")
+
+
+def parse(text: str, name: str) -> Config:
+    """Raises ConfigError."""
+    try:
+        values = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as fault:
+        raise ConfigError(name, [f"is not TOML: {fault}"]) from fault
+    try:
+        return Config.model_validate(values)
+    except ValidationError as invalid:
+        raise ConfigError(name, [_explain(error) for error in invalid.errors()]) from invalid
+
+
+def _explain(error: ErrorDetails) -> str:
+    """One fault in words: the key, its value, what is allowed, and what was probably meant."""
+    place = list(error["loc"])
+    key = _key(place)
+    value = error["input"]
+    context: Mapping[str, Any] = error.get("ctx", {})
+    match error["type"]:
+        case "extra_forbidden":
+            known = list(_known_keys(place[:-1]))
+            return f"{key} = {_show(value)}: no such key{_meant(str(place[-1]), known)}; known here: {', '.join(known)}"
+        case "missing":
+            return f"{key}: must be given"
+        case "literal_error":
+            allowed = [str(choice) for choice in _choices(context)]
+            return f"{key} = {_show(value)}: must be one of {', '.join(allowed)}{_meant(str(value), allowed)}"
+        case "value_error" if not place:
+            return str(context["error"])
+        case "value_error":
+            return f"{key}: {context['error']}"
+        case _:
+            said = error["msg"].removeprefix("Input should be ").removeprefix("a valid ")
+            return f"{key} = {_show(value)}: must be {said}"
+
+
+def _key(place: list[int | str]) -> str:
+    text = ""
+    for part in place:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}"
+    return text.removeprefix(".")
+
+
+def _show(value: object) -> str:
+    text = f'"{value}"' if isinstance(value, str) else f"{value!r}"
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _choices(context: Mapping[str, Any]) -> list[str]:
+    return [choice.strip().strip("'") for choice in str(context["expected"]).replace(" or ", ", ").split(",")]
+
+
+def _meant(word: str, known: list[str]) -> str:
+    close = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
+    return f"; did you mean {close[0]}?" if close else ""
+
+
+def _known_keys(place: list[int | str]) -> list[str]:
+    """The keys of the table at `place` in the model."""
+    table: type[BaseModel] = Config
+    for part in place:
+        if isinstance(part, int):
+            continue
+        annotation = table.model_fields[part].annotation
+        inner = [kind for kind in (annotation, *get_args(annotation)) if isinstance(kind, type)]
+        tables = [kind for kind in inner if issubclass(kind, BaseModel)]
+        if not tables:
+            break
+        table = tables[0]
+    return list(table.model_fields)

@@ -1,0 +1,1 @@
+"""Serial ports, pseudo-terminals and sockets: they move bytes and decide nothing."""

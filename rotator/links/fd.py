@@ -1,0 +1,61 @@
+"""A link on a file descriptor: what serial ports and pseudo-terminals share.
+
+Knows non-blocking reading and writing on the event loop. Knows nothing of how the descriptor came to be.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from collections.abc import Callable
+
+from rotator.links.wire import Conversation
+
+READ_BYTES = 4096
+
+
+async def converse(fd: int, conversation: Conversation) -> str:
+    """Carry bytes both ways until the descriptor fails. Returns why, in the system's words."""
+    loop = asyncio.get_running_loop()
+    ended: asyncio.Future[str] = loop.create_future()
+
+    def readable() -> None:
+        try:
+            data = os.read(fd, READ_BYTES)
+        except BlockingIOError:
+            return
+        except OSError as fault:
+            _end(ended, fault.strerror or str(fault))
+            return
+        if data:
+            conversation.received(data)
+        else:
+            _end(ended, "hung up")
+
+    loop.add_reader(fd, readable)
+    try:
+        return await ended
+    finally:
+        loop.remove_reader(fd)
+        conversation.close()
+
+
+def writer(fd: int) -> Callable[[bytes], None]:
+    """A `write` for a conversation: one system call a reply.
+
+    Where nobody reads, the kernel's buffer fills: the reply is dropped, as a real unit's goes nowhere. A failing
+    descriptor is noticed by its reader.
+    """
+
+    def write(data: bytes) -> None:
+        try:
+            os.write(fd, data)
+        except OSError:
+            return
+
+    return write
+
+
+def _end(ended: asyncio.Future[str], why: str) -> None:
+    if not ended.done():
+        ended.set_result(why)

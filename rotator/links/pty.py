@@ -1,0 +1,58 @@
+"""A pseudo-terminal with a symlink: a serial port for programs on the same machine.
+
+Knows how to make one that stays up whoever opens and closes it. Knows no protocol.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import tty
+from collections.abc import Callable
+from pathlib import Path
+
+from rotator.links.fd import converse, writer
+from rotator.links.wire import Conversation, LinkError, Wire
+from rotator.protocols.session import Session
+
+
+class PtyLink:
+    def __init__(self, wire: Wire, path: Path, session: Callable[[], Session]) -> None:
+        self.wire = wire
+        self._path = path
+        self._session = session
+        self._master = -1
+        self._slave = -1
+        self._name = ""
+
+    async def open(self) -> None:
+        """Raises LinkError."""
+        self._master, self._slave = os.openpty()
+        # The slave stays open here, so the line never hangs up when a client leaves; raw, so nothing is echoed.
+        tty.setraw(self._slave)
+        os.set_blocking(self._master, False)
+        self._name = os.ttyname(self._slave)
+        try:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
+            if self._path.is_symlink():
+                self._path.unlink()
+            self._path.symlink_to(self._name)
+        except OSError as fault:
+            self._close_fds()
+            raise LinkError(f"{self._path}: cannot be made a link to a terminal: {fault.strerror}") from fault
+        self.wire.state = f"open as {self._name}"
+
+    async def run(self) -> None:
+        try:
+            await converse(self._master, Conversation(self._session(), self.wire, writer(self._master)))
+            # Our own end of a pseudo-terminal does not fail; if it does, there is nothing to reopen.
+            await asyncio.Event().wait()
+        finally:
+            if self._path.is_symlink() and os.readlink(self._path) == self._name:
+                self._path.unlink()
+            self._close_fds()
+            self.wire.state = "closed"
+
+    def _close_fds(self) -> None:
+        os.close(self._master)
+        os.close(self._slave)

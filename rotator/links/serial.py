@@ -1,0 +1,112 @@
+"""A serial port, or any URL that pyserial opens; it may be unplugged and plugged in again at any time.
+
+Knows how to open it, to notice that it is gone and to wait for it. DTR and RTS mean nothing here. The only importer of
+pyserial outside `hw`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import os
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import serial
+
+from rotator.links.fd import converse, writer
+from rotator.links.wire import Conversation, Wire
+from rotator.protocols.session import Session
+
+log = logging.getLogger(__name__)
+
+RETRY_S = 1.0
+URL_POLL_S = 0.1
+
+
+class SerialLink:
+    def __init__(self, wire: Wire, port: str, baud: int, session: Callable[[], Session]) -> None:
+        self.wire = wire
+        self._port = port
+        self._baud = baud
+        self._session = session
+        self._told = ""
+
+    async def open(self) -> None:
+        """Nothing to do: a port that is not there yet is waited for."""
+
+    async def run(self) -> None:
+        while True:
+            try:
+                port = await asyncio.to_thread(self._open)
+            except (serial.SerialException, OSError, ValueError) as fault:
+                self._tell(f"cannot be opened: {fault}")
+            else:
+                self.wire.state = "open"
+                self._told = ""
+                log.info("%s: %s open at %d baud", self.wire.name, self._port, self._baud)
+                try:
+                    why = await self._converse(port)
+                finally:
+                    port.close()
+                    self.wire.state = "closed"
+                self._tell(f"lost: {why}")
+            await asyncio.sleep(RETRY_S)
+
+    def _open(self) -> Any:
+        return serial.serial_for_url(self._port, self._baud, timeout=0, write_timeout=0)
+
+    async def _converse(self, port: Any) -> str:
+        try:
+            fd = port.fileno()
+        except (AttributeError, OSError):
+            return await self._converse_by_thread(port)
+        os.set_blocking(fd, False)
+        return await converse(fd, Conversation(self._session(), self.wire, writer(fd)))
+
+    async def _converse_by_thread(self, port: Any) -> str:
+        """For URLs without a descriptor (rfc2217://, loop://): a thread waits for their bytes."""
+        loop = asyncio.get_running_loop()
+        arrivals: asyncio.Queue[bytes | str] = asyncio.Queue()
+        leaving = threading.Event()
+
+        def listen() -> None:
+            port.timeout = URL_POLL_S
+            while not leaving.is_set():
+                try:
+                    data = port.read(1) + port.read(port.in_waiting)
+                except (serial.SerialException, OSError) as fault:
+                    loop.call_soon_threadsafe(arrivals.put_nowait, str(fault))
+                    return
+                if data:
+                    loop.call_soon_threadsafe(arrivals.put_nowait, data)
+
+        port.write_timeout = URL_POLL_S
+        conversation = Conversation(self._session(), self.wire, lambda reply: _write(port, reply))
+        thread = threading.Thread(target=listen, name=self.wire.name, daemon=True)
+        thread.start()
+        try:
+            while True:
+                match await arrivals.get():
+                    case bytes() as data:
+                        conversation.received(data)
+                    case str() as why:
+                        return why
+        finally:
+            leaving.set()
+            conversation.close()
+
+    def _tell(self, text: str) -> None:
+        """Log a trouble once, however often it is met."""
+        if text != self._told:
+            log.warning("%s: %s %s; waiting for it", self.wire.name, self._port, text)
+            self._told = text
+        self.wire.state = "waiting for it"
+
+
+def _write(port: Any, data: bytes) -> None:
+    try:
+        port.write(data)
+    except (serial.SerialException, OSError):
+        return

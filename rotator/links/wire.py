@@ -1,0 +1,79 @@
+"""What one link carries, for whoever watches it; and the shell between a stream of bytes and a protocol.
+
+Knows when bytes came and went, and when a line has fallen silent. Knows no device and no protocol.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from rotator.protocols.session import Session
+
+log = logging.getLogger(__name__)
+
+KEPT_BYTES = 64
+
+
+class LinkError(Exception):
+    """A link cannot be opened; the text says which, and what to do."""
+
+
+@dataclass(slots=True)
+class Wire:
+    """One link as a person sees it. The view reads it; the link writes it."""
+
+    name: str
+    protocol: str
+    where: str
+    state: str = "closed"
+    last_in: bytes = b""
+    last_out: bytes = b""
+
+    def came(self, data: bytes) -> None:
+        self.last_in = data[-KEPT_BYTES:]
+
+    def went(self, data: bytes) -> None:
+        self.last_out = data[-KEPT_BYTES:]
+
+
+class Conversation:
+    """One connection: bytes in, replies out through `write`, which sends each in one go or not at all."""
+
+    def __init__(self, session: Session, wire: Wire, write: Callable[[bytes], None]) -> None:
+        self.session = session
+        self._wire = wire
+        self._write = write
+        self._silence: asyncio.TimerHandle | None = None
+
+    def received(self, data: bytes) -> None:
+        self._wire.came(data)
+        self._reply(lambda: self.session.receive(data))
+        if self.session.idle_s is not None:
+            self._cancel()
+            self._silence = asyncio.get_running_loop().call_later(self.session.idle_s, self._silent)
+
+    def close(self) -> None:
+        self._cancel()
+
+    def _silent(self) -> None:
+        self._silence = None
+        self._reply(self.session.idle)
+
+    def _cancel(self) -> None:
+        if self._silence is not None:
+            self._silence.cancel()
+            self._silence = None
+
+    def _reply(self, ask: Callable[[], list[bytes]]) -> None:
+        try:
+            replies = ask()
+        except Exception:
+            # A mistake of ours in one protocol must not take the link, or the other links, down with it.
+            log.exception("%s: the protocol failed; the bytes are dropped", self._wire.name)
+            return
+        for reply in replies:
+            self._wire.went(reply)
+            self._write(reply)

@@ -1,0 +1,107 @@
+"""What anybody may ask of the box: the nouns that travel from links to the controller.
+
+Knows the orders and nothing of who sends them or what becomes of them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hw.ports import Axis, Direction
+
+BOTH = (Axis.AZIMUTH, Axis.ELEVATION)
+
+
+@dataclass(frozen=True, slots=True)
+class Aim:
+    """Point there. An axis that is None keeps what it was doing.
+
+    Azimuth above 360 names the turn of the overlap; elevation above 90 is an antenna flipped by the program that sends
+    it. Not `engaged`: show the target, but stop the motors.
+    """
+
+    azimuth_deg: float | None
+    elevation_deg: float | None
+    engaged: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Jog:
+    """Turn one axis until stopped, until its limit, or for `seconds`."""
+
+    axis: Axis
+    direction: Direction
+    seconds: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Stop these axes now and forget their targets; a stop of both acknowledges faults."""
+
+    axes: tuple[Axis, ...] = BOTH
+    latch: bool = False
+    """From the console, the panel or the page: nothing moves until a person releases it there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Release:
+    """A person lets the box move again after a latching stop or a fault."""
+
+
+@dataclass(frozen=True, slots=True)
+class Park:
+    """Go to the park position."""
+
+
+@dataclass(frozen=True, slots=True)
+class LoadTimed:
+    """Take a list of points (azimuth, elevation or None) to be visited every `interval_s`; aim at the first now."""
+
+    interval_s: float
+    points: tuple[tuple[float, float | None], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ClearTimed:
+    """Forget the timed list."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunTimed:
+    """Run the timed list from its present point."""
+
+
+@dataclass(frozen=True, slots=True)
+class Calibrate:
+    """The axis now stands at the low (or high) end of its range: take the sensor's reading for it."""
+
+    axis: Axis
+    high_end: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Speed:
+    """GS-232 X1 to X4. A relay has one speed: remembered, shown, without effect there."""
+
+    level: int
+
+
+Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """Who sends orders: a link, and which connection on it. A reconnect is a new source."""
+
+    link: str
+    connection: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.link}#{self.connection}" if self.connection else self.link
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why an order is not obeyed, for the log; the protocol has its own words for it."""
+
+    reason: str

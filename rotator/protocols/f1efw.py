@@ -1,0 +1,45 @@
+"""The F1EFW dialect: what the Arduino sketch this box replaces makes of its serial line.
+
+Knows that it looks for a W anywhere in what arrives, answers nothing, and rests at zero or negative elevation. Knows no
+other command: everything else is noise to it.
+"""
+
+from __future__ import annotations
+
+import re
+
+from rotator.orders import Aim
+from rotator.protocols.session import Box
+
+ARDUINO_READ_TIMEOUT_S = 1.0
+"""An Arduino takes a string for complete after a second of silence; so Termite may end its lines with nothing."""
+
+_AZIMUTH_TOP_DEG = 450
+_ELEVATION_TOP_DEG = 180
+_ORDER = re.compile(rb"[Ww](\d{1,3})[ ,;\t]{1,8}(-?)(\d{1,3})(?=[^\d])")
+_LONGEST_ORDER = 1 + 3 + 8 + 1 + 3
+
+
+class F1efwSession:
+    idle_s = ARDUINO_READ_TIMEOUT_S
+    closed = False
+
+    def __init__(self, box: Box) -> None:
+        self._box = box
+        self._tail = b""
+
+    def receive(self, data: bytes) -> list[bytes]:
+        text = self._tail + data
+        end = 0
+        for order in _ORDER.finditer(text):
+            end = order.end()
+            self._obey(float(order[1]), float(order[2] + order[3]))
+        self._tail = text[end:][-_LONGEST_ORDER:]
+        return []
+
+    def idle(self) -> list[bytes]:
+        return self.receive(b"\n")
+
+    def _obey(self, azimuth_deg: float, elevation_deg: float) -> None:
+        if azimuth_deg <= _AZIMUTH_TOP_DEG and elevation_deg <= _ELEVATION_TOP_DEG:
+            self._box.order(Aim(azimuth_deg, elevation_deg, engaged=elevation_deg > 0))

@@ -1,0 +1,47 @@
+"""Two rows of sixteen characters: where the satellite is, where the antenna is.
+
+Knows the layout and what may take its place for a moment. Knows no display.
+"""
+
+from __future__ import annotations
+
+from hw.ports import Axis
+from rotator.protocols.gs232 import whole
+from rotator.status import Status
+
+COLUMNS = 16
+ALTERNATE_S = 2.0
+"""A fault takes the upper row every other two seconds."""
+_SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
+
+
+def rows(status: Status, now_s: float) -> tuple[str, str]:
+    """`SAT A:235 E:025` over `ANT A:231 E:024`; SIM in place of ANT when the rotor is simulated."""
+    name = "SIM" if status.simulated else "ANT"
+    upper = f"SAT A:{_azimuth(status.wanted_azimuth_deg)} E:{_elevation(status.wanted_elevation_deg)}"
+    lower = f"{name} A:{_azimuth(status.azimuth.angle_deg)} E:{_elevation(status.elevation.angle_deg)}"
+    notices = _notices(status)
+    turn = int(now_s / ALTERNATE_S)
+    if notices and turn % 2:
+        upper = notices[turn // 2 % len(notices)]
+    return upper[:COLUMNS].ljust(COLUMNS), lower[:COLUMNS].ljust(COLUMNS)
+
+
+def _notices(status: Status) -> list[str]:
+    notices = [f"{_SHORT[fault.axis]} " if fault.axis else "" for fault in status.faults]
+    notices = [prefix + fault.name.upper() for prefix, fault in zip(notices, status.faults, strict=True)]
+    if status.latched:
+        notices.append("STOP: " + status.latched.upper())
+    notices += [f"{_SHORT[axis]} UNCALIBRATED" for axis in Axis if status.axis(axis).uncalibrated]
+    return notices
+
+
+def _azimuth(angle_deg: float | None) -> str:
+    if angle_deg is None:
+        return "---"
+    rounded = whole(angle_deg)
+    return f"{rounded if 0 <= rounded <= 360 else rounded % 360:03d}"
+
+
+def _elevation(angle_deg: float | None) -> str:
+    return "---" if angle_deg is None else f"{whole(angle_deg):03d}"

@@ -1,0 +1,160 @@
+"""The box in a terminal: the display as it looks, both axes, the relays, the last bytes on each link.
+
+Knows the layout. Pure: values in, something `rich` can print out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+from rich.box import HEAVY, SIMPLE_HEAD
+from rich.columns import Columns
+from rich.console import Group, RenderableType
+from rich.panel import Panel
+from rich.table import Table
+from rich.text import Text
+
+from hw.ports import Axis, Direction
+from rotator.status import AxisStatus, Status
+
+KeyHandler = Callable[[str], None]
+
+_WORDS = {
+    (Axis.AZIMUTH, Direction.PLUS): "CW",
+    (Axis.AZIMUTH, Direction.MINUS): "CCW",
+    (Axis.ELEVATION, Direction.PLUS): "UP",
+    (Axis.ELEVATION, Direction.MINUS): "DOWN",
+}
+_SHOWN_BYTES = 24
+_BAR_CELLS = 24
+
+
+class WireView(Protocol):
+    """What is shown of a link."""
+
+    name: str
+    protocol: str
+    where: str
+    state: str
+    last_in: bytes
+    last_out: bytes
+
+
+def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str]:
+    """Where to connect, in plain lines."""
+    what = "a SIMULATED rotor" if hardware == "sim" else "the rotor on this Pi"
+    return [f"rotator {version}: {what}", *(f"  {wire.protocol:<12}{wire.where}  ({wire.state})" for wire in wires)]
+
+
+def line(status: Status) -> str:
+    """The status in one plain line, without anything that changes when nothing does."""
+    parts = [_axis_words(status, axis) for axis in Axis]
+    if status.latched:
+        parts.append(f"STOPPED by {status.latched}")
+    parts += [f"FAULT {fault}" for fault in status.faults]
+    return "  ".join(parts)
+
+
+def picture(
+    version: str, status: Status, glass: Sequence[str], wires: Sequence[WireView], log_rows: Sequence[str]
+) -> RenderableType:
+    title = f"rotator {version}" + ("  SIMULATED" if status.simulated else "")
+    parts: list[RenderableType] = [
+        Columns([_glass(glass), _relays(status)], padding=(0, 2)),
+        _axes(status),
+        _links(wires),
+    ]
+    if status.faults or status.latched:
+        parts.append(_alarm(status))
+    if log_rows:
+        parts.append(Text("\n".join(log_rows), style="dim", no_wrap=True, overflow="ellipsis"))
+    parts.append(Text("space STOP   r release   q quit", style="bold"))
+    return Panel(Group(*parts), title=title, title_align="left", width=84)
+
+
+def _glass(rows: Sequence[str]) -> RenderableType:
+    text = Text("\n".join(f" {row} " for row in rows), style="bold #e8f4ff on #1040c0")
+    return Panel(text, box=HEAVY, expand=False, style="#708090")
+
+
+def _relays(status: Status) -> RenderableType:
+    text = Text()
+    for (axis, direction), word in _WORDS.items():
+        on = status.axis(axis).drive is direction
+        text.append(f" {'●' if on else '○'} {word:<5}", style="bold green" if on else "dim")
+        if direction is Direction.MINUS:
+            text.append("\n")
+    who = f"under {status.controlled_by}" if status.controlled_by else "no orders yet"
+    if status.timed_points:
+        who += f", point {status.timed_point} of {status.timed_points}"
+    text.append(f" {who}", style="dim")
+    return text
+
+
+def _axes(status: Status) -> RenderableType:
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for heading in ("axis", "angle", "target", "", "range", "reading"):
+        table.add_column(heading, justify="right" if heading in ("angle", "target", "reading") else "left")
+    for axis in Axis:
+        each = status.axis(axis)
+        table.add_row(
+            axis.value,
+            _degrees(each.angle_deg),
+            _degrees(each.target_deg),
+            _bar(each),
+            f"{each.min_deg:g}…{each.max_deg:g}°"
+            + (f"  UNCALIBRATED: {each.uncalibrated}" if each.uncalibrated else ""),
+            "" if each.raw is None else f"{each.raw:.4f} {each.source}",
+        )
+    return table
+
+
+def _links(wires: Sequence[WireView]) -> RenderableType:
+    table = Table(box=SIMPLE_HEAD, pad_edge=False)
+    for heading in ("link", "where", "state", "last in", "last out"):
+        table.add_column(heading, no_wrap=True, overflow="ellipsis")
+    for wire in wires:
+        table.add_row(wire.name, wire.where, wire.state, _bytes(wire.last_in), _bytes(wire.last_out))
+    return table
+
+
+def _alarm(status: Status) -> RenderableType:
+    rows = [str(fault) for fault in status.faults]
+    if status.latched:
+        rows.append(f"STOPPED by {status.latched}: nothing moves until released (r)")
+    return Panel(Text("\n".join(rows), style="bold white on red"), box=HEAVY, style="red", expand=False)
+
+
+def _bar(axis: AxisStatus) -> Text:
+    """The range from end to end, with the antenna (█) and its target (│) on it."""
+    cells = ["─"] * _BAR_CELLS
+    for angle_deg, mark in ((axis.target_deg, "│"), (axis.angle_deg, "█")):
+        if angle_deg is not None:
+            share = (angle_deg - axis.min_deg) / (axis.max_deg - axis.min_deg)
+            cells[min(max(int(share * _BAR_CELLS), 0), _BAR_CELLS - 1)] = mark
+    return Text("".join(cells), style="cyan")
+
+
+def _axis_words(status: Status, axis: Axis) -> str:
+    each = status.axis(axis)
+    words = [f"{axis.value} {_degrees(each.angle_deg, 0)}"]
+    if each.target_deg is not None:
+        words.append(f"to {_degrees(each.target_deg)}")
+    if each.drive is not Direction.OFF:
+        words.append(_WORDS[axis, each.drive])
+    if each.uncalibrated:
+        words.append(
+            f"UNCALIBRATED ({each.uncalibrated}; reads {each.raw if each.raw is None else round(each.raw, 3)})"
+        )
+    return " ".join(words)
+
+
+def _degrees(angle_deg: float | None, digits: int = 1) -> str:
+    return "---" if angle_deg is None else f"{angle_deg:.{digits}f}°"
+
+
+def _bytes(data: bytes) -> str:
+    """Bytes as a person reads them: printable as they are, the rest escaped."""
+    text = data.decode("latin-1").encode("unicode_escape").decode("ascii")
+    return text if len(text) <= _SHOWN_BYTES else "…" + text[-_SHOWN_BYTES + 1 :]
