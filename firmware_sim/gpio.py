@@ -18,7 +18,7 @@ from enum import Enum
 from typing import Any, Self
 
 LINES = 58
-PULLED_UP_AT_BOOT = range(0, 9)  # BCM2835 ARM Peripherals, table 6-31: GPIO 0-8 up, 9-27 down
+PULLED_UP_AT_BOOT = range(9)  # BCM2835 ARM Peripherals, table 6-31: GPIO 0-8 up, 9-27 down
 EDGES_KEPT = 10_000
 DEFAULT_CHIPS = {"/dev/gpiochip0": "pinctrl-bcm2711"}
 

@@ -1,6 +1,7 @@
 """The composition root: from a configuration to hardware, controller and links, running.
 
-With `station` (its hardware half) and `simulation`, the only code that names concrete classes. Knows how the parts fit together, and in which order they start and stop.
+With `station` and `simulation`, its other parts, the only code that names concrete classes. Knows how the parts fit
+together, and in which order they start and stop.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from rotator.config.save import save_calibration
 from rotator.control.axis import AxisSettings
 from rotator.control.calibration import Calibration
 from rotator.control.controller import Controller, Settings
+from rotator.control.motion import Motor
 from rotator.control.mount import Mount, Range
 from rotator.control.sensing import Window
 from rotator.display import DisplayThread
@@ -76,7 +78,7 @@ def build_controller(config: Config) -> Controller:
             axis=which,
             limits=limits,
             tolerance_deg=table.tolerance_deg,
-            coast_s=table.coast_s,
+            motor=Motor(table.speed_dps, table.speed_dps * table.coast_s),
             window=Window(table.lowest_reading, table.highest_reading),
             calibration=None if points is None else Calibration(tuple(points)),
             missing=() if simulated else missing(table),
@@ -176,11 +178,6 @@ class App:
 
     def lcd_rows(self, now_s: float) -> tuple[str, str]:
         return lcd.rows(self.loop.status, now_s)
-
-    def lcd_glass(self) -> tuple[str, ...]:
-        """What the display shows: read off the simulated glass, or what was sent to the real one."""
-        world = self.station.world
-        return world.lcd.text() if world and world.lcd else self.lcd_rows(time.monotonic())
 
     async def run(self, stop: asyncio.Event) -> None:
         """Run until `stop` is set. Raises LinkError, or whatever stopped the control thread."""

@@ -9,6 +9,7 @@ import csv
 import math
 from bisect import bisect_right
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 from rotator.control.angles import turn_deg
@@ -49,7 +50,7 @@ def read_pass(path: Path) -> Pass:
         raise PassError(f"{path}: cannot be read: {fault}") from fault
     if len(rows) < 2:
         raise PassError(f"{path}: a pass needs two rows or more")
-    if any(b[0] <= a[0] for a, b in zip(rows, rows[1:], strict=False)):
+    if any(b[0] <= a[0] for a, b in pairwise(rows)):
         raise PassError(f"{path}: t must rise from row to row")
     start_s = rows[0][0]
     return Pass(path.stem, tuple((t - start_s, az, el) for t, az, el in rows))

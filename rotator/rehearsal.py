@@ -11,9 +11,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Protocol
 
-from firmware_sim.arduino.station import ArduinoStation
 from firmware_sim.clock import SimClock
-from firmware_sim.pot import PotSpec
 from firmware_sim.world import World
 from rotator.app import build_controller, build_mount
 from rotator.config.model import Config
@@ -27,7 +25,7 @@ from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld import Request, RotctldSession
 from rotator.protocols.rotctld import encode as encode_request
 from rotator.protocols.session import Session
-from rotator.simulation import motor_spec
+from rotator.simulation import arduino_station
 from rotator.station import Station
 
 SAMPLE_S = 0.05
@@ -63,9 +61,7 @@ class Summary:
     motor_s: float
 
     def as_dict(self) -> dict[str, float | int | None]:
-        return {
-            key: round(value, 3) if isinstance(value, float) else value for key, value in asdict(self).items()
-        }
+        return {key: round(value, 3) if isinstance(value, float) else value for key, value in asdict(self).items()}
 
 
 class Plant(Protocol):
@@ -116,20 +112,7 @@ class ArduinoPlant:
     """The emulated Arduino that the product replaces, with motors and ranges from the same configuration."""
 
     def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float]) -> None:
-        azimuth, elevation = config.azimuth, config.elevation
-        sim = config.sim
-        self._station = ArduinoStation(
-            clock,
-            clock.sleep,
-            motor_spec(azimuth, sim.azimuth),
-            motor_spec(elevation, sim.elevation),
-            azimuth_pot=PotSpec(azimuth.min_deg, azimuth.max_deg, 0.0, 1.0, noise_deg=sim.azimuth.pot_noise_deg),
-            elevation_pot=PotSpec(
-                elevation.min_deg, elevation.max_deg, 0.0, 1.0, noise_deg=sim.elevation.pot_noise_deg
-            ),
-            azimuth_start_deg=start_deg[0],
-            elevation_start_deg=start_deg[1],
-        )
+        self._station = arduino_station(config, clock, clock.sleep, start_deg)
 
     def order(self, azimuth_deg: float, elevation_deg: float) -> None:
         self._station.host_send(_gs232_order(azimuth_deg, elevation_deg))
@@ -164,7 +147,8 @@ def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Samp
 
     def sample(now_s: float) -> None:
         t_s = now_s - started_s
-        trace.append(Sample(t_s, *flown.at(t_s), *plant.look()))
+        target_az_deg, target_el_deg = flown.at(t_s)
+        trace.append(Sample(t_s, target_az_deg, target_el_deg, *plant.look()))
 
     def order(now_s: float) -> None:
         azimuth_deg, elevation_deg = flown.at(now_s - started_s)

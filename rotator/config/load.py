@@ -17,6 +17,16 @@ from pydantic_core import ErrorDetails
 
 from rotator.config.model import Config
 
+_KINDS = {
+    "float": "a number",
+    "int": "a whole number",
+    "bool": "true or false",
+    "string": "text in quotes",
+    "list": "a list in brackets",
+    "tuple": "a pair of numbers in brackets",
+    "model": "a table",
+}
+
 
 class ConfigError(Exception):
     """The file cannot be used. `faults` holds a line for each thing to change."""
@@ -53,10 +63,45 @@ def parse(text: str, name: str) -> Config:
         values = tomllib.loads(text)
     except tomllib.TOMLDecodeError as fault:
         raise ConfigError(name, [f"is not TOML: {fault}"]) from fault
-    try:
-        return Config.model_validate(values)
-    except ValidationError as invalid:
-        raise ConfigError(name, [_explain(error) for error in invalid.errors()]) from invalid
+    faults: list[str] = []
+    while True:
+        try:
+            config = Config.model_validate(values)
+            break
+        except ValidationError as invalid:
+            errors = invalid.errors()
+        faults += [_explain(error) for error in errors]
+        if any(not error["loc"] for error in errors):
+            break
+        # One fault can hide another (limits are compared only once both are numbers): mend these and look again.
+        for error in errors:
+            _mend(values, list(error["loc"]))
+    if faults:
+        raise ConfigError(name, list(dict.fromkeys(faults)))
+    return config
+
+
+def _mend(values: dict[str, Any], place: list[int | str]) -> None:
+    """Put something harmless where the fault was."""
+    parent: Any = values
+    *way, last = place
+    for part in way:
+        if isinstance(parent, list) and not (isinstance(part, int) and part < len(parent)):
+            return
+        if isinstance(parent, dict) and part not in parent:
+            return
+        parent = parent[part]
+    match parent, last:
+        case dict(), "protocol":
+            parent[last] = "rotctld"
+        case dict(), _:
+            parent.pop(last, None)
+        case list(), int() if place[0] == "link" and len(place) == 2:
+            parent[last] = {"protocol": "rotctld", "pty": f"mended-{last}"}
+        case list(), int():
+            values[str(place[0])].pop(str(place[1]), None)
+        case _:
+            _mend(values, way)
 
 
 def _explain(error: ErrorDetails) -> str:
@@ -78,8 +123,9 @@ def _explain(error: ErrorDetails) -> str:
             return str(context["error"])
         case "value_error":
             return f"{key}: {context['error']}"
-        case _:
-            said = error["msg"].removeprefix("Input should be ").removeprefix("a valid ")
+        case kind:
+            said = _KINDS.get(kind.split("_")[0]) if kind.endswith(("_type", "_parsing")) else None
+            said = said or error["msg"].removeprefix("Input should be ")
             return f"{key} = {_show(value)}: must be {said}"
 
 

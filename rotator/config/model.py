@@ -9,7 +9,7 @@ import re
 from itertools import pairwise
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 ProtocolName = Literal["gs232a", "gs232b", "gs232-f1efw", "rotctld"]
 
@@ -21,26 +21,35 @@ Channel = Annotated[int, Field(ge=0, le=3)]
 class Table(BaseModel):
     """A table of the file: no key but those named, nothing changed after loading."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, allow_inf_nan=False, strict=True, use_attribute_docstrings=True
+    )
 
 
 class Rotor(Table):
     type: Literal["relay-pot"] = "relay-pot"
+    """How the rotor is driven and measured: motors on relays, pots for the angles."""
     hardware: Literal["sim", "pi"] = "sim"
+    """A simulated rotor, or the relays, pots and display on this Pi."""
 
 
 class AxisTable(Table):
     min_deg: float = Field(0.0, ge=-360, le=720)
+    """The lowest angle it may be sent to, on the rotor's own scale."""
     max_deg: float = Field(450.0, ge=-360, le=720)
+    """The highest angle it may be sent to; above 360 on azimuth: overlap."""
     tolerance_deg: float = Field(4.0, gt=0, le=45)
     """How far off on the sky the antenna may be before a motor starts."""
+    speed_dps: float = Field(6.0, gt=0, le=360)
+    """The motor's speed, roughly: the box measures it as it goes."""
     coast_s: float = Field(0.17, ge=0, le=5)
     """How long the motor goes on after it is switched off, as time at full speed."""
-    calibration: list[tuple[float, float]] | None = None
+    calibration: list[Annotated[tuple[float, float], Field(strict=False)]] | None = None
     """Points [reading, degrees]; the reading is the wiper's share of the pot's supply, 0 to 1."""
     lowest_reading: float = Field(0.02, ge=-0.1, le=1)
+    """A reading below this means a broken wire or a shorted pot."""
     highest_reading: float = Field(0.98, ge=0, le=1.1)
-    """Readings outside mean a broken or shorted pot; end resistors keep every valid angle inside."""
+    """A reading above this means the same; end resistors keep every valid angle between the two."""
     direction_checked: bool = False
     """A person has seen that CW turns clockwise and UP up."""
 
@@ -68,17 +77,23 @@ class Azimuth(AxisTable):
 
 class Elevation(AxisTable):
     min_deg: float = Field(0.0, ge=-90, le=180)
+    """The lowest elevation it may be sent to; where it rests below the horizon."""
     max_deg: float = Field(180.0, ge=0, le=210)
+    """The highest elevation it may be sent to; 90 for a rotor that cannot go over the top."""
 
 
 class MountTable(Table):
     flip: Literal["off"] = "off"
+    """Whether the box itself may turn the antenna over the top; `off` is the only choice today."""
     park_azimuth_deg: float = Field(0.0, ge=0, le=450)
+    """Where a park order (rotctld K) sends the azimuth."""
     park_elevation_deg: float = Field(0.0, ge=0, le=180)
+    """Where a park order sends the elevation."""
 
 
 class Control(Table):
     rate_hz: float = Field(20.0, ge=20, le=100)
+    """How often the pots are read and the motors decided on; orders never wait for it."""
 
 
 class Relays(Table):
@@ -87,70 +102,105 @@ class Relays(Table):
     chip: str | None = None
     """A path such as /dev/gpiochip0; left out, the chip with the 40-pin header is found by its label."""
     azimuth_cw: Gpio = 22
+    """Turns clockwise."""
     azimuth_ccw: Gpio = 23
+    """Turns counter-clockwise."""
     elevation_up: Gpio = 24
+    """Turns up."""
     elevation_down: Gpio = 25
+    """Turns down."""
     master: Gpio | None = None
     """An output that switches the motors' supply."""
     active: Literal["high", "low"] = "high"
+    """The level that closes a relay, for all of them, the master too."""
     dead_time_s: float = Field(0.5, ge=0.05, le=5)
     """How long a motor rests before it is reversed."""
 
 
 class Adc(Table):
     bus: int = Field(1, ge=0, le=255)
+    """The N of /dev/i2c-N; the header's bus is 1."""
     address: I2CAddress = 0x48
+    """The ADS1115's: 0x48 with its ADDR pin at GND, 0x49 at its supply, 0x4a at SDA, 0x4b at SCL."""
     azimuth_channel: Channel = 0
+    """The input (A0 to A3) with the azimuth wiper."""
     elevation_channel: Channel = 1
+    """The input with the elevation wiper."""
     reference_channel: Channel | None = None
     """Where the pots' supply is wired to, if it is: readings then no longer depend on it."""
     supply_v: float = Field(3.3, gt=0.5, le=5.5)
     """The pots' supply where it is not measured."""
     rate_sps: Literal[128, 250, 475, 860] = 860
+    """Conversions a second: slower is quieter, but every cycle waits for two of them."""
 
 
 class Lcd(Table):
     kind: Literal["none", "gpio", "pcf8574"] = "pcf8574"
+    """No display, one on six GPIO lines, or one behind an I2C backpack."""
     bus: int = Field(1, ge=0, le=255)
+    """Backpack: the N of /dev/i2c-N."""
     address: I2CAddress = 0x27
+    """Backpack: usually 0x27 or 0x3f."""
     backpack: Literal["ywrobot", "lcm1602", "mjkdz", "lcdxio", "swapped"] = "ywrobot"
+    """Backpack: which of its bits goes to which pin; `ywrobot` is nearly every board sold."""
     rs: Gpio = 17
+    """Six lines: RS."""
     e: Gpio = 27
+    """Six lines: E."""
     d4: Gpio = 5
+    """Six lines: D4."""
     d5: Gpio = 6
+    """Six lines: D5."""
     d6: Gpio = 12
+    """Six lines: D6."""
     d7: Gpio = 13
+    """Six lines: D7."""
 
 
 class SimAxisTable(Table):
     speed_dps: float = Field(6.0, gt=0, le=360)
+    """The motor's full speed."""
     lag_s: float = Field(0.15, ge=0, le=5)
+    """First-order lag of the motor: it coasts speed × lag."""
     relay_delay_s: float = Field(0.015, ge=0, le=1)
+    """From the coil to the contact."""
     backlash_deg: float = Field(0.5, ge=0, le=30)
+    """Total play; the pot is on the shaft, the antenna beyond the play."""
     pot_noise_deg: float = Field(0.1, ge=0, le=30)
+    """Noise of the pot, rms."""
     pot_bow_deg: float = Field(0.0, ge=-30, le=30)
+    """How far the pot is off a straight line in the middle of its travel."""
     start_deg: float | None = None
     """Where the rotor stands at first; left out, at 0 (in a rehearsal, where the pass begins)."""
 
 
 class SimElevation(SimAxisTable):
     speed_dps: float = Field(2.7, gt=0, le=360)
+    """The motor's full speed."""
 
 
 class Sim(Table):
     azimuth: SimAxisTable = SimAxisTable()
+    """The simulated azimuth motor and pot."""
     elevation: SimElevation = SimElevation()
+    """The simulated elevation motor and pot."""
     bus_takes_time: bool = True
     """The simulated I2C bus is as slow as a real one."""
 
 
 class Link(Table):
     protocol: ProtocolName
+    """What the program at the other end speaks."""
     name: str | None = Field(None, min_length=1, max_length=24)
+    """What the log and the display call it; left out, its protocol."""
     pty: str | None = Field(None, min_length=1)
+    """A symlink made to a pseudo-terminal, for programs on the same machine."""
     serial: str | None = Field(None, min_length=1)
+    """A serial port, or any URL that pyserial opens; waited for while it is missing."""
     tcp: str | None = None
+    """A listening socket, "host:port"."""
     baud: int = Field(9600, ge=50, le=4_000_000)
+    """Serial ports only; always 8N1."""
     ack: Literal["none", "cr"] = "none"
     """GS-232: what follows a command that asks nothing; old Hamlib (3.x) wants the CR."""
     may_calibrate: bool = False
@@ -161,9 +211,14 @@ class Link(Table):
         places = [place for place in (self.pty, self.serial, self.tcp) if place is not None]
         if len(places) != 1:
             raise ValueError("must have exactly one of pty, serial, tcp")
-        if self.tcp is not None:
-            address(self.tcp)
         return self
+
+    @field_validator("tcp")
+    @classmethod
+    def _an_address(cls, text: str | None) -> str | None:
+        if text is not None:
+            address(text)
+        return text
 
     @property
     def where(self) -> str:
@@ -174,21 +229,31 @@ def address(text: str) -> tuple[str, int]:
     """`host:port` taken apart; an IPv6 host stands in brackets. Raises ValueError."""
     parts = re.fullmatch(r"(?:\[([0-9a-fA-F:.%\w]+)\]|([^:\[\]\s]+)):(\d{1,5})", text)
     if not parts or not 0 < int(parts[3]) < 65536:
-        raise ValueError(f'tcp must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533", not "{text}"')
+        raise ValueError(f'"{text}" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"')
     return parts[1] or parts[2], int(parts[3])
 
 
 class Config(Table):
     rotor: Rotor = Rotor()
+    """What turns and how it is reached."""
     azimuth: Azimuth = Azimuth()
+    """The azimuth axis, in degrees on the rotor's own scale."""
     elevation: Elevation = Elevation()
+    """The elevation axis."""
     mount: MountTable = MountTable()
+    """How the two axes carry the antenna."""
     control: Control = Control()
+    """The control loop."""
     relays: Relays = Relays()
+    """The motor relays. Numbers are GPIO (BCM), not pins of the header."""
     adc: Adc = Adc()
+    """The ADS1115 that reads the pots."""
     lcd: Lcd = Lcd()
+    """The 16×2 display."""
     sim: Sim = Sim()
+    """The simulated rotor; without effect on real hardware."""
     link: list[Link] = Field(default_factory=list)
+    """A way in for a program: give exactly one of `pty`, `serial`, `tcp`. As many as you like."""
 
     @model_validator(mode="after")
     def _nothing_twice(self) -> Config:

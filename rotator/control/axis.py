@@ -9,7 +9,9 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.calibration import Calibration, between_ends
+from rotator.control.motion import Motor
 from rotator.control.mount import Range
+from rotator.control.plan import Path
 from rotator.control.sensing import Reading, Sensing, Window
 from rotator.control.switched import Run, SwitchedLaw
 from rotator.status import AxisStatus, Fault
@@ -27,7 +29,8 @@ class AxisSettings:
     axis: Axis
     limits: Range
     tolerance_deg: float
-    coast_s: float
+    motor: Motor
+    """What is known of the motor before it has taught us better."""
     window: Window
     calibration: Calibration | None
     missing: tuple[str, ...] = ()
@@ -37,8 +40,11 @@ class AxisSettings:
 
 @dataclass(frozen=True, slots=True)
 class AimGoal:
+    """A target, with its path where it moves. The tolerance is the axis's own, or on the sky along a path."""
+
     target_deg: float
     tolerance_deg: float
+    path: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,8 +60,9 @@ class AxisControl:
         self.fault: Fault | None = None
         self._missing = settings.missing
         self._lease_s = lease_s
+        self._period_s = period_s
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
-        self._law = SwitchedLaw(coast_s=settings.coast_s, lease_s=lease_s, period_s=period_s)
+        self._law = SwitchedLaw(settings.motor, lease_s=lease_s, period_s=period_s)
         self._seen_s: float | None = None
         self._driven_s: float | None = None
         self._first_end: tuple[bool, float] | None = None
@@ -78,11 +85,9 @@ class AxisControl:
         fault = self._sensing.take(reading, now_s)
         if fault is not None and self.fault is None:
             self.fault = fault
-        if not self._sensing.believable:
-            self._law.blind()
-        elif reading.at_s != self._seen_s and self._sensing.angle_deg is not None:
+        if self._sensing.believable and reading.at_s != self._seen_s and self._sensing.angle_deg is not None:
             self._law.see(reading.at_s, self._sensing.angle_deg)
-        self._seen_s = reading.at_s
+            self._seen_s = reading.at_s
 
     def acknowledge(self) -> None:
         """A person or a stop has taken note of the fault; it comes back at once if its cause is still there."""
@@ -95,26 +100,24 @@ class AxisControl:
         if self.goal is None or not self._sensing.believable:
             return self._law.rest(now_s)
         match self.goal:
-            case AimGoal(target_deg, tolerance_deg):
-                return self._approach(now_s, target_deg, tolerance_deg)
+            case AimGoal() if self._missing or self._sensing.angle_deg is None:
+                return self._law.rest(now_s)
+            case AimGoal(_, tolerance_deg, Path() as path):
+                return self._law.follow(now_s, path, tolerance_deg)
+            case AimGoal(target_deg, tolerance_deg, _):
+                return self._law.approach(now_s, target_deg, tolerance_deg)
             case JogGoal(_, until_s) if until_s is not None and now_s >= until_s:
                 self.goal = None
                 return self._law.rest(now_s)
             case JogGoal(direction, until_s):
                 return self._jog(now_s, direction, until_s)
 
-    def _approach(self, now_s: float, target_deg: float, tolerance_deg: float) -> Run:
-        angle_deg = self._sensing.angle_deg
-        if angle_deg is None or self._missing:
-            return self._law.rest(now_s)
-        return self._law.approach(now_s, angle_deg, target_deg, tolerance_deg)
-
     def _jog(self, now_s: float, direction: Direction, until_s: float | None) -> Run:
         longest_s = now_s + self._lease_s if until_s is None else min(now_s + self._lease_s, until_s)
-        if self._missing:
+        if self._missing or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
         limits = self.settings.limits
-        run = self._approach(now_s, limits.max_deg if direction > 0 else limits.min_deg, JOG_TOLERANCE_DEG)
+        run = self._law.approach(now_s, limits.max_deg if direction > 0 else limits.min_deg, JOG_TOLERANCE_DEG)
         if run.direction is not direction:
             # At the limit, or beyond it: a jog never turns back.
             self.goal = None
@@ -144,10 +147,11 @@ class AxisControl:
             limits = self.settings.limits
             self._sensing.calibration = between_ends(low_raw, limits.min_deg, high_raw, limits.max_deg)
             self._missing = tuple(item for item in self._missing if item != "calibration")
-        self._law.blind()
+        self._law = SwitchedLaw(self.settings.motor, lease_s=self._lease_s, period_s=self._period_s)
 
     def status(self, now_s: float, driven: Direction) -> AxisStatus:
         """This axis as others see it; `driven` is what its relays really do."""
+        self._law.driven(now_s, driven)
         if driven is not Direction.OFF:
             self._driven_s = now_s
         moving = self._driven_s is not None and now_s - self._driven_s < SETTLED_AFTER_S

@@ -13,10 +13,12 @@ from dataclasses import dataclass
 from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
 from rotator.control.axis import AimGoal, AxisControl, AxisSettings
-from rotator.control.mount import Mount, Unreachable
+from rotator.control.mount import ZENITH_DEG, Mount, Unreachable
+from rotator.control.plan import OFFSETS_S, Path
 from rotator.control.sensing import Reading
 from rotator.control.switched import Run
 from rotator.control.timed import TimedList
+from rotator.control.track import Track
 from rotator.orders import (
     Aim,
     Calibrate,
@@ -33,6 +35,8 @@ from rotator.orders import (
 )
 from rotator.status import Status
 
+PLAN_EVERY_S = 0.5
+EVEN = (1.0,) * len(OFFSETS_S)
 LEAST_WEIGHT = 0.1
 """Near the zenith azimuth hardly matters, but an antenna sent there by hand is to turn all the same."""
 
@@ -57,6 +61,8 @@ class Controller:
         }
         self._authority = Authority()
         self._timed = TimedList()
+        self._track = Track()
+        self._planned_s: float | None = None
         self._aim = Aim(None, None)
         self._speed_level = 4
         self.troubles: list[str] = []
@@ -73,7 +79,8 @@ class Controller:
             self._take(source, order, now_s)
         point = self._timed.due(now_s)
         if point is not None:
-            self._point_at(Aim(*point))
+            self._point_at(Aim(*point), now_s)
+        self._look_ahead(now_s)
         return {axis: control.decide(now_s) for axis, control in self._axes.items()}
 
     def status(self, now_s: float, driven: Mapping[Axis, Direction], late_s: float = 0.0) -> Status:
@@ -114,20 +121,21 @@ class Controller:
         self._timed.halt()
         match order:
             case Aim():
-                self._point_at(order)
+                self._point_at(order, now_s)
             case Park():
                 mount = self._settings.mount
-                self._point_at(Aim(mount.park_azimuth_deg, mount.park_elevation_deg))
+                self._point_at(Aim(mount.park_azimuth_deg, mount.park_elevation_deg), now_s)
             case Jog(axis, direction, seconds):
                 self._forget_wish(axis)
                 self._axes[axis].start_jog(direction, seconds, now_s)
             case LoadTimed(interval_s, points):
-                self._point_at(Aim(*self._timed.load(interval_s, points)))
+                self._point_at(Aim(*self._timed.load(interval_s, points)), now_s)
             case RunTimed():
                 self._timed.run(now_s)
 
     def _stop(self, source: Source, axes: tuple[Axis, ...], *, latch: bool, now_s: float) -> None:
         self._timed.halt()
+        self._track.clear()
         for axis in axes:
             self._axes[axis].goal = None
             self._forget_wish(axis)
@@ -146,7 +154,7 @@ class Controller:
         else:
             self._aim = Aim(self._aim.azimuth_deg, None)
 
-    def _point_at(self, aim: Aim) -> None:
+    def _point_at(self, aim: Aim, now_s: float) -> None:
         azimuth, elevation = self._axes[Axis.AZIMUTH], self._axes[Axis.ELEVATION]
         wanted = Aim(
             self._aim.azimuth_deg if aim.azimuth_deg is None else aim.azimuth_deg,
@@ -155,6 +163,7 @@ class Controller:
         )
         if not aim.engaged:
             azimuth.goal = elevation.goal = None
+            self._track.clear()
         elif aim.azimuth_deg is not None:
             near_deg = azimuth.angle_deg if azimuth.angle_deg is not None else self._settings.mount.azimuth.min_deg
             if isinstance(azimuth.goal, AimGoal) and wanted == self._aim:
@@ -168,9 +177,48 @@ class Controller:
                 self.troubles.append(str(reason))
                 return
             azimuth.goal = AimGoal(azimuth_deg, self._azimuth_tolerance_deg(elevation_deg))
-            if elevation_deg is not None:
+            self._planned_s = None
+            if aim.elevation_deg is None or elevation_deg is None:
+                self._track.clear()
+            else:
                 elevation.goal = AimGoal(elevation_deg, elevation.settings.tolerance_deg)
+                self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
         self._aim = wanted
+
+    def _look_ahead(self, now_s: float) -> None:
+        """Give the axes the path of a target that moves; without one they have where it stands."""
+        azimuth, elevation = self._axes[Axis.AZIMUTH], self._axes[Axis.ELEVATION]
+        if not isinstance(azimuth.goal, AimGoal) or not isinstance(elevation.goal, AimGoal):
+            return
+        if not self._track.moving(now_s):
+            if azimuth.goal.path is not None:
+                self._stand_still(azimuth.goal, elevation.goal)
+            return
+        if self._planned_s is not None and now_s - self._planned_s < PLAN_EVERY_S:
+            return
+        self._planned_s = now_s
+        directions = [self._track.direction(now_s + offset_s) for offset_s in OFFSETS_S]
+        flipped = (self._aim.elevation_deg or 0.0) > ZENITH_DEG
+        azimuths_deg, elevations_deg = self._settings.mount.along(directions, azimuth.goal.target_deg, flipped=flipped)
+        weights = [max(LEAST_WEIGHT, math.cos(math.radians(el_deg))) ** 2 for _, el_deg in directions]
+        azimuth.goal = AimGoal(
+            azimuths_deg[0], self._settings.azimuth.tolerance_deg, Path(now_s, azimuths_deg, weights)
+        )
+        elevation.goal = AimGoal(
+            elevations_deg[0], self._settings.elevation.tolerance_deg, Path(now_s, elevations_deg, EVEN)
+        )
+
+    def _stand_still(self, azimuth: AimGoal, elevation: AimGoal) -> None:
+        """The stream has ended: the last order stands."""
+        aim = self._aim
+        if aim.azimuth_deg is None:
+            return
+        azimuth_deg, elevation_deg = self._settings.mount.axis_angles(
+            aim.azimuth_deg, aim.elevation_deg, azimuth.target_deg
+        )
+        self._axes[Axis.AZIMUTH].goal = AimGoal(azimuth_deg, self._azimuth_tolerance_deg(elevation_deg))
+        if elevation_deg is not None:
+            self._axes[Axis.ELEVATION].goal = AimGoal(elevation_deg, self._settings.elevation.tolerance_deg)
 
     def _azimuth_tolerance_deg(self, elevation_deg: float | None) -> float:
         """The tolerance is on the sky: high up, a degree of azimuth moves the antenna less than a degree."""

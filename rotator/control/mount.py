@@ -6,7 +6,10 @@ Knows the range of each axis, its overlap and the park position. Knows nothing o
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+
+from rotator.control.angles import turn_deg
 
 ZENITH_DEG = 90.0
 
@@ -49,6 +52,21 @@ class Mount:
         if elevation_deg > ZENITH_DEG and not self.elevation.holds(elevation_deg):
             azimuth_deg, elevation_deg = (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
         return self._turn(azimuth_deg, near_azimuth_deg), self.elevation.nearest(elevation_deg)
+
+    def along(
+        self, directions: Iterable[tuple[float, float]], from_azimuth_deg: float, *, flipped: bool
+    ) -> tuple[list[float], list[float]]:
+        """Axis angles along a path of directions, azimuth and elevation, going on from an azimuth on its own turn.
+
+        `flipped`: the antenna flies it over the top, because whoever sends the orders flips.
+        """
+        azimuths_deg, elevations_deg = [], []
+        azimuth_deg = from_azimuth_deg
+        for towards_deg, elevation_deg in directions:
+            azimuth_deg += turn_deg(azimuth_deg, towards_deg + 180.0 if flipped else towards_deg)
+            azimuths_deg.append(self.azimuth.nearest(azimuth_deg))
+            elevations_deg.append(self.elevation.nearest(180.0 - elevation_deg if flipped else elevation_deg))
+        return azimuths_deg, elevations_deg
 
     def _turn(self, azimuth_deg: float, near_deg: float) -> float:
         if azimuth_deg > 360.0 and self.azimuth.holds(azimuth_deg):  # the sender names the overlap

@@ -1,18 +1,22 @@
 """The law for a motor that is only on or off: when to start it, when to stop it.
 
-Bang-bang with a tolerance: at rest until the error exceeds it, then on until the motor, switched off, would coast onto
-the target. Knows one axis's angle and target. Knows nothing of the sky, of limits, of faults or of relays.
+A target that stands still is bang-bang with a tolerance: left alone until the error exceeds it, then hit. A moving one
+is followed in steps that run past it, so that it drifts back through the window (`plan`). A stop falls where the motor,
+as learnt, coasts onto its goal. Knows one axis. Knows nothing of the sky, of limits, of faults or of relays.
 """
 
 from __future__ import annotations
 
-from collections import deque
+import math
 from dataclasses import dataclass
 
 from hw.ports import Direction
+from rotator.control.motion import Motion, Motor
+from rotator.control.plan import Path, next_place_deg
 
-SPEED_WINDOW_S = 0.3
-"""Speed is the change of angle over this long: shorter is noise, longer is late."""
+FLOOR = 0.55
+"""Below this share of the tolerance no error starts a motor, however slow the target: whole degrees are no better."""
+LEAST_MOVE_DEG = 0.3
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,62 +28,93 @@ class Run:
 
 
 class SwitchedLaw:
-    """One axis.
+    """`period_s`: how soon the law will be asked again; a stop nearer than that is left to the lease's end."""
 
-    `coast_s`: how long the motor goes on, as time at the speed it had when it was switched off. `period_s`: how soon
-    the law will be asked again; a stop nearer than that is left to the lease's end.
-    """
-
-    def __init__(self, *, coast_s: float, lease_s: float, period_s: float) -> None:
-        self._coast_s = coast_s
+    def __init__(self, motor: Motor, *, lease_s: float, period_s: float) -> None:
+        self.motion = Motion(motor)
         self._lease_s = lease_s
         self._period_s = period_s
         self._running = Direction.OFF
+        self._goal_deg = 0.0
         self._stop_s: float | None = None
-        self._stop_for_deg = 0.0
-        self._seen: deque[tuple[float, float]] = deque()
+        """When the lease will have opened the relay."""
+        self._planned: tuple[Path, float] | None = None
 
     def see(self, at_s: float, angle_deg: float) -> None:
-        """A new reading of the axis."""
-        self._seen.append((at_s, angle_deg))
-        while self._seen[0][0] < at_s - SPEED_WINDOW_S:
-            self._seen.popleft()
+        """A new believable reading of the axis."""
+        self._note_stop(at_s)
+        self.motion.see(at_s, angle_deg)
 
-    def blind(self) -> None:
-        """Readings are not to be believed: what was seen says nothing of the speed any more."""
-        self._seen.clear()
+    def driven(self, now_s: float, direction: Direction) -> None:
+        """What the relays do from now on."""
+        self._note_stop(now_s)
+        wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
+        self.motion.driven(now_s, direction, wanted_deg)
 
     def rest(self, now_s: float) -> Run:
         self._running = Direction.OFF
         self._stop_s = None
+        self._planned = None
         return Run(Direction.OFF, now_s)
 
-    def approach(self, now_s: float, angle_deg: float, target_deg: float, tolerance_deg: float) -> Run:
-        """What to do about the error between `angle_deg` and `target_deg`."""
-        if self._stop_s is not None and self._stop_for_deg == target_deg:
-            if now_s < self._stop_s:
-                return Run(self._running, self._stop_s)
-            self._running = Direction.OFF
-        self._stop_s = None
-        speed_dps = self._speed_dps()
-        # Where the axis would come to rest if it were switched off now: coasting is no reason to start again.
-        error_deg = target_deg - (angle_deg + speed_dps * self._coast_s)
+    def approach(self, now_s: float, target_deg: float, tolerance_deg: float) -> Run:
+        """Towards a target that stands still."""
+        error_deg = target_deg - self._rest_deg(now_s)
+        if self._running is Direction.OFF and abs(error_deg) <= tolerance_deg:
+            return self.rest(now_s)
+        return self._go(now_s, target_deg)
+
+    def follow(self, now_s: float, path: Path, tolerance_deg: float) -> Run:
+        """Along with a target that moves; the tolerance is on the sky."""
+        rest_deg = self._rest_deg(now_s)
+        direction = Direction.PLUS if path.angle_deg(now_s) > rest_deg else Direction.MINUS
+        speed_dps = self.motion.motors[self._running or direction].speed_dps
+        place_deg = self._place_deg(path, rest_deg, speed_dps, tolerance_deg)
         if self._running is Direction.OFF:
-            if abs(error_deg) <= tolerance_deg:
+            crossing_s = now_s + abs(place_deg - rest_deg) / speed_dps / 2
+            then_deg = path.angle_deg(crossing_s)
+            staying_deg, going_deg = abs(then_deg - rest_deg), abs(then_deg - place_deg)
+            on_sky_deg = staying_deg * math.sqrt(path.weight(crossing_s))
+            if staying_deg < going_deg or on_sky_deg < FLOOR * tolerance_deg:
+                return Run(Direction.OFF, now_s)
+            if abs(place_deg - rest_deg) < LEAST_MOVE_DEG:
+                return Run(Direction.OFF, now_s)
+        return self._go(now_s, place_deg)
+
+    def _place_deg(self, path: Path, rest_deg: float, speed_dps: float, tolerance_deg: float) -> float:
+        """The place planned on this path; planned once, for a path is only good for half a second."""
+        if self._planned is None or self._planned[0] is not path:
+            self._planned = (path, next_place_deg(path, rest_deg, speed_dps, tolerance_deg))
+        return self._planned[1]
+
+    def _go(self, now_s: float, goal_deg: float) -> Run:
+        """Start, or go on, towards the goal; stop where the motor would coast onto it."""
+        if self._stop_s is not None:
+            if now_s < self._stop_s and goal_deg == self._goal_deg:
+                return Run(self._running, self._stop_s)
+            if now_s >= self._stop_s:
                 return self.rest(now_s)
-            self._running = Direction.PLUS if error_deg > 0 else Direction.MINUS
-        left_deg = error_deg * self._running
+            self._stop_s = None
+        left_deg = goal_deg - self._rest_deg(now_s)
+        if self._running is Direction.OFF:
+            self._running = Direction.PLUS if left_deg > 0 else Direction.MINUS
+        self._goal_deg = goal_deg
+        left_deg *= self._running
         if left_deg <= 0:
             return self.rest(now_s)
-        until_s = now_s + self._lease_s
-        towards_dps = speed_dps * self._running
-        if towards_dps > 0 and left_deg < towards_dps * self._period_s:
-            self._stop_s = until_s = now_s + left_deg / towards_dps
-            self._stop_for_deg = target_deg
-        return Run(self._running, until_s)
+        # The point where the axis would come to rest runs ahead at full speed from the first moment on.
+        left_s = left_deg / self.motion.motors[self._running].speed_dps
+        if left_s > self._period_s:
+            return Run(self._running, now_s + self._lease_s)
+        self._stop_s = now_s + left_s
+        return Run(self._running, self._stop_s)
 
-    def _speed_dps(self) -> float:
-        if len(self._seen) < 2:  # a difference takes two
-            return 0.0
-        (first_s, first_deg), (last_s, last_deg) = self._seen[0], self._seen[-1]
-        return (last_deg - first_deg) / (last_s - first_s) if last_s > first_s else 0.0
+    def _rest_deg(self, now_s: float) -> float:
+        return self.motion.rest_deg(now_s)
+
+    def _note_stop(self, now_s: float) -> None:
+        if self._stop_s is not None and now_s >= self._stop_s:
+            self.motion.driven(self._stop_s, Direction.OFF, self._goal_deg)
+            self._running = Direction.OFF
+            self._stop_s = None
+            self._planned = None

@@ -66,15 +66,12 @@ class _Client(asyncio.Protocol):
             self._transport.abort()
             return
         self._clients.add(self)
-        self._conversation = Conversation(self._session(), self._wire, self._write)
+        self._conversation = Conversation(self._session(), self._wire, self._write, self._transport.close)
         self._note()
 
     def data_received(self, data: bytes) -> None:
-        if self._conversation is None or self._transport is None:
-            return
-        self._conversation.received(data)
-        if self._conversation.session.closed:
-            self._transport.close()
+        if self._conversation is not None:
+            self._conversation.received(data)
 
     def connection_lost(self, exc: Exception | None) -> None:
         if self._conversation is not None:

@@ -33,34 +33,44 @@ class Wire:
     last_out: bytes = b""
 
     def came(self, data: bytes) -> None:
-        self.last_in = data[-KEPT_BYTES:]
+        self.last_in = (self.last_in + data)[-KEPT_BYTES:]
 
     def went(self, data: bytes) -> None:
-        self.last_out = data[-KEPT_BYTES:]
+        self.last_out = (self.last_out + data)[-KEPT_BYTES:]
 
 
 class Conversation:
-    """One connection: bytes in, replies out through `write`, which sends each in one go or not at all."""
+    """One connection: bytes in, replies out through `write`, which sends each in one go or not at all.
 
-    def __init__(self, session: Session, wire: Wire, write: Callable[[bytes], None]) -> None:
-        self.session = session
+    `hang_up` is called when the client has asked to end the connection; a line that cannot hang up does nothing.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        wire: Wire,
+        write: Callable[[bytes], None],
+        hang_up: Callable[[], None] = lambda: None,
+    ) -> None:
+        self._session = session
         self._wire = wire
         self._write = write
+        self._hang_up = hang_up
         self._silence: asyncio.TimerHandle | None = None
 
     def received(self, data: bytes) -> None:
         self._wire.came(data)
-        self._reply(lambda: self.session.receive(data))
-        if self.session.idle_s is not None:
+        self._reply(lambda: self._session.receive(data))
+        if self._session.idle_s is not None:
             self._cancel()
-            self._silence = asyncio.get_running_loop().call_later(self.session.idle_s, self._silent)
+            self._silence = asyncio.get_running_loop().call_later(self._session.idle_s, self._silent)
 
     def close(self) -> None:
         self._cancel()
 
     def _silent(self) -> None:
         self._silence = None
-        self._reply(self.session.idle)
+        self._reply(self._session.idle)
 
     def _cancel(self) -> None:
         if self._silence is not None:
@@ -77,3 +87,5 @@ class Conversation:
         for reply in replies:
             self._wire.went(reply)
             self._write(reply)
+        if self._session.closed:
+            self._hang_up()

@@ -15,7 +15,7 @@ ARDUINO_READ_TIMEOUT_S = 1.0
 """An Arduino takes a string for complete after a second of silence; so Termite may end its lines with nothing."""
 
 _AZIMUTH_TOP_DEG = 450
-_ELEVATION_TOP_DEG = 180
+_ELEVATION_DEG = range(-90, 181)
 _ORDER = re.compile(rb"[Ww](\d{1,3})[ ,;\t]{1,8}(-?)(\d{1,3})(?=[^\d])")
 _LONGEST_ORDER = 1 + 3 + 8 + 1 + 3
 
@@ -41,5 +41,5 @@ class F1efwSession:
         return self.receive(b"\n")
 
     def _obey(self, azimuth_deg: float, elevation_deg: float) -> None:
-        if azimuth_deg <= _AZIMUTH_TOP_DEG and elevation_deg <= _ELEVATION_TOP_DEG:
+        if azimuth_deg <= _AZIMUTH_TOP_DEG and elevation_deg in _ELEVATION_DEG:
             self._box.order(Aim(azimuth_deg, elevation_deg, engaged=elevation_deg > 0))

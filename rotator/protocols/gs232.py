@@ -99,10 +99,10 @@ _LIST = re.compile(r"\d{1,3}(?: +\d{1,3})+")
 def parse(line: bytes, dialect: Dialect) -> Command | None:
     """One line, without its end, to a command; None for a line with nothing in it. Raises NotACommand.
 
-    NUL bytes are nothing. Noise before a command (a port being plugged in) is passed over; noise within one is not, so
+    Noise before a command (a port being plugged in, a break) is passed over; noise within one or after it is not, so
     that a damaged digit can never make a different order.
     """
-    text = line.replace(b"\0", b"").decode("latin-1").replace("\t", " ")
+    text = line.decode("latin-1").replace("\t", " ")
     text = text.lstrip("".join(map(chr, (*range(0x20), *range(0x7F, 0x100)))) + " ").rstrip(" ").upper()
     if not text:
         # A line of noise alone was no command of anybody's: silence, as for an empty line.

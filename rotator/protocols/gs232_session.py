@@ -76,10 +76,11 @@ class Gs232Session:
                 return self._position(command.verb)
             case "M" | "W":
                 return self._go(command)
-            case "T" if self._points:
+            case "T" if self._list_length():
                 return self._order(RunTimed())
-            case "N" if self._points:
-                return gs232.count_reply(max(1, self._box.status().timed_point), self._points)
+            case "N" if points := self._list_length():
+                status = self._box.status()
+                return gs232.count_reply(status.timed_point if status.timed_points == points else 1, points)
             case "H" | "H2" | "H3" as verb:
                 return gs232.help_reply(_HELP[verb], self._dialect)
             case "P36":
@@ -117,6 +118,10 @@ class Gs232Session:
             return gs232.INVALID
         return self._order(Aim(command.azimuth_deg, command.elevation_deg))
 
+    def _list_length(self) -> int:
+        """The list is the box's; but one sent a moment ago on this line counts before the box has taken it."""
+        return self._points or self._box.status().timed_points
+
     def _position(self, verb: str) -> bytes:
         status = self._box.status()
         azimuth_deg = self._shown(status.azimuth.angle_deg or 0.0)
@@ -131,11 +136,10 @@ class Gs232Session:
 
     def _shown(self, axis_deg: float) -> float:
         """A 450° unit counts on through its overlap; a 360° one starts again at north."""
-        whole_deg = gs232.whole(axis_deg)
-        if 0 <= whole_deg <= self._top_deg:
-            return axis_deg
-        # A pot's noise just below its zero is north, not one turn on.
-        return 0.0 if -1 <= whole_deg < 0 and self._box.status().azimuth.min_deg >= 0 else axis_deg % 360
+        azimuth = self._box.status().azimuth
+        # A pot's noise just beyond an end of the range is that end, not a turn away.
+        axis_deg = min(max(axis_deg, azimuth.min_deg), azimuth.max_deg)
+        return axis_deg if 0 <= gs232.whole(axis_deg) <= self._top_deg else axis_deg % 360
 
     def _centre(self) -> bytes:
         """Where the middle of the first turn points is a matter of the mast: told, never changed from here."""

@@ -27,6 +27,7 @@ NOT_IMPLEMENTED = -4
 IO_ERROR = -6
 
 _PRETENDED_MODEL = 603
+_BLANKS = re.compile(r"[ \t]+")
 _NUMBER = re.compile(r"[+-]?(\d{1,12}([.,]\d{0,12})?|[.,]\d{1,12})([eE][+-]?\d)?")
 """A finite number in any locale; neither `nan` nor `inf` is a direction."""
 
@@ -46,8 +47,8 @@ VERBS = (
     Verb("S", "stop"),
     Verb("K", "park"),
     Verb("_", "get_info"),
-    Verb("q", "quit"),
     Verb("Q", "quit"),
+    Verb("q", "quit"),
     Verb("\x8f", "dump_state"),
 )
 _BY_LETTER = {verb.letter: verb for verb in VERBS}
@@ -70,7 +71,7 @@ class BadRequest(ValueError):  # noqa: N818 - it is an answer, not a failure of 
 
 def requests(line: str) -> Iterator[Request]:
     """The requests in one line, in order. Raises BadRequest where the line stops making sense."""
-    words = line.split()
+    words = [word for word in _BLANKS.split(line) if word]
     while words:
         word = words.pop(0)
         if word.startswith("#"):
@@ -139,7 +140,7 @@ class RotctldSession:
     def idle(self) -> list[bytes]:
         pending = self._lines.pending.decode("latin-1")
         try:
-            whole = bool(pending.strip()) and all(map(self._complete, requests(pending)))
+            whole = bool(pending) and all(map(self._complete, requests(pending)))
         except BadRequest:
             return []
         return self._answers(self._lines.flush()) if whole else []
@@ -148,16 +149,23 @@ class RotctldSession:
         return all(_NUMBER.fullmatch(word) for word in request.arguments)
 
     def _answers(self, line: bytes | None) -> list[bytes]:
+        if self.closed:
+            return []
         if line is None:
             return [report(INVALID_PARAMETER)]
-        replies = []
         try:
-            for request in requests(line.decode("latin-1")):
-                if self.closed:
-                    break
-                replies.append(self._answer(request))
+            # Understood whole before any of it is obeyed: KEEPALIVE is no order to park.
+            understood = list(requests(line.decode("latin-1")))
         except BadRequest as fault:
-            replies.append(report(fault.code))
+            return [report(fault.code)]
+        replies = []
+        for request in understood:
+            try:
+                replies.append(self._answer(request))
+            except BadRequest as fault:
+                replies.append(report(fault.code))
+            if self.closed:
+                break
         return [reply for reply in replies if reply]
 
     def _answer(self, request: Request) -> bytes:

@@ -5,7 +5,7 @@ Knows the layout. Pure: values in, something `rich` can print out.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from rich.box import HEAVY, SIMPLE_HEAD
@@ -18,16 +18,15 @@ from rich.text import Text
 from hw.ports import Axis, Direction
 from rotator.status import AxisStatus, Status
 
-KeyHandler = Callable[[str], None]
-
 _WORDS = {
     (Axis.AZIMUTH, Direction.PLUS): "CW",
     (Axis.AZIMUTH, Direction.MINUS): "CCW",
     (Axis.ELEVATION, Direction.PLUS): "UP",
     (Axis.ELEVATION, Direction.MINUS): "DOWN",
 }
-_SHOWN_BYTES = 24
-_BAR_CELLS = 24
+WIDTH = 84
+_SHOWN_BYTES = 22
+_BAR_CELLS = 20
 
 
 class WireView(Protocol):
@@ -70,7 +69,14 @@ def picture(
     if log_rows:
         parts.append(Text("\n".join(log_rows), style="dim", no_wrap=True, overflow="ellipsis"))
     parts.append(Text("space STOP   r release   q quit", style="bold"))
-    return Panel(Group(*parts), title=title, title_align="left", width=84)
+    return Panel(Group(*parts), title=title, title_align="left", width=WIDTH)
+
+
+def sketch_picture(glass: Sequence[str], drives: tuple[int, int], wires: Sequence[WireView]) -> RenderableType:
+    """The emulated Arduino: its display, its relays, its serial line."""
+    relays = _relay_lamps({Axis.AZIMUTH: Direction(drives[0]), Axis.ELEVATION: Direction(drives[1])})
+    parts = [Columns([_glass(glass), relays], padding=(0, 2)), _links(wires), Text("q quit", style="bold")]
+    return Panel(Group(*parts), title="F1EFW sketch on an emulated UNO  SIMULATED", title_align="left", width=WIDTH)
 
 
 def _glass(rows: Sequence[str]) -> RenderableType:
@@ -79,23 +85,28 @@ def _glass(rows: Sequence[str]) -> RenderableType:
 
 
 def _relays(status: Status) -> RenderableType:
-    text = Text()
-    for (axis, direction), word in _WORDS.items():
-        on = status.axis(axis).drive is direction
-        text.append(f" {'●' if on else '○'} {word:<5}", style="bold green" if on else "dim")
-        if direction is Direction.MINUS:
-            text.append("\n")
-    who = f"under {status.controlled_by}" if status.controlled_by else "no orders yet"
+    text = _relay_lamps({axis: status.axis(axis).drive for axis in Axis})
+    who = f"under {status.controlled_by}" if status.controlled_by else "under nobody's orders"
     if status.timed_points:
         who += f", point {status.timed_point} of {status.timed_points}"
     text.append(f" {who}", style="dim")
     return text
 
 
+def _relay_lamps(drives: Mapping[Axis, Direction]) -> Text:
+    text = Text()
+    for (axis, direction), word in _WORDS.items():
+        on = drives[axis] is direction
+        text.append(f" {'●' if on else '○'} {word:<5}", style="bold green" if on else "dim")
+        if direction is Direction.MINUS:
+            text.append("\n")
+    return text
+
+
 def _axes(status: Status) -> RenderableType:
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     for heading in ("axis", "angle", "target", "", "range", "reading"):
-        table.add_column(heading, justify="right" if heading in ("angle", "target", "reading") else "left")
+        table.add_column(heading, justify="right" if heading in ("angle", "target") else "left", no_wrap=not heading)
     for axis in Axis:
         each = status.axis(axis)
         table.add_row(

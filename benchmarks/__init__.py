@@ -1,0 +1,1 @@
+"""Figures for the README, each from a command anyone can run again."""

@@ -1,0 +1,5 @@
+"""`python -m rotator` is the command `rotator`."""
+
+from rotator.cli.main import main
+
+main()

@@ -1,0 +1,86 @@
+"""What the foreground commands share: signals, keys, log lines, and a picture drawn a few times a second.
+
+Knows the terminal. Knows nothing of what it shows.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import os
+import signal
+import sys
+import termios
+import tty
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rich.console import Console, RenderableType
+from rich.live import Live
+
+PICTURE_HZ = 5
+LOG_ROWS = 6
+
+
+class LogRows(logging.Handler):
+    """The latest log lines, for the picture."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.rows: deque[str] = deque(maxlen=LOG_ROWS)
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.rows.append(self.format(record).splitlines()[0])
+
+
+def log_to(handler: logging.Handler) -> None:
+    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname).1s %(message)s", "%H:%M:%S"))
+    logging.basicConfig(level=logging.INFO, handlers=[handler])
+
+
+def stop_on_signals() -> asyncio.Event:
+    """An event that Ctrl-C, SIGTERM and a closed terminal set."""
+    stop = asyncio.Event()
+    for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        asyncio.get_running_loop().add_signal_handler(signum, stop.set)
+    return stop
+
+
+async def draw(render: Callable[[], RenderableType], key: Callable[[str], None]) -> None:
+    """Draw until cancelled; hand single keys to `key`."""
+    with _keys(key), Live(console=Console(), auto_refresh=False) as live:
+        while True:
+            live.update(render(), refresh=True)
+            await asyncio.sleep(1 / PICTURE_HZ)
+
+
+async def print_lines(greeting: Callable[[], list[str]], line: Callable[[], str]) -> None:
+    """For output that is no terminal: a greeting, then a line whenever it differs from the last."""
+    # One turn of the event loop and the links have said where they are.
+    await asyncio.sleep(0.1)
+    last = ""
+    print(*greeting(), sep="\n", flush=True)  # noqa: T201 - this is the output
+    while True:
+        now = line()
+        if now != last:
+            print(now, flush=True)  # noqa: T201
+            last = now
+        await asyncio.sleep(1.0)
+
+
+@contextmanager
+def _keys(handle: Callable[[str], None]) -> Iterator[None]:
+    if not sys.stdin.isatty():
+        yield
+        return
+    fd = sys.stdin.fileno()
+    before = termios.tcgetattr(fd)
+    tty.setcbreak(fd)
+    events = asyncio.get_running_loop()
+    events.add_reader(fd, lambda: handle(os.read(fd, 1).decode("latin-1")))
+    try:
+        yield
+    finally:
+        events.remove_reader(fd)
+        termios.tcsetattr(fd, termios.TCSADRAIN, before)

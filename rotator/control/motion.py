@@ -1,0 +1,178 @@
+"""What a switched motor does with its axis: where the axis is, how fast, and where it would come to rest.
+
+Knows the readings and what the relays did. Learns the motor's speed and its coast, each in both directions, from every
+run. Knows no target and decides nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+from statistics import median
+
+from hw.ports import Direction
+
+GAIN_RUNNING = 0.25
+GAIN_RESTING = 0.05
+JUMP_DEG = 3.0
+"""A reading this far from where the motor can have taken the axis is a spark on the wire, unless it stays."""
+JUMP_READINGS = 3
+SETTLE_S = 0.8
+"""How long a motor takes to come to rest for certain; what it then reads is where it stopped."""
+LEARN = 0.35
+"""How far one run moves what has been learnt."""
+LEAST_RUN_S = 0.8
+"""Shorter runs never reached full speed: they teach nothing about it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Motor:
+    """One direction of a motor, as learnt."""
+
+    speed_dps: float
+    coast_deg: float
+    """How far it goes on when switched off at full speed."""
+
+    @property
+    def lag_s(self) -> float:
+        return max(self.coast_deg / self.speed_dps, 1e-3)
+
+
+@dataclass(slots=True)
+class _Run:
+    direction: Direction
+    started_s: float
+    cruising_deg: float | None = None
+    cruising_s: float = 0.0
+
+
+@dataclass(slots=True)
+class _Landing:
+    """A run that has been switched off: what it was to reach, and since when the axis has been coasting."""
+
+    direction: Direction
+    off_s: float
+    wanted_deg: float
+    at_speed: float
+    readings: list[float]
+
+
+class Motion:
+    """One axis. Tell it every reading (`see`) and every change of the relays (`driven`), in order of time."""
+
+    def __init__(self, motor: Motor) -> None:
+        self.motors = {Direction.PLUS: motor, Direction.MINUS: motor}
+        self.angle_deg: float | None = None
+        self._speed_dps = 0.0
+        self._at_s = 0.0
+        self._run: _Run | None = None
+        self._landing: _Landing | None = None
+        self._strays: deque[float] = deque(maxlen=JUMP_READINGS)
+
+    @property
+    def resting(self) -> bool:
+        return self._run is None and self._landing is None
+
+    def driven(self, now_s: float, direction: Direction, wanted_deg: float) -> None:
+        """From now on the relays drive that way. OFF: the run is to come to rest at `wanted_deg`."""
+        if self.angle_deg is None or direction is (self._run.direction if self._run else Direction.OFF):
+            return
+        self._advance(now_s)
+        run, self._run = self._run, None
+        if direction is not Direction.OFF:
+            self._landing = None
+            self._run = _Run(direction, now_s)
+        elif run is not None:
+            self._learn_speed(run, now_s)
+            at_speed = self._speed_dps * run.direction / self.motors[run.direction].speed_dps
+            self._landing = _Landing(run.direction, now_s, wanted_deg, at_speed, [])
+
+    def see(self, at_s: float, angle_deg: float) -> None:
+        """A believable reading."""
+        if self.angle_deg is None:
+            self.angle_deg, self._at_s = angle_deg, at_s
+            return
+        self._advance(at_s)
+        stray_deg = angle_deg - self.angle_deg
+        if abs(stray_deg) > JUMP_DEG:
+            self._strays.append(angle_deg)
+            if len(self._strays) == JUMP_READINGS:
+                # It stays: the axis really is there (a hand on another switch, a slipped coupling).
+                self.angle_deg = median(self._strays)
+                self._strays.clear()
+            return
+        self._strays.clear()
+        self.angle_deg += (GAIN_RESTING if self.resting else GAIN_RUNNING) * stray_deg
+        self._note_cruise(at_s)
+        self._land(at_s, angle_deg)
+
+    def rest_deg(self, now_s: float) -> float:
+        """Where the axis would stand if the motor were switched off now; 0 before the first reading."""
+        if self.angle_deg is None:
+            return 0.0
+        speed_dps = self._speed_at(now_s)
+        travelled_deg = (self._speed_dps + speed_dps) / 2 * (now_s - self._at_s)
+        return self.angle_deg + travelled_deg + speed_dps * self._lag_s()
+
+    def speed_dps(self, now_s: float) -> float:
+        return self._speed_at(now_s)
+
+    def _lag_s(self) -> float:
+        direction = self._run.direction if self._run else self._landing.direction if self._landing else Direction.PLUS
+        return self.motors[direction].lag_s
+
+    def _speed_at(self, now_s: float) -> float:
+        wanted_dps = 0.0
+        if self._run is not None:
+            wanted_dps = self.motors[self._run.direction].speed_dps * self._run.direction
+        fade = math.exp(-max(0.0, now_s - self._at_s) / self._lag_s())
+        return wanted_dps + (self._speed_dps - wanted_dps) * fade
+
+    def _advance(self, now_s: float) -> None:
+        """Let the model run to this moment."""
+        assert self.angle_deg is not None
+        passed_s = now_s - self._at_s
+        if passed_s <= 0:
+            return
+        wanted_dps = 0.0
+        if self._run is not None:
+            wanted_dps = self.motors[self._run.direction].speed_dps * self._run.direction
+        lag_s = self._lag_s()
+        fade = math.exp(-passed_s / lag_s)
+        gap_dps = self._speed_dps - wanted_dps
+        self.angle_deg += wanted_dps * passed_s + gap_dps * lag_s * (1 - fade)
+        self._speed_dps = wanted_dps + gap_dps * fade
+        self._at_s = now_s
+
+    def _note_cruise(self, at_s: float) -> None:
+        run = self._run
+        if run is not None and run.cruising_deg is None and at_s - run.started_s > LEAST_RUN_S:
+            run.cruising_deg, run.cruising_s = self.angle_deg, at_s
+
+    def _learn_speed(self, run: _Run, now_s: float) -> None:
+        if run.cruising_deg is None or self.angle_deg is None or now_s - run.cruising_s < LEAST_RUN_S:
+            return
+        seen_dps = (self.angle_deg - run.cruising_deg) / (now_s - run.cruising_s) * run.direction
+        motor = self.motors[run.direction]
+        if seen_dps > 0:
+            speed_dps = motor.speed_dps + LEARN * (seen_dps - motor.speed_dps)
+            self.motors[run.direction] = Motor(speed_dps, motor.coast_deg)
+
+    def _land(self, at_s: float, angle_deg: float) -> None:
+        """Once the axis has come to rest: where it stands against where it was to stand teaches the coast."""
+        landing = self._landing
+        if landing is None or at_s - landing.off_s < SETTLE_S:
+            return
+        landing.readings.append(angle_deg)
+        if len(landing.readings) < JUMP_READINGS * 2:
+            return
+        self._landing = None
+        rest_deg = sum(landing.readings) / len(landing.readings)
+        self.angle_deg = rest_deg
+        self._speed_dps = 0.0
+        if landing.at_speed > 0.8:
+            missed_deg = (rest_deg - landing.wanted_deg) * landing.direction
+            motor = self.motors[landing.direction]
+            coast_deg = min(max(motor.coast_deg + LEARN * missed_deg, 0.0), 3.0 * motor.speed_dps)
+            self.motors[landing.direction] = Motor(motor.speed_dps, coast_deg)

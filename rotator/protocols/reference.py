@@ -1,0 +1,89 @@
+"""The command tables of docs/protocols.md, made from the code's own tables and answered by the code's own sessions.
+
+Knows Markdown and one example of each command. Does not know what any command does or answers: it asks.
+"""
+
+from __future__ import annotations
+
+from rotator import __version__
+from rotator.orders import Order
+from rotator.protocols import gs232, rotctld
+from rotator.protocols.gs232 import Dialect
+from rotator.protocols.gs232_session import Gs232Session
+from rotator.protocols.rotctld import RotctldSession
+from rotator.status import AxisStatus, Status
+
+AZIMUTH_DEG, ELEVATION_DEG = 235.0, 25.0
+LONGEST_SHOWN = 40
+
+_GS232_EXAMPLES = {"M": "M235", "W": "W235 025"}
+"""Commands that are written with numbers; all others stand alone."""
+_TIMED_LIST = b"W010 235 025 240 030 245 035\r"
+"""What has been sent before T and N, which make no sense without."""
+_ROTCTLD_EXAMPLES = {"set_pos": ("235", "25")}
+_ROTCTLD_MEANINGS = {
+    "set_pos": "Go there: azimuth, elevation",
+    "get_pos": "Read azimuth, then elevation",
+    "stop": "Stop everything",
+    "park": "Go to the park position",
+    "get_info": "What this is",
+    "quit": "Close the connection",
+    "dump_state": "The limits, asked by `rotctl -m 2` when it connects",
+}
+
+
+class _Example:
+    """A box that stands at 235/25 and agrees to everything."""
+
+    def status(self) -> Status:
+        return Status(0.0, AxisStatus(0, 450, AZIMUTH_DEG), AxisStatus(0, 180, ELEVATION_DEG))
+
+    def order(self, _order: Order) -> None:
+        return None
+
+
+def gs232_table() -> str:
+    """Every GS-232 command with an example and what either dialect answers to it."""
+    rows: list[tuple[str, ...]] = [("command", "what it does", "example", "GS-232A answers", "GS-232B answers")]
+    for verb in gs232.VERBS:
+        example = _GS232_EXAMPLES.get(verb.text, verb.text)
+        rows.append((f"`{verb.text}`", verb.help, f"`{example}`", *(_gs232_answer(each, example) for each in Dialect)))
+    return _table(rows)
+
+
+def rotctld_table() -> str:
+    """Every rotctld command that the box knows, with an example and its answer."""
+    rows: list[tuple[str, ...]] = [("command", "long form", "what it does", "example", "answer")]
+    for verb in rotctld.VERBS:
+        request = rotctld.Request(verb.name, _ROTCTLD_EXAMPLES.get(verb.name, ()))
+        session = RotctldSession(_Example())
+        answer = b"".join(session.receive(rotctld.encode(request)))
+        letter = f"`{verb.letter}`" if verb.letter.isascii() else ""
+        shown = "the connection ends" if session.closed else _shown(answer)
+        example = rotctld.encode(request).decode().strip()
+        if verb.letter.isascii():
+            example = verb.letter + example[1:]
+        rows.append((letter, f"`\\{verb.name}`", _ROTCTLD_MEANINGS[verb.name], f"`{example}`", shown))
+    return _table(rows)
+
+
+def _gs232_answer(dialect: Dialect, example: str) -> str:
+    session = Gs232Session(_Example(), dialect, may_calibrate=True)
+    if example in ("T", "N"):
+        session.receive(_TIMED_LIST)
+    return _shown(b"".join(session.receive(example.encode() + b"\r")))
+
+
+def _shown(answer: bytes) -> str:
+    if not answer:
+        return "nothing"
+    if len(answer) > LONGEST_SHOWN:
+        return f"{len(answer.splitlines())} lines"
+    # The page is not to change with every release.
+    text = answer.decode().replace(__version__, "VERSION").encode("unicode_escape").decode()
+    return f"`{text}`"
+
+
+def _table(rows: list[tuple[str, ...]]) -> str:
+    ruled = [rows[0], tuple("---" for _ in rows[0]), *rows[1:]]
+    return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |\n" for row in ruled)

@@ -1,0 +1,42 @@
+"""What every test may lean on: foreign programs that skip where they are missing, and a leak watch."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+PASSES = sorted((Path(__file__).parent / "passes").glob("*.csv"))
+
+
+@pytest.fixture
+def need_program() -> Callable[[str, str], str]:
+    """The path of a foreign program; where it is missing the test skips, and on the build machine it fails."""
+
+    def need(program: str, package: str) -> str:
+        path = shutil.which(program)
+        if path is None:
+            reason = f"{program} is missing: sudo apt install {package}"
+            if os.environ.get("CI") == "true":
+                pytest.fail(reason)
+            pytest.skip(reason)
+        return path
+
+    return need
+
+
+@pytest.fixture(autouse=True)
+def no_thread_left_behind() -> Iterator[None]:
+    """A test that leaves a control thread, a guard or a display running has not stopped what it started."""
+    before = set(threading.enumerate())
+    yield
+    left = [t.name for t in threading.enumerate() if t not in before and not t.name.startswith(("asyncio_", "Thread-"))]
+    for thread in threading.enumerate():
+        if thread not in before and thread.name in left:
+            thread.join(timeout=2.0)
+    left = [t.name for t in threading.enumerate() if t not in before and t.name in left]
+    assert not left, f"threads left behind: {left}"

@@ -1,0 +1,118 @@
+"""A desk to try the controller on: time in hand, readings fed by hand, nothing else around it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.axis import AxisSettings
+from rotator.control.calibration import between_ends
+from rotator.control.controller import Controller, Settings
+from rotator.control.mount import Mount, Range
+from rotator.control.sensing import Reading, Window
+from rotator.control.switched import Run
+from rotator.orders import Order, Source
+from rotator.status import Status
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+LOW_RAW, HIGH_RAW = 0.05, 0.95
+
+
+class Desk:
+    """A controller and a simple rotor: 6°/s (2.7°/s up and down) while driven, coasting for 0.17 s of that after."""
+
+    LINK, OTHER, CONSOLE = Source("gs232b", 1), Source("rotctld", 1), Source("console")
+    SPEED_DPS: Mapping[Axis, float] = {AZ: 6.0, EL: 2.7}
+    LAG_S = 0.17
+
+    def __init__(
+        self,
+        *,
+        azimuth: tuple[float, float] = (0.0, 450.0),
+        elevation: tuple[float, float] = (0.0, 180.0),
+        at: tuple[float, float] = (100.0, 10.0),
+        park: tuple[float, float] = (0.0, 0.0),
+        missing: Mapping[Axis, tuple[str, ...]] | None = None,
+    ) -> None:
+        self.range = {AZ: Range(*azimuth), EL: Range(*elevation)}
+        self.angle_deg = dict(zip(Axis, at, strict=True))
+        self._speed_dps = dict.fromkeys(Axis, 0.0)
+        self.instead: dict[Axis, float | None] = {}
+        """Raw readings in place of the pot's; None: no answer."""
+        self.frozen_since_s: dict[Axis, float] = {}
+        """Sensors from which no new reading comes, and when the last one was taken."""
+        self.now_s = 1000.0
+        self.runs: dict[Axis, Run] = {}
+        self.driven = dict.fromkeys(Axis, Direction.OFF)
+        missing = missing or {}
+        self.controller = Controller(
+            Settings(
+                azimuth=self._settings(AZ, missing.get(AZ, ())),
+                elevation=self._settings(EL, missing.get(EL, ())),
+                mount=Mount(self.range[AZ], self.range[EL], *park),
+            )
+        )
+
+    def _settings(self, axis: Axis, missing: tuple[str, ...]) -> AxisSettings:
+        limits = self.range[axis]
+        line = between_ends(LOW_RAW, limits.min_deg, HIGH_RAW, limits.max_deg)
+        calibration = None if "calibration" in missing else line
+        return AxisSettings(axis, limits, 4.0, self.LAG_S, Window(0.02, 0.98), calibration, missing)
+
+    def raw(self, axis: Axis) -> float:
+        limits = self.range[axis]
+        share = (self.angle_deg[axis] - limits.min_deg) / (limits.max_deg - limits.min_deg)
+        return LOW_RAW + share * (HIGH_RAW - LOW_RAW)
+
+    def step(self, *orders: Order, by: Source = LINK, seconds: float = 0.05) -> dict[Axis, Direction]:
+        """Let time pass, the rotor turn, and the controller decide; returns which way each axis is driven now."""
+        self.now_s += seconds
+        for axis, way in self.driven.items():
+            self._turn(axis, way * self.SPEED_DPS[axis], seconds)
+        readings = {
+            axis: Reading(self.frozen_since_s.get(axis, self.now_s), self.instead.get(axis, self.raw(axis)))
+            for axis in Axis
+        }
+        self.runs = self.controller.step(self.now_s, readings, [(by, order) for order in orders])
+        self.driven = {axis: run.direction for axis, run in self.runs.items()}
+        return self.driven
+
+    def _turn(self, axis: Axis, wanted_dps: float, seconds: float) -> None:
+        fade = math.exp(-seconds / self.LAG_S)
+        gap_dps = self._speed_dps[axis] - wanted_dps
+        self.angle_deg[axis] += wanted_dps * seconds + gap_dps * self.LAG_S * (1.0 - fade)
+        self._speed_dps[axis] = wanted_dps + gap_dps * fade
+
+    def place(self, axis: Axis, angle_deg: float) -> None:
+        """Stand the axis there, at rest, for as long as anybody may remember that it moved."""
+        self.angle_deg[axis] = angle_deg
+        self._speed_dps[axis] = 0.0
+        self.step(seconds=5.0)
+        self.step()
+
+    def run(self, seconds: float) -> set[tuple[Axis, Direction]]:
+        """Steps at 20 Hz without orders; returns every drive seen."""
+        return {drive for _ in range(round(seconds / 0.05)) for drive in self.step().items() if drive[1]}
+
+    @property
+    def status(self) -> Status:
+        return self.controller.status(self.now_s, self.driven)
+
+    def at_rest(self) -> bool:
+        return all(way is Direction.OFF for way in self.driven.values())
+
+
+@pytest.fixture(scope="session")
+def new_desk() -> type[Desk]:
+    return Desk
+
+
+@pytest.fixture
+def desk() -> Desk:
+    """A G-5500 with 450° of azimuth, commissioned, standing at 100° and 10°."""
+    desk = Desk()
+    desk.step()
+    return desk

@@ -1,0 +1,137 @@
+"""An axis that nobody has commissioned: it says UNCALIBRATED, obeys jog alone, and two seconds a press."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+MINUS, OFF, PLUS = Direction
+RESTING = {AZ: OFF, EL: OFF}
+FRESH = dict.fromkeys(Axis, ("calibration", "limits", "direction check"))
+BARE_POTS = dict.fromkeys(Axis, ("calibration",))
+
+
+@pytest.fixture
+def fresh(new_desk: Any) -> Any:
+    """A box just screwed together."""
+    desk = new_desk(missing=FRESH)
+    desk.step()
+    return desk
+
+
+def test_it_says_what_is_missing(fresh: Any) -> None:
+    assert fresh.status.azimuth.uncalibrated == "calibration, limits, direction check"
+    assert fresh.status.azimuth.angle_deg is None
+    assert fresh.status.azimuth.raw == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize("missing", ["calibration", "limits", "direction check"])
+@pytest.mark.parametrize("order", [Aim(235, 60), Aim(235, None), Park(), LoadTimed(1.0, ((235, 60), (30, 0)))], ids=str)
+def test_any_one_thing_missing_keeps_it_from_being_aimed(new_desk: Any, order: Order, missing: str) -> None:
+    desk = new_desk(missing=dict.fromkeys(Axis, (missing,)))
+    desk.step()
+    assert desk.step(order, RunTimed()) == RESTING
+    assert desk.run(5.0) == set()
+
+
+@pytest.mark.parametrize("asked_s", [None, 2.0, 60.0])
+def test_a_press_turns_it_for_two_seconds(fresh: Any, asked_s: float | None) -> None:
+    assert fresh.step(Jog(AZ, PLUS, asked_s)) == {AZ: PLUS, EL: OFF}
+    assert fresh.run(1.9) == {(AZ, PLUS)}
+    assert fresh.runs[AZ].until_s == pytest.approx(1002.1)
+    fresh.run(0.1)
+    assert fresh.run(10.0) == set()
+
+
+def test_a_shorter_press_is_a_shorter_turn(fresh: Any) -> None:
+    fresh.step(Jog(EL, MINUS, 0.5))
+    assert fresh.run(0.45) == {(EL, MINUS)}
+    fresh.run(0.1)
+    assert fresh.at_rest()
+
+
+def test_a_second_press_is_a_second_turn_and_may_go_back(fresh: Any) -> None:
+    fresh.step(Jog(AZ, PLUS))
+    fresh.run(3.0)
+    assert fresh.at_rest()
+    assert fresh.step(Jog(AZ, MINUS)) == {AZ: MINUS, EL: OFF}
+
+
+def test_the_other_way_at_once_is_obeyed(fresh: Any) -> None:
+    fresh.step(Jog(AZ, PLUS))
+    fresh.run(0.5)
+    assert fresh.step(Jog(AZ, MINUS)) == {AZ: MINUS, EL: OFF}
+
+
+def test_a_pot_that_is_not_there_lets_not_even_a_jog_pass(fresh: Any) -> None:
+    fresh.instead[AZ] = 0.0
+    assert fresh.step(Jog(AZ, PLUS)) == RESTING
+
+
+def test_one_fresh_axis_keeps_the_other_from_nothing(new_desk: Any) -> None:
+    desk = new_desk(missing={EL: ("direction check",)})
+    desk.step()
+    assert desk.step(Aim(235, 60)) == {AZ: PLUS, EL: OFF}
+
+
+# --- calibrating at the two ends
+
+
+def calibrate(desk: Any, axis: Axis, angle_deg: float, *, high_end: bool) -> None:
+    desk.place(axis, angle_deg)
+    desk.step(Calibrate(axis, high_end=high_end))
+    desk.step()
+
+
+@pytest.mark.parametrize("high_first", [False, True])
+def test_two_ends_commission_an_axis_that_lacked_only_them(new_desk: Any, high_first: bool) -> None:
+    desk = new_desk(missing=BARE_POTS)
+    for high_end in (high_first, not high_first):
+        assert desk.status.azimuth.uncalibrated == "calibration"
+        calibrate(desk, AZ, 450.0 if high_end else 0.0, high_end=high_end)
+    assert desk.status.azimuth.uncalibrated == ""
+    assert desk.status.azimuth.calibration == (pytest.approx((0.05, 0.0)), pytest.approx((0.95, 450.0)))
+    desk.place(AZ, 100.0)
+    assert desk.status.azimuth.angle_deg == pytest.approx(100.0)
+    assert desk.step(Aim(235, None))[AZ] is PLUS
+
+
+def test_the_same_end_twice_is_still_one_end(new_desk: Any) -> None:
+    desk = new_desk(missing=BARE_POTS)
+    for angle_deg in (0.0, 300.0):
+        calibrate(desk, AZ, angle_deg, high_end=False)
+    assert desk.status.azimuth.uncalibrated == "calibration"
+
+
+def test_two_ends_at_one_place_are_refused_and_said(new_desk: Any) -> None:
+    desk = new_desk(missing=BARE_POTS)
+    calibrate(desk, AZ, 200.0, high_end=False)
+    calibrate(desk, AZ, 201.0, high_end=True)
+    assert desk.status.azimuth.uncalibrated == "calibration"
+    assert "too close" in desk.controller.troubles[0]
+
+
+def test_a_calibrated_axis_takes_one_end_anew(desk: Any) -> None:
+    calibrate(desk, AZ, 2.0, high_end=False)
+    assert desk.status.azimuth.angle_deg == pytest.approx(0.0)
+    assert desk.run(5.0) == set()
+
+
+def test_under_orders_it_keeps_its_calibration(desk: Any) -> None:
+    before = desk.status.azimuth.calibration
+    desk.step(Aim(235, 60))
+    desk.step(Calibrate(AZ, high_end=True))
+    assert desk.status.azimuth.calibration == before
+    assert desk.controller.troubles == ["azimuth is not calibrated while the antenna is under orders"]
+
+
+def test_with_a_broken_pot_it_keeps_its_calibration(desk: Any) -> None:
+    desk.instead[AZ] = 0.0
+    desk.step()
+    desk.step(Calibrate(AZ, high_end=False))
+    assert desk.controller.troubles == ["azimuth keeps its calibration: the sensor has no believable reading"]

@@ -1,0 +1,86 @@
+"""The box as a user starts it: a process of its own, with a configuration file, on a fast simulated rotor."""
+
+from __future__ import annotations
+
+import contextlib
+import select
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+START_S = 20.0
+
+FAST_ROTOR = """
+[sim.azimuth]
+speed_dps = 60
+lag_s = 0.02
+pot_noise_deg = 0.02
+backlash_deg = 0
+[sim.elevation]
+speed_dps = 60
+lag_s = 0.02
+pot_noise_deg = 0.02
+backlash_deg = 0
+[azimuth]
+coast_s = 0.04
+[elevation]
+coast_s = 0.04
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class RunningBox:
+    process: subprocess.Popen[str]
+    pty: Path
+    gs232_port: int
+    rotctld_port: int
+
+    def stop(self, signum: int = signal.SIGINT) -> int:
+        """Its exit code."""
+        self.process.send_signal(signum)
+        return self.process.wait(timeout=START_S)
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@pytest.fixture
+def start_box(tmp_path: Path) -> Iterator[Callable[..., RunningBox]]:
+    boxes: list[subprocess.Popen[str]] = []
+
+    def start(dialect: str = "gs232b", extra: str = FAST_ROTOR) -> RunningBox:
+        pty, gs232_port, rotctld_port = tmp_path / "gs232", free_port(), free_port()
+        config = tmp_path / "rotator.toml"
+        config.write_text(
+            f'{extra}\n[[link]]\nprotocol = "{dialect}"\npty = "{pty}"\n'
+            f'[[link]]\nname = "tcp"\nprotocol = "{dialect}"\ntcp = "127.0.0.1:{gs232_port}"\n'
+            f'[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{rotctld_port}"\n'
+        )
+        process = subprocess.Popen(
+            [sys.executable, "-m", "rotator", "run", "--plain", "--config", str(config)],
+            stdout=subprocess.PIPE,
+            text=True,
+        )
+        boxes.append(process)
+        assert process.stdout is not None
+        ready, _, _ = select.select([process.stdout], [], [], START_S)
+        assert ready, "the box says nothing"
+        assert "SIMULATED" in process.stdout.readline()
+        return RunningBox(process, pty, gs232_port, rotctld_port)
+
+    yield start
+    for process in boxes:
+        with contextlib.suppress(ProcessLookupError):
+            process.kill()
+        process.wait()
+        if process.stdout is not None:
+            process.stdout.close()

@@ -1,0 +1,135 @@
+"""A whole box on the bench, without a wire: the real controller behind real admission, and a clock set by hand.
+
+Knows how an order travels and what the two pots read. Knows no protocol.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.admission import refusal
+from rotator.control.axis import AxisSettings
+from rotator.control.calibration import Calibration
+from rotator.control.controller import Controller, Settings
+from rotator.control.motion import Motor
+from rotator.control.mount import Mount, Range
+from rotator.control.sensing import Reading, Window
+from rotator.orders import Aim, Jog, LoadTimed, Order, Park, Refusal, RunTimed, Source
+from rotator.protocols.session import Session
+from rotator.status import Status
+
+LINK = Source("link", 1)
+PERIOD_S = 0.05
+LOW_RAW, HIGH_RAW = 0.05, 0.95
+
+
+class BenchBox:
+    """`orders` is what was taken, `driven` what the motors do now, `turned` which axes ever ran."""
+
+    def __init__(
+        self,
+        azimuth: tuple[float, float] = (0.0, 450.0),
+        elevation: tuple[float, float] = (0.0, 180.0),
+        *,
+        missing: tuple[str, ...] = (),
+        at_once: bool = True,
+        blind: bool = False,
+    ) -> None:
+        self.now_s = 100.0
+        self.orders: list[Order] = []
+        self.driven = dict.fromkeys(Axis, Direction.OFF)
+        self.turned: set[Axis] = set()
+        self._at_once = at_once
+        self._blind = blind
+        self._waiting: list[tuple[Source, Order]] = []
+        self._ranges = {Axis.AZIMUTH: azimuth, Axis.ELEVATION: elevation}
+        self._mount = Mount(Range(*azimuth), Range(*elevation))
+        axes = {
+            axis: AxisSettings(
+                axis=axis,
+                limits=Range(low_deg, high_deg),
+                tolerance_deg=4.0,
+                motor=Motor(6.0, 1.0),
+                window=Window(0.02, 0.98),
+                calibration=Calibration(((LOW_RAW, low_deg), (HIGH_RAW, high_deg))),
+                missing=missing,
+            )
+            for axis, (low_deg, high_deg) in self._ranges.items()
+        }
+        self._controller = Controller(Settings(axes[Axis.AZIMUTH], axes[Axis.ELEVATION], self._mount, PERIOD_S))
+        self._status = self._controller.status(self.now_s, self.driven)
+        self.stands_at(azimuth[0], elevation[0])
+
+    def status(self) -> Status:
+        return self._status
+
+    def order(self, order: Order, source: Source = LINK) -> Refusal | None:
+        refused = refusal(order, self._status, self._mount)
+        if refused is None:
+            self.orders.append(order)
+            self._waiting.append((source, order))
+            if self._at_once:
+                self._cycle()
+        return refused
+
+    def stands_at(self, azimuth_deg: float, elevation_deg: float) -> None:
+        """Turn the antenna by hand, and wait until the box has seen that it stays there."""
+        self._raw = {Axis.AZIMUTH: self._pot(Axis.AZIMUTH, azimuth_deg)}
+        self._raw[Axis.ELEVATION] = self._pot(Axis.ELEVATION, elevation_deg)
+        self.wait(0.5)
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass, a cycle of the controller at a time; the antenna stays where it is put."""
+        for _ in range(round(seconds / PERIOD_S)):
+            self.now_s += PERIOD_S
+            self._cycle()
+
+    @property
+    def motions(self) -> list[Order]:
+        """The orders that turn, or may turn, a motor."""
+        return [order for order in self.orders if isinstance(order, Aim | Jog | LoadTimed | RunTimed | Park)]
+
+    def _pot(self, axis: Axis, angle_deg: float) -> float:
+        low_deg, high_deg = self._ranges[axis]
+        return LOW_RAW + (angle_deg - low_deg) / (high_deg - low_deg) * (HIGH_RAW - LOW_RAW)
+
+    def _cycle(self) -> None:
+        readings = {axis: Reading(self.now_s, None if self._blind else raw) for axis, raw in self._raw.items()}
+        orders, self._waiting = self._waiting, []
+        runs = self._controller.step(self.now_s, readings, orders)
+        self.driven = {axis: run.direction for axis, run in runs.items()}
+        self.turned |= {axis for axis, direction in self.driven.items() if direction}
+        self._status = self._controller.status(self.now_s, self.driven)
+
+
+@pytest.fixture(scope="session")
+def new_box() -> type[BenchBox]:
+    """For tests that want several, or a special one: `at_once=False`, orders wait for a cycle; `blind`, no pots."""
+    return BenchBox
+
+
+@pytest.fixture
+def box() -> BenchBox:
+    """A G-5500: azimuth 0 to 450, elevation 0 to 180, pointing at 235 and 25."""
+    box = BenchBox()
+    box.stands_at(235, 25)
+    return box
+
+
+def _whole(session: Session, data: bytes) -> list[bytes]:
+    return session.receive(data)
+
+
+def _byte_by_byte(session: Session, data: bytes) -> list[bytes]:
+    return [reply for at in range(len(data)) for reply in session.receive(data[at : at + 1])]
+
+
+def _in_threes(session: Session, data: bytes) -> list[bytes]:
+    return [reply for at in range(0, len(data), 3) for reply in session.receive(data[at : at + 3])]
+
+
+@pytest.fixture(params=[_whole, _byte_by_byte, _in_threes], ids=["whole", "byte by byte", "in threes"])
+def feed(request: pytest.FixtureRequest) -> object:
+    """A way for bytes to arrive. Which must make no difference."""
+    return request.param

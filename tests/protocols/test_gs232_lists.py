@@ -1,0 +1,148 @@
+"""Timed lists over GS-232: the long M and W, run by T, counted by N.
+
+The manual: the first number is the step in seconds, 001 to 999. The antenna goes to the first point at once and waits
+there for T. Any new M clears the list; M alone does only that and is answered `?>`. S ends a run.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, LoadTimed
+from rotator.protocols.gs232 import Dialect
+from rotator.protocols.gs232_session import Gs232Session
+
+if TYPE_CHECKING:
+    from tests.protocols.conftest import BenchBox
+
+WRONG = b"?>\r\n"
+
+
+@pytest.fixture
+def session(box: BenchBox) -> Gs232Session:
+    return Gs232Session(box, Dialect.B)
+
+
+def wanted(box: BenchBox) -> tuple[float | None, float | None]:
+    return box.status().wanted_azimuth_deg, box.status().wanted_elevation_deg
+
+
+def test_a_list_goes_to_its_first_point_and_waits(box: BenchBox, session: Gs232Session) -> None:
+    assert session.receive(b"W010 100 020 120 030 140 040\r") == []
+    assert box.motions == [LoadTimed(10, ((100, 20), (120, 30), (140, 40)))]
+    assert box.driven == {Axis.AZIMUTH: Direction.MINUS, Axis.ELEVATION: Direction.MINUS}
+    box.wait(60)
+    assert wanted(box) == (100, 20)
+    assert session.receive(b"N\r") == [b"+0001+0003\r\n"]
+
+
+def test_t_visits_the_points_an_interval_apart_and_stays_at_the_last(box: BenchBox, session: Gs232Session) -> None:
+    session.receive(b"W010 100 020 120 030 140 040\r")
+    session.receive(b"T\r")
+    visited = [wanted(box)]
+    for point in (2, 3, 3):
+        box.wait(10)
+        visited.append(wanted(box))
+        assert session.receive(b"N\r") == [b"+%04d+0003\r\n" % point]
+    assert visited == [(100, 20), (120, 30), (140, 40), (140, 40)]
+
+
+def test_intervals_are_exact_to_a_tenth_of_a_second_and_do_not_drift(box: BenchBox, session: Gs232Session) -> None:
+    session.receive(b"M003" + b"".join(b" %03d" % (10 * n) for n in range(41)) + b"\rT\r")
+    started_s, reached = box.now_s, {}
+    while box.status().timed_point < 41 and box.now_s < started_s + 130:
+        box.wait(0.05)
+        reached.setdefault(box.status().timed_point, box.now_s - started_s)
+    assert len(reached) == 41
+    assert all(at_s == pytest.approx((point - 1) * 3, abs=0.1) for point, at_s in reached.items())
+
+
+def test_an_azimuth_list_leaves_the_elevation_alone(box: BenchBox, session: Gs232Session) -> None:
+    session.receive(b"W235 060\r")
+    session.receive(b"M005 100 120\rT\r")
+    box.wait(5)
+    assert wanted(box) == (120, 60)
+    assert box.driven == {Axis.AZIMUTH: Direction.MINUS, Axis.ELEVATION: Direction.PLUS}
+
+
+@pytest.mark.parametrize("stop", [b"S\r", b"A\r", b"E\r"])
+def test_a_stop_ends_the_run_and_t_goes_on_from_there(box: BenchBox, session: Gs232Session, stop: bytes) -> None:
+    session.receive(b"W005 100 020 120 030 140 040\rT\r")
+    box.wait(6)
+    session.receive(stop)
+    box.wait(20)
+    assert session.receive(b"N\r") == [b"+0002+0003\r\n"]
+    session.receive(b"T\r")
+    box.wait(5)
+    assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
+    assert wanted(box) == (140, 40)
+
+
+@pytest.mark.parametrize("order", [b"W200 010\r", b"R\r"])
+def test_another_order_ends_the_run(box: BenchBox, session: Gs232Session, order: bytes) -> None:
+    session.receive(b"W005 100 020 120 030\rT\r" + order)
+    before = wanted(box)
+    box.wait(20)
+    assert wanted(box) == before
+
+
+@pytest.mark.parametrize(("m", "replies"), [(b"M\r", [WRONG]), (b"M200\r", [])])
+def test_any_new_m_forgets_the_list(box: BenchBox, session: Gs232Session, m: bytes, replies: list[bytes]) -> None:
+    session.receive(b"M005 100 120\rT\r")
+    assert session.receive(m) == replies
+    assert session.receive(b"T\rN\r") == [WRONG, WRONG]
+    before = wanted(box)
+    box.wait(20)
+    assert wanted(box) == before
+    assert box.status().timed_points == 0
+
+
+def test_a_single_w_keeps_the_list(session: Gs232Session) -> None:
+    session.receive(b"W005 100 020 120 030\rW200 010\r")
+    assert session.receive(b"N\rT\r") == [b"+0001+0002\r\n"]
+
+
+def test_a_new_list_takes_the_old_ones_place(box: BenchBox, session: Gs232Session) -> None:
+    session.receive(b"M005 100 120 140\rT\r")
+    box.wait(11)
+    assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
+    assert session.receive(b"W005 010 020 030 040\rN\r") == [b"+0001+0002\r\n"]
+
+
+def test_a_new_list_in_the_same_packet_as_n(new_box: type[BenchBox]) -> None:
+    """Orders reach the controller a moment after the link has read them; its status tells of the old list till then."""
+    box = new_box(at_once=False)
+    session = Gs232Session(box, Dialect.B)
+    session.receive(b"M005 100 120 140\r")
+    box.wait(1)
+    session.receive(b"T\r")
+    box.wait(11)
+    assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
+    assert session.receive(b"M005 010 020\rN\r") == [b"+0001+0002\r\n"]
+
+
+@pytest.mark.parametrize("line", [b"M000 010 020", b"W005 010 020 030", b"M005 451", b"W005 010 181", b"M005 01x 020"])
+def test_a_damaged_list_is_no_list_and_the_old_one_stays(box: BenchBox, session: Gs232Session, line: bytes) -> None:
+    session.receive(b"W005 100 020 120 030\r")
+    assert session.receive(line + b"\rN\r") == [WRONG, b"+0001+0002\r\n"]
+    assert len(box.motions) == 1
+
+
+@pytest.mark.parametrize(
+    ("line", "points"),
+    [(b"M001" + b" 123" * 3800, 3800), (b"W001" + b" 123 045" * 1900, 1900)],
+)
+def test_the_longest_lists_fit(session: Gs232Session, line: bytes, points: int) -> None:
+    assert session.receive(line + b"\rN\r") == [b"+0001+%04d\r\n" % points]
+    assert session.receive(line + b" 001 001\r") == [WRONG]
+
+
+def test_the_antenna_goes_to_the_first_point_as_to_any_other(new_box: type[BenchBox]) -> None:
+    listed, single = new_box(), new_box()
+    Gs232Session(listed, Dialect.A).receive(b"W005 400 020 120 030\r")
+    Gs232Session(single, Dialect.A).receive(b"W400 020\r")
+    assert single.orders == [Aim(400, 20)]
+    assert listed.status().azimuth.target_deg == single.status().azimuth.target_deg == 400

@@ -1,0 +1,78 @@
+"""A stream of bytes cut into lines: whatever ends them, however it arrives, in bounded memory."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rotator.protocols.lines import LineReader
+
+LIMIT = 8
+
+
+@pytest.mark.parametrize(
+    ("stream", "lines"),
+    [
+        (b"C2\r", [b"C2"]),  # Hamlib
+        (b"C2\n", [b"C2"]),  # Termite, set so
+        (b"C2\r\n", [b"C2", b""]),  # SDRangel; what ends a line twice makes an empty one
+        (b"S\r\r", [b"S", b""]),  # Hamlib's GS-232B ends each command twice
+        (b"\n\r", [b"", b""]),
+        (b"A\rE\nS\r", [b"A", b"E", b"S"]),
+        (b"\0\xff\x1b\r", [b"\0\xff\x1b"]),
+        (b"C2", []),
+        (b"", []),
+    ],
+)
+def test_cr_and_lf_both_end_a_line(stream: bytes, lines: list[bytes]) -> None:
+    assert LineReader(LIMIT).feed(stream) == lines
+
+
+def test_a_line_may_come_in_pieces() -> None:
+    reader = LineReader(LIMIT)
+    assert reader.feed(b"W23") == []
+    assert reader.feed(b"5 02") == []
+    assert reader.pending == b"W235 02"
+    assert reader.feed(b"5\rC") == [b"W235 025"]
+    assert reader.pending == b"C"
+
+
+def test_the_longest_line_is_still_a_line() -> None:
+    assert LineReader(LIMIT).feed(b"12345678\r") == [b"12345678"]
+
+
+@pytest.mark.parametrize("pieces", [[b"123456789\r"], [b"1234", b"56789", b"\r"], [b"12345678", b"9", b"0", b"\r"]])
+def test_a_longer_one_comes_once_as_none_and_the_next_is_good(pieces: list[bytes]) -> None:
+    reader = LineReader(LIMIT)
+    assert [line for piece in pieces for line in reader.feed(piece)] == [None]
+    assert reader.feed(b"C2\r") == [b"C2"]
+
+
+def test_of_a_line_that_never_ends_nothing_is_kept() -> None:
+    reader = LineReader(LIMIT)
+    for piece in (b"Z" * 9, b"Z", b"p", b"Z" * 100) * 100:
+        assert reader.feed(piece) == []
+        assert reader.pending == b""
+
+
+def test_flush_ends_the_line_where_it_is() -> None:
+    reader = LineReader(LIMIT)
+    reader.feed(b"p")
+    assert reader.flush() == b"p"
+    assert reader.pending == b""
+    reader.feed(b"Z" * 9)
+    assert reader.flush() is None
+    assert reader.feed(b"p\n") == [b"p"]
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.lists(st.lists(st.sampled_from([b"\r", b"\n", b"W", b"2", b" "]), max_size=30).map(b"".join)))
+def test_pieces_make_no_difference_and_memory_is_bounded(pieces: list[bytes]) -> None:
+    reader = LineReader(LIMIT)
+    lines = []
+    for piece in pieces:
+        lines += reader.feed(piece)
+        assert len(reader.pending) <= LIMIT
+    spoken = b"".join(pieces).replace(b"\n", b"\r").split(b"\r")[:-1]
+    assert lines == [line if len(line) <= LIMIT else None for line in spoken]

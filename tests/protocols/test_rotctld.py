@@ -1,0 +1,250 @@
+"""Hamlib's rotctld, as far as `P p S K _ q` and `\\dump_state`: the table, the answers and what real clients send.
+
+Transcripts are of the genuine server 4.5.4, of Hamlib's own network client and of Gpredict 2.3. Where the genuine one
+says nothing at all, this one answers: Gpredict's window freezes on silence.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+
+from rotator import __version__
+from rotator.orders import Aim, Order, Park, Stop
+from rotator.protocols.rotctld import BadRequest, Request, RotctldSession, encode, requests
+from rotator.protocols.session import Session
+
+if TYPE_CHECKING:
+    from tests.protocols.conftest import BenchBox
+
+Feed = Callable[[Session, bytes], list[bytes]]
+OK, INVALID, NOT_IMPLEMENTED, IO_ERROR = b"RPRT 0\n", b"RPRT -1\n", b"RPRT -4\n", b"RPRT -6\n"
+HERE = b"235.00\n25.00\n"
+INFO = b"gs232-rotator %s\n" % __version__.encode()
+HYBRID = (
+    b"1\n603\n0.000000\n450.000000\n0.000000\n180.000000\n0\n"  # Hamlib up to 4.5.0 reads four bare numbers
+    b"min_az=0.000000\nmax_az=450.000000\nmin_el=0.000000\nmax_el=180.000000\nsouth_zero=0\nrot_type=AzEl\ndone\n"
+)
+
+CANONICAL = [
+    (b"P 235.000000 25.000000\n", Request("set_pos", ("235.000000", "25.000000"))),  # Hamlib's model 2
+    (b"P 180.00 45.00\n", Request("set_pos", ("180.00", "45.00"))),  # Gpredict
+    (b"P 174,46 0,00\n", Request("set_pos", ("174,46", "0,00"))),  # Gpredict on a European desktop
+    (b"p\n", Request("get_pos")),
+    (b"S\n", Request("stop")),
+    (b"K\n", Request("park")),
+    (b"_\n", Request("get_info")),
+    (b"q\n", Request("quit")),
+    (b"\\dump_state\n", Request("dump_state")),
+]
+ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
+    (b"p", [HERE], []),
+    (b"\\get_pos", [HERE], []),
+    (b"  p\t", [HERE], []),
+    (b"pp", [HERE, HERE], []),
+    (b"P 12 5", [OK], [Aim(12, 5)]),
+    (b"\\set_pos 12 5", [OK], [Aim(12, 5)]),
+    (b"P20 10", [OK], [Aim(20, 10)]),
+    (b"P\t20 \t10 ", [OK], [Aim(20, 10)]),
+    (b"P 12,5 3,25", [OK], [Aim(12.5, 3.25)]),
+    (b"P +10 1e1", [OK], [Aim(10, 10)]),
+    (b"P .5 5.", [OK], [Aim(0.5, 5)]),
+    (b"P 1 2 P 3 4", [OK, OK], [Aim(1, 2), Aim(3, 4)]),
+    (b"p S p", [HERE, OK, HERE], [Stop()]),
+    (b"P -90 20", [OK], [Aim(270, 20)]),
+    (b"P -180 20", [OK], [Aim(180, 20)]),
+    (b"P 400 20", [OK], [Aim(400, 20)]),
+    (b"P 191.72 180.00", [OK], [Aim(191.72, 180)]),  # Gpredict, waiting for a flipped pass
+    (b"P 10 -5", [OK], [Aim(10, -5)]),
+    (b"S", [OK], [Stop()]),
+    (b"\\stop", [OK], [Stop()]),
+    (b"K", [OK], [Park()]),
+    (b"_", [INFO], []),
+    (b"\\get_info", [INFO], []),
+    (b"\\dump_state", [HYBRID], []),
+    (b"\x8f", [HYBRID], []),
+    (b"", [], []),
+    (b" \t ", [], []),
+    (b"# P 10 20", [], []),
+    (b"p # P 10 20", [HERE], []),
+    (b"P abc def", [INVALID], []),
+    (b"P 10abc 5", [INVALID], []),
+    (b"P nan nan", [INVALID], []),
+    (b"P inf 10", [INVALID], []),
+    (b"P 10 infinity", [INVALID], []),
+    (b"P 1_0 20", [INVALID], []),
+    (b"P 0x10 20", [INVALID], []),
+    (b"P 1e9 20", [INVALID], []),
+    (b"P 1000 1000", [INVALID], []),
+    (b"P 10 200", [INVALID], []),
+    (b"P 12.5", [INVALID], []),
+    (b"P", [INVALID], []),
+    (b"z", [NOT_IMPLEMENTED], []),
+    (b"foo", [NOT_IMPLEMENTED], []),
+    (b"\\foo", [NOT_IMPLEMENTED], []),
+    (b"\\", [NOT_IMPLEMENTED], []),
+    (b"\\chk_vfo", [NOT_IMPLEMENTED], []),
+    (b"?", [NOT_IMPLEMENTED], []),
+    (b"W235 025", [NOT_IMPLEMENTED], []),
+    (b"Z" * 86, [NOT_IMPLEMENTED], []),
+    (b"P\xa0235\xa025", [INVALID], []),  # a no-break space separates nothing, here as in C
+    (b"P 235\x1c25", [INVALID], []),
+    (b"P 235\x8525", [INVALID], []),
+    (b"x" * 600, [INVALID], []),
+]
+
+
+@pytest.fixture
+def session(box: BenchBox) -> RotctldSession:
+    return RotctldSession(box)
+
+
+@pytest.mark.parametrize(("line", "request_"), CANONICAL)
+def test_reads_what_it_writes_and_writes_what_it_reads(line: bytes, request_: Request) -> None:
+    assert list(requests(line.decode().removesuffix("\n"))) == [request_]
+    assert encode(request_) == line
+
+
+def test_what_makes_no_sense_ends_the_line() -> None:
+    reader = requests("p z S")
+    assert next(reader) == Request("get_pos")
+    with pytest.raises(BadRequest):
+        next(reader)
+
+
+@pytest.mark.parametrize("end", [b"\n", b"\r\n"])
+@pytest.mark.parametrize(("line", "replies", "orders"), ROWS)
+def test_each_request(
+    new_box: type[BenchBox], line: bytes, replies: list[bytes], orders: list[Order], end: bytes
+) -> None:
+    for pieces in ([line, end], [line + end], [bytes([byte]) for byte in line + end]):
+        box = new_box()
+        box.stands_at(235, 25)
+        session = RotctldSession(box)
+        assert [reply for piece in pieces for reply in session.receive(piece)] == replies
+        assert box.orders == orders
+
+
+def test_all_requests_in_one_packet(box: BenchBox, session: RotctldSession, feed: Feed) -> None:
+    sent = b"".join(line + b"\n" for line, _, _ in ROWS)
+    assert feed(session, sent) == [reply for _, replies, _ in ROWS for reply in replies]
+    assert box.orders == [order for _, _, orders in ROWS for order in orders]
+
+
+@pytest.mark.parametrize("word", [b"KEEPALIVE", b"Kx", b"KP"])
+def test_a_word_that_only_begins_like_a_request_moves_nothing(
+    box: BenchBox, session: RotctldSession, word: bytes
+) -> None:
+    """The genuine server goes through it letter by letter, and parks at the first. A stop may count even so."""
+    assert session.receive(word + b"\n") in ([NOT_IMPLEMENTED], [INVALID])
+    assert box.motions == []
+    assert session.receive(b"STOP\n")[-1] == NOT_IMPLEMENTED
+    assert box.motions == []
+
+
+GPREDICT = [
+    (b"p\n", [HERE]),
+    (b"P 180.00 45.00\n", [OK]),
+    (b"p\n", [HERE]),
+    (b"P 191.72 180.00\n", [OK]),
+    (b"S\n", [OK]),
+    (b"q\n", []),
+]
+NET_ROTCTL = [
+    (b"\\dump_state\n", [HYBRID]),
+    (b"P 235.000000 25.000000\n", [OK]),
+    (b"p\n", [HERE]),
+    (b"_\n", [INFO]),
+    (b"K\n", [OK]),
+    (b"S\n", [OK]),
+    (b"q\n", []),
+]
+
+
+@pytest.mark.parametrize("wire", [GPREDICT, NET_ROTCTL], ids=["Gpredict 2.3", "rotctl -m 2"])
+def test_transcripts(session: RotctldSession, feed: Feed, wire: list[tuple[bytes, list[bytes]]]) -> None:
+    for sent, replies in wire:
+        assert not session.closed
+        assert feed(session, sent) == replies
+    assert session.closed
+
+
+@pytest.mark.parametrize("after", [b"p\n", b"P 10 20\n", b"foo\n", b"P x y\n", b"z" * 600 + b"\n"])
+def test_after_q_nothing_is_heard_and_nothing_said(box: BenchBox, session: RotctldSession, after: bytes) -> None:
+    assert session.receive(b"q\n" + after) == []
+    assert session.closed
+    assert session.receive(after) == []
+    assert box.orders == []
+
+
+@pytest.mark.parametrize(
+    ("sent", "replies"),
+    [(b"p", [HERE]), (b"P 180.00 45.00", [OK]), (b"S", [OK]), (b"\\get_pos", [HERE]), (b"P 174,46 0,00", [OK])],
+)
+def test_a_whole_request_and_then_silence_is_taken_as_sent(
+    session: RotctldSession, sent: bytes, replies: list[bytes]
+) -> None:
+    """Gpredict's Windows builds up to 2018 strip the newline."""
+    assert session.idle_s is not None
+    assert 0.05 <= session.idle_s <= 0.1
+    assert session.receive(sent) == []
+    assert session.idle() == replies
+    assert session.idle() == []
+    assert session.receive(b"\n") == []
+
+
+@pytest.mark.parametrize(
+    "begun", [b"P", b"P 180.00", b"P 180.00 ", b"P 180.00 -", b"\\set_p", b"P 10 4e", b"foo", b" "]
+)
+def test_silence_does_not_end_what_is_only_begun(box: BenchBox, session: RotctldSession, begun: bytes) -> None:
+    session.receive(begun)
+    assert session.idle() == []
+    assert box.orders == []
+
+
+def test_silence_does_not_make_a_request_of_a_long_lines_tail(session: RotctldSession) -> None:
+    session.receive(b"x" * 600)
+    session.receive(b"p")
+    assert session.idle() == []
+
+
+def test_what_silence_left_alone_can_still_be_completed(box: BenchBox, session: RotctldSession) -> None:
+    session.receive(b"P 180.00")
+    session.idle()
+    assert session.receive(b" 45.00\n") == [OK]
+    assert box.orders == [Aim(180, 45)]
+
+
+def test_positions_have_two_decimals(new_box: type[BenchBox]) -> None:
+    box = new_box()
+    box.stands_at(123.456, 7.004)
+    assert RotctldSession(box).receive(b"p\n") == [b"123.46\n7.00\n"]
+
+
+@pytest.mark.parametrize(
+    ("azimuth", "elevation", "limits"),
+    [
+        ((0, 450), (0, 180), (0, 450, 0, 180)),
+        ((0, 360), (0, 90), (0, 360, 0, 180)),  # a direction past the zenith is turned into one before it
+        ((-180, 180), (0, 180), (-180, 360, 0, 180)),
+        ((180, 540), (-10, 90), (0, 540, 0, 180)),  # below zero only if need be: CQRLOG would shift its scale
+    ],
+)
+def test_dump_state_tells_what_the_box_accepts(
+    new_box: type[BenchBox], azimuth: tuple[float, float], elevation: tuple[float, float], limits: tuple[float, ...]
+) -> None:
+    (state,) = RotctldSession(new_box(azimuth, elevation)).receive(b"\\dump_state\n")
+    rows = state.decode().split("\n")
+    assert rows[:2] == ["1", "603"]
+    assert tuple(map(float, rows[2:6])) == limits
+    assert tuple(float(row.partition("=")[2]) for row in rows[7:11]) == limits
+    assert all(len(row) <= 62 for row in rows)
+
+
+def test_refusals_and_a_blind_sensor_have_numbers(new_box: type[BenchBox]) -> None:
+    session = RotctldSession(new_box(missing=("calibration",)))
+    assert session.receive(b"P 10 20\nK\nS\n") == [INVALID, INVALID, OK]
+    blind = RotctldSession(new_box(blind=True))
+    assert blind.receive(b"p\n") == [IO_ERROR]
