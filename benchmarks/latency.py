@@ -26,6 +26,18 @@ from rotator.config.load import parse
 ROUNDS = 200
 LOAD_S = 20.0
 
+CONFIG = """
+[[link]]
+protocol = "gs232b"
+pty = "{pty}"
+[lcd]
+kind = "pcf8574"
+[relays]
+dead_time_s = 0.05
+[sim.azimuth]
+start_deg = 225
+"""
+
 CLIENT = """
 import os, select, sys, time, random
 fd = os.open(sys.argv[1], os.O_RDWR | os.O_NOCTTY)
@@ -42,7 +54,7 @@ chance = random.Random(1)
 for count in range(int(sys.argv[2])):
     if sys.argv[3] == "stop":
         ask(b"R\\r" if count % 2 else b"L\\r", False)
-        time.sleep(0.65 + chance.random() * 0.1)
+        time.sleep(0.4 + chance.random() * 0.1)
         print("S", ask(b"S\\r", False)[0])
         time.sleep(0.02)
     print("C2", ask(b"C2\\r", True)[1], flush=True)
@@ -85,7 +97,7 @@ async def _box() -> tuple[list[float], list[float]]:
     """Milliseconds from S to the line's edge, and from C2 to its answer."""
     with tempfile.TemporaryDirectory() as folder:
         pty = Path(folder) / "gs232"
-        app = App(parse(f'[[link]]\nprotocol = "gs232b"\npty = "{pty}"\n[sim.azimuth]\nstart_deg = 225', "benchmark"))
+        app = App(parse(CONFIG.format(pty=pty), "benchmark"))
         assert app.station.world is not None
         gpio = app.station.world.gpio
         stop = asyncio.Event()
@@ -106,7 +118,7 @@ async def _box() -> tuple[list[float], list[float]]:
     sent = [float(line.split()[1]) for line in lines if line.startswith("S ")]
     answers = [1000 * float(line.split()[1]) for line in lines if line.startswith("C2 ")]
     if len(offs) < len(sent):
-        raise SystemExit(f"{len(sent)} stops but {len(offs)} relay edges")
+        raise SystemExit(f"{len(sent)} stops but {len(offs)} relay edges; {app.loop.status.faults}")
     stops = [1000 * (min(off for off in offs if off >= moment) - moment) for moment in sent]
     return stops, answers
 

@@ -41,6 +41,14 @@ class SimMotor:
         """Fault: the motor hums and nothing turns."""
         self.welded = 0
         """Fault: the contact of this direction (-1, 1) stays closed whatever the coil does."""
+        self.reversed = False
+        """Fault: its two wires are swapped."""
+        self.pace = 1.0
+        """Fault: the share of its speed that it reaches; cold grease, a weak supply."""
+        self.pushed = 0.0
+        """Fault: something else turns it while it is not fed, at this share of its speed: a hand, a gale."""
+        self.stop_low_deg, self.stop_high_deg = spec.stop_low_deg, spec.stop_high_deg
+        """Where it can turn no further; a fault may move them."""
         self.shorted_s = 0.0
         """How long both directions were fed at once: what burns a motor. Must stay 0."""
         self._now_s = now_s
@@ -61,16 +69,12 @@ class SimMotor:
             self._contacts = contacts
         self._run(now_s)
 
-    def turn_by_hand(self, delta_deg: float) -> None:
-        """Fault: something other than this motor turns the antenna."""
-        self._move_to(self.shaft_deg + delta_deg)
-
     def _fed(self) -> int:
         plus, minus = self._contacts
         plus, minus = plus or self.welded > 0, minus or self.welded < 0
         if not self.supply:
             return 0
-        return int(plus) - int(minus)
+        return (int(plus) - int(minus)) * (-1 if self.reversed else 1)
 
     def _run(self, until_s: float) -> None:
         left_s = until_s - self._now_s
@@ -80,7 +84,8 @@ class SimMotor:
         if self.supply and (self._contacts[0] or self.welded > 0) and (self._contacts[1] or self.welded < 0):
             self.shorted_s += left_s
         self.drive = self._fed()
-        wanted_dps = 0.0 if self.stalled else self.drive * self.spec.speed_dps
+        share = self.drive * self.pace if self.drive else self.pushed
+        wanted_dps = 0.0 if self.stalled else share * self.spec.speed_dps
         if self.stalled:
             self.speed_dps = 0.0
         # A reversal is two runs, so that the play is taken up where the shaft really turned.
@@ -112,7 +117,7 @@ class SimMotor:
         self._move_to(self.shaft_deg + wanted_dps * seconds + gap_dps * lag_s * (1.0 - fade))
 
     def _move_to(self, shaft_deg: float) -> None:
-        self.shaft_deg = min(max(shaft_deg, self.spec.stop_low_deg), self.spec.stop_high_deg)
+        self.shaft_deg = min(max(shaft_deg, self.stop_low_deg), self.stop_high_deg)
         if self.shaft_deg != shaft_deg:
             self.speed_dps = 0.0
         half_deg = self.spec.backlash_deg / 2

@@ -43,6 +43,8 @@ class SimPot:
     fault: PotFault = PotFault.NONE
     jump_deg: float = 0.0
     """Fault: added to the next look only, as a spark on the wire does."""
+    loose_deg: float = 0.0
+    """Fault: every look is off by anything up to this, either way, as with a wire that hangs loose."""
     chance: random.Random = field(default_factory=lambda: random.Random(1))
     _stuck_ratio: float = 0.0
 
@@ -73,6 +75,8 @@ class SimPot:
         travel = (shaft_deg - spec.low_deg) / span_deg
         seen_deg = shaft_deg + spec.bow_deg * 4 * travel * (1 - travel) + self.jump_deg
         self.jump_deg = 0.0
+        if self.loose_deg:
+            seen_deg += self.chance.uniform(-self.loose_deg, self.loose_deg)
         if spec.noise_deg:
             seen_deg += self.chance.gauss(0.0, spec.noise_deg)
         share = (seen_deg - spec.low_deg) / span_deg

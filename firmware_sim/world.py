@@ -18,7 +18,8 @@ from firmware_sim.motor import MotorSpec, SimMotor
 from firmware_sim.pcf8574 import Backpack
 from firmware_sim.pot import PotFault, PotSpec, SimPot
 
-POT_SUPPLY_V = 3.3
+EARLY_DEG = 3.0
+"""How far inside the range a misplaced end stop stands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +51,7 @@ class WorldSpec:
     master_pin: int | None = None
     adc_address: int = 0x48
     reference_channel: int | None = None
+    pot_supply_v: float = 3.3
     lcd: LcdSpec | None = None
 
 
@@ -64,10 +66,10 @@ class SimFault:
 class SimAxis:
     """A motor with its pot. Looked at only through the world, under its lock."""
 
-    def __init__(self, spec: AxisSpec, now_s: float) -> None:
+    def __init__(self, spec: AxisSpec, supply_v: float, now_s: float) -> None:
         self.spec = spec
         self.motor = SimMotor(spec.motor, spec.start_deg, now_s)
-        self.pot = SimPot(spec.pot, POT_SUPPLY_V)
+        self.pot = SimPot(spec.pot, supply_v)
         self.coils = (False, False)
 
 
@@ -82,15 +84,15 @@ class World:
         self._lock = threading.RLock()
         self.gpio = SimGpio(clock)
         self.bus = SimI2CBus(sleep)
-        self.azimuth = SimAxis(spec.azimuth, clock())
-        self.elevation = SimAxis(spec.elevation, clock())
+        self.azimuth = SimAxis(spec.azimuth, spec.pot_supply_v, clock())
+        self.elevation = SimAxis(spec.elevation, spec.pot_supply_v, clock())
         self.relay_starts = 0
         """How often a motor relay has closed."""
-        adc = Ads1115(clock)
+        adc = Ads1115(clock, vdd_v=max(3.3, spec.pot_supply_v))
         for axis in (self.azimuth, self.elevation):
             adc.inputs[axis.spec.adc_channel] = lambda axis=axis: self._wiper_v(axis)  # type: ignore[misc]
         if spec.reference_channel is not None:
-            adc.inputs[spec.reference_channel] = lambda: POT_SUPPLY_V
+            adc.inputs[spec.reference_channel] = lambda: spec.pot_supply_v
         self.bus.attach(spec.adc_address, adc)
         self.lcd = self._wire_lcd(spec.lcd) if spec.lcd else None
         self.gpio.on_edges.append(self._relays_changed)
@@ -181,7 +183,15 @@ class World:
                 f"{name}-pot-reversed": self._pot_fault(axis, PotFault.REVERSED),
                 f"{name}-pot-stuck": self._pot_fault(axis, PotFault.STUCK),
                 f"{name}-pot-jumps": SimFault(lambda axis=axis: self._jump(axis), lambda: None),  # type: ignore[misc]
+                f"{name}-pot-loose": self._fault_of(axis.pot, "loose_deg", 90.0, 0.0),
                 f"{name}-motor-stalled": self._motor_fault(axis, "stalled", True, False),
+                f"{name}-motor-reversed": self._motor_fault(axis, "reversed", True, False),
+                f"{name}-motor-slow": self._motor_fault(axis, "pace", 0.4, 1.0),
+                f"{name}-hand-turns": self._motor_fault(axis, "pushed", 1.0, 0.0),
+                f"{name}-wind-turns": self._motor_fault(axis, "pushed", 0.3, 0.0),
+                f"{name}-stop-early": self._motor_fault(
+                    axis, "stop_high_deg", axis.spec.pot.high_deg - EARLY_DEG, axis.spec.motor.stop_high_deg
+                ),
                 f"{name}-relay-welded-{plus}": self._motor_fault(axis, "welded", 1, 0),
                 f"{name}-relay-welded-{minus}": self._motor_fault(axis, "welded", -1, 0),
             }
@@ -204,10 +214,13 @@ class World:
         return SimFault(inject, clear)
 
     def _motor_fault(self, axis: SimAxis, field: str, bad: object, good: object) -> SimFault:
+        return self._fault_of(axis.motor, field, bad, good)
+
+    def _fault_of(self, part: object, field: str, bad: object, good: object) -> SimFault:
         def become(value: object) -> None:
             with self._lock:
                 self._advance()
-                setattr(axis.motor, field, value)
+                setattr(part, field, value)
 
         return SimFault(lambda: become(bad), lambda: become(good))
 

@@ -26,6 +26,8 @@ _STEPS = 32768
 _OSCILLATOR_TOLERANCE = 1.1
 _WAKE_UP_S = 100e-6
 _POLLS = 20
+_SLOWEST_POLLS = 500
+"""Enough for eight conversions a second, with the time that each look takes on the bus."""
 
 
 class Ads1115:
@@ -45,19 +47,37 @@ class Ads1115:
         self._sleep = sleep
         self._full_scale_v = full_scale_v
         self._conversion_s = _OSCILLATOR_TOLERANCE / rate_sps + _WAKE_UP_S
+        self._quiet = False
+        """The last conversion was ours and has ended."""
         self._settings = FULL_SCALE_V[full_scale_v] << 9 | SINGLE_SHOT | RATE_SPS[rate_sps] << 5 | COMPARATOR_OFF
 
     def volts(self, channel: int) -> float:
         """Volts on one input against ground. Raises HardwareError when the chip does not answer or never finishes."""
+        if not self._quiet:
+            self._quieten()
+        self._quiet = False
         config = START | (MUX_AGAINST_GROUND | channel) << 12 | self._settings
-        self._bus.write(self._address, struct.pack(">BH", CONFIG, config))
+        self._write(config)
         self._sleep(self._conversion_s)
-        for _ in range(_POLLS):
+        self._await_end(_POLLS)
+        raw: int = struct.unpack(">h", self._read(CONVERSION))[0]
+        self._quiet = True
+        return raw * self._full_scale_v / _STEPS
+
+    def _quieten(self) -> None:
+        """Let a conversion that somebody else began come to its end: a start given meanwhile would be lost."""
+        self._write(self._settings)
+        self._await_end(_SLOWEST_POLLS)
+
+    def _await_end(self, polls: int) -> None:
+        for _ in range(polls):
             if self._word(CONFIG) & READY:
-                raw: int = struct.unpack(">h", self._read(CONVERSION))[0]
-                return raw * self._full_scale_v / _STEPS
+                return
             self._sleep(_WAKE_UP_S)
         raise HardwareError(f"ADS1115 at 0x{self._address:02x}: a conversion does not end")
+
+    def _write(self, config: int) -> None:
+        self._bus.write(self._address, struct.pack(">BH", CONFIG, config))
 
     def _word(self, register: int) -> int:
         word: int = struct.unpack(">H", self._read(register))[0]

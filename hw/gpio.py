@@ -14,7 +14,7 @@ from typing import Any
 
 from hw.ports import HardwareError
 
-PI_HEADER_LABEL = r"pinctrl-(bcm2835|bcm2711|bcm2712|rp1)"
+PI_HEADER_LABEL = r"pinctrl-(bcm2835|bcm2711|rp1)"
 """The chip with the 40-pin header, by label: its number changed twice on the Pi 5 alone."""
 
 
@@ -65,6 +65,8 @@ class GpioOutputs:
         )
         try:
             self._request = api.request_lines(path, consumer=consumer, config={tuple(offsets.values()): setting})
+        except PermissionError as fault:
+            raise HardwareError(f"GPIO: no permission for {path}: add the user to the group gpio") from fault
         except OSError as fault:
             pins = ", ".join(f"{name} on GPIO{offset}" for name, offset in offsets.items())
             why = "a line is taken by another program" if fault.errno == errno.EBUSY else fault.strerror or str(fault)

@@ -16,6 +16,8 @@ from hw.relays import RelayBank
 log = logging.getLogger(__name__)
 
 RETRY_S = 0.05
+PATIENCE_S = 1.0
+"""It looks again after so long even if nothing called it."""
 
 
 class Guard:
@@ -29,22 +31,17 @@ class Guard:
         self._thread.start()
 
     def stop(self) -> None:
-        """Everything off, then the thread ends."""
+        """Everything off, then the thread ends. Raises HardwareError if a line cannot be switched."""
         self._stopping.set()
-        self._bank.off()
-        if self._thread.is_alive():
-            self._thread.join(timeout=1.0)
+        try:
+            self._bank.off()
+        finally:
+            if self._thread.is_alive():
+                self._thread.join(timeout=2 * PATIENCE_S)
 
     def _watch(self) -> None:
         while not self._stopping.is_set():
-            due_s = self._bank.due_s()
-            if due_s is None:
-                self._bank.wait(RETRY_S)
-                continue
-            left_s = due_s - self._clock()
-            if left_s > 0:
-                self._bank.wait(left_s)
-                continue
+            self._bank.wait_until_due(PATIENCE_S)
             try:
                 self._bank.enforce(self._clock())
             except HardwareError:

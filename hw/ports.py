@@ -55,6 +55,15 @@ class SwitchedDrive(Protocol):
     def off(self) -> None:
         """Everything off, now, from any thread."""
 
+    def cut(self) -> bool:
+        """Everything off and the motors' supply with it, until `restore`. False: nothing here can switch the supply.
+
+        Raises HardwareError when the lines cannot be set.
+        """
+
+    def restore(self) -> None:
+        """The supply may come back, with the next motor that is to run."""
+
 
 class CharacterDisplay(Protocol):
     """A display of a few rows of characters."""

@@ -45,5 +45,5 @@ class PotSensor:
         self._supply = supply
 
     def read(self) -> float:
-        supply_v = self._supply if isinstance(self._supply, float) else self._supply.volts()
+        supply_v = self._supply.volts() if isinstance(self._supply, Reference) else self._supply
         return self._adc.volts(self._channel) / supply_v

@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hw.ports import Axis, Direction, OutputLines
+from hw.ports import Axis, Direction, HardwareError, OutputLines
 
 LONGEST_LEASE_S = 0.5
 """No command lives longer, whatever its sender asks: a dead sender costs half a second of motor at most."""
@@ -50,6 +50,7 @@ class RelayBank:
         self._master_wired = master
         self._master_until_s: float | None = None
         self._motors = {axis: _Motor() for axis in Axis}
+        self._cut = False
         self._lock = threading.Condition()
         self._due_s: float | None = None
 
@@ -57,7 +58,7 @@ class RelayBank:
         with self._lock:
             now_s = self._clock()
             motor = self._motors[axis]
-            if direction is Direction.OFF or until_s <= now_s:
+            if direction is Direction.OFF or until_s <= now_s or self._cut:
                 self._open(axis, now_s)
             else:
                 if motor.on not in (Direction.OFF, direction):
@@ -67,6 +68,18 @@ class RelayBank:
                 motor.until_s = min(until_s, now_s + LONGEST_LEASE_S)
             self._plan()
             return motor.on
+
+    def cut(self) -> bool:
+        with self._lock:
+            if not self._master_wired:
+                return False
+            self._cut = True
+            self.off()
+            return True
+
+    def restore(self) -> None:
+        with self._lock:
+            self._cut = False
 
     def off(self) -> None:
         with self._lock:
@@ -86,20 +99,38 @@ class RelayBank:
             return self._due_s
 
     def enforce(self, now_s: float) -> None:
-        """Open every relay whose command has expired. The guard's only task."""
+        """Open every relay whose command has expired. The guard's only task.
+
+        A line that cannot be switched keeps no other on; it takes the master with it. Raises the first HardwareError.
+        """
+        failures: list[HardwareError] = []
         with self._lock:
             for axis, motor in self._motors.items():
                 if motor.on is not Direction.OFF and motor.until_s <= now_s:
-                    self._open(axis, now_s)
-            if self._master_until_s is not None and self._master_until_s <= now_s and self._idle():
-                self._lines.set({MASTER: False})
-                self._master_until_s = None
+                    try:
+                        self._open(axis, now_s)
+                    except HardwareError as failure:
+                        failures.append(failure)
+            lingered = self._master_until_s is not None and self._master_until_s <= now_s and self._idle()
+            if self._master_wired and (failures or lingered):
+                try:
+                    self._lines.set({MASTER: False})
+                    self._master_until_s = None
+                except HardwareError as failure:
+                    failures.append(failure)
             self._plan()
+        if failures:
+            raise failures[0]
 
-    def wait(self, timeout_s: float | None) -> None:
-        """Sleep until `due_s` may have moved, or that long. For the guard thread."""
+    def wait_until_due(self, patience_s: float) -> None:
+        """Sleep until `enforce` has something to do, or something changed, or that long. For the guard thread.
+
+        Looking and falling asleep are one step under the lock: a command given in between cannot be missed.
+        """
         with self._lock:
-            self._lock.wait(timeout_s)
+            left_s = patience_s if self._due_s is None else min(patience_s, self._due_s - self._clock())
+            if left_s > 0:
+                self._lock.wait(left_s)
 
     def driven(self) -> dict[Axis, Direction]:
         """What is on now."""
@@ -137,12 +168,12 @@ class RelayBank:
         return all(motor.on is Direction.OFF for motor in self._motors.values())
 
     def _plan(self) -> None:
-        """Work out the next moment to enforce, and wake the guard if it came nearer."""
+        """Work out the next moment to enforce, and wake the guard if that came nearer or went away."""
         moments = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
         if self._master_until_s is not None and not moments:
             moments.append(self._master_until_s)
         due_s = min(moments, default=None)
-        nearer = due_s is not None and (self._due_s is None or due_s < self._due_s)
+        news = due_s is None or self._due_s is None or due_s < self._due_s
         self._due_s = due_s
-        if nearer:
+        if news:
             self._lock.notify_all()

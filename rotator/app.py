@@ -8,25 +8,24 @@ from __future__ import annotations
 
 import asyncio
 import itertools
-import logging
-import threading
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
-from hw.guard import Guard
 from hw.ports import Axis
-from rotator.config.load import ConfigError
-from rotator.config.model import AxisTable, Config, Link, address
-from rotator.config.save import save_calibration
+from rotator.config.model import AxisTable, Config, Link, SimAxisTable, address
 from rotator.control.axis import AxisSettings
 from rotator.control.calibration import Calibration
 from rotator.control.controller import Controller, Settings
 from rotator.control.motion import Motor
 from rotator.control.mount import Mount, Range
+from rotator.control.offsets import Offsets, offsets
 from rotator.control.sensing import Window
 from rotator.display import DisplayThread
 from rotator.door import Door
+from rotator.engine import Engine
+from rotator.keeping import Keeper
 from rotator.links.pty import PtyLink
 from rotator.links.serial import SerialLink
 from rotator.links.tcp import TcpLink
@@ -40,12 +39,9 @@ from rotator.protocols.rotctld import RotctldSession
 from rotator.protocols.session import Box, Session
 from rotator.simulation import SIM_CALIBRATION_RAW
 from rotator.station import Station
+from rotator.status import LearntMotor
+from rotator.store.learnt import LearntFile, Motors
 from rotator.views import lcd
-
-log = logging.getLogger(__name__)
-
-SAVE_EVERY_S = 1.0
-JOIN_S = 2.0
 
 
 class RunningLink(Protocol):
@@ -56,32 +52,73 @@ class RunningLink(Protocol):
     async def run(self) -> None: ...
 
 
+def build_offsets(config: Config) -> Offsets:
+    declination_deg = config.mount.declination_deg if config.mount.north == "magnetic" else None
+    return offsets(config.azimuth.offset_deg, config.elevation.offset_deg, declination_deg)
+
+
 def build_mount(config: Config) -> Mount:
+    shift, azimuth, elevation = build_offsets(config), config.azimuth, config.elevation
     return Mount(
-        azimuth=Range(config.azimuth.min_deg, config.azimuth.max_deg),
-        elevation=Range(config.elevation.min_deg, config.elevation.max_deg),
+        azimuth=Range(azimuth.min_deg + shift.azimuth_deg, azimuth.max_deg + shift.azimuth_deg),
+        elevation=Range(elevation.min_deg + shift.elevation_deg, elevation.max_deg + shift.elevation_deg),
         park_azimuth_deg=config.mount.park_azimuth_deg,
         park_elevation_deg=config.mount.park_elevation_deg,
+        flip=config.mount.flip == "over-top",
+        horizon=tuple(config.mount.horizon),
     )
 
 
-def build_controller(config: Config) -> Controller:
+def build_learnt(config: Config) -> LearntFile:
+    """The file of what the motors taught; figures learnt under another description of the motor do not count."""
+
+    def begun(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
+        said: dict[str, object] = {"hardware": config.rotor.hardware}
+        said |= {"speed_dps": table.speed_dps, "coast_s": table.coast_s}
+        if config.rotor.hardware == "sim":
+            said["sim"] = sim.model_dump(include={"speed_dps", "lag_s", "relay_delay_s"})
+        return said
+
+    return LearntFile(
+        Path(config.state.path),
+        {
+            Axis.AZIMUTH: begun(config.azimuth, config.sim.azimuth),
+            Axis.ELEVATION: begun(config.elevation, config.sim.elevation),
+        },
+    )
+
+
+def build_controller(
+    config: Config, learnt: Mapping[Axis, Motors] | None = None, commissioning: Axis | None = None
+) -> Controller:
+    """`learnt`: what earlier runs know of the motors. `commissioning`: an axis to be taken for one never set up."""
     simulated = config.rotor.hardware == "sim"
     mount = build_mount(config)
+    shift = build_offsets(config)
+
+    def motor(found: LearntMotor) -> Motor:
+        return Motor(found.speed_dps, found.coast_deg)
 
     def axis(which: Axis, table: AxisTable, limits: Range) -> AxisSettings:
         points = table.calibration
         if points is None and simulated:
             low_raw, high_raw = SIM_CALIBRATION_RAW
             points = [(low_raw, table.min_deg), (high_raw, table.max_deg)]
+        if which is commissioning:
+            points = None
+        known = (learnt or {}).get(which)
         return AxisSettings(
             axis=which,
             limits=limits,
             tolerance_deg=table.tolerance_deg,
             motor=Motor(table.speed_dps, table.speed_dps * table.coast_s),
             window=Window(table.lowest_reading, table.highest_reading),
-            calibration=None if points is None else Calibration(tuple(points)),
-            missing=() if simulated else missing(table),
+            calibration=None if points is None else Calibration(shift.reported(which, tuple(points))),
+            missing=EVERYTHING if which is commissioning else () if simulated else missing(table),
+            longest_run_s=table.longest_run_s,
+            rest_s=table.rest_s,
+            master=config.relays.master is not None,
+            learnt=known and (motor(known[0]), motor(known[1])),
         )
 
     return Controller(
@@ -91,19 +128,20 @@ def build_controller(config: Config) -> Controller:
             mount=mount,
             period_s=1 / config.control.rate_hz,
             simulated=simulated,
+            park_after_s=config.mount.park_after_s,
         )
     )
+
+
+EVERYTHING = ("calibration", "limits", "direction check")
+"""What is missing on an axis that nobody has set up."""
 
 
 def missing(table: AxisTable) -> tuple[str, ...]:
     """What a person has still to do before an axis of real hardware may be aimed."""
     said = table.model_fields_set
-    checks = {
-        "calibration": table.calibration is not None,
-        "limits": {"min_deg", "max_deg"} <= said,
-        "direction check": table.direction_checked,
-    }
-    return tuple(name for name, done in checks.items() if not done)
+    done = (table.calibration is not None, {"min_deg", "max_deg"} <= said, table.direction_checked)
+    return tuple(name for name, is_done in zip(EVERYTHING, done, strict=True) if not is_done)
 
 
 def session_maker(link: Link, box: Box) -> Session:
@@ -122,51 +160,16 @@ def session_maker(link: Link, box: Box) -> Session:
             return RotctldSession(box)
 
 
-class ControlThread:
-    """The control loop in its thread, and its end as something asyncio can wait for."""
-
-    def __init__(self, loop: ControlLoop) -> None:
-        self._loop = loop
-        self._events = asyncio.get_running_loop()
-        self.ended: asyncio.Future[Exception | None] = self._events.create_future()
-        self._thread = threading.Thread(target=self._run, name="control", daemon=True)
-
-    def start(self) -> None:
-        self._thread.start()
-
-    async def join(self) -> Exception | None:
-        """What stopped the loop, if something did. A thread that hangs on a dead bus is left behind: relays are off."""
-        try:
-            return await asyncio.wait_for(self.ended, JOIN_S)
-        except TimeoutError:
-            log.error("the control thread does not end; the relays are off")
-            return None
-
-    def _run(self) -> None:
-        failure: Exception | None = None
-        try:
-            self._loop.run()
-        except Exception as fault:
-            # It travels to whoever waits for the box; the loop has switched everything off on its way out.
-            log.exception("the control thread failed")
-            failure = fault
-        self._events.call_soon_threadsafe(self._end, failure)
-
-    def _end(self, failure: Exception | None) -> None:
-        if not self.ended.done():
-            self.ended.set_result(failure)
-
-
 class App:
     """The whole box, in real time. Build it, `await run(stop)`, and every relay is off when that returns."""
 
     def __init__(self, config: Config, path: Path | None = None, station: Station | None = None) -> None:
         self.config = config
-        self._path = path
         self.station = station or Station(config, time.monotonic, time.sleep)
         mount = build_mount(config)
+        learnt = build_learnt(config)
         self.loop = ControlLoop(
-            build_controller(config),
+            build_controller(config, learnt.load()),
             self.station.bank,
             self.station.sensors,
             time.monotonic,
@@ -174,7 +177,8 @@ class App:
         )
         self.console = Door(self.loop, mount, Source("console"))
         self.links = [self._link(link, mount) for link in config.link]
-        self._guard = Guard(self.station.bank, time.monotonic)
+        self._engine = Engine(self.loop, self.station.bank)
+        self._keeper = Keeper(self.loop, path, build_offsets(config), learnt)
 
     def lcd_rows(self, now_s: float) -> tuple[str, str]:
         return lcd.rows(self.loop.status, now_s)
@@ -182,30 +186,28 @@ class App:
     async def run(self, stop: asyncio.Event) -> None:
         """Run until `stop` is set. Raises LinkError, or whatever stopped the control thread."""
         display = DisplayThread(self.station.display, self.lcd_rows, time.monotonic) if self.station.display else None
-        control = ControlThread(self.loop)
         tasks: list[asyncio.Task[object]] = []
-        self._guard.start()
         try:
-            control.start()
+            ended = self._engine.start()
             for link in self.links:
                 await link.open()
                 tasks.append(asyncio.create_task(link.run(), name=link.wire.name))
             if display:
                 display.start()
-            tasks.append(asyncio.create_task(self._keep_calibrations()))
+            tasks.append(asyncio.create_task(self._keeper.run()))
             tasks.append(asyncio.create_task(stop.wait()))
-            ending: list[asyncio.Future[Any]] = [control.ended, *tasks]
+            ending: list[asyncio.Future[Any]] = [ended, *tasks]
             await asyncio.wait(ending, return_when=asyncio.FIRST_COMPLETED)
         finally:
-            self.loop.stop()
-            self._guard.stop()
+            self._engine.halt()
             for task in tasks:
                 task.cancel()
             outcomes: list[object] = [*await asyncio.gather(*tasks, return_exceptions=True)]
-            outcomes.append(await control.join())
+            outcomes.append(await self._engine.join())
             if display:
                 await asyncio.to_thread(display.stop)
             self.station.close()
+            await asyncio.to_thread(self._keeper.close)
         for outcome in outcomes:
             if isinstance(outcome, Exception):
                 raise outcome
@@ -223,22 +225,3 @@ class App:
             return SerialLink(wire, link.serial, link.baud, session)
         host, port = address(link.where)
         return TcpLink(wire, host, port, session)
-
-    async def _keep_calibrations(self) -> None:
-        """Save a calibration taken over a link (O, F) as soon as it is there."""
-        kept = {axis: self.loop.status.axis(axis).calibration for axis in Axis}
-        while True:
-            await asyncio.sleep(SAVE_EVERY_S)
-            for axis in Axis:
-                points = self.loop.status.axis(axis).calibration
-                if points is None or points == kept[axis]:
-                    continue
-                kept[axis] = points
-                if self._path is None:
-                    log.warning("%s: new calibration, lost at the end: run with --config to keep it", axis.value)
-                    continue
-                try:
-                    await asyncio.to_thread(save_calibration, self._path, axis.value, points)
-                    log.info("%s: calibration saved in %s", axis.value, self._path)
-                except (OSError, ConfigError) as fault:
-                    log.error("%s: calibration cannot be saved: %s", axis.value, fault)

@@ -35,7 +35,8 @@ class DisplayThread:
 
     def stop(self) -> None:
         self._stopping.set()
-        self._thread.join(timeout=2.0)
+        if self._thread.is_alive():
+            self._thread.join(timeout=2.0)
 
     def _keep(self) -> None:
         answered = True

@@ -1,7 +1,8 @@
-"""The control thread: reads the sensors, steps the controller, commands the drive. The only reader of the clock.
+"""The control loop: reads the sensors, steps the controller, commands the drive. The only reader of the clock.
 
 Knows when to do what. Decides nothing: that is the controller's. Owns the sensors and the drive; nobody else touches
-them, but for the guard, which may open relays at any time.
+them, but for the guard, which may open relays at any time. Sensors are read in a thread of their own, so that neither
+a slow bus nor one that hangs keeps an order waiting or a stale reading from being noticed.
 """
 
 from __future__ import annotations
@@ -19,9 +20,13 @@ from rotator.status import Status
 
 log = logging.getLogger(__name__)
 
+LATE_PERIODS = 1.5
+"""Without news from the sensors for this long the loop goes on all the same, and notices that they are silent."""
+JOIN_S = 1.0
+
 
 class ControlLoop:
-    """`post` and `status` may be used from any thread; `cycle` belongs to one: `run`'s, or a rehearsal's."""
+    """`post` and `status` may be used from any thread; the rest belongs to one: `run`'s, or a rehearsal's."""
 
     def __init__(
         self,
@@ -38,10 +43,13 @@ class ControlLoop:
         self._period_s = period_s
         self._inbox: deque[tuple[Source, Order]] = deque()
         self._wake = threading.Event()
+        self._pause = threading.Event()
         self._stopping = False
+        self._failure: Exception | None = None
         self._readings: dict[Axis, Reading] = {}
         self._troubles: dict[str, str] = {}
         self._late_s = 0.0
+        self._supply_cut = False
         self.status: Status = controller.status(clock(), dict.fromkeys(Axis, Direction.OFF))
         """The latest status; replaced whole, never changed."""
 
@@ -51,11 +59,8 @@ class ControlLoop:
         self._wake.set()
 
     def cycle(self) -> None:
-        """Read every sensor and act. Orders that come in meanwhile do not wait for the sensors."""
-        for axis, sensor in self._sensors.items():
-            if self._inbox:
-                self.act()
-            self._readings[axis] = self._read(axis, sensor)
+        """Read every sensor, then act. For whoever runs the loop in one thread, in simulated time."""
+        self._read_all()
         self.act()
 
     def act(self) -> None:
@@ -63,43 +68,75 @@ class ControlLoop:
         orders = [self._inbox.popleft() for _ in range(len(self._inbox))]
         now_s = self._clock()
         before = self.status
-        runs = self._controller.step(now_s, self._readings, orders)
+        runs = self._controller.step(now_s, dict(self._readings), orders)
         driven = dict.fromkeys(Axis, Direction.OFF)
         for axis, run in runs.items():
             try:
                 driven[axis] = self._drive.drive(axis, run.direction, run.until_s)
-                self._trouble("drive", "")
+                self._trouble(f"{axis.value} drive", "")
             except HardwareError as fault:
-                self._trouble("drive", str(fault))
+                self._trouble(f"{axis.value} drive", str(fault))
         self.status = self._controller.status(now_s, driven, self._late_s)
+        self._switch_supply()
         self._tell(before)
 
-    def run(self) -> None:
-        """Cycle until `stop`. Whatever goes wrong, the relays are off when this returns."""
+    def _switch_supply(self) -> None:
+        """Off where a fault asks for it, tried until it is; back when the fault has been acknowledged."""
+        if self.status.cut == self._supply_cut:
+            return
         try:
-            due_s = self._clock()
+            if self.status.cut:
+                self._drive.cut()
+            else:
+                self._drive.restore()
+            self._supply_cut = self.status.cut
+            self._trouble("supply", "")
+        except HardwareError as fault:
+            self._trouble("supply", str(fault))
+
+    def run(self) -> None:
+        """Act on every round of readings and on every order until `stop`. Relays are off when this returns."""
+        reader = threading.Thread(target=self._keep_reading, name="sensors", daemon=True)
+        try:
+            reader.start()
             while not self._stopping:
-                self._late_s = max(0.0, self._clock() - due_s)
-                self.cycle()
-                # Fallen behind, it goes on from now: a burst of cycles to catch up would help nobody.
-                due_s = max(due_s + self._period_s, self._clock())
-                self._sleep_until(due_s)
+                asked_s = self._clock()
+                self._wake.wait(self._period_s * LATE_PERIODS)
+                self._wake.clear()
+                self._late_s = max(0.0, self._clock() - asked_s - self._period_s)
+                self.act()
+                if self._failure is not None:
+                    raise self._failure
         finally:
-            self._drive.off()
+            try:
+                self._drive.off()
+            finally:
+                self.stop()
+                # A bus that hangs holds the thread; it is left behind, for it cannot move anything.
+                reader.join(timeout=JOIN_S)
 
     def stop(self) -> None:
         self._stopping = True
+        self._pause.set()
         self._wake.set()
 
-    def _sleep_until(self, due_s: float) -> None:
-        while not self._stopping:
-            left_s = due_s - self._clock()
-            if left_s <= 0:
-                return
-            if self._wake.wait(left_s):
-                self._wake.clear()
-                if self._inbox:
-                    self.act()
+    def _keep_reading(self) -> None:
+        try:
+            due_s = self._clock()
+            while not self._stopping:
+                self._read_all()
+                self._wake.set()
+                # Fallen behind, it goes on from now: a burst of readings to catch up would help nobody.
+                due_s = max(due_s + self._period_s, self._clock())
+                self._pause.wait(due_s - self._clock())
+        except Exception as failure:
+            # Whatever it is, the control thread stops the motors and tells.
+            self._failure = failure
+            self._wake.set()
+
+    def _read_all(self) -> None:
+        for axis, sensor in self._sensors.items():
+            self._readings[axis] = self._read(axis, sensor)
 
     def _read(self, axis: Axis, sensor: AngleSensor) -> Reading:
         try:
@@ -129,5 +166,9 @@ class ControlLoop:
                 log.error("FAULT %s", fault)
         if before.faults and not self.status.faults:
             log.warning("faults acknowledged")
+        for axis in Axis:
+            for notice in self.status.axis(axis).notices:
+                if notice not in before.axis(axis).notices:
+                    log.warning("%s: %s", axis.value, notice)
         if self.status.latched != before.latched:
             log.warning(f"stopped by {self.status.latched} until released" if self.status.latched else "released")

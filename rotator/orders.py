@@ -52,6 +52,9 @@ class Release:
 class Park:
     """Go to the park position."""
 
+    storm: bool = False
+    """From a person: go there whatever else is going on, and stay until released."""
+
 
 @dataclass(frozen=True, slots=True)
 class LoadTimed:
@@ -59,6 +62,10 @@ class LoadTimed:
 
     interval_s: float
     points: tuple[tuple[float, float | None], ...]
+
+    def __post_init__(self) -> None:
+        if not self.points or self.interval_s <= 0:
+            raise ValueError("a timed list has points, and time between them")
 
 
 @dataclass(frozen=True, slots=True)

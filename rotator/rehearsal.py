@@ -13,12 +13,12 @@ from typing import Protocol
 
 from firmware_sim.clock import SimClock
 from firmware_sim.world import World
-from rotator.app import build_controller, build_mount
+from rotator.app import build_controller, build_mount, build_offsets
 from rotator.config.model import Config
 from rotator.control.angles import great_circle_deg
 from rotator.door import Door
 from rotator.loop import ControlLoop
-from rotator.orders import Source
+from rotator.orders import Order, Source
 from rotator.passes import Pass
 from rotator.protocols.gs232 import Command, Dialect, encode
 from rotator.protocols.gs232_session import Gs232Session
@@ -27,6 +27,7 @@ from rotator.protocols.rotctld import encode as encode_request
 from rotator.protocols.session import Session
 from rotator.simulation import arduino_station
 from rotator.station import Station
+from rotator.status import Status
 
 SAMPLE_S = 0.05
 SETTLING_S = 5.0
@@ -83,6 +84,8 @@ class BoxPlant:
     def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float], via: str) -> None:
         self._clock = clock
         self._period_s = 1 / config.control.rate_hz
+        self._shift = build_offsets(config)
+        start_deg = (start_deg[0] - self._shift.azimuth_deg, start_deg[1] - self._shift.elevation_deg)
         station = Station(config, clock, clock.sleep, start_deg)
         assert station.world is not None, "a rehearsal is always simulated"
         self.world: World = station.world
@@ -92,17 +95,27 @@ class BoxPlant:
         self._session: Session = RotctldSession(door) if via == "rotctld" else Gs232Session(door, Dialect.B)
         self._encode = _rotctld_order if via == "rotctld" else _gs232_order
 
+    @property
+    def status(self) -> Status:
+        return self._loop.status
+
+    def post(self, source: Source, order: Order) -> None:
+        """An order past the protocol, from the console for one."""
+        self._loop.post(source, order)
+
     def order(self, azimuth_deg: float, elevation_deg: float) -> None:
         self._session.receive(self._encode(azimuth_deg, elevation_deg))
 
     def run_until(self, moment_s: float) -> None:
-        cycles = math.floor(moment_s / self._period_s + 1e-9)
-        for count in range(cycles + 1):
+        first, last = (math.ceil(at_s / self._period_s - 1e-9) for at_s in (self._clock(), moment_s + self._period_s))
+        for count in range(first, last):
             self._clock.sleep_until(count * self._period_s)
             self._loop.cycle()
 
     def look(self) -> tuple[float, float, int, int]:
-        return *self.world.antenna(), *self.world.drives()
+        # The simulated boom is on the rotor's own scale; mounted askew, it points that much beside.
+        azimuth_deg, elevation_deg = self.world.antenna()
+        return azimuth_deg + self._shift.azimuth_deg, elevation_deg + self._shift.elevation_deg, *self.world.drives()
 
     def relay_starts(self) -> int:
         return self.world.relay_starts

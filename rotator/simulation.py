@@ -58,6 +58,7 @@ def simulated_world(
             master_pin=relays.master,
             adc_address=adc.address,
             reference_channel=adc.reference_channel,
+            pot_supply_v=adc.supply_v,
             lcd=_lcd(config),
         ),
         clock,

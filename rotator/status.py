@@ -19,14 +19,28 @@ class Fault:
     measured: str
     limit: str
     page: str = "docs/troubleshooting.md"
+    cut: bool = False
+    """Opening the relay does not stop it: the motors' supply has to go."""
+    act_now: str = ""
+    """What a person must do this moment, in a few loud words; empty: nothing."""
 
     def __str__(self) -> str:
         where = f"{self.axis.value}: " if self.axis else ""
-        return f"{where}{self.name}: {self.measured}, limit {self.limit} (see {self.page}#{self.anchor})"
+        loud = f"{self.act_now} " if self.act_now else ""
+        return f"{loud}{where}{self.name}: {self.measured}, limit {self.limit} (see {self.page}#{self.anchor})"
 
     @property
     def anchor(self) -> str:
         return self.name.replace(" ", "-")
+
+
+@dataclass(frozen=True, slots=True)
+class LearntMotor:
+    """One direction of a motor, as the box has found it."""
+
+    speed_dps: float
+    coast_deg: float
+    """How far it goes on when switched off at full speed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +62,10 @@ class AxisStatus:
     calibration: tuple[tuple[float, float], ...] | None = None
     """The table in force, (raw, degrees), for whoever keeps it."""
     fault: Fault | None = None
+    notices: tuple[str, ...] = ()
+    """What a person should know of this axis though it stops nothing."""
+    learnt: tuple[LearntMotor, LearntMotor] | None = None
+    """Its motor, clockwise or up and back, for whoever keeps it; None: it has none to learn."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +92,11 @@ class Status:
     @property
     def moving(self) -> bool:
         return self.azimuth.moving or self.elevation.moving
+
+    @property
+    def cut(self) -> bool:
+        """Whether the motors' supply is to be switched off."""
+        return any(fault.cut for fault in self.faults)
 
     @property
     def faults(self) -> tuple[Fault, ...]:

@@ -7,16 +7,20 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Callable, Iterator, Mapping
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
 
 import pytest
 
 from firmware_sim.clock import SimClock
-from hw.ports import AngleSensor, Axis, Direction, HardwareError, SwitchedDrive
+from firmware_sim.world import World
+from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from rotator.app import build_controller
 from rotator.config.model import Config
 from rotator.loop import ControlLoop
-from rotator.orders import Aim, Jog, Source, Stop
+from rotator.orders import Aim, Source, Stop
 from rotator.station import Station
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -37,9 +41,8 @@ class Rig:
         self.clock.add_alarm(self.station.bank.due_s, self.station.bank.enforce)
         self.loop = self.loop_with(self.station.sensors)
 
-    def loop_with(self, sensors: Mapping[Axis, AngleSensor], drive: SwitchedDrive | None = None) -> ControlLoop:
-        controller = build_controller(self.config)
-        return ControlLoop(controller, drive or self.station.bank, sensors, self.clock, PERIOD_S)
+    def loop_with(self, sensors: Mapping[Axis, AngleSensor], period_s: float = PERIOD_S) -> ControlLoop:
+        return ControlLoop(build_controller(self.config), self.station.bank, sensors, self.clock, period_s)
 
     def run(self, seconds: float) -> None:
         end_s = self.clock() + seconds
@@ -49,18 +52,53 @@ class Rig:
             self.clock.sleep_until(cycle_s + PERIOD_S)
 
 
-class ActsWhileRead:
-    """A sensor during whose reading something happens."""
+class Hangs:
+    """A sensor that goes well a few times and is then stuck in its reading until let go."""
 
     source = "measured"
 
-    def __init__(self, sensor: AngleSensor, happens: Callable[[], None]) -> None:
+    def __init__(self, sensor: AngleSensor, times: int) -> None:
         self._sensor = sensor
-        self._happens = happens
+        self._times = times
+        self.stuck, self.let_go = threading.Event(), threading.Event()
 
     def read(self) -> float:
-        self._happens()
+        self._times -= 1
+        if self._times < 0:
+            self.stuck.set()
+            assert self.let_go.wait(PATIENCE_S)
         return self._sensor.read()
+
+
+class Relays:
+    """The motor relays of a simulated station, watched from another thread."""
+
+    def __init__(self, world: World) -> None:
+        self._changed = threading.Condition()
+        self._drives = (0, 0)
+        self._world = world
+        world.gpio.on_edges.append(self._see)
+
+    def _see(self, _now_s: float, _changes: Mapping[int, bool]) -> None:
+        with self._changed:
+            self._drives = self._world.drives()
+            self._changed.notify_all()
+
+    def come_to(self, *drives: int) -> bool:
+        with self._changed:
+            return self._changed.wait_for(lambda: self._drives == drives, PATIENCE_S)
+
+
+@contextmanager
+def running(loop: ControlLoop) -> Iterator[None]:
+    thread = threading.Thread(target=loop.run)
+    thread.start()
+    try:
+        yield
+    finally:
+        loop.stop()
+        thread.join(PATIENCE_S)
+        assert not thread.is_alive()
 
 
 @pytest.fixture
@@ -73,22 +111,12 @@ def rig() -> Iterator[Rig]:
 # --- orders
 
 
-def test_the_antenna_rests_until_it_is_told_and_goes_where_it_is_told(rig: Rig) -> None:
-    rig.run(5.0)
-    assert rig.world.relay_starts == 0
-    rig.loop.post(LINK, Aim(130.0, 30.0))
-    rig.run(20.0)
-    assert rig.world.antenna() == (pytest.approx(130.0, abs=4.0), pytest.approx(30.0, abs=4.0))
-    assert rig.world.drives() == (0, 0)
-
-
 def test_an_order_acts_before_the_next_cycle(rig: Rig) -> None:
     rig.run(0.2)
     moment_s = rig.clock()
     rig.loop.post(LINK, Aim(235.0, 20.0))
     rig.loop.act()
     assert rig.world.drives() == (1, 0)
-    assert rig.loop.status.azimuth.drive is Direction.PLUS
     rig.loop.post(LINK, Stop())
     rig.loop.act()
     assert rig.world.drives() == (0, 0)
@@ -96,50 +124,27 @@ def test_an_order_acts_before_the_next_cycle(rig: Rig) -> None:
 
 
 def test_the_running_loop_wakes_for_an_order(rig: Rig) -> None:
-    # Between its cycles simulated time stands still, so a second cycle never comes: only the order can wake it.
-    cycled, moved, cycles = threading.Event(), threading.Event(), []
-
-    def read() -> None:
-        cycles.append(rig.clock())
-        cycled.set()
-
-    rig.world.gpio.on_edges.append(lambda _now_s, _changes: moved.set())
-    loop = rig.loop_with({AZ: rig.station.sensors[AZ], EL: ActsWhileRead(rig.station.sensors[EL], read)})
-    thread = threading.Thread(target=loop.run)
-    thread.start()
-    try:
-        assert cycled.wait(PATIENCE_S)
+    # Its period is an hour: after the first readings nothing but an order can wake it.
+    relays = Relays(rig.world)
+    loop = rig.loop_with(rig.station.sensors, period_s=3600.0)
+    with running(loop):
         loop.post(LINK, Aim(235.0, 20.0))
-        assert moved.wait(PATIENCE_S)
-        assert rig.world.drives() == (1, 0)
-        assert len(cycles) == 1
-    finally:
-        loop.stop()
-        thread.join(PATIENCE_S)
-    assert not thread.is_alive()
-    assert rig.world.drives() == (0, 0), "stopped, it leaves everything off"
+        assert relays.come_to(1, 0)
+        loop.post(LINK, Stop())
+        assert relays.come_to(0, 0)
 
 
-def test_a_stop_that_comes_while_sensors_are_read_does_not_wait_for_the_second(rig: Rig) -> None:
-    coming: list[Stop] = []
-    seen: list[tuple[int, int]] = []
-
-    def stop_comes() -> None:
-        while coming:
-            rig.loop.post(LINK, coming.pop())
-
-    rig.loop = rig.loop_with(
-        {
-            AZ: ActsWhileRead(rig.station.sensors[AZ], stop_comes),
-            EL: ActsWhileRead(rig.station.sensors[EL], lambda: seen.append(rig.world.drives())),
-        }
-    )
-    rig.loop.post(LINK, Jog(AZ, Direction.PLUS))
-    rig.run(0.5)
-    assert seen[-1] == (1, 0)
-    coming.append(Stop())
-    rig.loop.cycle()
-    assert seen[-1] == (0, 0)
+def test_an_order_does_not_wait_for_a_sensor(rig: Rig) -> None:
+    relays = Relays(rig.world)
+    slow = Hangs(rig.station.sensors[EL], times=3)
+    loop = rig.loop_with({AZ: rig.station.sensors[AZ], EL: slow}, period_s=0.01)
+    with running(loop):
+        loop.post(LINK, Aim(235.0, 20.0))
+        assert relays.come_to(1, 0)
+        assert slow.stuck.wait(PATIENCE_S)
+        loop.post(LINK, Stop())
+        assert relays.come_to(0, 0)
+        slow.let_go.set()
 
 
 # --- sensors
@@ -173,7 +178,21 @@ def test_a_converter_that_goes_stops_the_axes_is_said_once_and_comes_back(
     rig.loop.post(LINK, Aim(300.0, 90.0))
     rig.run(1.0)
     assert rig.world.drives() == (1, 1)
-    assert rig.loop.status.faults == ()
+
+
+def test_a_bus_that_hangs_stops_the_motors() -> None:
+    # In real time, and without a guard: the loop itself notices that no readings come.
+    station = Station(Config(), time.monotonic, time.sleep, (100.0, 20.0))
+    assert station.world is not None
+    relays = Relays(station.world)
+    loop = ControlLoop(build_controller(Config()), station.bank, station.sensors, time.monotonic, PERIOD_S)
+    with running(loop):
+        loop.post(LINK, Aim(235.0, 90.0))
+        assert relays.come_to(1, 1)
+        station.world.inject("bus-hung")
+        assert relays.come_to(0, 0)
+        station.world.clear("bus-hung")
+    station.close()
 
 
 # --- the drive
@@ -191,9 +210,8 @@ class LinesGone:
         pass
 
 
-@pytest.mark.xfail(strict=True, reason="both axes share one trouble: the axis at rest reports the other's as over")
 def test_a_drive_that_fails_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
-    rig.loop = rig.loop_with(rig.station.sensors, LinesGone())
+    rig.loop = ControlLoop(build_controller(rig.config), LinesGone(), rig.station.sensors, rig.clock, PERIOD_S)
     rig.loop.post(LINK, Aim(300.0, 20.0))
     rig.run(2.0)
     assert len(records(caplog, "No such device")) == 1
@@ -203,46 +221,27 @@ def test_a_drive_that_fails_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixt
 # --- the end
 
 
-class Explodes:
-    """A sensor that goes well a few times, each taking longer than a cycle, and then has a bug."""
+class Bug:
+    """A sensor that goes well until the motors run and then raises, or returns, what no sensor should."""
 
     source = "measured"
 
-    def __init__(self, sensor: AngleSensor, clock: SimClock, times: int) -> None:
+    def __init__(self, sensor: AngleSensor, world: World, outcome: Any) -> None:
         self._sensor = sensor
-        self._clock = clock
-        self._times = times
+        self._world = world
+        self._outcome = outcome
 
-    def read(self) -> float:
-        self._clock.sleep(0.06)
-        self._times -= 1
-        if self._times < 0:
-            raise ZeroDivisionError("a bug")
-        return self._sensor.read()
+    def read(self) -> Any:
+        if self._world.drives() != (0, 0) and isinstance(self._outcome, Exception):
+            raise self._outcome
+        return self._sensor.read() if self._world.drives() == (0, 0) else self._outcome
 
 
-def test_a_bug_ends_the_loop_with_every_relay_off(rig: Rig) -> None:
-    sensors = {AZ: rig.station.sensors[AZ], EL: Explodes(rig.station.sensors[EL], rig.clock, times=3)}
-    loop = rig.loop_with(sensors)
+@pytest.mark.parametrize(("outcome", "error"), [(ZeroDivisionError(), ZeroDivisionError), ("half", TypeError)])
+def test_a_bug_ends_the_loop_with_every_relay_off(rig: Rig, outcome: object, error: type[Exception]) -> None:
+    loop = rig.loop_with({AZ: rig.station.sensors[AZ], EL: Bug(rig.station.sensors[EL], rig.world, outcome)})
     loop.post(LINK, Aim(300.0, 90.0))
-    with pytest.raises(ZeroDivisionError, match="a bug"):
+    with pytest.raises(error):
         loop.run()
-    assert rig.world.relay_starts == 2, "both motors were running"
+    assert rig.world.relay_starts >= 1, "motors were running"
     assert rig.world.drives() == (0, 0)
-
-
-def test_a_loop_that_nobody_cycles_any_more_leaves_the_relays_to_their_leases(rig: Rig) -> None:
-    rig.loop.post(LINK, Aim(300.0, 90.0))
-    rig.run(1.0)
-    assert rig.world.drives() == (1, 1)
-    rig.clock.sleep(0.5)
-    assert rig.world.drives() == (0, 0)
-
-
-@pytest.mark.xfail(strict=True, reason="a cycle that could not begin in time is not counted as late")
-def test_a_cycle_that_begins_late_is_told(rig: Rig) -> None:
-    slow = {AZ: rig.station.sensors[AZ], EL: Explodes(rig.station.sensors[EL], rig.clock, times=3)}
-    loop = rig.loop_with(slow)
-    with pytest.raises(ZeroDivisionError):
-        loop.run()
-    assert loop.status.cycle_late_s > 0.06 - PERIOD_S

@@ -9,7 +9,7 @@ import click
 
 from hw.ports import HardwareError
 from rotator import __version__
-from rotator.config.load import ConfigError, shipped
+from rotator.config.load import SIMULATED, ConfigError, profiles, shipped
 from rotator.links.wire import LinkError
 
 CONFIG = click.option(
@@ -71,10 +71,29 @@ def arduino(pty: Path, path: Path | None, plain: bool) -> None:
     run_arduino(pty, path, plain=plain or not sys.stdout.isatty())
 
 
+@cli.command()
+@CONFIG
+@FAULT
+@click.option("--plain", is_flag=True, help="Lines in and out even in a terminal.")
+@click.argument("axis", required=False, type=click.Choice(["azimuth", "elevation"]))
+def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, axis: str | None) -> None:
+    """Set an axis up, or both: directions, ends, points in between; saved in the file."""
+    from rotator.cli.calibrate import calibrate_axes
+
+    plain = plain or not (sys.stdin.isatty() and sys.stdout.isatty())
+    sys.exit(calibrate_axes(path, faults, axis, plain=plain))
+
+
 @cli.command(name="config")
-def show_config() -> None:
-    """Print the shipped configuration, a start for your own."""
-    click.echo(shipped(), nl=False)
+@click.argument("name", default=SIMULATED, metavar="[NAME]")
+@click.option("--list", "listed", is_flag=True, help="Say which there are.")
+def show_config(name: str, listed: bool) -> None:
+    """Print a shipped configuration, a start for your own: the simulated rotor's, or a real one's by NAME."""
+    if listed:
+        for each in (SIMULATED, *profiles()):
+            click.echo(f"{each:<10} {shipped(each).splitlines()[0].removeprefix('# ')}")
+        return
+    click.echo(shipped(name), nl=False)
 
 
 def main() -> None:

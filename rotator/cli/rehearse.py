@@ -17,6 +17,7 @@ import click
 from firmware_sim.clock import SimClock
 from rotator.cli.faults import parse_faults
 from rotator.config.load import load
+from rotator.config.model import AxisTable, Config
 from rotator.passes import Pass, PassError, read_pass
 from rotator.rehearsal import BoxPlant, Plant, Sample, Summary, fly, plant_maker
 
@@ -34,8 +35,7 @@ def rehearse_pass(
     logging.basicConfig(level=logging.WARNING, format="%(levelname).1s %(message)s")
     config = load(path)
     if config.rotor.hardware != "sim":
-        # The file of a real station is welcome: its rotor is simulated, nothing is touched.
-        config = config.model_copy(update={"rotor": config.rotor.model_copy(update={"hardware": "sim"})})
+        config = simulated(config)
     try:
         flown = read_pass(pass_file)
     except PassError as fault:
@@ -58,6 +58,20 @@ def rehearse_pass(
         click.echo(json.dumps(summary.as_dict()))
     else:
         click.echo(_sentence(flown, summary, arduino=arduino))
+
+
+def simulated(config: Config) -> Config:
+    """The file of a real station, its rotor simulated with healthy pots; nothing real is touched."""
+    # The simulated pots read what they read, whatever the file says of the real ones.
+    pot = {"calibration": None}
+    pot |= {key: AxisTable.model_fields[key].default for key in ("lowest_reading", "highest_reading")}
+    return config.model_copy(
+        update={
+            "rotor": config.rotor.model_copy(update={"hardware": "sim"}),
+            "azimuth": config.azimuth.model_copy(update=pot),
+            "elevation": config.elevation.model_copy(update=pot),
+        }
+    )
 
 
 def _strike(clock: SimClock, at_s: float, plant: BoxPlant, name: str) -> None:

@@ -17,7 +17,7 @@ from rotator.app import App
 from rotator.cli.faults import parse_faults
 from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals
 from rotator.config.load import load
-from rotator.orders import Release, Stop
+from rotator.orders import Park, Release, Stop
 from rotator.views import lcd, terminal
 
 
@@ -64,6 +64,8 @@ async def _picture(app: App, stop: asyncio.Event) -> None:
         match pressed:
             case " ":
                 app.console.order(Stop(latch=True))
+            case "p":
+                app.console.order(Park(storm=True))
             case "r":
                 app.console.order(Release())
             case "q":

@@ -47,9 +47,11 @@ def stop_on_signals() -> asyncio.Event:
     return stop
 
 
-async def draw(render: Callable[[], RenderableType], key: Callable[[str], None]) -> None:
-    """Draw until cancelled; hand single keys to `key`."""
-    with _keys(key), Live(console=Console(), auto_refresh=False) as live:
+async def draw(
+    render: Callable[[], RenderableType], key: Callable[[str], None], console: Console | None = None
+) -> None:
+    """Draw until cancelled; hand single keys to `key`. What is printed on `console` stays, above the picture."""
+    with _keys(key), Live(console=console or Console(), auto_refresh=False) as live:
         while True:
             live.update(render(), refresh=True)
             await asyncio.sleep(1 / PICTURE_HZ)

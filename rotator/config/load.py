@@ -28,6 +28,10 @@ _KINDS = {
 }
 
 
+SIMULATED = "simulated"
+"""The name of the configuration that runs without a file."""
+
+
 class ConfigError(Exception):
     """The file cannot be used. `faults` holds a line for each thing to change."""
 
@@ -52,9 +56,20 @@ def load(path: Path | None) -> Config:
     return parse(text, str(path))
 
 
-def shipped() -> str:
-    """The text of the simulated station's configuration: a start for one's own."""
-    return files("rotator.config").joinpath("simulated.toml").read_text(encoding="utf-8")
+def shipped(name: str = SIMULATED) -> str:
+    """The text of a shipped configuration, a start for one's own. Raises ConfigError, with what there is."""
+    if name == SIMULATED:
+        return files("rotator.config").joinpath("simulated.toml").read_text(encoding="utf-8")
+    if name not in profiles():
+        known = [SIMULATED, *profiles()]
+        raise ConfigError(name, [f"no such configuration{_meant(name, known)}; there are: {', '.join(known)}"])
+    return files("rotator.config").joinpath("profiles", f"{name}.toml").read_text(encoding="utf-8")
+
+
+def profiles() -> list[str]:
+    """The names of the shipped configurations for real rotors."""
+    texts = files("rotator.config").joinpath("profiles").iterdir()
+    return sorted(text.name.removesuffix(".toml") for text in texts if text.name.endswith(".toml"))
 
 
 def parse(text: str, name: str) -> Config:

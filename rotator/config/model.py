@@ -52,6 +52,12 @@ class AxisTable(Table):
     """A reading above this means the same; end resistors keep every valid angle between the two."""
     direction_checked: bool = False
     """A person has seen that CW turns clockwise and UP up."""
+    offset_deg: float = Field(0.0, ge=-180, le=180)
+    """Added to the rotor's own scale: where the antenna points when the scale says 0."""
+    longest_run_s: float = Field(300.0, ge=0, le=86_400)
+    """How long the motor may run in one go before it has to rest; running and resting add up. 0: any time."""
+    rest_s: float = Field(900.0, gt=0, le=86_400)
+    """How long it takes to cool after that; it may run again when half of this has passed."""
 
     @model_validator(mode="after")
     def _make_sense(self) -> AxisTable:
@@ -80,15 +86,47 @@ class Elevation(AxisTable):
     """The lowest elevation it may be sent to; where it rests below the horizon."""
     max_deg: float = Field(180.0, ge=0, le=210)
     """The highest elevation it may be sent to; 90 for a rotor that cannot go over the top."""
+    speed_dps: float = Field(2.7, gt=0, le=360)
+    """The motor's speed, roughly: the box measures it as it goes."""
 
 
 class MountTable(Table):
-    flip: Literal["off"] = "off"
-    """Whether the box itself may turn the antenna over the top; `off` is the only choice today."""
+    flip: Literal["off", "over-top"] = "off"
+    """Whether the box itself may turn the antenna over the top (`over-top`): only where a person has seen that the
+    antenna, its cables and the mast clear each other all the way."""
+    north: Literal["true", "magnetic"] = "true"
+    """Which north the azimuth scale was lined up with; orders and reports are always from true north."""
+    declination_deg: float | None = Field(None, ge=-180, le=180)
+    """By how much a compass points east of true north at your place (west: minus); `magnetic` needs it."""
     park_azimuth_deg: float = Field(0.0, ge=0, le=450)
     """Where a park order (rotctld K) sends the azimuth."""
     park_elevation_deg: float = Field(0.0, ge=0, le=180)
     """Where a park order sends the elevation."""
+    park_after_s: float = Field(0.0, ge=0, le=86_400)
+    """Park when no order has come for so long; 0: never."""
+    horizon: list[Annotated[tuple[float, float], Field(strict=False)]] = Field(default_factory=list)
+    """Points [azimuth, least elevation] of trees and roofs, azimuth rising from 0 to below 360."""
+
+    @model_validator(mode="after")
+    def _knows_north(self) -> MountTable:
+        if self.north == "magnetic" and self.declination_deg is None:
+            raise ValueError('north = "magnetic" needs declination_deg, how far east of true north a compass points')
+        return self
+
+    @field_validator("horizon")
+    @classmethod
+    def _goes_round(cls, points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+        azimuths = [azimuth_deg for azimuth_deg, _ in points]
+        if any(not 0 <= azimuth_deg < 360 for azimuth_deg in azimuths) or azimuths != sorted(set(azimuths)):
+            raise ValueError("azimuths must rise from point to point, from 0 to below 360")
+        if any(not 0 <= elevation_deg <= 90 for _, elevation_deg in points):
+            raise ValueError("elevations must be from 0 to 90")
+        return points
+
+
+class StateTable(Table):
+    path: str = Field("run/state.json", min_length=1)
+    """Where the box keeps what it has learnt of its motors; on a Pi `/var/lib/rotator/state.json` is the place."""
 
 
 class Control(Table):
@@ -135,7 +173,7 @@ class Adc(Table):
 
 
 class Lcd(Table):
-    kind: Literal["none", "gpio", "pcf8574"] = "pcf8574"
+    kind: Literal["none", "gpio", "pcf8574"] = "gpio"
     """No display, one on six GPIO lines, or one behind an I2C backpack."""
     bus: int = Field(1, ge=0, le=255)
     """Backpack: the N of /dev/i2c-N."""
@@ -244,6 +282,8 @@ class Config(Table):
     """How the two axes carry the antenna."""
     control: Control = Control()
     """The control loop."""
+    state: StateTable = StateTable()
+    """What the box remembers from one run to the next."""
     relays: Relays = Relays()
     """The motor relays. Numbers are GPIO (BCM), not pins of the header."""
     adc: Adc = Adc()

@@ -1,34 +1,61 @@
-"""Writes a calibration back into the user's file: its comments stay, a copy is kept, and it is whole at any moment.
+"""Writes values back into the user's file: its comments stay, a copy is kept, and it is whole at any moment.
 
-Knows how to change a file safely. Knows nothing of where the points come from.
+Knows how to change a file safely. Knows nothing of where the values come from.
 """
 
 from __future__ import annotations
 
-import os
-import shutil
+from collections.abc import Sequence
 from pathlib import Path
 
 import tomlkit
+from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import Array
 
-from rotator.config.load import parse
+from rotator.config.load import ConfigError, parse
+from rotator.store.whole import write_whole
+
+Points = Sequence[tuple[float, float]]
+LONG_TABLE = 4
+"""A calibration with more points than this has a line for each."""
 
 
-def save_calibration(path: Path, axis: str, points: tuple[tuple[float, float], ...]) -> None:
-    """Replace `[axis] calibration` in the file. Raises OSError or ConfigError; then the file is as it was."""
-    document = tomlkit.parse(path.read_text(encoding="utf-8"))
+def save_axis(path: Path, axis: str, *, calibration: Points, **values: float | bool) -> None:
+    """Replace keys of the table `[axis]`, `calibration` among them, all or none.
+
+    The file before the change stays beside it as `.bak`. Raises OSError or ConfigError; then the file is as it was.
+    """
+    try:
+        before = path.read_text(encoding="utf-8")
+        text = changed(before, axis, calibration=calibration, **values)
+    except (TOMLKitError, UnicodeDecodeError) as fault:
+        raise ConfigError(str(path), [f"is not TOML any more: {fault}"]) from fault
+    # What would not be accepted at the next start is not written.
+    parse(text, str(path))
+    write_whole(path.with_name(path.name + ".bak"), before)
+    write_whole(path, text)
+
+
+def changed(text: str, axis: str, *, calibration: Points, **values: float | bool) -> str:
+    """The file's text with these keys in the table `[axis]`; everything else as it was."""
+    document = tomlkit.parse(text)
+    if axis not in document and text and not text.endswith("\n\n"):
+        document.add(tomlkit.nl())
     table = document.setdefault(axis, tomlkit.table())
+    for key, value in values.items():
+        table[key] = value if isinstance(value, bool) else _short(value, 3)
+    table["calibration"] = _rows(calibration)
+    return tomlkit.dumps(document)
+
+
+def _rows(points: Points) -> Array:
     rows = tomlkit.array()
     for reading, angle_deg in points:
-        rows.append([round(reading, 5), round(angle_deg, 3)])
-    table["calibration"] = rows
-    text = tomlkit.dumps(document)
-    parse(text, str(path))
-    shutil.copy2(path, path.with_name(path.name + ".bak"))
-    new = path.with_name(path.name + ".new")
-    with new.open("w", encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    shutil.copymode(path, new)
-    new.replace(path)
+        rows.append([round(reading, 5), _short(angle_deg, 3)])
+    return rows.multiline(len(points) > LONG_TABLE)
+
+
+def _short(value: float, digits: int) -> float | int:
+    """450 rather than 450.0, as a person would write it."""
+    value = round(value, digits)
+    return int(value) if value == int(value) else value

@@ -1,11 +1,13 @@
 """Which orders are refused outright, so that the sender can be told in its protocol's own words.
 
 Knows the mount and the latest status. An order that is admitted may still have no effect (a latch, a silenced stream):
-those are answered like any other, as a person at the box expects. The controller asks here too, a moment later.
+those are answered like any other, as a person at the box expects. What is admitted the controller looks at again:
+things change in between.
 """
 
 from __future__ import annotations
 
+from hw.ports import Axis
 from rotator.control.mount import Mount, Unreachable
 from rotator.orders import Aim, Calibrate, LoadTimed, Order, Park, Refusal
 from rotator.status import Status
@@ -27,11 +29,20 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
 
 
 def _uncalibrated(order: Order, status: Status) -> Refusal | None:
-    """One axis that nobody has commissioned keeps the other from nothing; two keep all."""
-    azimuth_only = isinstance(order, Aim) and order.elevation_deg is None
-    if status.azimuth.uncalibrated and (azimuth_only or status.elevation.uncalibrated):
-        return Refusal(f"UNCALIBRATED: azimuth needs {status.azimuth.uncalibrated}")
-    return None
+    """One axis that nobody has commissioned keeps the other from nothing; all that an order is for keep it all."""
+    match order:
+        case Aim(_, None):
+            axes: tuple[Axis, ...] = (Axis.AZIMUTH,)
+        case Aim(None, _):
+            axes = (Axis.ELEVATION,)
+        case LoadTimed(_, points) if all(elevation_deg is None for _, elevation_deg in points):
+            axes = (Axis.AZIMUTH,)
+        case _:
+            axes = (Axis.AZIMUTH, Axis.ELEVATION)
+    missing = [
+        f"{axis.value} needs {status.axis(axis).uncalibrated}" for axis in axes if status.axis(axis).uncalibrated
+    ]
+    return Refusal("UNCALIBRATED: " + "; ".join(missing)) if len(missing) == len(axes) else None
 
 
 def _unreachable(points: tuple[tuple[float | None, float | None], ...], mount: Mount) -> Refusal | None:

@@ -30,6 +30,11 @@ class Authority:
         if latch:
             self.latched = str(source)
 
+    def take(self, source: Source, why: str) -> None:
+        """A person takes the antenna for something that nobody may interrupt until released."""
+        self.latched = f"{source}: {why}"
+        self.controlled_by = source
+
     def released(self) -> None:
         """A person lets the box move again; nobody stays silenced."""
         self.latched = ""

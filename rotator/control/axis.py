@@ -9,12 +9,15 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.calibration import Calibration, between_ends
+from rotator.control.endurance import Endurance
 from rotator.control.motion import Motor
 from rotator.control.mount import Range
 from rotator.control.plan import Path
+from rotator.control.pointing import AimGoal
+from rotator.control.safety import MotionWatch
 from rotator.control.sensing import Reading, Sensing, Window
 from rotator.control.switched import Run, SwitchedLaw
-from rotator.status import AxisStatus, Fault
+from rotator.status import AxisStatus, Fault, LearntMotor
 
 UNCALIBRATED_JOG_S = 2.0
 """One press on an axis that nobody has commissioned yet."""
@@ -36,15 +39,13 @@ class AxisSettings:
     missing: tuple[str, ...] = ()
     """What a person has still to do before this axis may be aimed; empty: commissioned."""
     source: str = "measured"
-
-
-@dataclass(frozen=True, slots=True)
-class AimGoal:
-    """A target, with its path where it moves. The tolerance is the axis's own, or on the sky along a path."""
-
-    target_deg: float
-    tolerance_deg: float
-    path: Path | None = None
+    learnt: tuple[Motor, Motor] | None = None
+    """What an earlier run has learnt of the motor, clockwise or up and back: it begins with that."""
+    longest_run_s: float = 0.0
+    rest_s: float = 0.0
+    """What the motor stands in one go, and how long it then takes to cool; zero: any."""
+    master: bool = False
+    """Whether an output switches the motors' supply."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +64,13 @@ class AxisControl:
         self._period_s = period_s
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
         self._law = SwitchedLaw(settings.motor, lease_s=lease_s, period_s=period_s)
+        if settings.learnt is not None:
+            self._law.motion.motors.update(zip((Direction.PLUS, Direction.MINUS), settings.learnt, strict=True))
+        self._watch = self._new_watch()
+        self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
+        self._driven = Direction.OFF
+        self._taught = dict(self._law.motion.motors)
+        """What was known of the motor before its last run."""
         self._seen_s: float | None = None
         self._driven_s: float | None = None
         self._first_end: tuple[bool, float] | None = None
@@ -70,6 +78,11 @@ class AxisControl:
     @property
     def angle_deg(self) -> float | None:
         return self._sensing.angle_deg
+
+    @property
+    def speed_dps(self) -> float:
+        """How fast the motor is, as learnt: the slower direction."""
+        return min(motor.speed_dps for motor in self._law.motion.motors.values())
 
     @property
     def uncalibrated(self) -> str:
@@ -80,21 +93,50 @@ class AxisControl:
     def calibration(self) -> Calibration | None:
         return self._sensing.calibration
 
+    @property
+    def driven(self) -> bool:
+        """Whether its relays were closed when last heard of."""
+        return self._driven is not Direction.OFF
+
     def see(self, reading: Reading, now_s: float) -> None:
         """Take the latest reading; the same one again is no news but may have grown too old."""
-        fault = self._sensing.take(reading, now_s)
-        if fault is not None and self.fault is None:
-            self.fault = fault
+        self.fail(self._sensing.take(reading, now_s))
         if self._sensing.believable and reading.at_s != self._seen_s and self._sensing.angle_deg is not None:
             self._law.see(reading.at_s, self._sensing.angle_deg)
             self._seen_s = reading.at_s
+            self.fail(self._watch.see(reading.at_s, self._sensing.angle_deg))
+
+    def fail(self, fault: Fault | None) -> None:
+        """Something is wrong with this axis: it stops until that is acknowledged. The first fault is the one told."""
+        if fault is None or self.fault is not None:
+            return
+        self.fault = fault
+        self._law.motion.forget_run()
+        self._law.motion.motors.update(self._taught)
 
     def acknowledge(self) -> None:
         """A person or a stop has taken note of the fault; it comes back at once if its cause is still there."""
         self.fault = None
+        self._watch.acknowledge()
 
     def decide(self, now_s: float) -> Run:
-        """What the motor is to do from now on."""
+        """What the motor is to do from now on: what the goal asks for, as far as it is safe."""
+        run = self._wish(now_s)
+        if run.direction is Direction.OFF:
+            return run
+        self.fail(self._watch.accuse(run.direction))
+        if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
+            return self._law.rest(now_s)
+        return Run(Direction.OFF, now_s) if self._watch.forbids(run.direction) else run
+
+    def _beyond(self, direction: Direction) -> bool:
+        """Whether the axis stands at its limit that way or past it, whatever the law takes it for."""
+        if self._missing or self._sensing.angle_deg is None:
+            return False
+        limits, angle_deg = self.settings.limits, self._sensing.angle_deg
+        return angle_deg >= limits.max_deg if direction > 0 else angle_deg <= limits.min_deg
+
+    def _wish(self, now_s: float) -> Run:
         if self.fault is not None:
             self.goal = None
         if self.goal is None or not self._sensing.believable:
@@ -117,12 +159,13 @@ class AxisControl:
         if self._missing or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
         limits = self.settings.limits
-        run = self._law.approach(now_s, limits.max_deg if direction > 0 else limits.min_deg, JOG_TOLERANCE_DEG)
-        if run.direction is not direction:
-            # At the limit, or beyond it: a jog never turns back.
+        limit_deg = limits.max_deg if direction > 0 else limits.min_deg
+        if (limit_deg - self._sensing.angle_deg) * direction <= JOG_TOLERANCE_DEG:
             self.goal = None
             return self._law.rest(now_s)
-        return Run(direction, min(run.until_s, longest_s))
+        run = self._law.approach(now_s, limit_deg, JOG_TOLERANCE_DEG)
+        # A jog never turns back: what the law would do the other way is rest, from a motor still to be reversed too.
+        return Run(direction, min(run.until_s, longest_s)) if run.direction is direction else self._law.rest(now_s)
 
     def start_jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
         if direction is Direction.OFF:
@@ -148,13 +191,22 @@ class AxisControl:
             self._sensing.calibration = between_ends(low_raw, limits.min_deg, high_raw, limits.max_deg)
             self._missing = tuple(item for item in self._missing if item != "calibration")
         self._law = SwitchedLaw(self.settings.motor, lease_s=self._lease_s, period_s=self._period_s)
+        self._watch = self._new_watch()
+
+    def moving(self, now_s: float) -> bool:
+        """Driven, or off for so short a while that it may still coast."""
+        return self._driven_s is not None and now_s - self._driven_s < SETTLED_AFTER_S
 
     def status(self, now_s: float, driven: Direction) -> AxisStatus:
         """This axis as others see it; `driven` is what its relays really do."""
+        if driven is not Direction.OFF and self._driven is Direction.OFF:
+            self._taught = dict(self._law.motion.motors)
+        self._driven = driven
         self._law.driven(now_s, driven)
+        self._watch.driven(now_s, driven)
+        self._endurance.note(now_s, running=self.driven)
         if driven is not Direction.OFF:
             self._driven_s = now_s
-        moving = self._driven_s is not None and now_s - self._driven_s < SETTLED_AFTER_S
         return AxisStatus(
             min_deg=self.settings.limits.min_deg,
             max_deg=self.settings.limits.max_deg,
@@ -163,8 +215,28 @@ class AxisControl:
             source=self.settings.source,
             target_deg=self.goal.target_deg if isinstance(self.goal, AimGoal) else None,
             drive=driven,
-            moving=moving,
+            moving=self.moving(now_s),
             uncalibrated=self.uncalibrated,
             fault=self.fault,
+            notices=self._notices(),
             calibration=self.calibration.points if self.calibration else None,
+            learnt=self._learnt(),
         )
+
+    def _notices(self) -> tuple[str, ...]:
+        blind = "blind to a broken pot wire: without end resistors it looks like an angle"
+        hot = self._endurance.notice
+        return (
+            *self._watch.notices,
+            *((hot,) if hot else ()),
+            *((blind,) if self.settings.window.blind else ()),
+        )
+
+    def _new_watch(self) -> MotionWatch:
+        settings = self.settings
+        return MotionWatch(settings.axis, settings.limits, self._law.motion.motors, master=settings.master)
+
+    def _learnt(self) -> tuple[LearntMotor, LearntMotor]:
+        motors = self._law.motion.motors
+        plus, minus = motors[Direction.PLUS], motors[Direction.MINUS]
+        return LearntMotor(plus.speed_dps, plus.coast_deg), LearntMotor(minus.speed_dps, minus.coast_deg)

@@ -22,8 +22,10 @@ SETTLE_S = 0.8
 """How long a motor takes to come to rest for certain; what it then reads is where it stopped."""
 LEARN = 0.35
 """How far one run moves what has been learnt."""
-LEAST_RUN_S = 0.8
-"""Shorter runs never reached full speed: they teach nothing about it."""
+LEAST_RUN_DEG = 1.0
+"""Shorter runs teach nothing: their readings are as rough as they are long."""
+FULL_SPEED = 0.8
+"""A run that got this near to full speed shows the whole coast."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,15 +45,15 @@ class Motor:
 class _Run:
     direction: Direction
     started_s: float
-    cruising_deg: float | None = None
-    cruising_s: float = 0.0
+    from_deg: float | None
+    """Where the axis rested before; None: it was still coasting."""
 
 
 @dataclass(slots=True)
 class _Landing:
-    """A run that has been switched off: what it was to reach, and since when the axis has been coasting."""
+    """A run that has been switched off and coasts: what it was to reach."""
 
-    direction: Direction
+    run: _Run
     off_s: float
     wanted_deg: float
     at_speed: float
@@ -81,12 +83,15 @@ class Motion:
         self._advance(now_s)
         run, self._run = self._run, None
         if direction is not Direction.OFF:
+            self._run = _Run(direction, now_s, self.angle_deg if self._landing is None else None)
             self._landing = None
-            self._run = _Run(direction, now_s)
         elif run is not None:
-            self._learn_speed(run, now_s)
             at_speed = self._speed_dps * run.direction / self.motors[run.direction].speed_dps
-            self._landing = _Landing(run.direction, now_s, wanted_deg, at_speed, [])
+            self._landing = _Landing(run, now_s, wanted_deg, at_speed, [])
+
+    def forget_run(self) -> None:
+        """What the present run, or the last one, may yet teach is worth nothing: something was wrong with it."""
+        self._run = self._landing = None
 
     def see(self, at_s: float, angle_deg: float) -> None:
         """A believable reading."""
@@ -104,7 +109,6 @@ class Motion:
             return
         self._strays.clear()
         self.angle_deg += (GAIN_RESTING if self.resting else GAIN_RUNNING) * stray_deg
-        self._note_cruise(at_s)
         self._land(at_s, angle_deg)
 
     def rest_deg(self, now_s: float) -> float:
@@ -119,8 +123,8 @@ class Motion:
         return self._speed_at(now_s)
 
     def _lag_s(self) -> float:
-        direction = self._run.direction if self._run else self._landing.direction if self._landing else Direction.PLUS
-        return self.motors[direction].lag_s
+        run = self._run or (self._landing.run if self._landing else None)
+        return self.motors[run.direction if run else Direction.PLUS].lag_s
 
     def _speed_at(self, now_s: float) -> float:
         wanted_dps = 0.0
@@ -145,34 +149,28 @@ class Motion:
         self._speed_dps = wanted_dps + gap_dps * fade
         self._at_s = now_s
 
-    def _note_cruise(self, at_s: float) -> None:
-        run = self._run
-        if run is not None and run.cruising_deg is None and at_s - run.started_s > LEAST_RUN_S:
-            run.cruising_deg, run.cruising_s = self.angle_deg, at_s
-
-    def _learn_speed(self, run: _Run, now_s: float) -> None:
-        if run.cruising_deg is None or self.angle_deg is None or now_s - run.cruising_s < LEAST_RUN_S:
-            return
-        seen_dps = (self.angle_deg - run.cruising_deg) / (now_s - run.cruising_s) * run.direction
-        motor = self.motors[run.direction]
-        if seen_dps > 0:
-            speed_dps = motor.speed_dps + LEARN * (seen_dps - motor.speed_dps)
-            self.motors[run.direction] = Motor(speed_dps, motor.coast_deg)
-
     def _land(self, at_s: float, angle_deg: float) -> None:
-        """Once the axis has come to rest: where it stands against where it was to stand teaches the coast."""
+        """Once the axis has come to rest, learn from how far the run took it and from where it was to stand."""
         landing = self._landing
         if landing is None or at_s - landing.off_s < SETTLE_S:
             return
         landing.readings.append(angle_deg)
-        if len(landing.readings) < JUMP_READINGS * 2:
+        if len(landing.readings) < 2 * JUMP_READINGS:
             return
         self._landing = None
-        rest_deg = sum(landing.readings) / len(landing.readings)
-        self.angle_deg = rest_deg
+        self.angle_deg = rest_deg = sum(landing.readings) / len(landing.readings)
         self._speed_dps = 0.0
-        if landing.at_speed > 0.8:
-            missed_deg = (rest_deg - landing.wanted_deg) * landing.direction
-            motor = self.motors[landing.direction]
-            coast_deg = min(max(motor.coast_deg + LEARN * missed_deg, 0.0), 3.0 * motor.speed_dps)
-            self.motors[landing.direction] = Motor(motor.speed_dps, coast_deg)
+        run = landing.run
+        motor = self.motors[run.direction]
+        speed_dps, coast_deg = motor.speed_dps, motor.coast_deg
+        if run.from_deg is not None:
+            # What a motor gains late when it starts it gives back when it stops: from rest to rest it has gone
+            # its full speed times the time it was switched on.
+            gone_deg = (rest_deg - run.from_deg) * run.direction
+            if gone_deg > LEAST_RUN_DEG:
+                trust = LEARN * min(1.0, gone_deg / (4 * LEAST_RUN_DEG))
+                speed_dps += trust * (gone_deg / (landing.off_s - run.started_s) - speed_dps)
+        if landing.at_speed > FULL_SPEED:
+            missed_deg = (rest_deg - landing.wanted_deg) * run.direction
+            coast_deg = min(max(coast_deg + LEARN * missed_deg, 0.0), 3.0 * speed_dps)
+        self.motors[run.direction] = Motor(speed_dps, coast_deg)

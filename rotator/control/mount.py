@@ -1,12 +1,13 @@
 """Turns a direction in the sky into axis angles: the only place that does.
 
-Knows the range of each axis, its overlap and the park position. Knows nothing of motors, sensors or time.
+Knows the range of each axis, its overlap, whether the antenna may go over the top, the horizon of trees and roofs, and
+the park position. Knows nothing of motors, sensors or time.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from bisect import bisect_right
 from dataclasses import dataclass
 
 from rotator.control.angles import turn_deg
@@ -38,6 +39,10 @@ class Mount:
     elevation: Range
     park_azimuth_deg: float = 0.0
     park_elevation_deg: float = 0.0
+    flip: bool = False
+    """A person has said that the antenna clears everything on its way over the top."""
+    horizon: tuple[tuple[float, float], ...] = ()
+    """Points (azimuth, least elevation), azimuth rising from 0 to below 360: trees, the neighbour's roof."""
 
     def axis_angles(
         self, azimuth_deg: float, elevation_deg: float | None, near_azimuth_deg: float
@@ -51,22 +56,36 @@ class Mount:
             return self._turn(azimuth_deg, near_azimuth_deg), None
         if elevation_deg > ZENITH_DEG and not self.elevation.holds(elevation_deg):
             azimuth_deg, elevation_deg = (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
-        return self._turn(azimuth_deg, near_azimuth_deg), self.elevation.nearest(elevation_deg)
+        axis_azimuth_deg = self._turn(azimuth_deg, near_azimuth_deg)
+        return axis_azimuth_deg, self.clear_deg(axis_azimuth_deg, elevation_deg)
 
-    def along(
-        self, directions: Iterable[tuple[float, float]], from_azimuth_deg: float, *, flipped: bool
-    ) -> tuple[list[float], list[float]]:
-        """Axis angles along a path of directions, azimuth and elevation, going on from an azimuth on its own turn.
+    def on_the_way(
+        self, azimuth_deg: float, elevation_deg: float, from_azimuth_deg: float, *, flipped: bool
+    ) -> tuple[float, float]:
+        """Axis angles for a direction, going on from an azimuth the short way, over the top or not; limits not yet
+        applied, for a way may lead beyond them."""
+        if flipped:
+            azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
+        return from_azimuth_deg + turn_deg(from_azimuth_deg, azimuth_deg), elevation_deg
 
-        `flipped`: the antenna flies it over the top, because whoever sends the orders flips.
-        """
-        azimuths_deg, elevations_deg = [], []
-        azimuth_deg = from_azimuth_deg
-        for towards_deg, elevation_deg in directions:
-            azimuth_deg += turn_deg(azimuth_deg, towards_deg + 180.0 if flipped else towards_deg)
-            azimuths_deg.append(self.azimuth.nearest(azimuth_deg))
-            elevations_deg.append(self.elevation.nearest(180.0 - elevation_deg if flipped else elevation_deg))
-        return azimuths_deg, elevations_deg
+    def clear_deg(self, axis_azimuth_deg: float, elevation_deg: float) -> float:
+        """The elevation nearest to the one asked for that is within limits and above the horizon there."""
+        elevation_deg = self.elevation.nearest(elevation_deg)
+        if not self.horizon:
+            return elevation_deg
+        if elevation_deg > ZENITH_DEG:
+            least_deg = self._horizon_deg(axis_azimuth_deg + 180.0)
+            return self.elevation.nearest(min(elevation_deg, 180.0 - least_deg))
+        return self.elevation.nearest(max(elevation_deg, self._horizon_deg(axis_azimuth_deg)))
+
+    def _horizon_deg(self, azimuth_deg: float) -> float:
+        """Straight lines between the points, all the way round."""
+        azimuth_deg %= 360.0
+        last = self.horizon[-1]
+        around = ((last[0] - 360.0, last[1]), *self.horizon, (self.horizon[0][0] + 360.0, self.horizon[0][1]))
+        at = bisect_right(around, azimuth_deg, key=lambda point: point[0])
+        (az_a, el_a), (az_b, el_b) = around[at - 1], around[at]
+        return el_a + (azimuth_deg - az_a) / (az_b - az_a) * (el_b - el_a)
 
     def _turn(self, azimuth_deg: float, near_deg: float) -> float:
         if azimuth_deg > 360.0 and self.azimuth.holds(azimuth_deg):  # the sender names the overlap

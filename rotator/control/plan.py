@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-PRICE = 3.0
+PRICE = 3.3
 """Degrees squared times seconds that a start is worth, for a tolerance of one degree; it grows with the cube."""
 
 OFFSETS_S = (*(0.5 * i for i in range(20)), *(10.0 + 2.0 * i for i in range(26)))

@@ -1,19 +1,29 @@
 """Whether a sensor can be believed: one axis's readings in, an angle or a fault out.
 
-Knows the window of plausible readings and how long a bad one may last. Knows no device; it does not switch anything.
+Knows the window of plausible readings, how long a bad one may last and how often a reading may jump. Knows no device;
+it does not switch anything.
 """
 
 from __future__ import annotations
 
+import math
+from collections import deque
 from dataclasses import dataclass
 
 from hw.ports import Axis
 from rotator.control.calibration import Calibration
 from rotator.status import Fault
 
-BAD_FOR_S = 0.12
+BAD_FOR_S = 0.1
 """A fault needs this long of bad readings (three at 20 Hz); the very first stops the motor."""
-STALE_S = 0.3
+STALE_S = 0.2
+"""A reading older than this says nothing of where the antenna is now."""
+JUMP_DEG = 5.0
+JUMPS = 3
+JUMPS_WITHIN_S = 0.3
+"""A spark is two jumps, out and back: one more as soon as that, and the wire is loose."""
+UNCALIBRATED_SPAN_DEG = 360.0
+"""What a pot's whole range is taken for where nobody has measured it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +42,11 @@ class Window:
     low_raw: float
     high_raw: float
 
+    @property
+    def blind(self) -> bool:
+        """Whether a wire may break without a reading that shows it: there are no end resistors."""
+        return self.low_raw <= 0.0 or self.high_raw >= 1.0
+
 
 class Sensing:
     """One axis's sensor over time."""
@@ -44,22 +59,24 @@ class Sensing:
         self.angle_deg: float | None = None
         """The last believable angle; None before the first and without a calibration."""
         self.believable = False
-        self._last_good_s: float | None = None
-        self._first_s: float | None = None
+        self._bad_since_s: float | None = None
+        self._last: tuple[float, float] | None = None
+        self._jumps: deque[tuple[float, float]] = deque(maxlen=JUMPS)
 
     def take(self, reading: Reading, now_s: float) -> Fault | None:
         """Note a reading (or the same again, if no new one came). Returns the fault it amounts to, if it does."""
-        self._first_s = now_s if self._first_s is None else self._first_s
         problem = self._problem(reading, now_s)
+        jumping = self._jumping(reading)
         self.believable = problem is None
         if problem is None:
-            self._last_good_s = reading.at_s
+            self._bad_since_s = None
             self.raw = reading.raw
             if self.calibration is not None and reading.raw is not None:
                 self.angle_deg = self.calibration.degrees(reading.raw)
-            return None
-        since_s = self._last_good_s if self._last_good_s is not None else self._first_s
-        return problem if now_s - since_s >= BAD_FOR_S else None
+            return jumping
+        if self._bad_since_s is None:
+            self._bad_since_s = now_s
+        return problem if now_s - self._bad_since_s >= BAD_FOR_S else jumping
 
     def _problem(self, reading: Reading, now_s: float) -> Fault | None:
         low, high = self._window.low_raw, self._window.high_raw
@@ -71,3 +88,23 @@ class Sensing:
             self.raw = reading.raw
             return Fault("pot open or shorted", self._axis, f"reads {reading.raw:.3f}", f"{low:g} to {high:g}")
         return None
+
+    def _jumping(self, reading: Reading) -> Fault | None:
+        """Back and forth, and back again: no motor does that, whether or not each place is a plausible one."""
+        # No answer at all is a place too, far from any other.
+        raw = reading.raw if reading.raw is not None and math.isfinite(reading.raw) else -1.0
+        angle_deg = self.calibration.degrees(raw) if self.calibration else raw * UNCALIBRATED_SPAN_DEG
+        if self._last is not None and reading.at_s <= self._last[0]:
+            return None
+        if self._last is not None and reading.at_s - self._last[0] <= JUMPS_WITHIN_S:
+            jump_deg = angle_deg - self._last[1]
+            if abs(jump_deg) > JUMP_DEG:
+                self._jumps.append((reading.at_s, jump_deg))
+        self._last = (reading.at_s, angle_deg)
+        if len(self._jumps) < JUMPS or reading.at_s - self._jumps[0][0] > JUMPS_WITHIN_S:
+            return None
+        sizes_deg = [jump_deg for _, jump_deg in self._jumps]
+        if min(sizes_deg) > 0 or max(sizes_deg) < 0:
+            return None  # all one way: that may be a fast rotor
+        measured = f"by {max(map(abs, sizes_deg)):.0f}°, {JUMPS} times in {JUMPS_WITHIN_S:g} s"
+        return Fault("pot jumps", self._axis, measured, f"{JUMP_DEG:g}° from one reading to the next")

@@ -18,6 +18,10 @@ class TimedList:
         self._started_s: float | None = None
         self._started_point = 0
 
+    @property
+    def running(self) -> bool:
+        return self._started_s is not None
+
     def load(self, interval_s: float, points: tuple[Point, ...]) -> Point:
         """Take a new list. Returns its first point, to aim at while waiting for `run`."""
         self.interval_s, self.points, self.point = interval_s, points, 1

@@ -63,6 +63,10 @@ class Track:
         """Whether there is a path; else the last order is where the target stands."""
         return self._fit is not None and now_s - self._orders[-1][0] <= COASTING_S
 
+    def age_s(self, now_s: float) -> float:
+        """How long the stream has lasted; 0 without one."""
+        return now_s - self._orders[0][0] if self._fit is not None else 0.0
+
     def direction(self, at_s: float) -> tuple[float, float]:
         """Azimuth and elevation at a moment, now or to come. There must have been an order."""
         last_s, azimuth_deg, elevation_deg = self._orders[-1]

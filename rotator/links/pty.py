@@ -6,6 +6,7 @@ Knows how to make one that stays up whoever opens and closes it. Knows no protoc
 from __future__ import annotations
 
 import asyncio
+import fcntl
 import os
 import tty
 from collections.abc import Callable
@@ -23,6 +24,7 @@ class PtyLink:
         self._session = session
         self._master = -1
         self._slave = -1
+        self._locked = -1
         self._name = ""
 
     async def open(self) -> None:
@@ -34,13 +36,17 @@ class PtyLink:
         self._name = os.ttyname(self._slave)
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
+            self._lock()
             if self._path.is_symlink():
                 self._path.unlink()
             self._path.symlink_to(self._name)
+        except BlockingIOError as fault:
+            self._close_fds()
+            raise LinkError(f"{self._path}: another program of this kind has it") from fault
         except OSError as fault:
             self._close_fds()
             raise LinkError(f"{self._path}: cannot be made a link to a terminal: {fault.strerror}") from fault
-        self.wire.state = f"open as {self._name}"
+        self.wire.state = f"→ {self._name}"
 
     async def run(self) -> None:
         try:
@@ -53,6 +59,12 @@ class PtyLink:
             self._close_fds()
             self.wire.state = "closed"
 
+    def _lock(self) -> None:
+        """A link left by a program that died may be replaced; one whose program lives may not."""
+        self._locked = os.open(self._path.with_name(f".{self._path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600)
+        fcntl.flock(self._locked, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
     def _close_fds(self) -> None:
-        os.close(self._master)
-        os.close(self._slave)
+        for fd in (self._master, self._slave, self._locked):
+            if fd >= 0:
+                os.close(fd)

@@ -26,11 +26,14 @@ URL_POLL_S = 0.1
 
 
 class SerialLink:
-    def __init__(self, wire: Wire, port: str, baud: int, session: Callable[[], Session]) -> None:
+    def __init__(
+        self, wire: Wire, port: str, baud: int, session: Callable[[], Session], *, retry_s: float = RETRY_S
+    ) -> None:
         self.wire = wire
         self._port = port
         self._baud = baud
         self._session = session
+        self._retry_s = retry_s
         self._told = ""
 
     async def open(self) -> None:
@@ -52,7 +55,7 @@ class SerialLink:
                     port.close()
                     self.wire.state = "closed"
                 self._tell(f"lost: {why}")
-            await asyncio.sleep(RETRY_S)
+            await asyncio.sleep(self._retry_s)
 
     def _open(self) -> Any:
         return serial.serial_for_url(self._port, self._baud, timeout=0, write_timeout=0)

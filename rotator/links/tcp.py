@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 from collections.abc import Callable
 from typing import cast
 
@@ -36,7 +37,7 @@ class TcpLink:
                 lambda: _Client(self.wire, self._session, self._clients), self._host, self._port, reuse_address=True
             )
         except OSError as fault:
-            why = fault.strerror or str(fault)
+            why = os.strerror(fault.errno) if fault.errno else str(fault)
             raise LinkError(f"{self._host}:{self._port}: cannot listen there: {why}") from fault
         self.wire.state = "listening"
 

@@ -13,6 +13,22 @@ COLUMNS = 16
 ALTERNATE_S = 2.0
 """A fault takes the upper row every other two seconds."""
 _SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
+_SHORT_FAULTS = {
+    "pot open or shorted": "POT OPEN/SHRT",
+    "motor runs and pot stands still": "STANDS STILL",
+    "pot moves the wrong way": "WRONG WAY",
+    "turning with no relay on": "TURNS BY SELF",
+    "motor on longer than the travel takes": "RUN TOO LONG",
+    "end stop reached": "END STOP",
+    "control thread late": "CONTROL LATE",
+}
+"""Where a fault's own name is longer than the thirteen characters beside the axis."""
+_SHORT_NOTICES = {
+    "turning with no relay on": "TURNS BY SELF",
+    "still turning with the master open": "STILL TURNS",
+    "motor hot": "MOTOR HOT",
+}
+"""What a notice says before its colon. One that is not here would hide the satellite for good: the log has it."""
 
 
 def rows(status: Status, now_s: float) -> tuple[str, str]:
@@ -28,12 +44,18 @@ def rows(status: Status, now_s: float) -> tuple[str, str]:
 
 
 def _notices(status: Status) -> list[str]:
-    notices = [f"{_SHORT[fault.axis]} " if fault.axis else "" for fault in status.faults]
-    notices = [prefix + fault.name.upper() for prefix, fault in zip(notices, status.faults, strict=True)]
+    notices = [fault.act_now for fault in status.faults if fault.act_now]
+    notices += [
+        (f"{_SHORT[fault.axis]} " if fault.axis else "") + _SHORT_FAULTS.get(fault.name, fault.name.upper())
+        for fault in status.faults
+    ]
     if status.latched:
         notices.append("STOP: " + status.latched.upper())
     notices += [f"{_SHORT[axis]} UNCALIBRATED" for axis in Axis if status.axis(axis).uncalibrated]
-    return notices
+    for axis in Axis:
+        heads = [notice.partition(":")[0] for notice in status.axis(axis).notices]
+        notices += [f"{_SHORT[axis]} {_SHORT_NOTICES[head]}" for head in heads if head in _SHORT_NOTICES]
+    return list(dict.fromkeys(notices))
 
 
 def _azimuth(angle_deg: float | None) -> str:

@@ -24,9 +24,9 @@ _WORDS = {
     (Axis.ELEVATION, Direction.PLUS): "UP",
     (Axis.ELEVATION, Direction.MINUS): "DOWN",
 }
-WIDTH = 84
-_SHOWN_BYTES = 22
-_BAR_CELLS = 20
+WIDTH = 80
+_SHOWN_BYTES = 17
+_BAR_CELLS = 14
 
 
 class WireView(Protocol):
@@ -52,6 +52,7 @@ def line(status: Status) -> str:
     if status.latched:
         parts.append(f"STOPPED by {status.latched}")
     parts += [f"FAULT {fault}" for fault in status.faults]
+    parts += [f"NOTE {notice}" for notice in _notes(status)]
     return "  ".join(parts)
 
 
@@ -66,9 +67,12 @@ def picture(
     ]
     if status.faults or status.latched:
         parts.append(_alarm(status))
+    notes = _notes(status)
+    if notes:
+        parts.append(Text("\n".join(notes), style="bold yellow"))
     if log_rows:
         parts.append(Text("\n".join(log_rows), style="dim", no_wrap=True, overflow="ellipsis"))
-    parts.append(Text("space STOP   r release   q quit", style="bold"))
+    parts.append(Text("space STOP   p storm park   r release   q quit", style="bold"))
     return Panel(Group(*parts), title=title, title_align="left", width=WIDTH)
 
 
@@ -106,7 +110,7 @@ def _relay_lamps(drives: Mapping[Axis, Direction]) -> Text:
 def _axes(status: Status) -> RenderableType:
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
     for heading in ("axis", "angle", "target", "", "range", "reading"):
-        table.add_column(heading, justify="right" if heading in ("angle", "target") else "left", no_wrap=not heading)
+        table.add_column(heading, justify="right" if heading in ("angle", "target") else "left", no_wrap=True)
     for axis in Axis:
         each = status.axis(axis)
         table.add_row(
@@ -123,8 +127,8 @@ def _axes(status: Status) -> RenderableType:
 
 def _links(wires: Sequence[WireView]) -> RenderableType:
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("link", "where", "state", "last in", "last out"):
-        table.add_column(heading, no_wrap=True, overflow="ellipsis")
+    for heading, cells in (("link", 8), ("where", 14), ("state", 12), ("last in", 16), ("last out", 17)):
+        table.add_column(heading, min_width=cells, no_wrap=True, overflow="ellipsis")
     for wire in wires:
         table.add_row(wire.name, wire.where, wire.state, _bytes(wire.last_in), _bytes(wire.last_out))
     return table
@@ -133,8 +137,12 @@ def _links(wires: Sequence[WireView]) -> RenderableType:
 def _alarm(status: Status) -> RenderableType:
     rows = [str(fault) for fault in status.faults]
     if status.latched:
-        rows.append(f"STOPPED by {status.latched}: nothing moves until released (r)")
+        rows.append(f"held by {status.latched}: no order moves it until released (r)")
     return Panel(Text("\n".join(rows), style="bold white on red"), box=HEAVY, style="red", expand=False)
+
+
+def _notes(status: Status) -> list[str]:
+    return [f"{axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
 
 
 def _bar(axis: AxisStatus) -> Text:
@@ -162,7 +170,8 @@ def _axis_words(status: Status, axis: Axis) -> str:
 
 
 def _degrees(angle_deg: float | None, digits: int = 1) -> str:
-    return "---" if angle_deg is None else f"{angle_deg:.{digits}f}°"
+    # Adding zero turns the minus zero of a noisy pot at its stop into zero.
+    return "---" if angle_deg is None else f"{round(angle_deg, digits) + 0.0:.{digits}f}°"
 
 
 def _bytes(data: bytes) -> str:

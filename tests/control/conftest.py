@@ -11,6 +11,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis import AxisSettings
 from rotator.control.calibration import between_ends
 from rotator.control.controller import Controller, Settings
+from rotator.control.motion import Motor
 from rotator.control.mount import Mount, Range
 from rotator.control.sensing import Reading, Window
 from rotator.control.switched import Run
@@ -55,12 +56,14 @@ class Desk:
                 mount=Mount(self.range[AZ], self.range[EL], *park),
             )
         )
+        self.status: Status = self.controller.status(self.now_s, self.driven)
 
     def _settings(self, axis: Axis, missing: tuple[str, ...]) -> AxisSettings:
         limits = self.range[axis]
         line = between_ends(LOW_RAW, limits.min_deg, HIGH_RAW, limits.max_deg)
         calibration = None if "calibration" in missing else line
-        return AxisSettings(axis, limits, 4.0, self.LAG_S, Window(0.02, 0.98), calibration, missing)
+        motor = Motor(self.SPEED_DPS[axis], self.SPEED_DPS[axis] * self.LAG_S)
+        return AxisSettings(axis, limits, 4.0, motor, Window(0.02, 0.98), calibration, missing)
 
     def raw(self, axis: Axis) -> float:
         limits = self.range[axis]
@@ -78,6 +81,7 @@ class Desk:
         }
         self.runs = self.controller.step(self.now_s, readings, [(by, order) for order in orders])
         self.driven = {axis: run.direction for axis, run in self.runs.items()}
+        self.status = self.controller.status(self.now_s, self.driven)
         return self.driven
 
     def _turn(self, axis: Axis, wanted_dps: float, seconds: float) -> None:
@@ -88,18 +92,14 @@ class Desk:
 
     def place(self, axis: Axis, angle_deg: float) -> None:
         """Stand the axis there, at rest, for as long as anybody may remember that it moved."""
-        self.angle_deg[axis] = angle_deg
-        self._speed_dps[axis] = 0.0
-        self.step(seconds=5.0)
-        self.step()
+        for _ in range(40):
+            self.angle_deg[axis] = angle_deg
+            self._speed_dps[axis] = 0.0
+            self.step()
 
     def run(self, seconds: float) -> set[tuple[Axis, Direction]]:
         """Steps at 20 Hz without orders; returns every drive seen."""
         return {drive for _ in range(round(seconds / 0.05)) for drive in self.step().items() if drive[1]}
-
-    @property
-    def status(self) -> Status:
-        return self.controller.status(self.now_s, self.driven)
 
     def at_rest(self) -> bool:
         return all(way is Direction.OFF for way in self.driven.values())

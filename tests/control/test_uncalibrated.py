@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed
+from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
@@ -122,12 +122,22 @@ def test_a_calibrated_axis_takes_one_end_anew(desk: Any) -> None:
     assert desk.run(5.0) == set()
 
 
-def test_under_orders_it_keeps_its_calibration(desk: Any) -> None:
+def test_while_anything_moves_it_keeps_its_calibration(desk: Any) -> None:
     before = desk.status.azimuth.calibration
-    desk.step(Aim(235, 60))
-    desk.step(Calibrate(AZ, high_end=True))
+    desk.step(Aim(100, 60))
+    for order in (Stop(), Calibrate(AZ, high_end=True)):  # stopped, but still coasting
+        desk.step(order)
     assert desk.status.azimuth.calibration == before
-    assert desk.controller.troubles == ["azimuth is not calibrated while the antenna is under orders"]
+    assert desk.controller.troubles == ["azimuth is not calibrated while the antenna moves"]
+
+
+def test_a_calibration_forgets_where_the_axis_was_to_point(desk: Any) -> None:
+    # the target was meant on the old scale
+    desk.step(Aim(100, 10))
+    calibrate(desk, AZ, 100.0, high_end=False)
+    assert desk.status.azimuth.angle_deg == pytest.approx(0.0)
+    assert desk.run(5.0) == set()
+    assert desk.status.azimuth.target_deg is None
 
 
 def test_with_a_broken_pot_it_keeps_its_calibration(desk: Any) -> None:

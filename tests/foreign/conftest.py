@@ -61,7 +61,7 @@ def start_box(tmp_path: Path) -> Iterator[Callable[..., RunningBox]]:
         pty, gs232_port, rotctld_port = tmp_path / "gs232", free_port(), free_port()
         config = tmp_path / "rotator.toml"
         config.write_text(
-            f'{extra}\n[[link]]\nprotocol = "{dialect}"\npty = "{pty}"\n'
+            f'{extra}\n[state]\npath = "{tmp_path / "state.json"}"\n[[link]]\nprotocol = "{dialect}"\npty = "{pty}"\n'
             f'[[link]]\nname = "tcp"\nprotocol = "{dialect}"\ntcp = "127.0.0.1:{gs232_port}"\n'
             f'[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{rotctld_port}"\n'
         )

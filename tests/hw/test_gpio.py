@@ -103,7 +103,6 @@ def test_without_permission_it_names_the_group() -> None:
         find_chip(Forbidden(), paths=["/dev/gpiochip0"])
 
 
-@pytest.mark.xfail(strict=True, reason="with the chip named in the file, the group is not")
 def test_without_permission_for_a_chip_named_in_the_file_it_names_the_group_too() -> None:
     with pytest.raises(HardwareError, match="add the user to the group gpio"):
         take(Forbidden())

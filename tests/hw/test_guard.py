@@ -152,7 +152,6 @@ class MeddledClock:
         return time.monotonic()
 
 
-@pytest.mark.xfail(strict=True, reason="the wake-up of a command given between the guard's look and its sleep is lost")
 def test_a_command_given_just_before_the_guard_falls_asleep_ends_in_time() -> None:
     bench = Bench(master=True)
     bench.run_once()
@@ -173,7 +172,6 @@ def test_stopping_the_guard_opens_everything(bench: Bench, guard: Guard) -> None
     assert not any(bench.gpio.level(pin) for pin in PINS.values())
 
 
-@pytest.mark.xfail(strict=True, reason="stop wakes nobody: the thread sleeps on for as long as the master would linger")
 def test_after_stop_the_thread_is_gone() -> None:
     bench = Bench(master=True)
     bench.run_once()

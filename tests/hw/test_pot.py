@@ -102,7 +102,6 @@ def test_a_converter_that_is_gone_is_said_by_the_bus(bench: Bench) -> None:
         bench.ratiometric().read()
 
 
-@pytest.mark.xfail(strict=True, reason="only a float is taken for volts", raises=AttributeError)
 def test_a_supply_may_be_a_whole_number_of_volts(bench: Bench) -> None:
     bench.supply_v = 3.0
     assert PotSensor(bench.adc, WIPER, 3).read() == pytest.approx(0.25, abs=STEP)

@@ -1,0 +1,126 @@
+"""How well the box points: run `python -m benchmarks.passes`.
+
+Twelve real passes flown in simulated time by the emulated sketch and by the box at 4, 2 and 1 degrees, beside the least
+error that any relay controller could reach with as many starts, knowing the future (tests/passes/optimum.json).
+Prints a Markdown table; `--svg FILE` draws it. Every figure is the same on every machine.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+
+from benchmarks.picture import draw
+from rotator.config.load import parse
+from rotator.passes import read_pass
+from rotator.rehearsal import Summary, fly, plant_maker
+
+PASSES = Path(__file__).parent.parent / "tests" / "passes"
+TOLERANCES_DEG = (4.0, 2.0, 1.0)
+AXES = ("azimuth", "elevation")
+
+
+@dataclass(frozen=True, slots=True)
+class Flight:
+    """One pass flown by one controller. `tolerance_deg` None: the emulated sketch."""
+
+    pass_name: str
+    tolerance_deg: float | None
+    summary: Summary
+
+    @property
+    def starts(self) -> int:
+        return self.summary.relay_starts or 0
+
+    @property
+    def ratio(self) -> float:
+        """Error against the least possible with as many starts."""
+        return self.summary.rms_deg / optimum_deg(self.pass_name, self.starts)
+
+
+def optimum_points() -> dict[str, list[tuple[float, float]]]:
+    """For each pass the points (starts, rms in degrees), fewest starts first."""
+    table = json.loads((PASSES / "optimum.json").read_text())
+    return {name.removesuffix(".csv"): sorted((s, r) for s, r in points) for name, points in table.items()}
+
+
+def optimum_deg(pass_name: str, starts: float) -> float:
+    """Interpolated: log of the error over log of the starts; fewer starts than the first point count as that point."""
+    points = optimum_points()[pass_name]
+    starts = max(starts, points[0][0])
+    for (few, more_deg), (many, less_deg) in pairwise(points):
+        if starts <= many:
+            share = math.log(starts / few) / math.log(many / few)
+            return more_deg * (less_deg / more_deg) ** share
+    return points[-1][1]
+
+
+def fly_one(job: tuple[str, float | None, str]) -> Flight:
+    pass_name, tolerance_deg, extra = job
+    config = parse(extra, "benchmark")
+    if tolerance_deg is not None:
+        axes = {axis: getattr(config, axis).model_copy(update={"tolerance_deg": tolerance_deg}) for axis in AXES}
+        config = config.model_copy(update=axes)
+    make = plant_maker(config, arduino=tolerance_deg is None)
+    _, summary = fly(read_pass(PASSES / f"{pass_name}.csv"), make)
+    return Flight(pass_name, tolerance_deg, summary)
+
+
+def fly_all(tolerances: tuple[float | None, ...], extra: str = "") -> list[Flight]:
+    names = [path.stem for path in sorted(PASSES.glob("*.csv"))]
+    jobs = [(name, tolerance, extra) for tolerance in tolerances for name in names]
+    with ProcessPoolExecutor() as pool:
+        return list(pool.map(fly_one, jobs))
+
+
+def mean(values: list[float]) -> float:
+    return sum(values) / len(values)
+
+
+def means_line(name: str, flights: list[Flight]) -> str:
+    each = [flight.summary for flight in flights]
+    return (
+        f"{name:22} {mean([f.starts for f in flights]):6.1f} starts (most {max(f.starts for f in flights)}), "
+        f"{mean([s.rms_deg for s in each]):5.2f}° rms, p95 {mean([s.p95_deg for s in each]):.2f}° "
+        f"(most {max(s.p95_deg for s in each):.2f}°), worst {max(s.max_deg for s in each):.1f}°, "
+        f"{mean([f.ratio for f in flights]):.3f} x the optimum"
+    )
+
+
+def markdown(flights: list[Flight]) -> str:
+    rows = ["| pass | emulated sketch | box at 4° | box at 2° | box at 1° |", "|---|---|---|---|---|"]
+    by_key = {(flight.pass_name, flight.tolerance_deg): flight for flight in flights}
+    for name in sorted({flight.pass_name for flight in flights}):
+        cells = []
+        for tolerance in (None, *TOLERANCES_DEG):
+            flight = by_key[name, tolerance]
+            cells.append(f"{flight.starts} starts, {flight.summary.rms_deg:.2f}°")
+        rows.append(f"| {name} | " + " | ".join(cells) + " |")
+    return "\n".join(rows)
+
+
+def main() -> None:
+    flights = fly_all((None, *TOLERANCES_DEG))
+    print(markdown(flights))
+    print()
+    series = {}
+    for tolerance in (None, *TOLERANCES_DEG):
+        chosen = [flight for flight in flights if flight.tolerance_deg == tolerance]
+        name = "emulated sketch" if tolerance is None else f"box at {tolerance:g}°"
+        print(means_line(name, chosen))
+        series[name] = (mean([f.starts for f in chosen]), mean([f.summary.rms_deg for f in chosen]))
+    noisy = "[sim.azimuth]\npot_noise_deg = 0.4\n[sim.elevation]\npot_noise_deg = 0.4\n"
+    chosen = fly_all((4.0,), noisy)
+    quiet = series["box at 4°"][0]
+    print(means_line("box at 4°, noise x 4", chosen), f", {mean([f.starts for f in chosen]) / quiet:.2f} x the starts")
+    if "--svg" in sys.argv:
+        Path(sys.argv[sys.argv.index("--svg") + 1]).write_text(draw(series, list(optimum_points().values())))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,75 @@
+"""The picture in the README: run `python -m benchmarks.screenshot docs/img/run.svg`.
+
+Starts the box on the simulated rotor, orders it about over its own pseudo-terminal and TCP port, and prints what
+`rotator run` shows after some seconds as an SVG. Nothing in it is drawn by hand.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import io
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+from rich.console import Console
+
+from rotator import __version__
+from rotator.app import App
+from rotator.config.load import parse
+from rotator.views import terminal
+
+UNDER_WAY_S = 30.0
+
+
+async def take() -> str:
+    before = os.getcwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        try:
+            app = App(parse(CONFIG, "screenshot"))
+            stop = asyncio.Event()
+            box = asyncio.create_task(app.run(stop))
+            await asyncio.sleep(1.0)
+            reader, writer = await asyncio.open_connection("127.0.0.1", 4533)
+            writer.write(b"p\n")
+            await reader.readline()
+            port = os.open("run/gs232", os.O_RDWR | os.O_NOCTTY)
+            os.write(port, b"W235 025\r")
+            await asyncio.sleep(UNDER_WAY_S)
+            os.write(port, b"C2\r")
+            await asyncio.sleep(0.5)
+            picture = _render(app)
+            os.close(port)
+            writer.close()
+            stop.set()
+            await box
+        finally:
+            os.chdir(before)
+    return picture
+
+
+def _render(app: App) -> str:
+    world = app.station.world
+    assert world is not None
+    assert world.lcd is not None
+    console = Console(record=True, width=terminal.WIDTH, file=io.StringIO())
+    wires = [link.wire for link in app.links]
+    console.print(terminal.picture(__version__, app.loop.status, world.lcd.text(), wires, []))
+    return console.export_svg(title="rotator run")
+
+
+CONFIG = """
+[[link]]
+protocol = "gs232b"
+pty = "run/gs232"
+[[link]]
+protocol = "rotctld"
+tcp = "127.0.0.1:4533"
+"""
+
+if __name__ == "__main__":
+    target = Path(sys.argv[1]).resolve()
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(asyncio.run(take()))

@@ -1,0 +1,132 @@
+"""The guide's words for each axis: which way is which, which key turns it, what to look at.
+
+Knows language. Knows nothing of when anything is said.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hw.ports import Axis
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    axis: str
+    plus: str
+    minus: str
+    plus_key: str
+    minus_key: str
+    arrows: str
+    plus_relay: str
+    minus_relay: str
+    seen: str
+    low_end: str
+    high_end: str
+    scale: str
+
+    @property
+    def keys(self) -> str:
+        return (
+            f"{self.plus_key} turns it {self.plus}, {self.minus_key} {self.minus}; s stops it; y, n, f, numbers and "
+            "Enter answer; q leaves."
+        )
+
+    @property
+    def introduction(self) -> tuple[str, ...]:
+        return (
+            f"Setting up the {self.axis}. It does not know its limits yet: be ready to cut the motors' supply.",
+            f"  {self.plus_key} or {self.arrows}: {self.plus} / {self.minus} ({self.minus_key}), for as long as the "
+            f"key is held; {self.plus_key.upper()} and {self.minus_key.upper()}: 2 s a press.",
+            "  Space or s stops. Ctrl-C or q leaves at any moment: every relay off, nothing saved.",
+        )
+
+    @property
+    def direction_check(self) -> tuple[str, ...]:
+        return (
+            "1. Directions. The antenna should be in the middle of its travel, away from both stops.",
+            f"   Turn it {self.plus} until you have clearly seen which way it goes.",
+        )
+
+    @property
+    def turn_plus(self) -> str:
+        return f"Press {self.plus_key} ({self.plus}) and watch the antenna."
+
+    @property
+    def turn_minus(self) -> str:
+        return f"Now back: press {self.minus_key} ({self.minus})."
+
+    @property
+    def press_first(self) -> str:
+        return f"Turn it first: {self.plus_key} is {self.plus}, {self.minus_key} is {self.minus}."
+
+    @property
+    def did_it_turn(self) -> str:
+        return f"Did the antenna turn {self.seen}? y or n:"
+
+    @property
+    def swap(self) -> str:
+        return (
+            f"Then swap {self.plus_relay} and {self.minus_relay} in [relays] of the file (or the two wires), and begin "
+            "again. Nothing is saved."
+        )
+
+    @property
+    def same_way(self) -> str:
+        return (
+            f"Refused: {self.plus} and {self.minus} move the reading the same way. Do both relays drive one direction? "
+            "Nothing is saved."
+        )
+
+    def drive_to(self, where: str) -> tuple[str, ...]:
+        number, key, way = (
+            ("2", self.minus_key, self.minus) if where == self.low_end else ("3", self.plus_key, self.plus)
+        )
+        return (
+            f"{number}. The {where}. Drive it there with {key} ({way}): to its stop, or to a mark that you trust.",
+            "   Just before the stop is better than hard against it.",
+        )
+
+    @property
+    def between(self) -> tuple[str, ...]:
+        return (
+            "4. Points between, if the pot is not straight: drive to an angle that you know, as many as you like.",
+            "   Come to each from the same side: then the gear's play does not count.",
+        )
+
+    def summary(self, min_deg: float, max_deg: float) -> tuple[str, ...]:
+        return ("", f"[{self.axis}]: the table above, limits {min_deg:g} to {max_deg:g}, direction checked.")
+
+
+AZIMUTH = Words(
+    axis="azimuth",
+    plus="clockwise",
+    minus="counter-clockwise",
+    plus_key="r",
+    minus_key="l",
+    arrows="the arrows right and left",
+    plus_relay="azimuth_cw",
+    minus_relay="azimuth_ccw",
+    seen="clockwise, seen from above",
+    low_end="low end (counter-clockwise)",
+    high_end="high end (clockwise)",
+    scale="-360 to 720",
+)
+ELEVATION = Words(
+    axis="elevation",
+    plus="up",
+    minus="down",
+    plus_key="u",
+    minus_key="d",
+    arrows="the arrows up and down",
+    plus_relay="elevation_up",
+    minus_relay="elevation_down",
+    seen="up",
+    low_end="low end (down)",
+    high_end="high end (up)",
+    scale="-90 to 210",
+)
+
+
+def words_for(axis: Axis) -> Words:
+    return AZIMUTH if axis is Axis.AZIMUTH else ELEVATION

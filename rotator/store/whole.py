@@ -1,0 +1,38 @@
+"""Replaces a file whole or not at all, whenever the power goes.
+
+Knows files. Knows nothing of what is in them.
+"""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+
+NEW = ".new"
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Put `text` in the place of the file. Raises OSError; then the old file is as it was.
+
+    A `.new` file that an earlier attempt left behind is written over. Mode and owner stay those of the old file; a
+    symbolic link stays one.
+    """
+    path = path.resolve()
+    new = path.with_name(path.name + NEW)
+    with new.open("w", encoding="utf-8") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
+    with suppress(FileNotFoundError):
+        before = path.stat()
+        new.chmod(before.st_mode & 0o777)
+        with suppress(PermissionError):
+            os.chown(new, before.st_uid, before.st_gid)
+    new.replace(path)
+    # The new name is only safe once the folder itself is on the disk.
+    folder = os.open(path.parent, os.O_RDONLY)
+    try:
+        os.fsync(folder)
+    finally:
+        os.close(folder)

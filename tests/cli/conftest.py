@@ -1,0 +1,214 @@
+"""The command as a user starts it: a process of its own in a folder of its own, with pipes or a terminal around it.
+
+Nothing here waits for a time to pass, only for output that must come, far longer than it should take.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import select
+import signal
+import subprocess
+import sys
+import termios
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+PATIENCE_S = 60.0
+
+FAST_ROTOR = """
+[sim.azimuth]
+speed_dps = 60
+lag_s = 0.02
+pot_noise_deg = 0.02
+backlash_deg = 0
+[sim.elevation]
+speed_dps = 60
+lag_s = 0.02
+pot_noise_deg = 0.02
+backlash_deg = 0
+[azimuth]
+speed_dps = 60
+coast_s = 0.04
+[elevation]
+speed_dps = 60
+coast_s = 0.04
+"""
+COMMAND = (sys.executable, "-m", "rotator")
+_TAKE_TERMINAL = (
+    "import fcntl, os, sys, termios; fcntl.ioctl(0, termios.TIOCSCTTY, 0); os.execv(sys.argv[1], sys.argv[1:])"
+)
+
+
+class Running:
+    """A command under way, and what it has printed so far."""
+
+    def __init__(self, process: subprocess.Popen[bytes], output: int, errors: Path | None = None) -> None:
+        self.process = process
+        self._output = output
+        self._errors = errors
+        self._text = ""
+
+    def until(self, pattern: str) -> str:
+        """Read on until the output matches; returns it up to there and forgets it."""
+        deadline_s = time.monotonic() + PATIENCE_S
+        while not (found := re.search(pattern, self._text)):
+            ready, _, _ = select.select([self._output], [], [], max(0.0, deadline_s - time.monotonic()))
+            assert ready, f"no {pattern!r} in {self._text!r}{self.errors}"
+            assert self._read(), f"it ended without {pattern!r}: {self._text!r}{self.errors}"
+        seen, self._text = self._text[: found.end()], self._text[found.end() :]
+        return seen
+
+    def stop(self, signum: int = signal.SIGINT) -> int:
+        """Its exit code."""
+        self.process.send_signal(signum)
+        return self.ends()
+
+    def ends(self) -> int:
+        while self._read():
+            pass
+        return self.process.wait(timeout=PATIENCE_S)
+
+    @property
+    def errors(self) -> str:
+        return self._errors.read_text() if self._errors else ""
+
+    @property
+    def rest(self) -> str:
+        """What it printed since the last thing waited for."""
+        return self._text
+
+    def _read(self) -> bool:
+        try:
+            data = os.read(self._output, 65536)
+        except OSError:  # a terminal that nobody has open any more
+            return False
+        self._text += data.decode("utf-8", "replace")
+        return bool(data)
+
+
+class InTerminal(Running):
+    """With a terminal of 40 rows and 120 columns for keyboard and screen."""
+
+    def __init__(self, process: subprocess.Popen[bytes], master: int, slave: int) -> None:
+        super().__init__(process, master)
+        self._master = master
+        self._slave = slave
+        self.modes_before = self.modes()
+
+    def modes(self) -> list[object]:
+        return termios.tcgetattr(self._slave)
+
+    def press(self, key: str) -> None:
+        os.write(self._master, key.encode())
+
+    def frame(self) -> str:
+        """The next whole picture."""
+        self.until("╭")
+        return self.until("╰")
+
+    def ends(self) -> int:
+        # Read along, lest it wait for the terminal to take its last picture.
+        while self.process.poll() is None:
+            ready, _, _ = select.select([self._master], [], [], 0.1)
+            if ready:
+                self._read()
+        return self.process.wait(timeout=PATIENCE_S)
+
+
+@pytest.fixture
+def rotator(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Run a command to its end."""
+
+    def run(*words: object) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [*COMMAND, *map(str, words)], cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False
+        )
+
+    return run
+
+
+@pytest.fixture
+def start(tmp_path: Path) -> Iterator[Callable[..., Running]]:
+    """Start a command, its output in pipes."""
+    started: list[Running] = []
+
+    def begin(*words: object) -> Running:
+        errors = tmp_path / "errors.txt"
+        with errors.open("wb") as file:
+            process = subprocess.Popen(
+                [*COMMAND, *map(str, words)],
+                cwd=tmp_path,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=file,
+            )
+        assert process.stdout is not None
+        started.append(Running(process, process.stdout.fileno(), errors))
+        return started[-1]
+
+    yield begin
+    for each in started:
+        _end(each.process)
+        if each.process.stdout is not None:
+            each.process.stdout.close()
+
+
+@pytest.fixture
+def start_in_terminal(tmp_path: Path) -> Iterator[Callable[..., InTerminal]]:
+    """Start a command in a terminal."""
+    started: list[tuple[InTerminal, int, int]] = []
+
+    def begin(*words: object) -> InTerminal:
+        master, slave = os.openpty()
+        termios.tcsetwinsize(slave, (40, 120))
+        process = subprocess.Popen(
+            [sys.executable, "-c", _TAKE_TERMINAL, *COMMAND, *map(str, words)],
+            cwd=tmp_path,
+            stdin=slave,
+            stdout=slave,
+            stderr=slave,
+            start_new_session=True,
+            env=os.environ | {"TERM": "xterm-256color"},
+        )
+        started.append((InTerminal(process, master, slave), master, slave))
+        return started[-1][0]
+
+    yield begin
+    for each, master, slave in started:
+        _end(each.process)
+        os.close(slave)
+        os.close(master)
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Path:
+    """A fast simulated rotor with one link, a pseudo-terminal at `gs232`."""
+    path = tmp_path / "station.toml"
+    path.write_text(FAST_ROTOR + '[[link]]\nprotocol = "gs232b"\npty = "gs232"\n')
+    return path
+
+
+@pytest.fixture
+def send(tmp_path: Path) -> Callable[[bytes], None]:
+    """Write to the pseudo-terminal at `gs232`."""
+
+    def write(data: bytes) -> None:
+        line = os.open(tmp_path / "gs232", os.O_RDWR | os.O_NOCTTY)
+        try:
+            os.write(line, data)
+        finally:
+            os.close(line)
+
+    return write
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    with contextlib.suppress(ProcessLookupError):
+        process.kill()
+    process.wait()

@@ -1,0 +1,146 @@
+"""`rotator calibrate` as a person starts it, without a terminal: lines in, lines out, the file at the end."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from hw.ports import Axis
+from rotator.calibrating.guide import Commissioned
+from rotator.commissioning import as_toml
+from rotator.config.load import load, parse
+
+LIMIT_S = 60.0
+STATION = """# A fast one.
+[elevation]
+min_deg = 0                   # level
+max_deg = 90
+
+[sim.elevation]
+speed_dps = 60
+lag_s = 0.02
+pot_noise_deg = 0.02
+start_deg = 40
+
+[sim.azimuth]
+speed_dps = 60
+start_deg = 200
+"""
+WHOLE = ["u 0.2", "y", "d 0.2", "d", "", "-2", "u", "", "92", "f", "", "", "y"]
+
+Start = Callable[..., subprocess.Popen[str]]
+
+
+@pytest.fixture
+def station(tmp_path: Path) -> Path:
+    path = tmp_path / "station.toml"
+    path.write_text(STATION)
+    return path
+
+
+@pytest.fixture
+def start() -> Iterator[Start]:
+    running: list[subprocess.Popen[str]] = []
+
+    def command(*arguments: str) -> subprocess.Popen[str]:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "rotator", "calibrate", *arguments],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        running.append(process)
+        return process
+
+    yield command
+    for process in running:
+        process.kill()
+        process.wait()
+        for stream in (process.stdin, process.stdout):
+            assert stream is not None
+            stream.close()
+
+
+def finish(process: subprocess.Popen[str], *lines: str) -> tuple[str, int]:
+    text, _ = process.communicate("".join(f"{line}\n" for line in lines), timeout=LIMIT_S)
+    return text, process.returncode
+
+
+def read_until(process: subprocess.Popen[str], words: str) -> str:
+    assert process.stdout is not None
+    text, until_s = "", time.monotonic() + LIMIT_S
+    while words not in text:
+        assert time.monotonic() < until_s
+        line = process.stdout.readline()
+        assert line, f"ended before it said {words!r}: {text}"
+        text += line
+    return text
+
+
+def test_a_script_sets_an_axis_up(start: Start, station: Path) -> None:
+    text, code = finish(start("--config", str(station), "elevation"), *WHOLE)
+    assert code == 0, text
+    assert text.startswith("SIMULATED")
+    assert "Traceback" not in text
+    elevation = load(station).elevation
+    assert elevation.calibration == [(pytest.approx(0.03, abs=1e-3), -2.0), (pytest.approx(0.97, abs=1e-3), 92.0)]
+    assert (elevation.min_deg, elevation.max_deg, elevation.direction_checked) == (0.0, 90.0, True)
+    assert "# level" in station.read_text()
+    assert station.with_name("station.toml.bak").read_text() == STATION
+
+
+def test_the_end_of_the_input_is_the_end(start: Start, station: Path) -> None:
+    text, code = finish(start("--config", str(station), "elevation"), "u 0.2", "y")
+    assert code == 1
+    assert "nothing is saved" in text
+    assert station.read_text() == STATION
+
+
+@pytest.mark.parametrize("signum", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_while_it_turns(start: Start, station: Path, signum: int) -> None:
+    process = start("--config", str(station), "azimuth")
+    assert process.stdin is not None
+    read_until(process, "> Press r")
+    process.stdin.write("r\n")
+    process.stdin.flush()
+    process.send_signal(signum)
+    text, _ = process.communicate(timeout=LIMIT_S)
+    assert process.returncode == 1
+    assert "every relay is off, nothing of the azimuth is saved" in text
+    assert "Traceback" not in text
+    assert [path.name for path in station.parent.iterdir()] == ["station.toml"]
+
+
+def test_leaving(start: Start) -> None:
+    text, code = finish(start("azimuth"), "q")
+    assert code == 1
+    assert "nothing is saved" in text
+
+
+def test_without_a_file_the_lines_for_one_are_shown() -> None:
+    done = Commissioned(Axis.ELEVATION, ((0.0312, -2.0), (0.97, 92.0)), 0.0, 90.0)
+    elevation = parse(as_toml(done), "shown").elevation
+    assert elevation.calibration == [(0.0312, -2.0), (0.97, 92.0)]
+    assert elevation.direction_checked
+
+
+def test_a_bad_file(start: Start, tmp_path: Path) -> None:
+    path = tmp_path / "bad.toml"
+    path.write_text("[azimuth]\nmin = 3\n")
+    text, code = finish(start("--config", str(path)))
+    assert code == 2
+    assert "did you mean" in text
+
+
+def test_a_fault_of_the_simulator(start: Start, station: Path) -> None:
+    process = start("--config", str(station), "elevation", "--fault", "elevation-pot-open")
+    text, code = finish(process, "u", "", "q")
+    assert code == 1
+    assert "FAULT elevation: pot open or shorted" in text

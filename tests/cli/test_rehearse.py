@@ -1,0 +1,173 @@
+"""`rotator rehearse`: a pass in, figures and a trace out, the same every time."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+PASSES = Path(__file__).parents[1] / "passes"
+KEYS = ["rms_deg", "p95_deg", "max_deg", "relay_starts", "motor_s"]
+COLUMNS = ["t", "target_az", "target_el", "antenna_az", "antenna_el", "az_drive", "el_drive"]
+Rotator = Callable[..., Any]
+
+
+@pytest.fixture
+def overhead(tmp_path: Path) -> Path:
+    """Two minutes from the west through north to the east."""
+    path = tmp_path / "overhead.csv"
+    rows = [f"{t},{(300 + t) % 360},{10 + t / 4}" for t in range(0, 121, 10)]
+    path.write_text("t,az,el\n" + "\n".join(rows) + "\n")
+    return path
+
+
+def figures(done: Any) -> dict[str, Any]:
+    assert done.returncode == 0, done.stderr
+    return dict(json.loads(done.stdout))
+
+
+# --- what comes out
+
+
+def test_the_summary_as_json(rotator: Rotator, overhead: Path) -> None:
+    summary = figures(rotator("rehearse", overhead, "--json"))
+    assert list(summary) == KEYS
+    assert 0 < summary["rms_deg"] <= summary["p95_deg"] <= summary["max_deg"]
+    assert isinstance(summary["relay_starts"], int)
+    assert summary["motor_s"] > 10
+
+
+def test_the_summary_in_a_sentence(rotator: Rotator, overhead: Path) -> None:
+    done = rotator("rehearse", overhead)
+    assert done.returncode == 0
+    assert done.stdout.startswith("overhead: the box was off by ")
+    assert " relay starts, motors on for " in done.stdout
+    assert done.stdout.endswith(" s of 120 s\n")
+
+
+def test_two_runs_are_one(rotator: Rotator, overhead: Path, tmp_path: Path) -> None:
+    results = []
+    for trace in (tmp_path / "one.csv", tmp_path / "two.csv"):
+        done = rotator("rehearse", overhead, "--json", "--trace", trace)
+        results.append((figures(done), trace.read_bytes()))
+    assert results[0] == results[1]
+
+
+def test_the_trace(rotator: Rotator, overhead: Path, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.csv"
+    summary = figures(rotator("rehearse", overhead, "--json", "--trace", trace))
+    with trace.open(newline="") as file:
+        header, *rows = csv.reader(file)
+    assert header == COLUMNS
+    samples = [dict(zip(COLUMNS, map(float, row), strict=True)) for row in rows]
+    assert samples[0]["t"] == 0
+    assert samples[-1]["t"] >= 119.9
+    assert all(0 < b["t"] - a["t"] <= 0.1001 for a, b in pairwise(samples)), "10 Hz or faster"
+    assert {row[column] for row in samples for column in ("az_drive", "el_drive")} == {-1.0, 0.0, 1.0} - (
+        {-1.0} if not any(-1.0 in (row["az_drive"], row["el_drive"]) for row in samples) else set()
+    )
+    assert (samples[0]["antenna_az"], samples[0]["antenna_el"]) == (300.0, 0.0), "at the pass's first azimuth, level"
+    assert all(0 <= row["target_az"] < 360 for row in samples)
+    assert max(row["antenna_az"] for row in samples) > 400, "on the rotor's own scale: through north into the overlap"
+    starts = sum(
+        b[column] != 0 and b[column] != a[column] for a, b in pairwise(samples) for column in ("az_drive", "el_drive")
+    )
+    assert starts == pytest.approx(summary["relay_starts"], abs=2)
+
+
+def test_a_configured_start_stands(rotator: Rotator, overhead: Path, tmp_path: Path) -> None:
+    config, trace = tmp_path / "station.toml", tmp_path / "trace.csv"
+    config.write_text("[sim.azimuth]\nstart_deg = 100\n[sim.elevation]\nstart_deg = 20\n")
+    figures(rotator("rehearse", overhead, "--config", config, "--json", "--trace", trace))
+    assert trace.read_text().splitlines()[1].split(",")[3:5] == ["100.0", "20.0"]
+
+
+# --- how it is flown
+
+
+def test_via_rotctld(rotator: Rotator, overhead: Path) -> None:
+    summary = figures(rotator("rehearse", overhead, "--via", "rotctld", "--json"))
+    assert list(summary) == KEYS
+    assert summary["rms_deg"] < 6
+
+
+def test_the_tolerance_is_the_file_s(rotator: Rotator, overhead: Path, tmp_path: Path) -> None:
+    config = tmp_path / "station.toml"
+    config.write_text("[azimuth]\ntolerance_deg = 1\n[elevation]\ntolerance_deg = 1\n")
+    coarse = figures(rotator("rehearse", overhead, "--json"))
+    fine = figures(rotator("rehearse", overhead, "--config", config, "--json"))
+    assert fine["relay_starts"] > coarse["relay_starts"]
+    assert fine["rms_deg"] < coarse["rms_deg"]
+
+
+def test_a_real_station_s_file_is_flown_on_a_simulated_rotor(rotator: Rotator, overhead: Path, tmp_path: Path) -> None:
+    config = tmp_path / "station.toml"
+    config.write_text('[rotor]\nhardware = "pi"\n[azimuth]\ncalibration = [[0.2, 0], [0.8, 450]]\n')
+    assert figures(rotator("rehearse", overhead, "--config", config, "--json"))["rms_deg"] < 6
+
+
+def test_the_sketch_flies_the_same_pass(rotator: Rotator, overhead: Path) -> None:
+    done = rotator("rehearse", overhead, "--arduino")
+    assert done.returncode == 0
+    assert done.stdout.startswith("overhead: the emulated Arduino was off by ")
+
+
+def test_a_fault_strikes(rotator: Rotator, overhead: Path) -> None:
+    healthy = figures(rotator("rehearse", overhead, "--json"))
+    done = rotator("rehearse", overhead, "--json", "--fault", "azimuth-pot-open@40")
+    assert figures(done)["max_deg"] > healthy["max_deg"] + 30
+    assert "FAULT azimuth" in done.stderr
+
+
+# --- what is refused
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (None, "cannot be read: "),
+        ("", "the first line must name the columns t,az,el"),
+        ("t,az,el\n0,0,0\n", "a pass needs two rows or more"),
+        ("t,az,el\n0,0,0\n1,north,0\n", "t, az and el must be numbers"),
+        ("t,az,el\n0,0,0\n0,1,0\n", "t must rise from row to row"),
+    ],
+    ids=["missing", "empty", "one row", "a word", "no time"],
+)
+def test_a_bad_pass(rotator: Rotator, tmp_path: Path, text: str | None, said: str) -> None:
+    path = tmp_path / "bad.csv"
+    if text is not None:
+        path.write_text(text)
+    done = rotator("rehearse", path, "--json")
+    assert done.returncode == 1
+    assert done.stdout == ""
+    assert done.stderr.startswith(f"Error: {path}")
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "said", "code"),
+    [
+        (("--via", "telepathy"), "'telepathy' is not one of", 2),
+        (("--fault", "gremlins"), "no fault called gremlins", 2),
+        (("--arduino", "--fault", "adc-gone"), "--fault is for the box", 2),
+        (("--config", "nowhere.toml"), "nowhere.toml: 1 fault", 2),
+        (("--trace", "nowhere/trace.csv"), "nowhere/trace.csv: cannot be written: No such file or directory", 1),
+    ],
+)
+def test_what_cannot_be_done(rotator: Rotator, overhead: Path, words: tuple[str, ...], said: str, code: int) -> None:
+    done = rotator("rehearse", overhead, *words)
+    assert done.returncode == code
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_the_faults_there_are(rotator: Rotator, overhead: Path) -> None:
+    done = rotator("rehearse", overhead, "--fault", "list")
+    assert done.returncode == 0
+    assert "azimuth-pot-open" in done.stdout.splitlines()

@@ -1,0 +1,97 @@
+"""The box in a terminal: the live picture, and the keys that stop it, release it and end it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Start = Callable[..., Any]
+Send = Callable[[bytes], None]
+FRAMES = 100
+"""How many pictures to look at: five come every second."""
+
+
+def picture_with(box: Any, *words: str, without: tuple[str, ...] = ()) -> str:
+    """The first picture that has all these words and none of those."""
+    for _ in range(FRAMES):
+        frame = box.frame()
+        if all(word in frame for word in words) and not any(word in frame for word in without):
+            return str(frame)
+    pytest.fail(f"no picture with {words} and without {without}; the last was\n{frame}")
+
+
+@pytest.fixture
+def box(start_in_terminal: Start, config: Path) -> Any:
+    return start_in_terminal("run", "--config", config)
+
+
+def test_the_picture_shows_the_display_the_axes_and_the_links(box: Any, send: Send) -> None:
+    picture_with(box, "SIMULATED", "SAT A:--- E:---", "SIM A:000 E:000", "gs232b", "0…450°", "0…180°")
+    send(b"W235 025\r")
+    picture_with(box, "SAT A:235 E:025", r"W235 025\r", "under gs232b#1", "●")
+    picture_with(box, "SIM A:23", without=("●",))
+    box.press("q")
+    assert box.ends() == 0
+
+
+def test_space_stops_and_latches_and_r_releases(box: Any, send: Send) -> None:
+    picture_with(box, "SIM A:000")
+    send(b"R\r")
+    picture_with(box, "● CW")
+    box.press(" ")
+    picture_with(box, "STOPPED by console: nothing moves until released (r)", without=("●",))
+    send(b"L\r")
+    # The order has been heard, and nothing comes of it.
+    picture_with(box, r"L\r", "STOPPED by console", without=("●",))
+    box.press("r")
+    picture_with(box, "space STOP", without=("STOPPED",))
+    send(b"L\r")
+    picture_with(box, "● CCW")
+    box.press("q")
+    assert box.ends() == 0
+
+
+def test_q_gives_the_terminal_back_as_it_was(box: Any, tmp_path: Path) -> None:
+    box.frame()
+    assert box.modes() != box.modes_before, "keys act without Enter"
+    box.press("q")
+    assert box.ends() == 0
+    assert box.modes() == box.modes_before
+    assert not (tmp_path / "gs232").is_symlink()
+    assert "Traceback" not in box.rest
+
+
+def test_control_c_is_q(box: Any) -> None:
+    box.frame()
+    box.press("\x03")
+    assert box.ends() == 0
+    assert box.modes() == box.modes_before
+
+
+def test_any_other_key_does_nothing(box: Any, send: Send) -> None:
+    box.frame()
+    send(b"R\r")
+    picture_with(box, "● CW")
+    for key in ("x", "\r", "\x1b[A", "ä"):
+        box.press(key)
+    picture_with(box, "● CW", without=("STOPPED",))
+    box.press("q")
+    assert box.ends() == 0
+
+
+def test_plain_lines_on_demand(start_in_terminal: Start, config: Path) -> None:
+    box = start_in_terminal("run", "--config", config, "--plain")
+    assert "╭" not in box.until("azimuth 0°  elevation 0°")
+    box.press("\x03")
+    assert box.ends() == 0
+
+
+def test_the_arduino_s_picture(start_in_terminal: Start, config: Path) -> None:
+    box = start_in_terminal("arduino", "--config", config, "--pty", "uno")
+    picture_with(box, "F1EFW sketch", "SIMULATED", "SAT A:000 E:000", "ANT A:000 E:000", "q quit")
+    box.press("q")
+    assert box.ends() == 0
+    assert box.modes() == box.modes_before

@@ -1,0 +1,59 @@
+"""Parking: by order, when nobody has moved the antenna for long, and before a storm."""
+
+from __future__ import annotations
+
+from firmware_sim.clock import SimClock
+from rotator.config.load import parse
+from rotator.orders import Aim, Order, Park, Release, Source
+from rotator.rehearsal import BoxPlant
+
+LINK, CONSOLE = Source("gs232b", 1), Source("console")
+PARKED = (90.0, 45.0)
+CONFIGURATION = "[mount]\npark_azimuth_deg = 90\npark_elevation_deg = 45\npark_after_s = 60\n"
+
+
+class Station:
+    def __init__(self) -> None:
+        self.clock = SimClock()
+        self.plant = BoxPlant(parse(CONFIGURATION, "test"), self.clock, (180.0, 10.0), "gs232")
+
+    def say(self, source: Source, order: Order, then_s: float) -> None:
+        self.plant.post(source, order)
+        self.plant.run_until(self.clock() + then_s)
+
+    def at(self, azimuth_deg: float, elevation_deg: float) -> bool:
+        boom_az_deg, boom_el_deg = self.plant.world.antenna()
+        return abs(boom_az_deg - azimuth_deg) < 1.0 and abs(boom_el_deg - elevation_deg) < 1.0
+
+
+def test_before_any_order_nothing_parks() -> None:
+    station = Station()
+    station.plant.run_until(120.0)
+    assert station.at(180, 10)
+    assert station.plant.relay_starts() == 0
+
+
+def test_a_minute_after_the_last_order_it_parks_once() -> None:
+    station = Station()
+    station.say(LINK, Aim(200, 30), 58.0)
+    assert station.at(200, 30)
+    station.say(LINK, Aim(200, 30), 58.0)
+    assert station.at(200, 30)
+    station.plant.run_until(station.clock() + 40.0)
+    assert station.at(*PARKED)
+    starts = station.plant.relay_starts()
+    station.plant.run_until(station.clock() + 150.0)
+    assert station.plant.relay_starts() == starts
+
+
+def test_in_a_storm_it_stays_parked_until_a_person_releases_it() -> None:
+    station = Station()
+    station.say(LINK, Aim(200, 30), 2.0)
+    station.say(CONSOLE, Park(storm=True), 60.0)
+    assert station.at(*PARKED)
+    assert station.plant.status.latched == "console: storm park"
+    station.say(LINK, Aim(200, 30), 30.0)
+    assert station.at(*PARKED)
+    station.say(CONSOLE, Release(), 1.0)
+    station.say(LINK, Aim(200, 30), 60.0)
+    assert station.at(200, 30)

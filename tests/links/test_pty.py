@@ -1,0 +1,221 @@
+"""A pseudo-terminal with a symlink: a serial port that stays up whoever opens it, leaves it or never reads it."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import termios
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+import serial
+
+from rotator.links.pty import PtyLink
+from rotator.links.wire import LinkError, Wire
+from rotator.protocols.gs232 import Dialect
+
+Running = Callable[[PtyLink], Any]
+OpenEnd = Callable[[Path], Any]
+POSITION = b"AZ=235  EL=025\r\n"
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "run" / "gs232"
+
+
+@pytest.fixture
+def link(wire: Wire, path: Path, bench: Any) -> PtyLink:
+    return PtyLink(wire, path, bench.gs232)
+
+
+# --- the symlink
+
+
+def test_it_is_there_while_the_link_runs(link: PtyLink, path: Path, running: Running) -> None:
+    async def look() -> None:
+        async with running(link):
+            assert os.readlink(path).startswith("/dev/pts/")
+            assert link.wire.state == f"→ {os.readlink(path)}"
+        assert not path.is_symlink()
+        assert link.wire.state == "closed"
+
+    asyncio.run(look())
+
+
+def test_one_left_by_a_program_that_died_is_replaced(link: PtyLink, path: Path, running: Running, end: OpenEnd) -> None:
+    path.parent.mkdir()
+    path.symlink_to("/dev/pts/99999")
+    path.with_name(".gs232.lock").touch()
+
+    async def look() -> None:
+        async with running(link):
+            assert await end(path).ask(b"C2\r") == POSITION
+
+    asyncio.run(look())
+
+
+def test_one_in_use_is_refused_and_goes_on(
+    link: PtyLink, path: Path, running: Running, end: OpenEnd, new_ear: type[Any]
+) -> None:
+    async def look() -> None:
+        async with running(link):
+            with pytest.raises(LinkError) as refused:
+                await PtyLink(Wire("second", "test", "here"), path, new_ear).open()
+            assert str(refused.value) == f"{path}: another program of this kind has it"
+            assert await end(path).ask(b"C2\r") == POSITION
+
+    asyncio.run(look())
+
+
+def test_a_file_of_the_user_s_is_refused_and_left_alone(link: PtyLink, path: Path) -> None:
+    path.parent.mkdir()
+    path.write_text("a log of mine\n")
+    with pytest.raises(LinkError) as refused:
+        asyncio.run(link.open())
+    assert str(refused.value) == f"{path}: cannot be made a link to a terminal: File exists"
+    assert path.read_text() == "a log of mine\n"
+
+
+def test_a_place_that_cannot_be_is_refused(link: PtyLink, path: Path) -> None:
+    path.parent.write_text("no folder\n")
+    with pytest.raises(LinkError) as refused:
+        asyncio.run(link.open())
+    assert str(refused.value) == f"{path}: cannot be made a link to a terminal: File exists"
+
+
+def test_only_its_own_symlink_is_removed(link: PtyLink, path: Path, running: Running, tmp_path: Path) -> None:
+    async def look() -> None:
+        async with running(link):
+            path.unlink()
+            path.symlink_to(tmp_path)
+
+    asyncio.run(look())
+    assert path.readlink() == tmp_path
+
+
+def test_closed_it_can_be_opened_again(link: PtyLink, path: Path, running: Running, end: OpenEnd) -> None:
+    async def look() -> None:
+        for _ in range(2):
+            async with running(link):
+                assert await end(path).ask(b"C2\r")
+
+    asyncio.run(look())
+
+
+# --- the line
+
+
+def test_any_byte_arrives_as_it_is_and_none_is_echoed(
+    wire: Wire, path: Path, running: Running, end: OpenEnd, new_ear: type[Any]
+) -> None:
+    """Control-C, control-S, CR and the rest are bytes here, not keys."""
+    everything = bytes(range(256))
+
+    async def look() -> None:
+        ear = new_ear()
+        async with running(PtyLink(wire, path, lambda: ear)):
+            client = end(path)
+            await client.write(everything)
+            assert await ear.hears(len(everything)) == everything
+            assert client.nothing()
+
+    asyncio.run(look())
+
+
+def test_no_banner_and_no_answer_to_what_asks_nothing(
+    link: PtyLink, path: Path, running: Running, end: OpenEnd
+) -> None:
+    async def look() -> None:
+        async with running(link):
+            assert await end(path).ask(b"S\r\r\n\nC2\r") == POSITION
+
+    asyncio.run(look())
+
+
+def test_a_client_leaves_and_comes_back(link: PtyLink, path: Path, running: Running, end: OpenEnd) -> None:
+    async def look() -> None:
+        async with running(link) as task:
+            for _ in range(3):
+                client = end(path)
+                assert await client.ask(b"C2\r") == POSITION
+                client.close()
+            assert not task.done()
+
+    asyncio.run(look())
+
+
+def test_one_read_is_one_reply(link: PtyLink, path: Path, running: Running, end: OpenEnd) -> None:
+    async def look() -> None:
+        async with running(link):
+            client = end(path)
+            for _ in range(300):
+                assert await client.ask(b"C2\r") == POSITION
+
+    asyncio.run(look())
+
+
+def test_orders_act(link: PtyLink, path: Path, running: Running, end: OpenEnd, bench: Any) -> None:
+    async def look() -> None:
+        async with running(link):
+            client = end(path)
+            await client.ask(b"W300 080\rC2\r")
+            assert bench.drives() == (1, 1)
+            await client.ask(b"S\rC2\r")
+            assert bench.drives() == (0, 0)
+
+    asyncio.run(look())
+
+
+@pytest.mark.parametrize("dialect", Dialect)
+def test_where_nobody_reads_every_command_is_heard(
+    path: Path, running: Running, end: OpenEnd, bench: Any, dialect: Dialect
+) -> None:
+    """What nobody fetches goes nowhere, in whole replies; and the link goes on."""
+    reply = b"".join(bench.gs232(dialect).receive(b"C2\r")).removesuffix(b"\r\n")
+
+    async def look() -> None:
+        async with running(PtyLink(Wire("link", "gs232", "here"), path, lambda: bench.gs232(dialect))):
+            await end(path).write(b"C2\r" * 20_000 + b"W300 080\r")
+            client = end(path)
+            waiting = b""
+            while not waiting.endswith(b"?>\r\n"):
+                waiting += await client.ask(b"!\r")
+            assert bench.drives() == (1, 1)
+            assert set(waiting.split(b"\r\n")) == {reply, b"?>", b""}
+
+    asyncio.run(look())
+
+
+# --- what pyserial does to a port
+
+
+def test_modem_lines_speed_and_break_mean_nothing(
+    link: PtyLink, path: Path, running: Running, end: OpenEnd, bench: Any
+) -> None:
+    def client() -> list[bytes]:
+        answers = []
+        for baud in (9600, 1200, 115_200):
+            with serial.Serial(str(path), baud, timeout=30) as port:
+                for level in (False, True, False):
+                    # A pseudo-terminal has no such lines, and the system says so.
+                    with suppress(OSError):
+                        port.dtr = level
+                    with suppress(OSError):
+                        port.rts = level
+                with suppress(OSError, termios.error):
+                    port.send_break(0.01)
+                port.write(b"C2\r")
+                answers.append(port.read(len(POSITION)))
+        return answers
+
+    async def look() -> None:
+        async with running(link) as task:
+            assert await asyncio.to_thread(client) == [POSITION] * 3
+            assert not task.done()
+            assert bench.drives() == (0, 0)
+
+    asyncio.run(look())

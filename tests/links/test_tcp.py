@@ -1,0 +1,253 @@
+"""A listening socket: clients that share a port and nothing else, whole or in pieces, many, deaf or gone."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+from collections.abc import AsyncIterator, Callable
+from contextlib import AsyncExitStack, asynccontextmanager, closing
+from typing import Any
+
+import pytest
+
+from rotator.links.tcp import MOST_CLIENTS, TcpLink
+from rotator.links.wire import LinkError, Wire
+
+PATIENCE_S = 30.0
+POSITION = b"AZ=235  EL=025\r\n"
+Running = Callable[[TcpLink], Any]
+
+
+class Client:
+    def __init__(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        self._reader = reader
+        self.writer = writer
+
+    async def send(self, data: bytes) -> None:
+        self.writer.write(data)
+        await self.writer.drain()
+
+    async def answer(self) -> bytes:
+        """A line, or what there was before the connection ended."""
+        return await asyncio.wait_for(self._reader.readline(), PATIENCE_S)
+
+    async def ask(self, data: bytes) -> bytes:
+        await self.send(data)
+        return await self.answer()
+
+    async def is_turned_away(self) -> bool:
+        try:
+            return await self.answer() == b""
+        except ConnectionError:
+            return True
+
+
+@asynccontextmanager
+async def connected(port: int) -> AsyncIterator[Client]:
+    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    try:
+        yield Client(reader, writer)
+    finally:
+        writer.close()
+        await asyncio.gather(writer.wait_closed(), return_exceptions=True)
+
+
+@pytest.fixture
+def port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@pytest.fixture
+def gs232(wire: Wire, port: int, bench: Any) -> TcpLink:
+    return TcpLink(wire, "127.0.0.1", port, bench.gs232)
+
+
+@pytest.fixture
+def rotctld(wire: Wire, port: int, bench: Any) -> TcpLink:
+    return TcpLink(wire, "127.0.0.1", port, bench.rotctld)
+
+
+# --- conversations
+
+
+def test_each_client_has_a_conversation_of_its_own(gs232: TcpLink, port: int, running: Running) -> None:
+    async def talk() -> None:
+        async with running(gs232), connected(port) as one, connected(port) as other:
+            await one.send(b"C")
+            assert await other.ask(b"C2\r") == POSITION
+            assert await one.ask(b"2\r") == POSITION
+            assert await other.ask(b"B\r") == b"EL=025\r\n"
+
+    asyncio.run(talk())
+
+
+def test_the_wire_counts_its_clients(rotctld: TcpLink, port: int, running: Running) -> None:
+    async def talk() -> None:
+        async with running(rotctld):
+            assert rotctld.wire.state == "listening"
+            async with connected(port) as one:
+                await one.ask(b"p\n")
+                assert rotctld.wire.state == "1 client"
+                async with connected(port) as other:
+                    await other.ask(b"p\n")
+                    assert rotctld.wire.state == "2 clients"
+        assert rotctld.wire.state == "closed"
+
+    asyncio.run(talk())
+
+
+def test_a_command_in_pieces(rotctld: TcpLink, port: int, running: Running, bench: Any) -> None:
+    async def talk() -> None:
+        async with running(rotctld), connected(port) as client:
+            for piece in (b"P 3", b"00", b" 80."):
+                await client.send(piece)
+            assert await client.ask(b"0\n") == b"RPRT 0\n"
+            assert bench.drives() == (1, 1)
+
+    asyncio.run(talk())
+
+
+def test_several_commands_at_once(rotctld: TcpLink, port: int, running: Running) -> None:
+    async def talk() -> None:
+        async with running(rotctld), connected(port) as client:
+            assert (await client.ask(b"S\nP 236 26\n_\n")) == b"RPRT 0\n"
+            assert await client.answer() == b"RPRT 0\n"
+            assert (await client.answer()).startswith(b"gs232-rotator ")
+
+    asyncio.run(talk())
+
+
+def test_a_client_that_ends_no_line_is_heard_when_it_falls_silent(
+    rotctld: TcpLink, port: int, running: Running, bench: Any
+) -> None:
+    """Gpredict on Windows, up to 2018."""
+
+    async def talk() -> None:
+        async with running(rotctld), connected(port) as client:
+            assert await client.ask(b"P 300 80") == b"RPRT 0\n"
+            assert bench.drives() == (1, 1)
+
+    asyncio.run(talk())
+
+
+def test_half_a_command_and_silence_is_no_order(rotctld: TcpLink, port: int, running: Running, bench: Any) -> None:
+    async def talk() -> None:
+        async with running(rotctld), connected(port) as half, connected(port) as whole:
+            await half.send(b"P 300")
+            # Sent later, its silence ends later.
+            assert await whole.ask(b"S") == b"RPRT 0\n"
+            assert bench.drives() == (0, 0)
+            assert await half.ask(b" 80\n") == b"RPRT 0\n"
+
+    asyncio.run(talk())
+
+
+# --- coming and going
+
+
+def test_q_ends_that_connection_and_no_other(rotctld: TcpLink, port: int, running: Running) -> None:
+    async def talk() -> None:
+        async with running(rotctld), connected(port) as one, connected(port) as other:
+            assert await one.ask(b"S\nq\n") == b"RPRT 0\n"
+            assert await one.answer() == b""
+            assert await other.ask(b"S\n") == b"RPRT 0\n"
+
+    asyncio.run(talk())
+
+
+def test_a_client_that_vanishes_disturbs_nobody(gs232: TcpLink, port: int, running: Running) -> None:
+    async def talk() -> None:
+        async with running(gs232), connected(port) as other:
+            async with connected(port) as one:
+                await one.send(b"C2\r" * 100)
+                one.writer.transport.abort()
+            assert await other.ask(b"C2\r") == POSITION
+
+    asyncio.run(talk())
+
+
+def test_one_client_too_many_is_turned_away(gs232: TcpLink, port: int, running: Running, log: Any) -> None:
+    async def talk() -> None:
+        async with running(gs232), AsyncExitStack() as crowd:
+            clients = [await crowd.enter_async_context(connected(port)) for _ in range(MOST_CLIENTS)]
+            for client in clients:
+                assert await client.ask(b"C2\r") == POSITION
+            async with connected(port) as late:
+                assert await late.is_turned_away()
+            await log.wait(f"link: {MOST_CLIENTS} clients already, one more is turned away")
+            for client in clients:
+                assert await client.ask(b"C2\r") == POSITION
+            await crowd.aclose()
+            async with connected(port) as later:
+                assert await later.ask(b"C2\r") == POSITION
+
+    asyncio.run(talk())
+
+
+def test_a_client_that_never_reads_is_dropped_and_the_others_live(
+    gs232: TcpLink, port: int, running: Running, log: Any
+) -> None:
+    async def talk() -> None:
+        async with running(gs232), connected(port) as other:
+            with closing(socket.socket()) as deaf:
+                deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+                deaf.setblocking(False)
+                await asyncio.get_running_loop().sock_connect(deaf, ("127.0.0.1", port))
+                with pytest.raises(ConnectionError):
+                    await asyncio.wait_for(_ask_for_ever(deaf), PATIENCE_S)
+                assert await other.ask(b"C2\r") == POSITION
+        assert log.count("link: a client reads nothing: dropped") == 1
+
+    asyncio.run(talk())
+
+
+async def _ask_for_ever(client: socket.socket) -> None:
+    while True:
+        await asyncio.get_running_loop().sock_sendall(client, b"H\r" * 1000)
+
+
+def test_stopped_it_lets_its_clients_go_and_its_port_too(gs232: TcpLink, port: int, running: Running) -> None:
+    async def talk() -> None:
+        async with AsyncExitStack() as clients:
+            for _ in range(2):
+                async with running(gs232):
+                    client = await clients.enter_async_context(connected(port))
+                    assert await client.ask(b"C2\r") == POSITION
+                assert await client.is_turned_away()
+
+    asyncio.run(talk())
+
+
+# --- places that cannot be listened at
+
+
+def test_a_port_in_use(gs232: TcpLink, port: int, running: Running, new_ear: type[Any]) -> None:
+    async def talk() -> None:
+        async with running(gs232), connected(port) as client:
+            with pytest.raises(LinkError) as refused:
+                await TcpLink(Wire("second", "test", "here"), "127.0.0.1", port, new_ear).open()
+            assert str(refused.value) == f"127.0.0.1:{port}: cannot listen there: Address already in use"
+            assert await client.ask(b"C2\r") == POSITION
+
+    asyncio.run(talk())
+
+
+def test_another_machine_s_address(wire: Wire, new_ear: type[Any]) -> None:
+    # Python 3.13 has other words for it.
+    with pytest.raises(LinkError, match=r"^192\.0\.2\.1:4533: cannot listen there: (Cannot assign|could not bind)"):
+        asyncio.run(TcpLink(wire, "192.0.2.1", 4533, new_ear).open())
+
+
+def test_a_name_that_no_machine_has(wire: Wire, new_ear: type[Any]) -> None:
+    with pytest.raises(socket.gaierror) as unknown:
+        socket.getaddrinfo("no host", 4533)
+    with pytest.raises(LinkError) as refused:
+        asyncio.run(TcpLink(wire, "no host", 4533, new_ear).open())
+    assert str(refused.value) == f"no host:4533: cannot listen there: {unknown.value.strerror}"
+
+
+def test_a_name_that_cannot_be(wire: Wire, new_ear: type[Any]) -> None:
+    with pytest.raises(LinkError, match=r"^a\.\.b:4533: cannot listen there: "):
+        asyncio.run(TcpLink(wire, "a..b", 4533, new_ear).open())

@@ -1,0 +1,119 @@
+"""A conversation: bytes in, each reply in one write, and silence told to those who want to know of it."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from typing import Any
+
+import pytest
+
+from rotator.links.wire import KEPT_BYTES, Conversation, Wire
+
+PATIENCE_S = 30.0
+
+
+class Parrot:
+    """Answers every byte with itself; `q` ends the connection, `!` is more than it can take."""
+
+    def __init__(self, idle_s: float | None = None) -> None:
+        self.idle_s = idle_s
+        self.closed = False
+
+    def receive(self, data: bytes) -> list[bytes]:
+        if b"!" in data:
+            raise ZeroDivisionError("a bug in a protocol")
+        self.closed = b"q" in data
+        return [bytes([byte]) * 3 for byte in data if byte != ord("q")]
+
+    def idle(self) -> list[bytes]:
+        return [b"silence"]
+
+
+def test_each_reply_is_one_write(wire: Wire) -> None:
+    sent: list[bytes] = []
+    Conversation(Parrot(), wire, sent.append).received(b"ab")
+    assert sent == [b"aaa", b"bbb"]
+
+
+def test_the_wire_shows_what_came_and_went(wire: Wire) -> None:
+    Conversation(Parrot(), wire, lambda data: None).received(b"ab")
+    assert (wire.last_in, wire.last_out) == (b"ab", b"aaabbb")
+
+
+def test_the_wire_keeps_only_the_latest_bytes(wire: Wire) -> None:
+    conversation = Conversation(Parrot(), wire, lambda data: None)
+    for byte in range(256):
+        conversation.received(bytes([byte]).replace(b"!", b"?").replace(b"q", b"?"))
+    assert len(wire.last_in) == len(wire.last_out) == KEPT_BYTES
+    assert wire.last_in.endswith(b"\xfd\xfe\xff")
+    assert wire.last_out.endswith(b"\xff\xff\xff")
+
+
+def test_replies_go_out_before_the_line_is_hung_up(wire: Wire) -> None:
+    done: list[Any] = []
+    conversation = Conversation(Parrot(), wire, done.append, lambda: done.append("hang up"))
+    conversation.received(b"a")
+    assert done == [b"aaa"]
+    conversation.received(b"bq")
+    assert done == [b"aaa", b"bbb", "hang up"]
+
+
+def test_a_line_that_cannot_hang_up_does_nothing(wire: Wire) -> None:
+    sent: list[bytes] = []
+    Conversation(Parrot(), wire, sent.append).received(b"aq")
+    assert sent == [b"aaa"]
+
+
+def test_a_bug_in_a_protocol_costs_the_bytes_and_not_the_link(wire: Wire, caplog: pytest.LogCaptureFixture) -> None:
+    sent: list[bytes] = []
+    conversation = Conversation(Parrot(), wire, sent.append)
+    conversation.received(b"a!")
+    conversation.received(b"b")
+    assert sent == [b"bbb"]
+    (record,) = caplog.records
+    assert record.levelno == logging.ERROR
+    assert record.message == "link: the protocol failed; the bytes are dropped"
+
+
+def test_silence_is_told_once(wire: Wire) -> None:
+    async def talk() -> None:
+        sent: asyncio.Queue[bytes] = asyncio.Queue()
+        conversation = Conversation(Parrot(idle_s=0.01), wire, sent.put_nowait)
+        for _ in range(3):
+            conversation.received(b"a")
+            assert await asyncio.wait_for(sent.get(), PATIENCE_S) == b"aaa"
+            assert await asyncio.wait_for(sent.get(), PATIENCE_S) == b"silence"
+        assert sent.empty()
+
+    asyncio.run(talk())
+
+
+def test_silence_begins_anew_with_every_byte(wire: Wire) -> None:
+    async def talk() -> None:
+        sent: asyncio.Queue[bytes] = asyncio.Queue()
+        conversation = Conversation(Parrot(idle_s=0.01), wire, sent.put_nowait)
+        conversation.received(b"a")
+        conversation.received(b"b")
+        replies = [await asyncio.wait_for(sent.get(), PATIENCE_S) for _ in range(3)]
+        assert replies == [b"aaa", b"bbb", b"silence"]
+        assert sent.empty()
+
+    asyncio.run(talk())
+
+
+def test_a_closed_conversation_says_no_more(wire: Wire) -> None:
+    async def talk() -> None:
+        first: asyncio.Queue[bytes] = asyncio.Queue()
+        second: asyncio.Queue[bytes] = asyncio.Queue()
+        closed = Conversation(Parrot(idle_s=0.01), wire, first.put_nowait)
+        closed.received(b"a")
+        closed.close()
+        # Its silence would have come before this one's.
+        other = Conversation(Parrot(idle_s=0.02), wire, second.put_nowait)
+        other.received(b"b")
+        assert [await asyncio.wait_for(second.get(), PATIENCE_S) for _ in range(2)] == [b"bbb", b"silence"]
+        assert first.get_nowait() == b"aaa"
+        assert first.empty()
+
+    asyncio.run(talk())

@@ -1,0 +1,172 @@
+"""What the motors have taught survives; a damaged, foreign or stale file is as good as none."""
+
+from __future__ import annotations
+
+import json
+import logging
+from pathlib import Path
+
+import pytest
+
+from hw.ports import Axis
+from rotator.status import LearntMotor
+from rotator.store.learnt import LearntFile, Motors
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+BEGUN = {AZ: {"hardware": "pi", "speed_dps": 6.0, "coast_s": 0.17}, EL: {"hardware": "pi", "speed_dps": 2.7}}
+
+
+def motors(speed_dps: float = 5.6, coast_deg: float = 1.1) -> Motors:
+    return LearntMotor(speed_dps, coast_deg), LearntMotor(speed_dps + 0.1, coast_deg)
+
+
+BOTH = {AZ: motors(), EL: motors(2.5, 0.4)}
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "run" / "state.json"
+
+
+def kept(path: Path) -> LearntFile:
+    """A file with BOTH in it."""
+    file = LearntFile(path, BEGUN)
+    file.save(BOTH, ending=True)
+    file.note(BOTH)
+    return file
+
+
+def test_there_and_back(path: Path) -> None:
+    kept(path)
+    assert LearntFile(path, BEGUN).load() == BOTH
+    assert [each.name for each in path.parent.iterdir()] == ["state.json"]
+
+
+def test_no_file_says_nothing(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    assert LearntFile(path, BEGUN).load() == {}
+    assert not caplog.records
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "\x00" * 200,
+        '{"format": "rotator state 1", "axes": {"azim',
+        "[]",
+        "null",
+        "{}",
+        '{"format": "something else", "axes": {}}',
+        '{"format": "rotator state 1"}',
+        '{"format": "rotator state 1", "axes": {"azimuth": {}}}',
+        '{"format": "rotator state 1", "axes": {"azimuth": 5}}',
+        '{"format": "rotator state 1", "axes": []}',
+        "[" * 100_000,
+    ],
+    ids=lambda text: text[:40] or "empty",
+)
+def test_a_damaged_or_foreign_file_is_ignored_and_said(path: Path, text: str, caplog: pytest.LogCaptureFixture) -> None:
+    path.parent.mkdir()
+    path.write_text(text)
+    assert LearntFile(path, BEGUN).load() == {}
+    assert text == '{"format": "rotator state 1", "axes": []}' or "learnt anew" in caplog.text
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("speed_dps", 0), ("speed_dps", -6.0), ("speed_dps", 1e9), ("speed_dps", "6"), ("coast_deg", -1), ("x", 1)],
+)
+def test_figures_of_no_motor_are_ignored(path: Path, key: str, value: object, caplog: pytest.LogCaptureFixture) -> None:
+    kept(path)
+    whole = json.loads(path.read_text())
+    whole["axes"]["azimuth"]["minus"][key] = value
+    path.write_text(json.dumps(whole))
+    assert LearntFile(path, BEGUN).load() == {}
+    assert "learnt anew" in caplog.text
+
+
+def test_not_a_number_is_no_motor(path: Path) -> None:
+    kept(path)
+    path.write_text(path.read_text().replace("5.6", "NaN"))
+    assert LearntFile(path, BEGUN).load() == {}
+
+
+def test_another_description_of_the_motor_makes_it_another_motor(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.INFO)
+    kept(path)
+    assert LearntFile(path, BEGUN | {AZ: {"hardware": "sim"}}).load() == {EL: BOTH[EL]}
+    assert "azimuth has been set up anew" in caplog.text
+
+
+def test_power_lost_in_the_middle_of_writing(path: Path) -> None:
+    file = kept(path)
+    path.with_name("state.json.new").write_text('{"format": "rota')
+    assert LearntFile(path, BEGUN).load() == BOTH
+    later = BOTH | {AZ: motors(5.0)}
+    file.save(later, ending=True)
+    assert LearntFile(path, BEGUN).load() == later
+
+
+@pytest.mark.parametrize(
+    ("azimuth", "worth_it"),
+    [
+        (motors(), False),
+        (motors(5.6 * 1.04), False),
+        (motors(5.6 * 1.06), True),
+        (motors(5.6 * 0.94), True),
+        (motors(5.6, 1.1 * 1.04), False),
+        (motors(5.6, 1.1 * 1.06), True),
+    ],
+)
+def test_only_large_changes_are_written_before_the_end(path: Path, azimuth: Motors, worth_it: bool) -> None:
+    file = kept(path)
+    path.unlink()
+    file.save(BOTH | {AZ: azimuth}, ending=False)
+    assert path.exists() is worth_it
+
+
+def test_a_coast_of_next_to_nothing_is_not_written_for_every_thousandth(path: Path) -> None:
+    file = LearntFile(path, BEGUN)
+    file.note({AZ: motors(5.6, 0.0)})
+    file.save({AZ: motors(5.6, 0.009)}, ending=False)
+    assert not path.exists()
+
+
+def test_at_the_end_any_news_is_written_and_no_news_is_not(path: Path) -> None:
+    file = kept(path)
+    path.unlink()
+    file.save(BOTH, ending=True)
+    assert not path.exists()
+    file.save(BOTH | {AZ: motors(5.61)}, ending=True)
+    assert path.exists()
+
+
+def test_where_nothing_can_be_written_it_is_said_once(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    # A file where its folder should be: nobody can write there, not even root.
+    path.parent.write_text("")
+    file = LearntFile(path, BEGUN)
+    for _ in range(3):
+        file.save(BOTH, ending=True)
+    assert caplog.text.count("cannot be kept") == 1
+    assert LearntFile(path, BEGUN).load() == {}
+
+
+def test_a_read_only_folder_is_a_log_line(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    path.parent.mkdir()
+    path.parent.chmod(0o500)
+    try:
+        if _writable(path.parent):
+            pytest.skip("root writes everywhere")
+        LearntFile(path, BEGUN).save(BOTH, ending=True)
+    finally:
+        path.parent.chmod(0o700)
+    assert "cannot be kept" in caplog.text
+    assert not path.exists()
+
+
+def _writable(folder: Path) -> bool:
+    try:
+        (folder / "probe").write_text("")
+    except OSError:
+        return False
+    return True
