@@ -148,7 +148,8 @@ def strike(drill: Drill, axis: Axis, offset_s: float = 0.0, more: str = "") -> f
         from_s = _play(mast, drill, axis, offset_s)
         told = mast.run_until(lambda: _told(mast.status, drill, axis) or bool(mast.status.axis(axis).fault))
         said_s = mast.clock()
-        assert told and _told(mast.status, drill, axis), f"{drill.fault}: it says {mast.status.faults}"
+        assert told, f"{drill.fault}: it says nothing"
+        assert _told(mast.status, drill, axis), f"{drill.fault}: it says {mast.status.faults}"
         mast.run(0.3)
         assert mast.world.drives() == (0, 0), f"{drill.fault}: a relay is still on"
         if drill.scene in ("ending", "resting"):

@@ -13,13 +13,14 @@ from statistics import median
 
 from hw.ports import Direction
 
-GAIN_RUNNING = 0.25
-GAIN_RESTING = 0.05
+GAIN_RUNNING = 0.15
+GAIN_RESTING = 0.03
 JUMP_DEG = 3.0
 """A reading this far from where the motor can have taken the axis is a spark on the wire, unless it stays."""
 JUMP_READINGS = 3
 SETTLE_S = 0.8
 """How long a motor takes to come to rest for certain; what it then reads is where it stopped."""
+LANDING_READINGS = 10
 LEARN = 0.35
 """How far one run moves what has been learnt."""
 LEAST_RUN_DEG = 1.0
@@ -155,7 +156,7 @@ class Motion:
         if landing is None or at_s - landing.off_s < SETTLE_S:
             return
         landing.readings.append(angle_deg)
-        if len(landing.readings) < 2 * JUMP_READINGS:
+        if len(landing.readings) < LANDING_READINGS:
             return
         self._landing = None
         self.angle_deg = rest_deg = sum(landing.readings) / len(landing.readings)

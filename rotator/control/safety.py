@@ -80,7 +80,7 @@ class MotionWatch:
         self._retried = False
         self._fast_s = math.inf
         self._cut_s = math.inf
-        self._noticed_s = -math.inf
+        self._noticed_s: float | None = None
 
     def driven(self, now_s: float, direction: Direction) -> None:
         """What the relays do from now on."""
@@ -122,7 +122,7 @@ class MotionWatch:
 
     @property
     def notices(self) -> tuple[str, ...]:
-        if self._trend.last_s > self._noticed_s + NOTICED_FOR_S or self._noticed_s < 0.0:
+        if self._noticed_s is None or self._trend.last_s > self._noticed_s + NOTICED_FOR_S:
             return ()
         if self._master and self._noticed_s - self._cut_s > CUT_IN_S:
             return (f"still turning with the master open: {CUT_BY_HAND}",)
@@ -203,9 +203,12 @@ class MotionWatch:
             self._fast_s = math.inf
             return None
         self._fast_s = min(self._fast_s, at_s)
-        if self._rested and at_s - self._fast_s < STILL_FAST_S:
-            return None  # the window reaches back to where it stood; it may have been a push
         way = Direction.PLUS if slope.speed_dps > 0 else Direction.MINUS
+        if self._rested:
+            # The window reaches back to where it stood; it may have been a push that is over.
+            latest = self._trend.slope(at_s - TURNING_S[0] / 2.0)
+            if at_s - self._fast_s < STILL_FAST_S or latest is None or latest.speed_dps * way < limit_dps:
+                return None
         self._suspect, self._retried = way, False
         self._cut_s = min(self._cut_s, at_s)
         welded = not self._rested and way is self._last

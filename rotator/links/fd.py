@@ -43,17 +43,26 @@ async def converse(fd: int, conversation: Conversation) -> str:
 def writer(fd: int) -> Callable[[bytes], None]:
     """A `write` for a conversation: one system call a reply.
 
-    Where nobody reads, the kernel's buffer fills: the reply is dropped, as a real unit's goes nowhere. A failing
-    descriptor is noticed by its reader.
+    Where nobody reads, the kernel's buffer fills: replies are dropped whole, as a real unit's go nowhere, and one that
+    it took only the beginning of is ended before the next. A failing descriptor is noticed by its reader.
     """
+    rest = b""
 
     def write(data: bytes) -> None:
-        try:
-            os.write(fd, data)
-        except OSError:
-            return
+        nonlocal rest
+        rest = rest[_put(fd, rest) :] if rest else b""
+        if not rest:
+            taken = _put(fd, data)
+            rest = data[taken:] if taken else b""
 
     return write
+
+
+def _put(fd: int, data: bytes) -> int:
+    try:
+        return os.write(fd, data)
+    except OSError:
+        return 0
 
 
 def _end(ended: asyncio.Future[str], why: str) -> None:

@@ -58,12 +58,12 @@ class SerialLink:
             await asyncio.sleep(self._retry_s)
 
     def _open(self) -> Any:
-        return serial.serial_for_url(self._port, self._baud, timeout=0, write_timeout=0)
+        return serial.serial_for_url(self._port, self._baud, timeout=0)
 
     async def _converse(self, port: Any) -> str:
         try:
             fd = port.fileno()
-        except (AttributeError, OSError):
+        except (AttributeError, NotImplementedError, OSError):
             return await self._converse_by_thread(port)
         os.set_blocking(fd, False)
         return await converse(fd, Conversation(self._session(), self.wire, writer(fd)))
@@ -75,17 +75,18 @@ class SerialLink:
         leaving = threading.Event()
 
         def listen() -> None:
-            port.timeout = URL_POLL_S
             while not leaving.is_set():
                 try:
-                    data = port.read(1) + port.read(port.in_waiting)
-                except (serial.SerialException, OSError) as fault:
+                    port.timeout = URL_POLL_S
+                    data = port.read(1)
+                    # What is there already comes at once; a timeout of None would wait for ever.
+                    data += port.read(port.in_waiting) if data else b""
+                except (serial.SerialException, OSError, ValueError) as fault:
                     loop.call_soon_threadsafe(arrivals.put_nowait, str(fault))
                     return
                 if data:
                     loop.call_soon_threadsafe(arrivals.put_nowait, data)
 
-        port.write_timeout = URL_POLL_S
         conversation = Conversation(self._session(), self.wire, lambda reply: _write(port, reply))
         thread = threading.Thread(target=listen, name=self.wire.name, daemon=True)
         thread.start()

@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 import logging
 import os
+import socket
 from collections.abc import Callable
 from typing import cast
 
@@ -36,9 +37,8 @@ class TcpLink:
             self._server = await asyncio.get_running_loop().create_server(
                 lambda: _Client(self.wire, self._session, self._clients), self._host, self._port, reuse_address=True
             )
-        except OSError as fault:
-            why = os.strerror(fault.errno) if fault.errno else str(fault)
-            raise LinkError(f"{self._host}:{self._port}: cannot listen there: {why}") from fault
+        except (OSError, UnicodeError) as fault:
+            raise LinkError(f"{self._host}:{self._port}: cannot listen there: {_why(fault)}") from fault
         self.wire.state = "listening"
 
     async def run(self) -> None:
@@ -50,6 +50,17 @@ class TcpLink:
             for client in list(self._clients):
                 client.drop()
             self.wire.state = "closed"
+
+
+def _why(fault: OSError | UnicodeError) -> str:
+    match fault:
+        case socket.gaierror():
+            return fault.strerror or str(fault)
+        case OSError(errno=int() as number):
+            # asyncio wraps the system's words in many of its own.
+            return os.strerror(number)
+        case _:
+            return "no machine can have that name"
 
 
 class _Client(asyncio.Protocol):

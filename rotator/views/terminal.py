@@ -24,8 +24,8 @@ _WORDS = {
     (Axis.ELEVATION, Direction.PLUS): "UP",
     (Axis.ELEVATION, Direction.MINUS): "DOWN",
 }
-WIDTH = 80
-_SHOWN_BYTES = 17
+WIDTH = 88
+_IN_CELLS, _OUT_CELLS = 16, 18
 _BAR_CELLS = 14
 
 
@@ -67,7 +67,8 @@ def picture(
     ]
     if status.faults or status.latched:
         parts.append(_alarm(status))
-    notes = _notes(status)
+    uncalibrated = [f"{axis.value} UNCALIBRATED: {each}" for axis in Axis if (each := status.axis(axis).uncalibrated)]
+    notes = uncalibrated + _notes(status)
     if notes:
         parts.append(Text("\n".join(notes), style="bold yellow"))
     if log_rows:
@@ -118,8 +119,7 @@ def _axes(status: Status) -> RenderableType:
             _degrees(each.angle_deg),
             _degrees(each.target_deg),
             _bar(each),
-            f"{each.min_deg:g}…{each.max_deg:g}°"
-            + (f"  UNCALIBRATED: {each.uncalibrated}" if each.uncalibrated else ""),
+            f"{each.min_deg:g}…{each.max_deg:g}°",
             "" if each.raw is None else f"{each.raw:.4f} {each.source}",
         )
     return table
@@ -127,10 +127,11 @@ def _axes(status: Status) -> RenderableType:
 
 def _links(wires: Sequence[WireView]) -> RenderableType:
     table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading, cells in (("link", 8), ("where", 14), ("state", 12), ("last in", 16), ("last out", 17)):
-        table.add_column(heading, min_width=cells, no_wrap=True, overflow="ellipsis")
+    for heading, cells in (("link", 8), ("where", 14), ("state", 13), ("last in", _IN_CELLS), ("last out", _OUT_CELLS)):
+        table.add_column(heading, width=cells, no_wrap=True, overflow="ellipsis")
     for wire in wires:
-        table.add_row(wire.name, wire.where, wire.state, _bytes(wire.last_in), _bytes(wire.last_out))
+        last_in, last_out = _bytes(wire.last_in, _IN_CELLS), _bytes(wire.last_out, _OUT_CELLS)
+        table.add_row(wire.name, wire.where, wire.state, last_in, last_out)
     return table
 
 
@@ -174,7 +175,7 @@ def _degrees(angle_deg: float | None, digits: int = 1) -> str:
     return "---" if angle_deg is None else f"{round(angle_deg, digits) + 0.0:.{digits}f}°"
 
 
-def _bytes(data: bytes) -> str:
+def _bytes(data: bytes, cells: int) -> str:
     """Bytes as a person reads them: printable as they are, the rest escaped."""
     text = data.decode("latin-1").encode("unicode_escape").decode("ascii")
-    return text if len(text) <= _SHOWN_BYTES else "…" + text[-_SHOWN_BYTES + 1 :]
+    return text if len(text) <= cells else "…" + text[-cells + 1 :]

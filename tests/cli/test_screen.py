@@ -10,6 +10,7 @@ import pytest
 
 Start = Callable[..., Any]
 Send = Callable[[bytes], None]
+HELD = "no order moves it until released (r)"
 FRAMES = 100
 """How many pictures to look at: five come every second."""
 
@@ -42,14 +43,26 @@ def test_space_stops_and_latches_and_r_releases(box: Any, send: Send) -> None:
     send(b"R\r")
     picture_with(box, "● CW")
     box.press(" ")
-    picture_with(box, "STOPPED by console: nothing moves until released (r)", without=("●",))
+    picture_with(box, "held by console: " + HELD, without=("●",))
     send(b"L\r")
     # The order has been heard, and nothing comes of it.
-    picture_with(box, r"L\r", "STOPPED by console", without=("●",))
+    picture_with(box, r"L\r", HELD, without=("●",))
     box.press("r")
-    picture_with(box, "space STOP", without=("STOPPED",))
+    picture_with(box, "space STOP", without=("held by",))
     send(b"L\r")
     picture_with(box, "● CCW")
+    box.press("q")
+    assert box.ends() == 0
+
+
+def test_p_parks_and_latches(box: Any, send: Send) -> None:
+    picture_with(box, "SIM A:000")
+    send(b"W060 030\r")
+    picture_with(box, "SIM A:06", without=("●",))
+    box.press("p")
+    picture_with(box, "SIM A:00", "storm park", HELD, without=("●",))
+    send(b"W120 030\r")
+    picture_with(box, "W120 030", "SIM A:00", "storm park", HELD, without=("●",))
     box.press("q")
     assert box.ends() == 0
 
@@ -77,7 +90,7 @@ def test_any_other_key_does_nothing(box: Any, send: Send) -> None:
     picture_with(box, "● CW")
     for key in ("x", "\r", "\x1b[A", "ä"):
         box.press(key)
-    picture_with(box, "● CW", without=("STOPPED",))
+    picture_with(box, "● CW", without=("held by",))
     box.press("q")
     assert box.ends() == 0
 

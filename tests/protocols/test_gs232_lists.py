@@ -62,8 +62,8 @@ def test_intervals_are_exact_to_a_tenth_of_a_second_and_do_not_drift(box: BenchB
 
 def test_an_azimuth_list_leaves_the_elevation_alone(box: BenchBox, session: Gs232Session) -> None:
     session.receive(b"W235 060\r")
-    session.receive(b"M005 100 120\rT\r")
-    box.wait(5)
+    session.receive(b"M001 100 120\rT\r")
+    box.wait(1.5)
     assert wanted(box) == (120, 60)
     assert box.driven == {Axis.AZIMUTH: Direction.MINUS, Axis.ELEVATION: Direction.PLUS}
 

@@ -159,7 +159,8 @@ def test_uncalibrated_says_so_and_what_is_missing_first(missing: str) -> None:
 def test_log_and_keys() -> None:
     picture = show(log=["12:00:00 W gs232b: refused"])
     assert "12:00:00 W gs232b: refused" in picture
-    assert "space STOP   r release   q quit" in picture
+    for key in ("space STOP", "p storm park", "r release", "q quit"):
+        assert key in picture
 
 
 def test_it_fits_its_width(wires: list[Wire]) -> None:

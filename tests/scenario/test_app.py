@@ -1,0 +1,270 @@
+"""The whole box in real time, in this process: threads, links, drivers and a simulated rotor, from start to stop."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import socket
+import threading
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import AsyncExitStack, asynccontextmanager
+from pathlib import Path
+
+import pytest
+
+from firmware_sim.world import World
+from hw.ports import AngleSensor, Axis
+from rotator.app import App
+from rotator.config.load import parse, shipped
+from rotator.config.model import Config
+from rotator.links.wire import LinkError
+
+PATIENCE_S = 60.0
+OFF = (0, 0)
+
+
+class Relays:
+    """The motor relays of a simulated station, watched from the event loop."""
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self._events = asyncio.get_running_loop()
+        self._changed = asyncio.Event()
+        world.gpio.on_edges.append(self._see)
+
+    def _see(self, _now_s: float, _changes: Mapping[int, bool]) -> None:
+        if not self._events.is_closed():
+            self._events.call_soon_threadsafe(self._changed.set)
+
+    async def until(self, meets: Callable[[tuple[int, int]], bool]) -> None:
+        async with asyncio.timeout(PATIENCE_S):
+            while not meets(self._world.drives()):
+                self._changed.clear()
+                await self._changed.wait()
+
+
+class Line:
+    """A tracking program's end of a link."""
+
+    def __init__(self, reader: asyncio.StreamReader, send: Callable[[bytes], object]) -> None:
+        self._reader = reader
+        self.send = send
+
+    async def answer(self) -> bytes:
+        return await asyncio.wait_for(self._reader.readuntil(b"\n"), PATIENCE_S)
+
+    async def ask(self, data: bytes) -> bytes:
+        self.send(data)
+        return await self.answer()
+
+
+@asynccontextmanager
+async def terminal(path: Path) -> AsyncIterator[Line]:
+    fd = os.open(path, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
+    file = os.fdopen(fd, "r+b", buffering=0)
+    reader = asyncio.StreamReader()
+    transport, _ = await asyncio.get_running_loop().connect_read_pipe(
+        lambda: asyncio.StreamReaderProtocol(reader), file
+    )
+    try:
+        yield Line(reader, lambda data: os.write(fd, data))
+    finally:
+        transport.close()
+
+
+@asynccontextmanager
+async def connection(port: int) -> AsyncIterator[Line]:
+    reader, writer = await asyncio.open_connection("127.0.0.1", port)
+    try:
+        yield Line(reader, writer.write)
+    finally:
+        writer.close()
+        await asyncio.gather(writer.wait_closed(), return_exceptions=True)
+
+
+@pytest.fixture
+def port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return int(probe.getsockname()[1])
+
+
+@pytest.fixture
+def config(tmp_path: Path, port: int) -> Config:
+    """The shipped simulated station, in a place of its own."""
+    text = shipped().replace("run/gs232", f"{tmp_path}/gs232").replace("4533", str(port))
+    return parse(text + f'\n[state]\npath = "{tmp_path}/state.json"\n', "shipped")
+
+
+async def links_open(app: App, task: asyncio.Task[None]) -> None:
+    """They open within the first turns of the event loop."""
+    async with asyncio.timeout(PATIENCE_S):
+        while not task.done() and any(link.wire.state == "closed" for link in app.links):
+            await asyncio.sleep(0)
+
+
+@asynccontextmanager
+async def running(app: App) -> AsyncIterator[tuple[World, Relays]]:
+    """The box once its links are open; stopped afterwards, with every relay off."""
+    world = app.station.world
+    assert world is not None
+    relays = Relays(world)
+    stop = asyncio.Event()
+    task = asyncio.create_task(app.run(stop))
+    await links_open(app, task)
+    try:
+        yield world, relays
+    finally:
+        stop.set()
+        await asyncio.wait_for(task, PATIENCE_S)
+        assert world.drives() == OFF
+
+
+def position(reply: bytes) -> tuple[int, int]:
+    assert reply.startswith(b"AZ=")
+    return int(reply[3:6]), int(reply[11:14])
+
+
+# --- running
+
+
+def test_w_moves_c2_answers_s_stops(config: Config, tmp_path: Path) -> None:
+    async def talk() -> None:
+        async with running(App(config)) as (world, relays), terminal(tmp_path / "gs232") as line:
+            assert await line.ask(b"C2\r") == b"AZ=000  EL=000\r\n"
+            line.send(b"W235 025\r")
+            await relays.until((1, 1).__eq__)
+            async with asyncio.timeout(PATIENCE_S):
+                while position(await line.ask(b"C2\r"))[0] < 3:
+                    pass
+            assert world.drives()[0] == 1
+            line.send(b"S\r")
+            await relays.until(OFF.__eq__)
+            azimuth_deg, elevation_deg = world.antenna()
+            assert 2 < azimuth_deg < 200
+            assert 0 < elevation_deg < 25
+
+    asyncio.run(talk())
+
+
+def test_every_relay_is_off_after_a_stop_in_mid_motion(config: Config, tmp_path: Path) -> None:
+    async def talk() -> World:
+        async with running(App(config)) as (world, relays), terminal(tmp_path / "gs232") as line:
+            line.send(b"R\rU\r")
+            await relays.until((1, 1).__eq__)
+        return world
+
+    world = asyncio.run(talk())
+    assert world.drives() == OFF
+    assert world.relay_starts == 2, "once off, nothing switches a motor on again"
+    assert not (tmp_path / "gs232").is_symlink()
+
+
+def test_two_links_share_one_rotor(config: Config, tmp_path: Path, port: int) -> None:
+    async def talk() -> None:
+        async with (
+            running(App(config)) as (_, relays),
+            terminal(tmp_path / "gs232") as gs232,
+            connection(port) as rotctld,
+        ):
+            assert await rotctld.ask(b"P 100 0\n") == b"RPRT 0\n"
+            await relays.until((1, 0).__eq__)
+            gs232.send(b"S\r")
+            await relays.until(OFF.__eq__)
+            assert await rotctld.ask(b"S\n") == b"RPRT 0\n"
+            assert position(await gs232.ask(b"C2\r"))[0] < 100
+
+    asyncio.run(talk())
+
+
+def test_it_stops_with_clients_connected(config: Config, port: int) -> None:
+    async def talk() -> None:
+        async with AsyncExitStack() as clients:
+            async with running(App(config)):
+                client = await clients.enter_async_context(connection(port))
+                assert (await client.ask(b"_\n")).startswith(b"gs232-rotator")
+            with pytest.raises((asyncio.IncompleteReadError, ConnectionError)):
+                await client.answer()
+
+    asyncio.run(talk())
+
+
+def test_the_display_shows_the_order(config: Config, tmp_path: Path) -> None:
+    async def talk() -> None:
+        async with running(App(config)) as (world, relays), terminal(tmp_path / "gs232") as line:
+            line.send(b"W235 025\r")
+            await relays.until((1, 1).__eq__)
+            async with asyncio.timeout(PATIENCE_S):
+                while world.lcd is None or world.lcd.text()[0] != "SAT A:235 E:025 ":
+                    await line.ask(b"C2\r")
+
+    asyncio.run(talk())
+
+
+# --- ends that nobody asked for
+
+
+def check_all_gone(app: App) -> None:
+    assert app.station.world is not None
+    assert app.station.world.drives() == OFF
+    left = {thread.name for thread in threading.enumerate()} & {"control", "relay-guard", "sensors", "display"}
+    assert not left
+    assert all(link.wire.state == "closed" for link in app.links)
+
+
+def test_a_port_in_use_ends_it_and_leaves_nothing(config: Config, tmp_path: Path, port: int) -> None:
+    app = App(config)
+    with (
+        socket.create_server(("127.0.0.1", port)),
+        pytest.raises(LinkError, match=rf"^127\.0\.0\.1:{port}: cannot listen there: Address already in use$"),
+    ):
+        asyncio.run(app.run(asyncio.Event()))
+    assert not (tmp_path / "gs232").is_symlink(), "the link that was open already"
+    check_all_gone(app)
+
+
+def test_a_terminal_that_cannot_be_made_ends_it_and_leaves_nothing(config: Config, tmp_path: Path) -> None:
+    """The first link is open and has not had its first turn when the second one fails."""
+    (tmp_path / "mine").write_text("a file of the user's\n")
+    second = config.link[0].model_copy(update={"pty": str(tmp_path / "mine")})
+    app = App(config.model_copy(update={"link": [config.link[0], second]}))
+    with pytest.raises(LinkError, match=r"cannot be made a link to a terminal: File exists$"):
+        asyncio.run(app.run(asyncio.Event()))
+    assert not (tmp_path / "gs232").is_symlink(), "the link that was open already"
+    check_all_gone(app)
+
+
+class FailsInMotion:
+    """A sensor whose driver has a bug that shows once the motors run."""
+
+    source = "measured"
+
+    def __init__(self, sensor: AngleSensor, world: World) -> None:
+        self._sensor = sensor
+        self._world = world
+
+    def read(self) -> float:
+        if self._world.drives() != OFF:
+            raise ZeroDivisionError("a bug in a driver")
+        return self._sensor.read()
+
+
+def test_a_bug_in_the_control_thread_switches_off_and_is_told(config: Config, tmp_path: Path) -> None:
+    async def talk(app: App) -> None:
+        assert app.station.world is not None
+        relays = Relays(app.station.world)
+        task = asyncio.create_task(app.run(asyncio.Event()))
+        await links_open(app, task)
+        async with terminal(tmp_path / "gs232") as line:
+            line.send(b"R\r")
+            await asyncio.wait_for(task, PATIENCE_S)
+        await relays.until(OFF.__eq__)
+
+    app = App(config)
+    world = app.station.world
+    assert world is not None
+    app.station.sensors[Axis.AZIMUTH] = FailsInMotion(app.station.sensors[Axis.AZIMUTH], world)
+    with pytest.raises(ZeroDivisionError, match="a bug in a driver"):
+        asyncio.run(talk(app))
+    assert world.relay_starts == 1, "the motor did run"
+    check_all_gone(app)
