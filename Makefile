@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: run test check tests bench passes clean
+.PHONY: run test check tests bench picture clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -20,10 +20,17 @@ check: $(VENV)/.dev
 tests: $(VENV)/.dev
 	$(BIN)/pytest $(TESTS)
 
-# The figures of the README, from this machine.
+# The figures of the README: pointing first, the same on every machine; then latency and load, on this one.
 bench: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.passes --svg docs/img/passes.svg
+	$(BIN)/python -m benchmarks.rotors
+	$(BIN)/python -m benchmarks.mount
+	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
-	$(BIN)/python -m benchmarks.passes
+
+# The picture of it running, from the running box itself.
+picture: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.screenshot docs/img/run.svg
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' || \

@@ -129,7 +129,7 @@ DRILLS = (
     Drill("relay welded", "the same without a master: until it says so", "ending", "welded", 2.0),
     Drill("turning with no relay on", "the motor runs by another switch; master wired", "resting", "hand-turns", 2.0),
     Drill("turning with no relay on", "wind turns it, at 0.3 of its speed", "resting", "wind-turns", 2.0, "", True),
-    Drill("end stop reached", "a stop 3° inside the range", "stop", "stop-early", 2.0),
+    Drill("end stop reached", "a stop 4° inside the range", "stop", "stop-early", 2.0),
     Drill(
         "motor on longer than the travel takes", "the motor turns at 0.4 of its speed", "dragging", "motor-slow", 103
     ),

@@ -19,11 +19,11 @@ def draw(series: dict[str, tuple[float, float]], optima: list[list[tuple[float, 
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" font-family="sans-serif">',
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
     ]
-    for starts in (20, 50, 100, 200, 500, 1000):
+    for starts in (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0):
         x = _x(starts)
         parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="20" y2="{HEIGHT - BOTTOM}" stroke="#ddd"/>')
-        parts.append(_text(x, HEIGHT - BOTTOM + 16, str(starts), "middle"))
-    for error_deg in (0.5, 1, 2, 4, 8):
+        parts.append(_text(x, HEIGHT - BOTTOM + 16, f"{starts:g}", "middle"))
+    for error_deg in (0.5, 1.0, 2.0, 4.0, 8.0):
         y = _y(error_deg)
         parts.append(f'<line x1="{LEFT}" x2="{WIDTH - 20}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>')
         parts.append(_text(LEFT - 8, y + 4, f"{error_deg:g}°", "end"))

@@ -18,7 +18,7 @@ from firmware_sim.motor import MotorSpec, SimMotor
 from firmware_sim.pcf8574 import Backpack
 from firmware_sim.pot import PotFault, PotSpec, SimPot
 
-EARLY_DEG = 3.0
+EARLY_DEG = 4.0
 """How far inside the range a misplaced end stop stands."""
 
 

@@ -192,6 +192,8 @@ class App:
             for link in self.links:
                 await link.open()
                 tasks.append(asyncio.create_task(link.run(), name=link.wire.name))
+                # Its first turn: a task cancelled before that would never close what has been opened.
+                await asyncio.sleep(0)
             if display:
                 display.start()
             tasks.append(asyncio.create_task(self._keeper.run()))
@@ -199,11 +201,10 @@ class App:
             ending: list[asyncio.Future[Any]] = [ended, *tasks]
             await asyncio.wait(ending, return_when=asyncio.FIRST_COMPLETED)
         finally:
-            self._engine.halt()
+            outcomes: list[object] = [await self._engine.halt()]
             for task in tasks:
                 task.cancel()
-            outcomes: list[object] = [*await asyncio.gather(*tasks, return_exceptions=True)]
-            outcomes.append(await self._engine.join())
+            outcomes += await asyncio.gather(*tasks, return_exceptions=True)
             if display:
                 await asyncio.to_thread(display.stop)
             self.station.close()

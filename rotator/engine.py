@@ -55,7 +55,7 @@ class ControlThread:
 
 
 class Engine:
-    """`start` it in an event loop; after `halt` every relay is off; `join` tells what went wrong, if something did."""
+    """`start` it in an event loop; after `halt` every relay is off, and it tells what went wrong, if something did."""
 
     def __init__(self, loop: ControlLoop, bank: RelayBank) -> None:
         self.loop = loop
@@ -69,9 +69,10 @@ class Engine:
         self._thread.start()
         return self._thread.ended
 
-    def halt(self) -> None:
+    async def halt(self) -> Exception | None:
+        """Everything off. The guard goes last: until the loop has ended it may still be needed."""
         self.loop.stop()
-        self._guard.stop()
-
-    async def join(self) -> Exception | None:
-        return await self._thread.join() if self._thread else None
+        try:
+            return await self._thread.join() if self._thread else None
+        finally:
+            self._guard.stop()

@@ -50,6 +50,7 @@ class ControlLoop:
         self._troubles: dict[str, str] = {}
         self._late_s = 0.0
         self._supply_cut = False
+        self._noticed: dict[Axis, tuple[str, ...]] = dict.fromkeys(Axis, ())
         self.status: Status = controller.status(clock(), dict.fromkeys(Axis, Direction.OFF))
         """The latest status; replaced whole, never changed."""
 
@@ -103,6 +104,8 @@ class ControlLoop:
                 asked_s = self._clock()
                 self._wake.wait(self._period_s * LATE_PERIODS)
                 self._wake.clear()
+                if self._stopping:
+                    break
                 self._late_s = max(0.0, self._clock() - asked_s - self._period_s)
                 self.act()
                 if self._failure is not None:
@@ -168,7 +171,8 @@ class ControlLoop:
             log.warning("faults acknowledged")
         for axis in Axis:
             for notice in self.status.axis(axis).notices:
-                if notice not in before.axis(axis).notices:
+                if notice not in self._noticed[axis]:
                     log.warning("%s: %s", axis.value, notice)
+            self._noticed[axis] = self.status.axis(axis).notices
         if self.status.latched != before.latched:
             log.warning(f"stopped by {self.status.latched} until released" if self.status.latched else "released")

@@ -41,12 +41,12 @@ class Pass:
 def read_pass(path: Path) -> Pass:
     """Raises PassError."""
     try:
-        with path.open(newline="", encoding="utf-8") as file:
+        with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.DictReader(file)
             if not {"t", "az", "el"} <= set(reader.fieldnames or ()):
                 raise PassError(f"{path}: the first line must name the columns t,az,el")
             rows = [_row(path, reader.line_num, row) for row in reader]
-    except (OSError, UnicodeDecodeError) as fault:
+    except (OSError, UnicodeDecodeError, csv.Error) as fault:
         raise PassError(f"{path}: cannot be read: {fault}") from fault
     if len(rows) < 2:
         raise PassError(f"{path}: a pass needs two rows or more")

@@ -124,11 +124,10 @@ class Sitting:
                     self._say(f"> {asked}" if asked else "")
                 await asyncio.sleep(POLL_S)
         finally:
-            engine.halt()
+            failure = await engine.halt()
             if drawing:
                 drawing.cancel()
                 await asyncio.gather(drawing, return_exceptions=True)
-            failure = await engine.join()
         if failure is not None:
             raise failure
         if not bench.guide.ended:

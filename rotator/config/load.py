@@ -109,6 +109,8 @@ def _mend(values: dict[str, Any], place: list[int | str]) -> None:
     match parent, last:
         case dict(), "protocol":
             parent[last] = "rotctld"
+        case dict(), "pty" | "serial" | "tcp" if place[0] == "link":
+            parent[last] = f"mended-{place[1]}:1"
         case dict(), _:
             parent.pop(last, None)
         case list(), int() if place[0] == "link" and len(place) == 2:

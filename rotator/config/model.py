@@ -56,7 +56,7 @@ class AxisTable(Table):
     """Added to the rotor's own scale: where the antenna points when the scale says 0."""
     longest_run_s: float = Field(300.0, ge=0, le=86_400)
     """How long the motor may run in one go before it has to rest; running and resting add up. 0: any time."""
-    rest_s: float = Field(900.0, gt=0, le=86_400)
+    rest_s: float = Field(300.0, gt=0, le=86_400)
     """How long it takes to cool after that; it may run again when half of this has passed."""
 
     @model_validator(mode="after")

@@ -68,6 +68,9 @@ class AxisControl:
             self._law.motion.motors.update(zip((Direction.PLUS, Direction.MINUS), settings.learnt, strict=True))
         self._watch = self._new_watch()
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
+        self._astray: Fault | None = None
+        self._present: Fault | None = None
+        """What is wrong at this moment, told before or not."""
         self._driven = Direction.OFF
         self._taught = dict(self._law.motion.motors)
         """What was known of the motor before its last run."""
@@ -100,11 +103,13 @@ class AxisControl:
 
     def see(self, reading: Reading, now_s: float) -> None:
         """Take the latest reading; the same one again is no news but may have grown too old."""
-        self.fail(self._sensing.take(reading, now_s))
+        unbelievable = self._sensing.take(reading, now_s)
         if self._sensing.believable and reading.at_s != self._seen_s and self._sensing.angle_deg is not None:
             self._law.see(reading.at_s, self._sensing.angle_deg)
             self._seen_s = reading.at_s
-            self.fail(self._watch.see(reading.at_s, self._sensing.angle_deg))
+            self._astray = self._watch.see(reading.at_s, self._sensing.angle_deg)
+        self._present = unbelievable or self._astray
+        self.fail(self._present)
 
     def fail(self, fault: Fault | None) -> None:
         """Something is wrong with this axis: it stops until that is acknowledged. The first fault is the one told."""
@@ -115,8 +120,8 @@ class AxisControl:
         self._law.motion.motors.update(self._taught)
 
     def acknowledge(self) -> None:
-        """A person or a stop has taken note of the fault; it comes back at once if its cause is still there."""
-        self.fault = None
+        """A person or a stop has taken note of the fault; while its cause is there it stays."""
+        self.fault = self._present
         self._watch.acknowledge()
 
     def decide(self, now_s: float) -> Run:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
-from statistics import median
 
 from hw.ports import Direction
 
@@ -71,7 +70,7 @@ class Motion:
         self._at_s = 0.0
         self._run: _Run | None = None
         self._landing: _Landing | None = None
-        self._strays: deque[float] = deque(maxlen=JUMP_READINGS)
+        self._strays: deque[tuple[float, float]] = deque(maxlen=JUMP_READINGS)
 
     @property
     def resting(self) -> bool:
@@ -102,10 +101,11 @@ class Motion:
         self._advance(at_s)
         stray_deg = angle_deg - self.angle_deg
         if abs(stray_deg) > JUMP_DEG:
-            self._strays.append(angle_deg)
+            self._strays.append((at_s, angle_deg))
             if len(self._strays) == JUMP_READINGS:
-                # It stays: the axis really is there (a hand on another switch, a slipped coupling).
-                self.angle_deg = median(self._strays)
+                # It stays: the axis really is there (a hand on another switch, a motor that nobody knew to be so fast).
+                self._correct_speed()
+                self.angle_deg = angle_deg
                 self._strays.clear()
             return
         self._strays.clear()
@@ -149,6 +149,17 @@ class Motion:
         self.angle_deg += wanted_dps * passed_s + gap_dps * lag_s * (1 - fade)
         self._speed_dps = wanted_dps + gap_dps * fade
         self._at_s = now_s
+
+    def _correct_speed(self) -> None:
+        """A run that leaves its model far behind is not the motor that we took it for: believe what is seen."""
+        (first_s, first_deg), (last_s, last_deg) = self._strays[0], self._strays[-1]
+        if self._run is None or last_s <= first_s:
+            return
+        motor, direction = self.motors[self._run.direction], self._run.direction
+        seen_dps = (last_deg - first_deg) / (last_s - first_s) * direction
+        if seen_dps > motor.speed_dps:
+            self.motors[direction] = Motor(seen_dps, seen_dps * motor.lag_s)
+            self._speed_dps = seen_dps * direction
 
     def _land(self, at_s: float, angle_deg: float) -> None:
         """Once the axis has come to rest, learn from how far the run took it and from where it was to stand."""

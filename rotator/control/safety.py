@@ -24,7 +24,7 @@ RELAY_S = 0.05
 """A relay and the cycle in which it closed take this long at most."""
 STANDING_S = (1.4, 1.5, 4.0)
 """How long a standing pot is looked at: at least; at most until it has turned; at most where the noise asks for it."""
-STANDING_SHARE = 0.25
+STANDING_SHARE, SLOW_STANDING_SHARES = 0.25, (0.5, 0.4)
 WRONG_WAY_S = (0.4, 0.65, 3.0)
 WRONG_WAY_SHARE = 0.5
 TURNING_S = (1.0, 4.0, 4.0)
@@ -135,13 +135,15 @@ class MotionWatch:
     def _window(self, at_s: float, bounds_s: tuple[float, float, float], rough_dps: float) -> Slope | None:
         """The speed over a stretch long enough for the noise, once the relays have been as they are for so long."""
         least_s, first_s, most_s = bounds_s
-        width_s = max(least_s, self._trend.window_s(rough_dps))
-        width_s = min(width_s, first_s if self._shown_dps is None else most_s)
+        shown = self._shown_dps is not None
+        width_s = min(max(least_s, self._trend.window_s(rough_dps)), most_s if shown else first_s)
         ready_s = self._since_s + RELAY_S
         ready_s += self._motor.lag_s if self._direction else 2.0 * self._motor.lag_s + 3.0 * RELAY_S
-        if at_s - width_s < max(ready_s, self._trend.since_s):
+        from_s = max(ready_s, self._trend.since_s)
+        if at_s - width_s < from_s:
             return None
-        return self._trend.slope(at_s - width_s)
+        # A first run that has not convinced yet is looked at whole: that is all there is to go by.
+        return self._trend.slope(at_s - width_s if shown or not self._direction else from_s)
 
     def _wrong_way(self, at_s: float) -> Fault | None:
         reference_dps = self._reference_dps()
@@ -154,13 +156,16 @@ class MotionWatch:
 
     def _standing(self, at_s: float, angle_deg: float) -> Fault | None:
         reference_dps = self._reference_dps()
-        limit_dps = max(STANDING_SHARE * reference_dps, min(STANDING_SHARE, reference_dps / 2.0))
+        slow_dps = SLOW_STANDING_SHARES[self._shown_dps is not None] * reference_dps
+        limit_dps = max(STANDING_SHARE * reference_dps, min(STANDING_SHARE, slow_dps))
         slope = self._window(at_s, STANDING_S, limit_dps / 4.5)
         if slope is None:
             return None
         speed_dps = slope.speed_dps * self._direction
         if speed_dps >= limit_dps:
-            self._shown_dps = max(self._shown_dps or SLOWEST_DPS, speed_dps - 2.0 * slope.rough_dps)
+            certain_dps = speed_dps - 2.0 * slope.rough_dps
+            if certain_dps > limit_dps:
+                self._shown_dps = max(self._shown_dps or SLOWEST_DPS, certain_dps)
             return None
         way = self._way(self._direction)
         end_deg = self._limits.max_deg if self._direction > 0 else self._limits.min_deg
@@ -207,7 +212,7 @@ class MotionWatch:
         if self._rested:
             # The window reaches back to where it stood; it may have been a push that is over.
             latest = self._trend.slope(at_s - TURNING_S[0] / 2.0)
-            if at_s - self._fast_s < STILL_FAST_S or latest is None or latest.speed_dps * way < limit_dps:
+            if at_s - self._fast_s < STILL_FAST_S or latest is None or latest.speed_dps * way < limit_dps / 2.0:
                 return None
         self._suspect, self._retried = way, False
         self._cut_s = min(self._cut_s, at_s)

@@ -61,6 +61,7 @@ class Sensing:
         self.believable = False
         self._bad_since_s: float | None = None
         self._last: tuple[float, float] | None = None
+        self._jumped: Fault | None = None
         self._jumps: deque[tuple[float, float]] = deque(maxlen=JUMPS)
 
     def take(self, reading: Reading, now_s: float) -> Fault | None:
@@ -95,16 +96,17 @@ class Sensing:
         raw = reading.raw if reading.raw is not None and math.isfinite(reading.raw) else -1.0
         angle_deg = self.calibration.degrees(raw) if self.calibration else raw * UNCALIBRATED_SPAN_DEG
         if self._last is not None and reading.at_s <= self._last[0]:
-            return None
+            return self._jumped
         if self._last is not None and reading.at_s - self._last[0] <= JUMPS_WITHIN_S:
             jump_deg = angle_deg - self._last[1]
             if abs(jump_deg) > JUMP_DEG:
                 self._jumps.append((reading.at_s, jump_deg))
-        self._last = (reading.at_s, angle_deg)
+        self._last, self._jumped = (reading.at_s, angle_deg), None
         if len(self._jumps) < JUMPS or reading.at_s - self._jumps[0][0] > JUMPS_WITHIN_S:
             return None
         sizes_deg = [jump_deg for _, jump_deg in self._jumps]
         if min(sizes_deg) > 0 or max(sizes_deg) < 0:
             return None  # all one way: that may be a fast rotor
         measured = f"by {max(map(abs, sizes_deg)):.0f}°, {JUMPS} times in {JUMPS_WITHIN_S:g} s"
-        return Fault("pot jumps", self._axis, measured, f"{JUMP_DEG:g}° from one reading to the next")
+        self._jumped = Fault("pot jumps", self._axis, measured, f"{JUMP_DEG:g}° from one reading to the next")
+        return self._jumped

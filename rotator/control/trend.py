@@ -20,7 +20,7 @@ JUMP_READINGS = 3
 
 _FIRST_NOISE_DEG = 0.1
 _LEAST_NOISE_DEG, _MOST_NOISE_DEG = 0.02, 1.5
-_NOISE_STEP = 1.04
+_NOISE_STEP = 1.03
 _BEND_MEDIAN = 0.6745 * math.sqrt(6.0)
 """The median of |a - 2b + c| for readings with a scatter of one: what a steady motion cannot hide."""
 

@@ -74,10 +74,12 @@ class SerialLink:
         arrivals: asyncio.Queue[bytes | str] = asyncio.Queue()
         leaving = threading.Event()
 
+        # Once: over rfc2217:// every setting is negotiated anew with the other end.
+        port.timeout = URL_POLL_S
+
         def listen() -> None:
             while not leaving.is_set():
                 try:
-                    port.timeout = URL_POLL_S
                     data = port.read(1)
                     # What is there already comes at once; a timeout of None would wait for ever.
                     data += port.read(port.in_waiting) if data else b""

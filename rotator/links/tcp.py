@@ -44,7 +44,8 @@ class TcpLink:
     async def run(self) -> None:
         assert self._server is not None, "open() comes first"
         try:
-            await self._server.serve_forever()
+            # It serves since it was created; `serve_forever` would wait for its clients before it lets itself be ended.
+            await asyncio.Event().wait()
         finally:
             self._server.close()
             for client in list(self._clients):
@@ -59,6 +60,8 @@ def _why(fault: OSError | UnicodeError) -> str:
         case OSError(errno=int() as number):
             # asyncio wraps the system's words in many of its own.
             return os.strerror(number)
+        case OSError():
+            return str(fault)
         case _:
             return "no machine can have that name"
 

@@ -127,7 +127,7 @@ def test_a_motor_that_does_not_start(speed_dps: float, noise_deg: float, way: Di
     bench.drive(way)
     name, after_s = bench.time_to_fault(4.0)
     assert name == "motor runs and pot stands still"
-    assert after_s <= 2.0
+    assert after_s <= (2.0 if noise_deg < 0.4 else 2.4)
 
 
 @pytest.mark.parametrize(("speed_dps", "noise_deg"), [(0.5, 0.1), (2.7, 0.4), (6.0, 0.4), (60.0, 0.4)])

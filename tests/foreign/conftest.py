@@ -28,8 +28,10 @@ lag_s = 0.02
 pot_noise_deg = 0.02
 backlash_deg = 0
 [azimuth]
+speed_dps = 60
 coast_s = 0.04
 [elevation]
+speed_dps = 60
 coast_s = 0.04
 """
 

@@ -245,3 +245,23 @@ def test_off_works_from_any_thread(master: bool) -> None:
     somebody.join(10.0)
     assert bench.on() == set()
     assert set(bench.bank.driven().values()) == {OFF}
+
+
+def test_a_cut_takes_the_supply_and_keeps_it_until_restored() -> None:
+    bench = Bench(master=True)
+    bench.run(AZ, PLUS, 1.0)
+    assert bench.bank.cut()
+    assert bench.on() == set()
+    assert bench.drive(EL, PLUS) is OFF
+    assert bench.on() == set()
+    bench.bank.restore()
+    assert bench.on() == set(), "the supply comes with the next motor, not by itself"
+    assert bench.drive(EL, PLUS) is PLUS
+    assert bench.on() == {"elevation_up", "master"}
+
+
+def test_without_a_master_a_cut_says_that_it_is_none() -> None:
+    bench = Bench()
+    bench.drive(EL, PLUS)
+    assert not bench.bank.cut()
+    assert bench.drive(AZ, PLUS) is PLUS, "the other axis is not to suffer for nothing"

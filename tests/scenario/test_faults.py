@@ -1,0 +1,260 @@
+"""Every named fault, injected into the simulated station while the real drivers and the control loop run it.
+
+How soon the relays are off, what is said, how it is acknowledged; and that nothing is said where nothing is wrong.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from benchmarks.faults import DRILLS, MASTER, Drill, Mast, strike, table
+from firmware_sim.clock import SimClock
+from hw.ports import Axis, Direction
+from rotator.config.load import parse
+from rotator.orders import Aim, Jog, Order, Release, Stop
+from rotator.passes import Pass, read_pass
+from rotator.rehearsal import BoxPlant, fly
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+MINUS, OFF, PLUS = Direction
+ROOT = Path(__file__).parents[2]
+NOISY = "[sim.azimuth]\npot_noise_deg = 0.4\n[sim.elevation]\npot_noise_deg = 0.4\n"
+NOISY_TOO = [drill for drill in DRILLS if drill.sim not in ("motor-slow", "wind-turns", "")]
+EACH_AXIS = pytest.mark.parametrize("axis", list(Axis), ids=lambda axis: axis.value)
+ACKNOWLEDGED = pytest.mark.parametrize("order", [Stop(), Release()], ids=["S", "release"])
+
+
+def called(drill: Drill) -> str:
+    return f"{drill.fault}-{drill.scene}-{drill.sim}".replace(" ", "-")
+
+
+@pytest.fixture
+def mast() -> Iterator[Mast]:
+    mast = Mast()
+    yield mast
+    mast.close()
+
+
+# --- within its limit
+
+
+@EACH_AXIS
+@pytest.mark.parametrize("drill", DRILLS, ids=called)
+def test_the_relays_are_off_in_time(drill: Drill, axis: Axis) -> None:
+    assert strike(drill, axis, 0.021) <= drill.limit_s
+
+
+@EACH_AXIS
+@pytest.mark.parametrize("drill", NOISY_TOO, ids=called)
+def test_with_four_times_the_noise_as_well(drill: Drill, axis: Axis) -> None:
+    assert strike(drill, axis, 0.0, NOISY) <= drill.limit_s
+
+
+def test_the_page_holds_the_table() -> None:
+    """If this fails, paste what `python -m benchmarks.faults` prints."""
+    page = (ROOT / "docs" / "safety.md").read_text(encoding="utf-8")
+    assert page.split("<!-- faults: begin -->\n")[1].split("<!-- faults: end -->")[0] == f"\n{table()}\n"
+
+
+@pytest.mark.parametrize("name", sorted({drill.fault for drill in DRILLS}))
+def test_every_fault_has_its_heading(name: str) -> None:
+    headings = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8").splitlines()
+    assert f"### {name}" in headings
+
+
+# --- acknowledged
+
+
+@ACKNOWLEDGED
+def test_it_stops_that_axis_until_acknowledged(mast: Mast, order: Order) -> None:
+    mast.run(1.0)
+    mast.order(Aim(400.0, 170.0))
+    mast.run(4.0)
+    mast.world.inject("azimuth-motor-stalled")
+    mast.run(3.0)
+    assert mast.world.drives() == (0, 1), "the other axis goes on"
+    mast.world.clear("azimuth-motor-stalled")
+    mast.order(Aim(300.0, 170.0))
+    mast.run(2.0)
+    assert mast.world.drives() == (0, 1)
+    mast.order(order)
+    mast.order(Aim(300.0, 170.0))
+    mast.run(5.0)
+    assert mast.world.drives() == (1, 1)
+    assert mast.status.faults == ()
+
+
+@ACKNOWLEDGED
+def test_the_same_cause_comes_straight_back(mast: Mast, order: Order) -> None:
+    mast.world.inject("azimuth-pot-loose")
+    mast.run(1.0)
+    for _ in range(5):
+        mast.order(order)
+        mast.order(Aim(300.0, 20.0))
+        mast.run(0.3)
+        assert [fault.name for fault in mast.status.faults] == ["pot jumps"]
+    # By chance a loose wire is quiet for 0.3 s; but nothing runs between an order and the first look at it.
+    assert mast.world.relay_starts <= 1
+
+
+def test_a_faulty_run_teaches_nothing(mast: Mast) -> None:
+    mast.run(1.0)
+    mast.order(Jog(AZ, PLUS))
+    mast.run(6.0)
+    before = mast.status.azimuth.learnt
+    mast.world.inject("azimuth-pot-reversed")
+    mast.run(6.0)
+    assert mast.status.azimuth.fault is not None
+    assert mast.status.azimuth.learnt == before
+
+
+# --- a welded relay
+
+
+def weld(text: str) -> Mast:
+    """It ran clockwise, was told to turn back, and its relay has stuck."""
+    mast = Mast(text)
+    mast.run(1.0)
+    mast.order(Jog(AZ, PLUS))
+    mast.run(5.0)
+    mast.world.inject("azimuth-relay-welded-cw")
+    mast.order(Aim(10.0, 15.0))
+    mast.run(3.0)
+    return mast
+
+
+@pytest.mark.parametrize("text", ["", MASTER], ids=["alone", "master"])
+def test_it_is_never_met_by_the_opposite_relay(text: str) -> None:
+    mast = weld(text)
+    assert [fault.name for fault in mast.status.faults] == ["relay welded"]
+    for _ in range(5):
+        mast.order(Stop())
+        mast.order(Aim(10.0, 15.0))
+        mast.run(3.0)
+    assert mast.world.azimuth.motor.shorted_s == 0.0
+    assert [fault.name for fault in mast.status.faults] == ["relay welded"]
+    mast.close()
+
+
+def test_the_master_stays_open_until_acknowledged_and_nothing_runs() -> None:
+    mast = weld(MASTER)
+    stands_deg = mast.world.antenna()[0]
+    mast.order(Aim(200.0, 60.0))
+    mast.run(10.0)
+    assert not mast.world.azimuth.motor.supply
+    assert mast.world.antenna()[0] == pytest.approx(stands_deg, abs=0.01)
+    assert mast.status.elevation.fault is None, "a motor without supply is not driven, so it is no fault that it stands"
+    mast.close()
+
+
+def test_a_relay_that_lets_go_again_is_trusted_after_one_run() -> None:
+    mast = weld(MASTER)
+    mast.world.clear("azimuth-relay-welded-cw")
+    mast.order(Stop())
+    mast.order(Jog(AZ, PLUS, 1.0))
+    mast.run(4.0)
+    mast.order(Aim(10.0, 15.0))
+    mast.run(20.0)
+    assert mast.status.faults == ()
+    assert mast.world.antenna()[0] == pytest.approx(10.0, abs=4.0)
+    mast.close()
+
+
+# --- what is said
+
+
+def test_a_fault_and_a_notice_are_said_once(mast: Mast, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.INFO, "rotator")
+    mast.run(1.0)
+    mast.world.inject("azimuth-wind-turns")
+    mast.run(20.0)
+    assert [record.message for record in caplog.records] == [
+        "azimuth: turning with no relay on: a hand may be on the control box's switch"
+    ]
+    caplog.clear()
+    mast.world.inject("azimuth-hand-turns")
+    mast.run(20.0)
+    said = [record.message for record in caplog.records]
+    assert len(said) == 1
+    assert said[0].startswith("FAULT CUT MOTOR POWER! azimuth: turning with no relay on: ")
+
+
+def test_without_end_resistors_it_says_that_it_is_blind(caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.INFO, "rotator")
+    mast = Mast("[elevation]\nlowest_reading = 0.0\n")
+    mast.run(5.0)
+    assert mast.status.azimuth.notices == ()
+    assert len(mast.status.elevation.notices) == 1
+    assert len([record for record in caplog.records if "blind to a broken pot wire" in record.message]) == 1
+    mast.close()
+
+
+def test_a_hot_motor_rests_and_goes_on() -> None:
+    mast = Mast("[azimuth]\nlongest_run_s = 20\nrest_s = 60\n")
+    mast.run(1.0)
+    mast.order(Aim(400.0, 15.0))
+    mast.run(25.0)
+    assert mast.world.drives() == (0, 0)
+    assert mast.status.azimuth.notices == ("motor hot: it has run for 20 s and rests",)
+    assert mast.status.azimuth.target_deg == 400.0
+    mast.run(200.0)
+    assert mast.world.antenna()[0] == pytest.approx(400.0, abs=4.0)
+    assert mast.status.faults == ()
+    mast.close()
+
+
+# --- nothing is wrong, and nothing is said
+
+
+def noted(mast: Mast, seconds: float, seen: set[str]) -> None:
+    for _ in range(round(seconds / 0.5)):
+        mast.run(0.5)
+        seen |= {notice for axis in Axis for notice in mast.status.axis(axis).notices}
+        seen |= {fault.name for fault in mast.status.faults}
+
+
+@pytest.mark.parametrize("noise_deg", [0.1, 0.4])
+@pytest.mark.parametrize(
+    ("said_dps", "real_dps", "lag_s"),
+    [(6, 6, 0.15), (6, 6, 0.0), (6, 6, 0.3), (6, 3, 0.15), (6, 12, 0.15), (0.5, 0.5, 0.15), (60, 60, 0.15)],
+)
+def test_moves_jogs_and_reversals(said_dps: float, real_dps: float, lag_s: float, noise_deg: float) -> None:
+    axis = f"speed_dps = {said_dps}\nlongest_run_s = 0\n"
+    sim = f"speed_dps = {real_dps}\nlag_s = {lag_s}\npot_noise_deg = {noise_deg}\n"
+    mast = Mast(f"[azimuth]\n{axis}[elevation]\n{axis}[sim.azimuth]\n{sim}[sim.elevation]\n{sim}")
+    seen: set[str] = set()
+    noted(mast, 1.0, seen)
+    for azimuth_deg, elevation_deg in ((60, 30), (20, 10), (90, 60), (45, 45), (450, 180), (0, 0)):
+        mast.order(Aim(azimuth_deg, elevation_deg))
+        noted(mast, (450 if azimuth_deg % 450 == 0 else 70) / real_dps + 5.0, seen)
+    for way in (PLUS, MINUS, PLUS, MINUS):
+        mast.order(Jog(AZ, way))
+        mast.order(Jog(EL, way))
+        noted(mast, 1.5, seen)
+    for way in (PLUS, MINUS):
+        mast.order(Jog(AZ, way))
+        mast.order(Jog(EL, way))
+        noted(mast, 460.0 / real_dps + 5.0, seen)
+    assert seen == set()
+    mast.close()
+
+
+@pytest.mark.parametrize("name", ["north-2-so-50", "overhead-2-rs-44", "low-1-iss"])
+def test_passes_with_four_times_the_noise(name: str) -> None:
+    config = parse(NOISY, "a noisy station")
+    seen: set[str] = set()
+    flown_by: list[BoxPlant] = []
+
+    def make(clock: SimClock, flown: Pass) -> BoxPlant:
+        plant = BoxPlant(config, clock, (flown.rows[0][1], 0.0), "gs232")
+        clock.every(1.0, lambda _: seen.update(n for axis in Axis for n in plant.status.axis(axis).notices))
+        flown_by.append(plant)
+        return plant
+
+    fly(read_pass(ROOT / "tests" / "passes" / f"{name}.csv"), make)
+    assert flown_by[0].status.faults == ()
+    assert seen == set()
