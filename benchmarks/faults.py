@@ -131,7 +131,7 @@ DRILLS = (
     Drill("turning with no relay on", "wind turns it, at 0.3 of its speed", "resting", "wind-turns", 2.0, "", True),
     Drill("end stop reached", "a stop 4° inside the range", "stop", "stop-early", 2.0),
     Drill(
-        "motor on longer than the travel takes", "the motor turns at 0.4 of its speed", "dragging", "motor-slow", 103
+        "motor on longer than the travel takes", "the motor turns at 0.4 of its speed", "dragging", "motor-slow", 105
     ),
     Drill("motor hot", "a slow rotor runs and runs", "starting", "", 300.1, SLOW, True),
 )

@@ -99,7 +99,7 @@ class MountTable(Table):
     declination_deg: float | None = Field(None, ge=-180, le=180)
     """By how much a compass points east of true north at your place (west: minus); `magnetic` needs it."""
     park_azimuth_deg: float = Field(0.0, ge=0, le=450)
-    """Where a park order (rotctld K) sends the azimuth."""
+    """Where a park order (rotctld K) sends the azimuth, on the rotor's own scale."""
     park_elevation_deg: float = Field(0.0, ge=0, le=180)
     """Where a park order sends the elevation."""
     park_after_s: float = Field(0.0, ge=0, le=86_400)

@@ -20,6 +20,7 @@ from rotator.control.sensing import Reading
 from rotator.control.switched import Run
 from rotator.control.timed import TimedList
 from rotator.orders import (
+    BOTH,
     Aim,
     Calibrate,
     ClearTimed,
@@ -147,7 +148,14 @@ class Controller:
     def _park(self, now_s: float) -> None:
         self._timed.halt()
         self._moved_s = None
-        self._point_at(Aim(self._settings.mount.park_azimuth_deg, self._settings.mount.park_elevation_deg), now_s)
+        mount = self._settings.mount
+        # A place on the rotor's own scale, not a direction: the overlap's other turn would wind the cables.
+        self._forget(BOTH)
+        park = Aim(mount.park_azimuth_deg, mount.park_elevation_deg)
+        try:
+            self._set_goals(self._pointing.aim(now_s, park, mount.park_azimuth_deg, mount.park_elevation_deg))
+        except Unreachable as reason:
+            self.troubles.append(f"the park position cannot be reached: {reason}")
 
     def _park_when_idle(self, now_s: float) -> None:
         """Long after the last order, where that is asked for; never before a first order, nor against a latch."""

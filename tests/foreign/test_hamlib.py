@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,8 +12,8 @@ import pytest
 Start = Callable[..., "RunningBox"]  # noqa: F821 - a fixture's type
 TOLERANCE_DEG = 4.5
 """What the box promises, and half a degree for whole-degree replies."""
-SETTLED = 200
-"""How often to look whether the antenna has arrived: each look is a rotctl of its own."""
+PATIENCE_S = 60.0
+"""How long to go on asking whether the antenna has arrived: each question is a rotctl of its own."""
 
 
 @pytest.fixture
@@ -41,7 +42,8 @@ def position(output: str) -> tuple[float, float]:
 def arrive(rotctl: Callable[..., str], model: int, where: Path | str, goal: tuple[float, float]) -> None:
     """Ask again and again, as a tracking program does, until the antenna is where it was sent."""
     seen = (float("nan"), float("nan"))
-    for _ in range(SETTLED):
+    give_up_s = time.monotonic() + PATIENCE_S
+    while time.monotonic() < give_up_s:
         seen = position(rotctl(model, where, "p"))
         if all(abs(at - to) <= TOLERANCE_DEG for at, to in zip(seen, goal, strict=True)):
             return
