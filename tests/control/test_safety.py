@@ -7,11 +7,9 @@ import random
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.endurance import Endurance
 from rotator.control.motion import Motor
 from rotator.control.mount import Range
 from rotator.control.safety import CUT_BY_HAND, MotionWatch
-from rotator.control.trend import Trend
 from rotator.status import Fault
 
 MINUS, OFF, PLUS = Direction
@@ -284,59 +282,3 @@ def test_a_relay_found_welded_must_show_that_it_opens_before_the_opposite_one_is
     bench.end_run()
     bench.pass_by(3.0)
     assert bench.watch.accuse(MINUS) is None
-
-
-# --- the line through the readings
-
-
-@NOISES_DEG
-def test_noise_is_measured_whatever_the_axis_does(noise_deg: float) -> None:
-    chance, trend = random.Random(3), Trend()
-    for count in range(400):
-        trend.see(count * STEP_S, 6.0 * count * STEP_S + chance.gauss(0.0, noise_deg), 6.0)
-    assert trend.noise_deg == pytest.approx(max(noise_deg, 0.02), rel=0.4)
-    slope = trend.slope(400 * STEP_S - 2.0)
-    assert slope is not None
-    assert slope.speed_dps == pytest.approx(6.0, abs=max(4.0 * slope.rough_dps, 1e-6))
-
-
-def test_after_a_gap_the_line_begins_anew() -> None:
-    trend = Trend()
-    for at_s in (0.0, 0.05, 0.1, 0.15, 2.0):
-        trend.see(at_s, 10.0, 6.0)
-    assert trend.since_s == 2.0
-    assert trend.slope(0.0) is None
-
-
-# --- how long a motor may run
-
-
-def after(endurance: Endurance, *spells: tuple[float, bool]) -> bool:
-    now_s = 0.0
-    for seconds, running in spells:
-        endurance.note(now_s, running=running)
-        now_s += seconds
-        endurance.note(now_s, running=running)
-    return endurance.resting
-
-
-@pytest.mark.parametrize(
-    ("spells", "resting"),
-    [
-        ([(299.0, True)], False),
-        ([(300.0, True)], True),
-        ([(200.0, True), (150.0, False), (140.0, True)], False),  # 150 s of standing make up for 50 s of running
-        ([(200.0, True), (150.0, False), (151.0, True)], True),
-        ([(300.0, True), (440.0, False)], True),
-        ([(300.0, True), (451.0, False)], False),
-        ([(60.0, True), (180.0, False)] * 20, False),
-    ],
-)
-def test_running_fills_and_standing_empties(spells: list[tuple[float, bool]], resting: bool) -> None:
-    endurance = Endurance(300.0, 900.0)
-    assert after(endurance, *spells) is resting
-    assert bool(endurance.notice) is resting
-
-
-def test_no_limit_is_no_limit() -> None:
-    assert not after(Endurance(0.0, 900.0), (100_000.0, True))
