@@ -18,7 +18,7 @@ from rotator.cli.faults import parse_faults
 from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals
 from rotator.config.load import load
 from rotator.orders import Park, Release, Stop
-from rotator.views import lcd, terminal
+from rotator.views import terminal
 
 
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
@@ -55,7 +55,7 @@ async def _picture(app: App, stop: asyncio.Event) -> None:
     def glass() -> tuple[str, ...]:
         """Read off the simulated display; the real one cannot be read, so what it is sent."""
         world = app.station.world
-        return world.lcd.text() if world and world.lcd else lcd.rows(app.loop.status, time.monotonic())
+        return world.lcd.text() if world and world.lcd else app.lcd_rows(time.monotonic())
 
     def render() -> RenderableType:
         return terminal.picture(__version__, app.loop.status, glass(), wires, list(recent.rows))

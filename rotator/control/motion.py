@@ -120,17 +120,16 @@ class Motion:
         travelled_deg = (self._speed_dps + speed_dps) / 2 * (now_s - self._at_s)
         return self.angle_deg + travelled_deg + speed_dps * self._lag_s()
 
-    def speed_dps(self, now_s: float) -> float:
-        return self._speed_at(now_s)
-
     def _lag_s(self) -> float:
         run = self._run or (self._landing.run if self._landing else None)
         return self.motors[run.direction if run else Direction.PLUS].lag_s
 
+    def _wanted_dps(self) -> float:
+        """The speed that the motor makes for."""
+        return self.motors[self._run.direction].speed_dps * self._run.direction if self._run else 0.0
+
     def _speed_at(self, now_s: float) -> float:
-        wanted_dps = 0.0
-        if self._run is not None:
-            wanted_dps = self.motors[self._run.direction].speed_dps * self._run.direction
+        wanted_dps = self._wanted_dps()
         fade = math.exp(-max(0.0, now_s - self._at_s) / self._lag_s())
         return wanted_dps + (self._speed_dps - wanted_dps) * fade
 
@@ -140,9 +139,7 @@ class Motion:
         passed_s = now_s - self._at_s
         if passed_s <= 0:
             return
-        wanted_dps = 0.0
-        if self._run is not None:
-            wanted_dps = self.motors[self._run.direction].speed_dps * self._run.direction
+        wanted_dps = self._wanted_dps()
         lag_s = self._lag_s()
         fade = math.exp(-passed_s / lag_s)
         gap_dps = self._speed_dps - wanted_dps

@@ -88,7 +88,7 @@ class _Fit:
         last_s, azimuth_deg, elevation_deg = orders[-1]
         az, el = math.radians(azimuth_deg), math.radians(elevation_deg)
         # The plane touches the sky at the last order; its axes point along growing azimuth and growing elevation.
-        self._ahead: Vector = (math.cos(el) * math.sin(az), math.cos(el) * math.cos(az), math.sin(el))
+        self._ahead = _unit(azimuth_deg, elevation_deg)
         self._right: Vector = (math.cos(az), -math.sin(az), 0.0)
         self._up: Vector = (-math.sin(el) * math.sin(az), -math.sin(el) * math.cos(az), math.cos(el))
         matrix = [[0.0] * 5 for _ in range(5)]

@@ -21,24 +21,7 @@ import pytest
 
 PATIENCE_S = 60.0
 
-FAST_ROTOR = """
-[sim.azimuth]
-speed_dps = 60
-lag_s = 0.02
-pot_noise_deg = 0.02
-backlash_deg = 0
-[sim.elevation]
-speed_dps = 60
-lag_s = 0.02
-pot_noise_deg = 0.02
-backlash_deg = 0
-[azimuth]
-speed_dps = 60
-coast_s = 0.04
-[elevation]
-speed_dps = 60
-coast_s = 0.04
-"""
+FAST_ROTOR = (Path(__file__).parents[1] / "fast_rotor.toml").read_text(encoding="utf-8")
 COMMAND = (sys.executable, "-m", "rotator")
 _TAKE_TERMINAL = (
     "import fcntl, os, sys, termios; fcntl.ioctl(0, termios.TIOCSCTTY, 0); os.execv(sys.argv[1], sys.argv[1:])"
