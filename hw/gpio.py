@@ -9,13 +9,17 @@ from __future__ import annotations
 import errno
 import glob
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from hw.ports import HardwareError
 
 PI_HEADER_LABEL = r"pinctrl-(bcm2835|bcm2711|rp1)"
 """The chip with the 40-pin header, by label: its number changed twice on the Pi 5 alone."""
+
+
+class LinesBusyError(HardwareError):
+    """Somebody else holds a line."""
 
 
 def real_gpiod() -> Any:
@@ -50,6 +54,20 @@ def find_chip(api: Any, label: str = PI_HEADER_LABEL, paths: list[str] | None = 
     raise HardwareError(f"GPIO: no chip labelled {label}; found {seen}")
 
 
+def holders(api: Any, path: str, offsets: Iterable[int]) -> dict[int, str]:
+    """Who holds these lines, by the name he gave; free lines are left out. Takes none. Raises HardwareError."""
+    try:
+        with api.Chip(path) as chip:
+            lines = [chip.get_line_info(offset) for offset in offsets]
+    except PermissionError as fault:
+        raise HardwareError(f"GPIO: no permission for {path}: add the user to the group gpio") from fault
+    except OSError as fault:
+        raise HardwareError(f"GPIO: {path}: {fault.strerror or fault}") from fault
+    except ValueError as fault:
+        raise HardwareError(f"GPIO: {path}: {fault}") from fault
+    return {line.offset: line.consumer or "the kernel" for line in lines if line.used}
+
+
 class GpioOutputs:
     """Named output lines on one chip, through `api`. All are off from the very call that requests them."""
 
@@ -69,8 +87,9 @@ class GpioOutputs:
             raise HardwareError(f"GPIO: no permission for {path}: add the user to the group gpio") from fault
         except OSError as fault:
             pins = ", ".join(f"{name} on GPIO{offset}" for name, offset in offsets.items())
-            why = "a line is taken by another program" if fault.errno == errno.EBUSY else fault.strerror or str(fault)
-            raise HardwareError(f"GPIO: {path}: cannot take {pins}: {why}") from fault
+            if fault.errno == errno.EBUSY:
+                raise LinesBusyError(f"GPIO: {path}: cannot take {pins}: a line is taken by another program") from fault
+            raise HardwareError(f"GPIO: {path}: cannot take {pins}: {fault.strerror or fault}") from fault
         except ValueError as fault:
             raise HardwareError(f"GPIO: {path}: {fault}") from fault
 

@@ -65,6 +65,16 @@ class SwitchedDrive(Protocol):
         """The supply may come back, with the next motor that is to run."""
 
 
+class LeaseWatch(Protocol):
+    """Somebody outside the program who opens the relays when the leases are no longer renewed."""
+
+    def renew(self) -> None:
+        """A relay is to be on, or to stay on. Raises HardwareError where nobody watches: then none may be."""
+
+    def rest(self) -> None:
+        """No relay is on any more."""
+
+
 class CharacterDisplay(Protocol):
     """A display of a few rows of characters."""
 

@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hw.ports import Axis, Direction, HardwareError, OutputLines
+from hw.ports import Axis, Direction, HardwareError, LeaseWatch, OutputLines
 
 LONGEST_LEASE_S = 0.5
 """No command lives longer, whatever its sender asks: a dead sender costs half a second of motor at most."""
@@ -38,13 +38,21 @@ class _Motor:
 class RelayBank:
     """Drives two motors through four output lines, and a master where one is wired.
 
-    `clock` gives seconds; `until_s` of a command is on the same clock.
+    `clock` gives seconds; `until_s` of a command is on the same clock. `watch` is told of every lease before it counts.
     """
 
     def __init__(
-        self, lines: OutputLines, clock: Callable[[], float], *, dead_time_s: float, master: bool = False
+        self,
+        lines: OutputLines,
+        clock: Callable[[], float],
+        *,
+        dead_time_s: float,
+        master: bool = False,
+        watch: LeaseWatch | None = None,
     ) -> None:
         self._lines = lines
+        self._watch = watch
+        self._renewed = False
         self._clock = clock
         self._dead_time_s = dead_time_s
         self._master_wired = master
@@ -58,15 +66,14 @@ class RelayBank:
         with self._lock:
             now_s = self._clock()
             motor = self._motors[axis]
-            if direction is Direction.OFF or until_s <= now_s or self._cut:
-                self._open(axis, now_s)
-            else:
-                if motor.on not in (Direction.OFF, direction):
+            try:
+                if direction is Direction.OFF or until_s <= now_s or self._cut:
                     self._open(axis, now_s)
-                if motor.on is Direction.OFF and self._rested(motor, direction, now_s):
-                    self._close(axis, direction, now_s)
-                motor.until_s = min(until_s, now_s + LONGEST_LEASE_S)
-            self._plan()
+                else:
+                    self._run(axis, direction, now_s)
+                    motor.until_s = min(until_s, now_s + LONGEST_LEASE_S)
+            finally:
+                self._plan()
             return motor.on
 
     def cut(self) -> bool:
@@ -137,6 +144,17 @@ class RelayBank:
         with self._lock:
             return {axis: motor.on for axis, motor in self._motors.items()}
 
+    def _run(self, axis: Axis, direction: Direction, now_s: float) -> None:
+        motor = self._motors[axis]
+        if motor.on not in (Direction.OFF, direction):
+            self._open(axis, now_s)
+        # The lease is known outside before the relay closes: there is no moment at which it would be forgotten.
+        if motor.on is Direction.OFF and self._rested(motor, direction, now_s):
+            self._renew()
+            self._close(axis, direction, now_s)
+        elif motor.on is direction:
+            self._renew()
+
     def _rested(self, motor: _Motor, direction: Direction, now_s: float) -> bool:
         # A reversal at full speed breaks gears and burns contacts; the same direction may go on at once.
         return motor.last in (Direction.OFF, direction) or now_s >= motor.stopped_s + self._dead_time_s
@@ -164,12 +182,20 @@ class RelayBank:
             motor.on = Direction.OFF
             motor.stopped_s = now_s
 
+    def _renew(self) -> None:
+        if self._watch:
+            self._watch.renew()
+            self._renewed = True
+
     def _idle(self) -> bool:
         return all(motor.on is Direction.OFF for motor in self._motors.values())
 
     def _plan(self) -> None:
         """Work out the next moment to enforce, and wake the guard if that came nearer or went away."""
         moments = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
+        if self._watch and self._renewed and not moments:
+            self._watch.rest()
+            self._renewed = False
         if self._master_until_s is not None and not moments:
             moments.append(self._master_until_s)
         due_s = min(moments, default=None)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import itertools
+import os
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -24,7 +25,7 @@ from rotator.control.offsets import Offsets, offsets
 from rotator.control.sensing import Window
 from rotator.display import DisplayThread
 from rotator.door import Door
-from rotator.engine import Engine
+from rotator.engine import Engine, process_end
 from rotator.keeping import Keeper
 from rotator.links.pty import PtyLink
 from rotator.links.serial import SerialLink
@@ -41,6 +42,7 @@ from rotator.simulation import SIM_CALIBRATION_RAW
 from rotator.station import Station
 from rotator.status import LearntMotor
 from rotator.store.learnt import LearntFile, Motors
+from rotator.supervisor import Supervisor
 from rotator.views import lcd
 
 
@@ -160,12 +162,17 @@ def session_maker(link: Link, box: Box) -> Session:
             return RotctldSession(box)
 
 
+RELAY_LINES = "relay-lines.json"
+"""What the unit's ExecStopPost reads to open the relays of a program that has died."""
+
+
 class App:
     """The whole box, in real time. Build it, `await run(stop)`, and every relay is off when that returns."""
 
     def __init__(self, config: Config, path: Path | None = None, station: Station | None = None) -> None:
         self.config = config
         self.station = station or Station(config, time.monotonic, time.sleep)
+        self._supervisor = Supervisor(os.environ, time.monotonic)
         mount = build_mount(config)
         learnt = build_learnt(config)
         self.loop = ControlLoop(
@@ -174,6 +181,7 @@ class App:
             self.station.sensors,
             time.monotonic,
             1 / config.control.rate_hz,
+            after_good_step=self._sign_of_life,
         )
         self.console = Door(self.loop, mount, Source("console"))
         self.links = [self._link(link, mount) for link in config.link]
@@ -188,6 +196,9 @@ class App:
         display = DisplayThread(self.station.display, self.lcd_rows, time.monotonic) if self.station.display else None
         tasks: list[asyncio.Task[object]] = []
         try:
+            if self.station.sentinel:
+                self._supervisor.leave(RELAY_LINES, self.station.lines.to_json())
+                tasks.append(asyncio.create_task(process_end(self.station.sentinel.pid), name="sentinel"))
             ended = self._engine.start()
             for link in self.links:
                 await link.open()
@@ -198,20 +209,28 @@ class App:
                 display.start()
             tasks.append(asyncio.create_task(self._keeper.run()))
             tasks.append(asyncio.create_task(stop.wait()))
+            self._supervisor.ready()
             ending: list[asyncio.Future[Any]] = [ended, *tasks]
             await asyncio.wait(ending, return_when=asyncio.FIRST_COMPLETED)
         finally:
+            self._supervisor.stopping()
             outcomes: list[object] = [await self._engine.halt()]
             for task in tasks:
                 task.cancel()
             outcomes += await asyncio.gather(*tasks, return_exceptions=True)
             if display:
                 await asyncio.to_thread(display.stop)
-            self.station.close()
+            await asyncio.to_thread(self.station.close)
             await asyncio.to_thread(self._keeper.close)
+            self._supervisor.close()
         for outcome in outcomes:
             if isinstance(outcome, Exception):
                 raise outcome
+
+    def _sign_of_life(self) -> None:
+        self._supervisor.alive()
+        if self.station.heartbeat:
+            self.station.heartbeat.beat()
 
     def _link(self, link: Link, mount: Mount) -> RunningLink:
         wire = Wire(link.name or link.protocol, link.protocol, link.where)

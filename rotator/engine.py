@@ -7,16 +7,31 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
 import threading
 import time
 
 from hw.guard import Guard
+from hw.ports import HardwareError
 from hw.relays import RelayBank
 from rotator.loop import ControlLoop
 
 log = logging.getLogger(__name__)
 
 JOIN_S = 2.0
+
+
+async def process_end(pid: int) -> None:
+    """Wait for a child process that should never end. Raises HardwareError when it does."""
+    ended = asyncio.Event()
+    handle = os.pidfd_open(pid)
+    asyncio.get_running_loop().add_reader(handle, ended.set)
+    try:
+        await ended.wait()
+    finally:
+        asyncio.get_running_loop().remove_reader(handle)
+        os.close(handle)
+    raise HardwareError(f"the sentinel (process {pid}) has ended: nobody would open the relays if this program died")
 
 
 class ControlThread:

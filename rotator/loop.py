@@ -35,8 +35,11 @@ class ControlLoop:
         sensors: Mapping[Axis, AngleSensor],
         clock: Callable[[], float],
         period_s: float,
+        *,
+        after_good_step: Callable[[], None] = lambda: None,
     ) -> None:
         self._controller = controller
+        self._after_good_step = after_good_step
         self._drive = drive
         self._sensors = sensors
         self._clock = clock
@@ -48,6 +51,7 @@ class ControlLoop:
         self._failure: Exception | None = None
         self._readings: dict[Axis, Reading] = {}
         self._troubles: dict[str, str] = {}
+        self._must_obey = ("supply", *(f"{axis.value} drive" for axis in Axis))
         self._late_s = 0.0
         self._supply_cut = False
         self._noticed: dict[Axis, tuple[str, ...]] = dict.fromkeys(Axis, ())
@@ -80,6 +84,17 @@ class ControlLoop:
         self.status = self._controller.status(now_s, driven, self._late_s)
         self._switch_supply()
         self._tell(before)
+        self._sign_of_life()
+
+    def _sign_of_life(self) -> None:
+        """Told to whoever would switch the motors off without it. Not where a relay may not have obeyed."""
+        if any(self._troubles.get(what) for what in self._must_obey):
+            return
+        try:
+            self._after_good_step()
+            self._trouble("heartbeat", "")
+        except HardwareError as fault:
+            self._trouble("heartbeat", str(fault))
 
     def _switch_supply(self) -> None:
         """Off where a fault asks for it, tried until it is; back when the fault has been acknowledged."""

@@ -6,20 +6,39 @@ Knows which driver sits on which bus and which lines, and the order in which the
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import ExitStack
 
 from hw.ads1115 import Ads1115
 from hw.gpio import PI_HEADER_LABEL, GpioOutputs, find_chip, real_gpiod
 from hw.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780
+from hw.heartbeat import HEARTBEAT, Heartbeat
 from hw.i2c import SmbusI2C, open_bus
+from hw.lines_off import RelayLines
 from hw.ports import AngleSensor, Axis, CharacterDisplay
 from hw.pot import PotSensor, Reference
-from hw.relays import MASTER, RelayBank
+from hw.relays import MASTER, RELAYS, RelayBank
+from hw.sentinel import Sentinel
 from rotator.config.model import Config
 from rotator.simulation import simulated_world
 
 
+def relay_lines(config: Config, chip: str) -> RelayLines:
+    """Every line that must be off for the motors to stand still."""
+    names = [*RELAYS.values(), MASTER, HEARTBEAT]
+    pins = {name: pin for name in names if (pin := getattr(config.relays, name)) is not None}
+    return RelayLines(chip, pins, config.relays.active == "low")
+
+
 class Station:
     """The hardware, real or simulated, behind its drivers. Raises HardwareError where it is missing."""
+
+    bank: RelayBank
+    sensors: dict[Axis, AngleSensor]
+    display: CharacterDisplay | None
+    heartbeat: Heartbeat | None
+    sentinel: Sentinel | None
+    """None in a simulation: there is nothing that could go on turning."""
+    lines: RelayLines
 
     def __init__(
         self,
@@ -28,66 +47,94 @@ class Station:
         sleep: Callable[[float], None],
         start_deg: tuple[float, float] = (0.0, 0.0),
     ) -> None:
+        self._config = config
+        self._clock = clock
+        self._sleep = sleep
+        self._buses: dict[int, SmbusI2C] = {}
         self.world = None
         if config.rotor.hardware == "sim":
             self.world = simulated_world(config, clock, sleep if config.sim.bus_takes_time else None, start_deg)
-        gpio = self.world.gpio if self.world else real_gpiod()
-        self._buses: dict[int, SmbusI2C] = {}
-        chip = config.relays.chip or find_chip(gpio, PI_HEADER_LABEL, self.world.gpio.paths() if self.world else None)
-        relays = config.relays.model_dump(include={"azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down"})
-        if config.relays.master is not None:
-            relays[MASTER] = config.relays.master
-        self._outputs = [
-            GpioOutputs(gpio, chip, relays, consumer="rotator-relays", active_low=config.relays.active == "low")
-        ]
-        self.bank = RelayBank(
-            self._outputs[0], clock, dead_time_s=config.relays.dead_time_s, master=config.relays.master is not None
+        self._gpio = self.world.gpio if self.world else real_gpiod()
+        chip = config.relays.chip or find_chip(
+            self._gpio, PI_HEADER_LABEL, self.world.gpio.paths() if self.world else None
         )
-        adc_range_v = 4.096 if config.adc.supply_v <= 4.096 else 6.144
-        adc = Ads1115(
-            self._bus(config.adc.bus),
-            config.adc.address,
-            sleep,
-            rate_sps=config.adc.rate_sps,
-            full_scale_v=adc_range_v,
-        )
-        reference = config.adc.reference_channel
-        supply = config.adc.supply_v if reference is None else Reference(adc, reference, clock)
-        self.sensors: dict[Axis, AngleSensor] = {
-            Axis.AZIMUTH: PotSensor(adc, config.adc.azimuth_channel, supply),
-            Axis.ELEVATION: PotSensor(adc, config.adc.elevation_channel, supply),
-        }
-        self.display = self._display(config, gpio, chip, sleep)
+        # What has been opened is let go of again, in the opposite order, should something further on be missing.
+        with ExitStack() as opened:
+            self._open_relays(opened, chip)
+            self._open_pots(opened)
+            self.display = self._open_display(opened, chip)
+            self._opened = opened.pop_all()
 
     def close(self) -> None:
-        self.bank.off()
-        for outputs in self._outputs:
-            outputs.close()
-        for bus in self._buses.values():
-            bus.close()
+        try:
+            self.bank.off()
+            if self.sentinel:
+                self.sentinel.dismiss()
+        finally:
+            self._opened.close()
 
-    def _bus(self, number: int) -> SmbusI2C:
-        if number not in self._buses:
-            self._buses[number] = SmbusI2C(self.world.bus, "simulated bus") if self.world else open_bus(number)
-        return self._buses[number]
+    def _open_relays(self, opened: ExitStack, chip: str) -> None:
+        relays = self._config.relays
+        self.lines = relay_lines(self._config, chip)
+        outputs = GpioOutputs(
+            self._gpio, chip, self.lines.offsets, consumer="rotator-relays", active_low=self.lines.active_low
+        )
+        with ExitStack() as taken:
+            taken.callback(outputs.close)
+            self.sentinel = None if self.world else Sentinel(self.lines)
+            taken.pop_all()
+        # The lines go first: a sentinel that was not dismissed takes them when they are free.
+        if self.sentinel:
+            opened.callback(self.sentinel.close)
+        opened.callback(outputs.close)
+        self.bank = RelayBank(
+            outputs,
+            self._clock,
+            dead_time_s=relays.dead_time_s,
+            master=relays.master is not None,
+            watch=self.sentinel,
+        )
+        self.heartbeat = Heartbeat(outputs) if relays.heartbeat is not None else None
 
-    def _display(
-        self, config: Config, gpio: object, chip: str, sleep: Callable[[float], None]
-    ) -> CharacterDisplay | None:
-        match config.lcd.kind:
+    def _open_pots(self, opened: ExitStack) -> None:
+        table = self._config.adc
+        adc = Ads1115(
+            self._bus(opened, table.bus),
+            table.address,
+            self._sleep,
+            rate_sps=table.rate_sps,
+            full_scale_v=4.096 if table.supply_v <= 4.096 else 6.144,
+        )
+        reference = table.reference_channel
+        supply = table.supply_v if reference is None else Reference(adc, reference, self._clock)
+        self.sensors = {
+            Axis.AZIMUTH: PotSensor(adc, table.azimuth_channel, supply),
+            Axis.ELEVATION: PotSensor(adc, table.elevation_channel, supply),
+        }
+
+    def _open_display(self, opened: ExitStack, chip: str) -> CharacterDisplay | None:
+        table = self._config.lcd
+        match table.kind:
             case "gpio":
-                pins = config.lcd.model_dump(include={"rs", "e", "d4", "d5", "d6", "d7"})
-                outputs = GpioOutputs(gpio, chip, pins, consumer="rotator-lcd")
-                self._outputs.append(outputs)
-                return Hd44780(GpioPort(outputs, sleep), sleep)
+                pins = table.model_dump(include={"rs", "e", "d4", "d5", "d6", "d7"})
+                outputs = GpioOutputs(self._gpio, chip, pins, consumer="rotator-lcd")
+                opened.callback(outputs.close)
+                return Hd44780(GpioPort(outputs, self._sleep), self._sleep)
             case "pcf8574":
-                board = config.lcd.backpack
+                board = table.backpack
                 port = BackpackPort(
-                    self._bus(config.lcd.bus),
-                    config.lcd.address,
+                    self._bus(opened, table.bus),
+                    table.address,
                     BACKPACKS[board],
                     backlight_active_low=board in BACKLIGHT_ACTIVE_LOW,
                 )
-                return Hd44780(port, sleep)
+                return Hd44780(port, self._sleep)
             case _:
                 return None
+
+    def _bus(self, opened: ExitStack, number: int) -> SmbusI2C:
+        if number not in self._buses:
+            bus = SmbusI2C(self.world.bus, "simulated bus") if self.world else open_bus(number)
+            opened.callback(bus.close)
+            self._buses[number] = bus
+        return self._buses[number]

@@ -84,6 +84,15 @@ def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, axis: str
     sys.exit(calibrate_axes(path, faults, axis, plain=plain))
 
 
+@cli.command()
+@CONFIG
+def off(path: Path | None) -> None:
+    """Open every relay, when the box is not running: after a crash, whatever the kernel left switched on."""
+    from rotator.cli.off import relays_off
+
+    relays_off(path)
+
+
 @cli.command(name="config")
 @click.argument("name", default=SIMULATED, metavar="[NAME]")
 @click.option("--list", "listed", is_flag=True, help="Say which there are.")

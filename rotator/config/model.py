@@ -149,6 +149,8 @@ class Relays(Table):
     """Turns down."""
     master: Gpio | None = None
     """An output that switches the motors' supply."""
+    heartbeat: Gpio | None = None
+    """An output that changes level after every good step, for a one-shot that gates the motors' supply."""
     active: Literal["high", "low"] = "high"
     """The level that closes a relay, for all of them, the master too."""
     dead_time_s: float = Field(0.5, ge=0.05, le=5)
@@ -308,8 +310,10 @@ class Config(Table):
 
     def _pins_twice(self) -> list[str]:
         users: dict[int, list[str]] = {}
-        for key in ("azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down", "master"):
-            users.setdefault(getattr(self.relays, key), []).append(f"relays.{key}")
+        for key in ("azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down", "master", "heartbeat"):
+            pin = getattr(self.relays, key)
+            if pin is not None:
+                users.setdefault(pin, []).append(f"relays.{key}")
         if self.lcd.kind == "gpio":
             for key in ("rs", "e", "d4", "d5", "d6", "d7"):
                 users.setdefault(getattr(self.lcd, key), []).append(f"lcd.{key}")

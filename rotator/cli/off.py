@@ -1,0 +1,37 @@
+"""`rotator off`: every relay line off, when no box is running.
+
+Knows where the lines are said. How they are switched is the hardware layer's.
+"""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import click
+
+from hw.gpio import LinesBusyError, find_chip, real_gpiod
+from hw.lines_off import switch_off
+from hw.ports import HardwareError
+from rotator.config.load import load
+from rotator.station import relay_lines
+
+PATIENCE_S = 1.0
+"""A program that is just dying lets go of its lines within this."""
+
+
+def relays_off(path: Path | None) -> None:
+    config = load(path)
+    if config.rotor.hardware == "sim":
+        click.echo("simulated: there is no relay to open")
+        return
+    gpio = real_gpiod()
+    lines = relay_lines(config, config.relays.chip or find_chip(gpio))
+    try:
+        switch_off(gpio, lines, time.monotonic, time.sleep, PATIENCE_S)
+    except LinesBusyError as fault:
+        raise HardwareError(
+            f"{fault}. A box that runs opens its own relays: press stop there, or end it (sudo systemctl stop rotator)"
+        ) from fault
+    pins = ", ".join(f"{name} (GPIO{offset})" for name, offset in lines.offsets.items())
+    click.echo(f"off: {pins}")
