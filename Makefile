@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: run test check tests bench picture clean
+.PHONY: run test check tests test-install bench picture drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -20,6 +20,10 @@ check: $(VENV)/.dev
 tests: $(VENV)/.dev
 	$(BIN)/pytest $(TESTS)
 
+# install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in build/roots.
+test-install: $(VENV)/.dev
+	$(BIN)/pytest tests/install
+
 # The figures of the README: pointing first, the same on every machine; then latency and load, on this one.
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.passes --svg docs/img/passes.svg
@@ -31,6 +35,10 @@ bench: $(VENV)/.dev
 # The picture of it running, from the running box itself.
 picture: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.screenshot docs/img/run.svg
+
+# The wiring pictures, from their source in docs/drawings.
+drawings: $(VENV)/.dev
+	$(BIN)/python -m docs.drawings
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' || \

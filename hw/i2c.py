@@ -19,6 +19,7 @@ class SmbusI2C:
     def __init__(self, bus: Any, name: str) -> None:
         self._bus = bus
         self._name = name
+        self._closed = False
 
     def write(self, address: int, data: bytes) -> None:
         self._transfer(address, i2c_msg.write(address, data))
@@ -28,10 +29,23 @@ class SmbusI2C:
         self._transfer(address, i2c_msg.write(address, data), answer)
         return bytes(answer)
 
+    def answers(self, address: int) -> bool:
+        """Whether anything acknowledges the address, asked by reading a byte. Raises HardwareError for a sick bus."""
+        try:
+            self._transfer(address, i2c_msg.read(address, 1))
+        except HardwareError as fault:
+            if isinstance(fault.__cause__, OSError) and fault.__cause__.errno in (errno.EREMOTEIO, errno.ENXIO):
+                return False
+            raise
+        return True
+
     def close(self) -> None:
+        self._closed = True
         self._bus.close()
 
     def _transfer(self, address: int, *messages: i2c_msg) -> None:
+        if self._closed:  # smbus2 would raise a TypeError
+            raise HardwareError(f"I2C {self._name}: it has been closed (address 0x{address:02x})")
         try:
             self._bus.i2c_rdwr(*messages)
         except OSError as fault:
@@ -44,6 +58,9 @@ def _explain(fault: OSError) -> str:
             return "the device does not answer; check its wiring, power and address"
         case errno.ETIMEDOUT:
             return "the bus hangs; something holds SDA or SCL low"
+        case errno.EIO:
+            # The Pi's own controller says so of a clock held low too long, adapters on USB of a plug that was drawn.
+            return f"{fault.strerror}; something holds SDA or SCL low, or the adapter has gone"
         case _:
             return fault.strerror or str(fault)
 

@@ -229,8 +229,7 @@ class App:
 
     def _sign_of_life(self) -> None:
         self._supervisor.alive()
-        if self.station.heartbeat:
-            self.station.heartbeat.beat()
+        self.station.beat()
 
     def _link(self, link: Link, mount: Mount) -> RunningLink:
         wire = Wire(link.name or link.protocol, link.protocol, link.where)

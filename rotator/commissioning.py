@@ -28,7 +28,14 @@ class Bench:
 
     def __init__(self, config: Config, axis: Axis, station: Station, clock: Callable[[], float]) -> None:
         controller = build_controller(config, commissioning=axis)
-        self.loop = ControlLoop(controller, station.bank, station.sensors, clock, 1 / config.control.rate_hz)
+        self.loop = ControlLoop(
+            controller,
+            station.bank,
+            station.sensors,
+            clock,
+            1 / config.control.rate_hz,
+            after_good_step=station.beat,
+        )
         table = config.azimuth if axis is Axis.AZIMUTH else config.elevation
         self.guide = Guide(
             Known(

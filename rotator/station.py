@@ -65,6 +65,11 @@ class Station:
             self.display = self._open_display(opened, chip)
             self._opened = opened.pop_all()
 
+    def beat(self) -> None:
+        """The step went well: the motors may keep their supply. Raises HardwareError."""
+        if self.heartbeat:
+            self.heartbeat.beat()
+
     def close(self) -> None:
         try:
             self.bank.off()

@@ -11,6 +11,7 @@ from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction, HardwareError
 from hw.relays import RelayBank
 from rotator.app import build_controller
+from rotator.commissioning import Bench
 from rotator.config.load import parse
 from rotator.loop import ControlLoop
 from rotator.orders import Aim, Source
@@ -39,10 +40,24 @@ class Fragile:
         self._bank.restore()
 
 
+PIN = 26
+CONFIG = parse(f"[relays]\nheartbeat = {PIN}\n", "test")
+
+
+def edges(station: Station) -> list[bool]:
+    """The levels that the line takes on from now on."""
+    assert station.world is not None
+    seen: list[bool] = []
+    station.world.gpio.on_edges.append(
+        lambda _now_s, changes: seen.extend(changes[pin] for pin in changes if pin == PIN)
+    )
+    return seen
+
+
 class Rig:
     def __init__(self) -> None:
         self.clock = SimClock()
-        config = parse("[relays]\nheartbeat = 26\n", "test")
+        config = CONFIG
         self.station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0))
         self.drive = Fragile(self.station.bank)
         self.signs = 0
@@ -51,8 +66,7 @@ class Rig:
         )
 
     def sign(self) -> None:
-        assert self.station.heartbeat is not None
-        self.station.heartbeat.beat()
+        self.station.beat()
         self.signs += 1
 
     def run(self, steps: int) -> None:
@@ -74,11 +88,19 @@ def test_one_after_every_step_moving_or_not(rig: Rig) -> None:
 
 
 def test_the_line_changes_with_every_step(rig: Rig) -> None:
-    assert rig.station.world is not None
-    edges: list[bool] = []
-    rig.station.world.gpio.on_edges.append(lambda _now_s, changes: edges.extend(changes[p] for p in changes if p == 26))
+    seen = edges(rig.station)
     rig.run(4)
-    assert edges == [True, False, True, False]
+    assert seen == [True, False, True, False]
+
+
+def test_setting_an_axis_up_beats_too() -> None:
+    clock = SimClock()
+    station = Station(CONFIG, clock, clock.sleep)
+    bench = Bench(CONFIG, Axis.AZIMUTH, station, clock)
+    seen = edges(station)
+    for _ in range(4):
+        bench.loop.cycle()
+    assert seen == [True, False, True, False]
 
 
 def test_none_where_a_relay_may_not_have_obeyed(rig: Rig) -> None:

@@ -11,6 +11,7 @@ from hw.ports import HardwareError
 from rotator import __version__
 from rotator.config.load import SIMULATED, ConfigError, profiles, shipped
 from rotator.links.wire import LinkError
+from rotator.setup.plan import SetupError
 
 CONFIG = click.option(
     "--config", "path", type=click.Path(path_type=Path, dir_okay=False), help="Configuration file (TOML)."
@@ -93,6 +94,16 @@ def off(path: Path | None) -> None:
     relays_off(path)
 
 
+@cli.command()
+@CONFIG
+@click.option("--json", "as_json", is_flag=True, help="What was found as JSON.")
+def doctor(path: Path | None, as_json: bool) -> None:
+    """Look at everything the box needs, and say what to do about what is wrong."""
+    from rotator.cli.doctor import examine_box
+
+    sys.exit(examine_box(path, as_json=as_json))
+
+
 @cli.command(name="config")
 @click.argument("name", default=SIMULATED, metavar="[NAME]")
 @click.option("--list", "listed", is_flag=True, help="Say which there are.")
@@ -105,6 +116,62 @@ def show_config(name: str, listed: bool) -> None:
     click.echo(shipped(name), nl=False)
 
 
+@cli.group(name="setup")
+def set_up() -> None:
+    """Prepare this Pi itself: shows what would change, asks, and can take it back."""
+
+
+UNDO = click.option("--undo", is_flag=True, help="Take out again what was put in, and nothing else.")
+YES = click.option("--yes", is_flag=True, help="Do not ask.")
+ROOT = click.option(
+    "--root",
+    type=click.Path(path_type=Path, file_okay=False, exists=True),
+    default=Path("/"),
+    help="Where the Pi's files are, for a card in another machine.",
+)
+STATION = click.option(
+    "--config",
+    "path",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Configuration file; without it /etc/rotator/rotator.toml.",
+)
+
+
+@set_up.command(name="usb-serial")
+@UNDO
+@YES
+@ROOT
+@STATION
+@click.option("--usb-id", default="1d6b:0104", metavar="VENDOR:PRODUCT", help="What the PC sees; 1d6b:0104 by default.")
+@click.option("--up", "gadget", flag_value="up", help="Build the USB device now: what the unit does at each start.")
+@click.option("--down", "gadget", flag_value="down", help="Take it down.")
+def usb_serial(  # noqa: PLR0917 - click calls it by keyword
+    undo: bool, yes: bool, root: Path, path: Path | None, usb_id: str, gadget: str | None
+) -> None:
+    """Make the Pi a serial port of the PC, over its USB device socket."""
+    from rotator.cli.setup import lower_gadget, raise_gadget, usb_serial_port
+
+    match gadget:
+        case "up":
+            raise_gadget(root, usb_id)
+        case "down":
+            lower_gadget(root)
+        case _:
+            usb_serial_port(root, path, undo=undo, yes=yes, usb_id=usb_id)
+
+
+@set_up.command()
+@UNDO
+@YES
+@ROOT
+@STATION
+def pins(undo: bool, yes: bool, root: Path, path: Path | None) -> None:
+    """Hold the relay lines off from power-on, and let them go when the program dies."""
+    from rotator.cli.setup import relay_pins
+
+    relay_pins(root, path, undo=undo, yes=yes)
+
+
 def main() -> None:
     """Errors that are a person's to mend become a sentence; the exit code is 2 for the configuration, else 1."""
     try:
@@ -112,6 +179,6 @@ def main() -> None:
     except ConfigError as fault:
         click.echo(str(fault), err=True)
         sys.exit(2)
-    except (HardwareError, LinkError) as fault:
+    except (HardwareError, LinkError, SetupError) as fault:
         click.echo(f"rotator: {fault}", err=True)
         sys.exit(1)

@@ -12,16 +12,16 @@ from pathlib import Path
 NEW = ".new"
 
 
-def write_whole(path: Path, text: str) -> None:
-    """Put `text` in the place of the file. Raises OSError; then the old file is as it was.
+def write_whole(path: Path, content: str | bytes) -> None:
+    """Put `content` in the place of the file, text as UTF-8. Raises OSError; then the old file is as it was.
 
     A `.new` file that an earlier attempt left behind is written over. Mode and owner stay those of the old file; a
     symbolic link stays one.
     """
     path = path.resolve()
     new = path.with_name(path.name + NEW)
-    with new.open("w", encoding="utf-8") as file:
-        file.write(text)
+    with new.open("wb") as file:
+        file.write(content.encode("utf-8") if isinstance(content, str) else content)
         file.flush()
         os.fsync(file.fileno())
     with suppress(FileNotFoundError):

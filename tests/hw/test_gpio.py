@@ -15,7 +15,7 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from firmware_sim.gpio import SimGpio
-from hw.gpio import GpioOutputs, find_chip, real_gpiod
+from hw.gpio import GpioOutputs, find_chip, holders, real_gpiod
 from hw.ports import HardwareError
 
 PI_3 = {"/dev/gpiochip0": "pinctrl-bcm2835", "/dev/gpiochip1": "raspberrypi-exp-gpio"}
@@ -166,6 +166,31 @@ def test_a_line_that_the_chip_does_not_have_is_a_sentence() -> None:
 def test_a_chip_that_is_not_there_is_a_sentence() -> None:
     with pytest.raises(HardwareError, match=r"/dev/gpiochip7: cannot take azimuth_cw on GPIO22.*No such file"):
         take(simulated(PI_4), "/dev/gpiochip7")
+
+
+# --- looking without taking
+
+
+def test_the_holders_of_lines_are_told_by_name_and_free_ones_left_out() -> None:
+    gpio = simulated(PI_4)
+    lines = take(gpio)
+    assert holders(gpio, "/dev/gpiochip0", [22, 24]) == {22: "rotator-relays"}
+    lines.close()
+    assert holders(gpio, "/dev/gpiochip0", [22, 24]) == {}
+
+
+@pytest.mark.parametrize(
+    ("gpio", "path", "offsets", "words"),
+    [
+        (simulated(PI_4), "/dev/gpiochip7", [22], "/dev/gpiochip7: No such file"),
+        (simulated(PI_4), "/dev/gpiochip0", [99], "/dev/gpiochip0: line offset"),
+        (Forbidden(), "/dev/gpiochip0", [22], "add the user to the group gpio"),
+    ],
+    ids=["no-chip", "no-line", "not-yours"],
+)
+def test_holders_that_cannot_be_told(gpio: object, path: str, offsets: list[int], words: str) -> None:
+    with pytest.raises(HardwareError, match=words):
+        holders(gpio, path, offsets)
 
 
 # --- the package itself

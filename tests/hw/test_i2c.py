@@ -113,7 +113,7 @@ def test_a_bus_that_hangs_until_the_kernel_gives_up(bus: SmbusI2C, wire: SimI2CB
         (errno.EREMOTEIO, "does not answer"),  # the Pi's own controller
         (errno.ENXIO, "does not answer"),  # i2c-gpio, and adapters on USB
         (errno.ETIMEDOUT, "the bus hangs"),
-        (errno.EIO, "Input/output error"),
+        (errno.EIO, "Input/output error; something holds SDA or SCL low, or the adapter has gone"),
         (errno.EAGAIN, "Resource temporarily unavailable"),
     ],
     ids=lambda value: errno.errorcode.get(value) if isinstance(value, int) else None,
@@ -125,8 +125,25 @@ def test_each_error_number_is_a_sentence(number: int, words: str) -> None:
 
 def test_a_closed_bus_is_a_sentence_too(bus: SmbusI2C) -> None:
     bus.close()
-    with pytest.raises(HardwareError, match="Bad file descriptor"):
+    with pytest.raises(HardwareError, match=r"it has been closed \(address 0x48\)"):
         bus.write(ADDRESS, b"\x00")
+
+
+def test_asking_who_answers_writes_nothing(bus: SmbusI2C, chip: Memory) -> None:
+    assert bus.answers(ADDRESS)
+    assert not bus.answers(0x49)
+    assert chip.log == [1]
+
+
+@pytest.mark.parametrize("number", [errno.EREMOTEIO, errno.ENXIO], ids=["the Pi's own", "on USB"])
+def test_whichever_way_an_adapter_says_that_nobody_answers(number: int) -> None:
+    assert not SmbusI2C(BrokenAdapter(number), "bus 1").answers(ADDRESS)
+
+
+def test_a_sick_bus_is_no_answer(bus: SmbusI2C, wire: SimI2CBus) -> None:
+    wire.hang(hang_timeout_s=0.01)
+    with pytest.raises(HardwareError, match="the bus hangs"):
+        bus.answers(ADDRESS)
 
 
 def test_a_missing_adapter_says_how_to_switch_it_on() -> None:

@@ -16,6 +16,11 @@ def test_a_new_file(tmp_path: Path) -> None:
     assert os.listdir(tmp_path) == ["a"]
 
 
+def test_bytes_that_are_no_text(tmp_path: Path) -> None:
+    write_whole(tmp_path / "a", b"caf\xe9\r\n")
+    assert (tmp_path / "a").read_bytes() == b"caf\xe9\r\n"
+
+
 def test_power_lost_in_the_middle_of_writing(tmp_path: Path) -> None:
     # What such a moment leaves: the old file, and half of the new one beside it.
     path, half = tmp_path / "a", tmp_path / "a.new"

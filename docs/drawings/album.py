@@ -1,0 +1,24 @@
+"""Which drawings there are, and the shipped configuration each takes its pins from."""
+
+from __future__ import annotations
+
+from docs.drawings import backpack, divider, f1efw, g5500, one_shot, ssr
+from docs.drawings.sheet import Sheet
+from rotator.config.load import parse, shipped
+from rotator.config.model import Config
+
+
+def profile(name: str) -> Config:
+    return parse(shipped(name), name)
+
+
+def sheets() -> list[Sheet]:
+    f1efw_box = profile("f1efw")
+    return [
+        f1efw.draw(f1efw_box),
+        g5500.draw(profile("g5500")),
+        ssr.draw(f1efw_box),
+        divider.draw(f1efw_box),
+        backpack.draw(profile("spid")),
+        one_shot.draw(f1efw_box),
+    ]

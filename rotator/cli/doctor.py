@@ -1,0 +1,45 @@
+"""`rotator doctor`: look at everything, say what was found.
+
+Knows which file is meant, output and exit codes. What there is to look at is `rotator.doctor`'s.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import click
+from rich.console import Console, RenderableType
+
+from rotator import __version__
+from rotator.doctor.checks import examine
+from rotator.doctor.machine import this_machine
+from rotator.views.examination import as_object, report
+
+INSTALLED = "/etc/rotator/rotator.toml"
+PLAIN_WIDTH = 110
+
+
+def examine_box(path: Path | None, *, as_json: bool) -> int:
+    """The exit code: 0 where nothing is wrong, 1 where something is, 2 for a configuration that cannot be used."""
+    machine = this_machine()
+    if path is None and machine.at(INSTALLED).exists():
+        path = machine.at(INSTALLED)
+    examination = examine(machine, path)
+    if as_json:
+        found = as_object(examination.findings, program=__version__, ok=examination.exit_code == 0)
+        click.echo(json.dumps(found, indent=2, ensure_ascii=False))
+    else:
+        _show(report(examination.findings))
+    return examination.exit_code
+
+
+def _show(report: RenderableType) -> None:
+    if sys.stdout.isatty():
+        Console(highlight=False).print(report)
+        return
+    console = Console(highlight=False, width=PLAIN_WIDTH)
+    with console.capture() as lines:
+        console.print(report)
+    click.echo("\n".join(line.rstrip() for line in lines.get().splitlines()))

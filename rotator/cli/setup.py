@@ -1,0 +1,127 @@
+"""`rotator setup`: shows what would change on this Pi, asks, does it, and says what is left to do.
+
+Knows the conversation with the person. What has to change is the plan's; how files are written is the tree's.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import sys
+from collections.abc import Callable
+from contextlib import suppress
+from datetime import date
+from pathlib import Path
+
+import click
+
+from rotator.config.load import load
+from rotator.setup import gadget, pins, tree, usb_serial
+from rotator.setup.plan import Plan, SetupError, diff
+
+SETTINGS = Path("etc/rotator/rotator.toml")
+INSTALLED = Path("opt/rotator/current/bin/rotator")
+
+CONFIGFS, CONTROLLERS = Path("sys/kernel/config"), Path("sys/class/udc")
+SERIALS = (Path("proc/device-tree/serial-number"), Path("sys/firmware/devicetree/base/serial-number"))
+
+
+def usb_serial_port(root: Path, settings: Path | None, *, undo: bool, yes: bool, usb_id: str) -> None:
+    identity("", usb_id)
+    boot = tree.boot_config(root)
+    places = usb_serial.Places(root, boot, settings or root / SETTINGS)
+    ours = [root / path for path in (usb_serial.UNIT, usb_serial.WANTED, *usb_serial.GETTYS)]
+    theirs = [boot, places.command_line, places.settings, root / usb_serial.RPI_USB_GADGET]
+    files = tree.read(*ours, *theirs, *tree.matching(root, usb_serial.MODULES))
+    _refuse_overlay(str(files[places.command_line] or ""))
+    if undo:
+        _propose(usb_serial.undone(files, places), yes=yes)
+    else:
+        plan = usb_serial.plan(files, places, tree.pi(root), command=_command(root), usb_id=usb_id)
+        _propose(plan, yes=yes)
+
+
+def relay_pins(root: Path, settings: Path | None, *, undo: bool, yes: bool) -> None:
+    boot = tree.boot_config(root)
+    command_line = boot.with_name("cmdline.txt")
+    files = tree.read(boot, command_line, root / pins.I2C_MODULE)
+    _refuse_overlay(str(files[command_line] or ""))
+    if undo:
+        _propose(pins.undone(files, root, boot), yes=yes)
+    else:
+        path = settings or root / SETTINGS
+        if not path.exists():
+            raise SetupError(f"there is no {path}: say with --config which file names your relay pins")
+        _propose(pins.plan(files, root, boot, load(path), tree.pi(root)), yes=yes)
+
+
+def raise_gadget(root: Path, usb_id: str) -> None:
+    controller = gadget.up(root / CONFIGFS, root / CONTROLLERS, identity(_serial_number(root), usb_id))
+    click.echo(f"USB serial port on {controller}")
+
+
+def lower_gadget(root: Path) -> None:
+    gadget.down(root / CONFIGFS)
+
+
+def identity(serial: str, usb_id: str) -> gadget.Identity:
+    """`1d6b:0104` taken apart. Raises SetupError."""
+    parts = re.fullmatch(r"([0-9a-fA-F]{4}):([0-9a-fA-F]{4})", usb_id)
+    if not parts:
+        raise SetupError(f'--usb-id {usb_id}: must be vendor and product in hexadecimal, such as "1d6b:0104"')
+    return gadget.Identity(serial, int(parts[1], 16), int(parts[2], 16))
+
+
+def _serial_number(root: Path) -> str:
+    """The Pi's own; elsewhere one that stays as long as the system is installed."""
+    for path in SERIALS:
+        with suppress(OSError):
+            return (root / path).read_text().rstrip("\0\n")
+    with suppress(OSError):
+        # The machine's id itself is not for the world to see: see machine-id(5).
+        machine = (root / "etc/machine-id").read_bytes().strip()
+        return hashlib.sha256(b"gs232-rotator usb" + machine).hexdigest()[:16]
+    return "0"
+
+
+def _command(root: Path) -> str:
+    """How systemd starts this program: as installed; where it is not, and this is its machine, as it was started."""
+    if (root / INSTALLED).exists() or root.resolve() != Path("/"):
+        return f"/{INSTALLED}"
+    started = Path(sys.argv[0]).absolute()
+    words = [sys.executable, "-m", "rotator"] if started.name == "__main__.py" else [str(started)]
+    return " ".join(_quoted(word) for word in words)
+
+
+def _quoted(word: str) -> str:
+    word = word.replace("%", "%%").replace("$", "$$")
+    return word if re.fullmatch(r"[\w/.%$+-]+", word) else '"' + word.replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def _refuse_overlay(command_line: str) -> None:
+    if any(word.startswith(tree.OVERLAYS) for word in command_line.split()):
+        raise SetupError(
+            "the overlay file system is on, what is written now is gone after a reboot: "
+            "switch it off in raspi-config (Performance), reboot, run this, and switch it on again"
+        )
+
+
+def _propose(plan: Plan, *, yes: bool, today: Callable[[], date] = date.today) -> None:
+    for note in plan.notes:
+        click.echo(note)
+    if not plan.changes:
+        click.echo("Nothing to change: everything is as it should be.")
+        return
+    for change in plan.changes:
+        for line in diff(change):
+            click.echo(line.encode("utf-8", "replace").decode())
+    if reason := tree.hindrance(plan):
+        raise SetupError(f"{reason}. Nothing was changed")
+    if not yes:
+        try:
+            click.confirm("\nDo this?", abort=True)
+        except click.Abort:
+            raise SetupError("nothing was changed (--yes does it without asking)") from None
+    for copy in tree.carry_out(plan, today()):
+        click.echo(f"The file as it was: {copy}")
+    click.echo("Done. It takes effect after a reboot: sudo reboot")

@@ -1,0 +1,84 @@
+"""The checks of what the program may touch: its user's groups, and the folder in which it keeps what it learns.
+
+Knows which group owns which device on Debian and Raspberry Pi OS. Changes neither group nor folder.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from rotator.config.model import Config
+from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
+from rotator.doctor.machine import SERVICE_USER, Machine, nearest
+
+SCARCE_BYTES, TOO_FEW_BYTES = 500_000_000, 50_000_000
+
+
+def groups(machine: Machine, config: Config) -> Iterator[Finding]:
+    needed = _needed(config)
+    if not needed:
+        yield skipped("a simulated rotor without serial ports needs none")
+        return
+    unit = machine.unit
+    if unit is not None:
+        given = {name for line in re.findall(r"(?m)^SupplementaryGroups=(.*)$", unit) for name in line.split()}
+        yield _membership(machine, SERVICE_USER, needed - given)
+    if machine.user == "root":
+        if unit is None:
+            yield fine("root needs none")
+        return
+    person = _membership(machine, machine.user, needed)
+    # Where the service runs the box, the person needs the groups for `rotator calibrate` only.
+    yield person if person.ok or unit is None else warn(person.found, person.advice)
+
+
+def _needed(config: Config) -> set[str]:
+    needed = {"gpio", "i2c"} if config.rotor.hardware == "pi" else set()
+    return needed | ({"dialout"} if any(link.serial and "://" not in link.serial for link in config.link) else set())
+
+
+def _membership(machine: Machine, user: str, needed: set[str]) -> Finding:
+    member_of = _groups_of(machine, user)
+    if member_of is None:
+        return wrong(f"there is no user {user}", "sudo ./install.sh makes the service's user anew.")
+    if missing := sorted(needed - member_of):
+        return wrong(
+            f"{user} is not in {', '.join(missing)}",
+            f"sudo usermod -aG {','.join(missing)} {user}, then log in again (a service: restart it).",
+        )
+    return fine(f"{user} is in {', '.join(sorted(needed))}" if needed else f"{user} is given its groups by the service")
+
+
+def _groups_of(machine: Machine, user: str) -> set[str] | None:
+    """None: no such user in /etc/passwd."""
+    primary = next((row[3] for row in _rows(machine, "/etc/passwd", 7) if row[0] == user), None)
+    if primary is None:
+        return None
+    rows = _rows(machine, "/etc/group", 4)
+    return {name for name, _, number, members in rows if number == primary or user in members.split(",")}
+
+
+def _rows(machine: Machine, path: str, fields: int) -> list[list[str]]:
+    rows = [line.split(":") for line in (machine.text(path) or "").splitlines()]
+    return [row for row in rows if len(row) == fields]
+
+
+def state_folder(machine: Machine, config: Config) -> Iterator[Finding]:
+    path = Path(config.state.path)
+    folder = str(path.parent)
+    if not machine.may_write_in(path.parent):
+        yield wrong(
+            f"{folder} cannot be written to: what the motors teach would be lost",
+            f"sudo install -d -o {machine.user} {folder}; or is the card read-only? Then use a folder that is not.",
+        )
+        return
+    free = machine.free_bytes(nearest(machine.at(path.parent)))
+    found = f"{folder}: {free / 1e9:.1f} GB free"
+    if free < TOO_FEW_BYTES:
+        yield wrong(found, "The card is full: sudo apt clean, and sudo journalctl --vacuum-size=50M.")
+    elif free < SCARCE_BYTES:
+        yield warn(found, "The card is nearly full: sudo apt clean, and sudo journalctl --vacuum-size=50M.")
+    else:
+        yield fine(found)

@@ -1,0 +1,126 @@
+"""The checks of the computer's health: power, heat, time, the watchdog, the service.
+
+Knows where a Raspberry Pi and systemd tell of them. Knows nothing of the configuration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
+from rotator.doctor.machine import Machine
+
+# What `vcgencmd get_throttled` tells (Raspberry Pi documentation): now, and 16 bits higher, ever since the start.
+THROTTLED = {0: "under-voltage", 1: "clock capped", 2: "throttled", 3: "too hot"}
+UNDER_VOLTAGE = 1 << 0
+SINCE_START = 16
+HOT_C = 80.0
+"""Where a Pi begins to slow itself down."""
+
+SUPPLY = "Use the Pi's own power supply and a short, thick cable, and feed relays and display from another one."
+
+
+def power(machine: Machine) -> Iterator[Finding]:
+    bits = _throttled(machine)
+    if bits is None:
+        alarms = [
+            machine.text(path)
+            for path in machine.glob("/sys/class/hwmon/*/in0_lcrit_alarm")
+            if machine.text(path.with_name("name")) == "rpi_volt"
+        ]
+        if not alarms:
+            yield skipped("nothing here tells of the supply")
+        elif "1" in alarms:
+            yield wrong("under-voltage now", SUPPLY)
+        else:
+            yield fine("no under-voltage now")
+        return
+    now = [word for bit, word in THROTTLED.items() if bits >> bit & 1]
+    before = [word for bit, word in THROTTLED.items() if bits >> SINCE_START + bit & 1 and word not in now]
+    said = [f"{word} now" for word in now] + [f"{word} since the start" for word in before]
+    found = f"{', '.join(said) or 'no sag since the start'} (0x{bits:x})"
+    sagged = (bits | bits >> SINCE_START) & UNDER_VOLTAGE
+    if bits & UNDER_VOLTAGE:
+        yield wrong(found, SUPPLY)
+    elif said:
+        yield warn(found, SUPPLY if sagged else "The Pi is or was too hot: give it air or a heat sink.")
+    else:
+        yield fine(found)
+
+
+def _throttled(machine: Machine) -> int | None:
+    said = machine.says("vcgencmd", "get_throttled")
+    if said is None:
+        files = machine.glob("/sys/devices/platform/soc*/*firmware/get_throttled")
+        said = machine.text(files[0]) if files else None
+    try:
+        return None if said is None else int(said.removeprefix("throttled="), 16)
+    except ValueError:
+        return None
+
+
+def temperature(machine: Machine) -> Iterator[Finding]:
+    said = machine.text("/sys/class/thermal/thermal_zone0/temp")
+    if said is None or not said.lstrip("-").isdigit():
+        yield skipped("nothing here tells it")
+        return
+    celsius = int(said) / 1000
+    if celsius >= HOT_C:
+        yield warn(f"{celsius:.0f} °C", "The Pi slows down from 80 °C on: give it air, shade or a heat sink.")
+    else:
+        yield fine(f"{celsius:.0f} °C")
+
+
+def clock(machine: Machine) -> Iterator[Finding]:
+    said = machine.says("timedatectl", "show", "--property=NTPSynchronized", "--value")
+    if said == "yes" or machine.at("/run/systemd/timesync/synchronized").exists():
+        yield fine("set by the network")
+    elif (tracking := machine.says("chronyc", "-n", "tracking")) and "Not synchronised" not in tracking:
+        yield fine("set by chrony")
+    elif said is None and tracking is None:
+        yield skipped("nothing here tells who sets it")
+    else:
+        yield warn(
+            "not set by the network",
+            "Orders from a PC do not need it, the times in the log do: timedatectl set-ntp true, and a network.",
+        )
+
+
+def watchdog(machine: Machine) -> Iterator[Finding]:
+    if not machine.at("/dev/watchdog").exists():
+        if machine.is_pi:
+            yield warn("there is no /dev/watchdog", "Remove dtparam=watchdog=off from config.txt, and reboot.")
+        else:
+            yield skipped("there is no /dev/watchdog")
+        return
+    state, timeout_s = (machine.text(f"/sys/class/watchdog/watchdog0/{name}") for name in ("state", "timeout"))
+    asked_for = machine.says("systemctl", "show", "--property=RuntimeWatchdogUSec", "--value")
+    if state == "active" or (state is None and asked_for not in (None, "0", "infinity")):
+        yield fine(f"restarts a frozen computer after {timeout_s} s" if timeout_s else "restarts a frozen computer")
+    else:
+        yield warn(
+            "nobody feeds it: a frozen computer stays frozen",
+            "Write [Manager] and RuntimeWatchdogSec=15 into /etc/systemd/system.conf.d/50-rotator-watchdog.conf, "
+            "and reboot.",
+        )
+
+
+def service(machine: Machine) -> Iterator[Finding]:
+    if machine.unit is None:
+        yield skipped("not installed: rotator run is started by hand")
+        return
+    said = machine.says("systemctl", "show", "rotator.service", "--property=UnitFileState,ActiveState,SubState")
+    if said is None:
+        yield skipped("installed; systemd does not answer here")
+        return
+    state = dict(line.split("=", 1) for line in said.splitlines() if "=" in line)
+    enabled, active = state.get("UnitFileState", ""), state.get("ActiveState", "")
+    found = f"{active} ({state.get('SubState', '')}), {enabled}"
+    if active == "failed" or state.get("SubState") == "auto-restart":
+        yield wrong(found, "The last lines of journalctl -u rotator -n 50 say why.")
+    elif active not in ("active", "activating", "reloading"):
+        yield warn(found, "sudo systemctl start rotator")
+    elif enabled not in ("enabled", "enabled-runtime"):
+        yield warn(found, "It will not start by itself after a power cut: sudo systemctl enable rotator")
+    else:
+        yield fine(found)

@@ -1,0 +1,152 @@
+"""The checks of the links: serial ports, pseudo-terminals and TCP ports, before a program at the other end complains.
+
+Knows what the box needs of each, and who may have taken it. Sends nothing, and accepts nobody.
+"""
+
+from __future__ import annotations
+
+import errno
+import ipaddress
+import os
+import re
+import socket
+from collections.abc import Iterator
+from pathlib import Path, PurePath
+from typing import Any
+
+from rotator.config.model import Config, address
+from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
+from rotator.doctor.machine import Machine
+
+LISTENING = "0A"
+"""A socket's state in /proc/net/tcp."""
+PORTS = ("/dev/ttyS0", "/dev/ttyAMA*", "/dev/ttyGS*", "/dev/ttyACM*", "/dev/ttyUSB*")
+"""Those that a Pi has and gets."""
+
+ANY_ADDRESS = "Use an address of this machine, or 0.0.0.0 for all of them."
+Place = tuple[Any, ...]
+"""A row of what `socket.getaddrinfo` answers."""
+
+
+def serial_ports(machine: Machine, config: Config) -> Iterator[Finding]:
+    names = [link.serial for link in config.link if link.serial is not None]
+    if not names:
+        yield skipped("no link has one")
+    for name in names:
+        path = machine.at(name)
+        if "://" in name:
+            yield skipped(f"{name}: opened when the box runs")
+        elif not path.exists():
+            yield wrong(f"{name} is not there", _absent(machine, name))
+        elif not os.access(path, os.R_OK | os.W_OK):
+            yield wrong(f"{name}: not yours", f"sudo usermod -aG dialout {machine.user}, then log in again.")
+        elif path.resolve().name in _consoles(machine):
+            yield wrong(
+                f"{name}: the kernel's console is on it, and its messages would be orders",
+                "sudo raspi-config, Interface, Serial Port: no login shell; then reboot.",
+            )
+        else:
+            yield fine(f"{name} is there and may be opened")
+
+
+def _absent(machine: Machine, name: str) -> str:
+    if "ttyGS" in name:
+        return "sudo rotator setup usb-serial makes the Pi a COM port; then reboot."
+    there = ", ".join(str(path) for pattern in PORTS for path in machine.glob(pattern))
+    return f"Plug it in (the box waits for it), or name one of those that are there: {there or 'none now'}."
+
+
+def _consoles(machine: Machine) -> set[str]:
+    return set(re.findall(r"\bconsole=(tty[A-Z]+\d+)", machine.text("/proc/cmdline") or ""))
+
+
+def pseudo_terminals(machine: Machine, config: Config) -> Iterator[Finding]:
+    names = [link.pty for link in config.link if link.pty is not None]
+    if not names:
+        yield skipped("no link has one")
+    for name in names:
+        path = machine.at(name)
+        if path.is_symlink():
+            live = path.exists()
+            yield fine(f"{name} → {os.readlink(path)}{'' if live else ' (left by a box that died, will be replaced)'}")
+        elif path.exists():
+            yield wrong(f"{name}: a file of that name is in the way", "Remove it, or give the link another pty.")
+        elif not machine.may_write_in(Path(name).parent):
+            yield wrong(f"{name}: its folder is not yours", "Give the link a pty in a folder that you may write to.")
+        else:
+            yield fine(f"{name} will be made when the box runs")
+
+
+def tcp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
+    names = [link.tcp for link in config.link if link.tcp is not None]
+    if not names:
+        yield skipped("no link has one")
+    for name in names:
+        yield _tcp_port(machine, name)
+
+
+def _tcp_port(machine: Machine, name: str) -> Finding:
+    host, port = address(name)
+    try:
+        places = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+    except (socket.gaierror, UnicodeError):
+        return wrong(f"{name}: no machine has that name", ANY_ADDRESS)
+    refusals = [number for place in places if (number := _refusal(place))]
+    match refusals:
+        case []:
+            state = "free"
+        case [errno.EADDRINUSE, *_]:
+            owner = _listener(machine, port)
+            if owner is None:
+                return warn(f"{name} is taken, perhaps by the running box", "sudo rotator doctor says by whom.")
+            if not _is_ours(owner):
+                return wrong(f"{name} is taken by {' '.join(owner)}", "Stop that program, or take another port.")
+            state = "the running box"
+        case [errno.EACCES, *_]:
+            return wrong(f"{name}: only root may listen below 1024", "Take a port above 1023.")
+        case [number, *_]:
+            return wrong(f"{name}: cannot listen there: {os.strerror(number)}", ANY_ADDRESS)
+    if all(_is_loopback(place) for place in places):
+        return fine(f"{name}: {state}")
+    return warn(
+        f"{name}: {state}, and open to the network: whoever reaches it can turn the antenna",
+        f"127.0.0.1:{port} keeps it to programs on this machine; a firewall keeps strangers out.",
+    )
+
+
+def _refusal(place: Place) -> int | None:
+    """The error number with which an address refuses a listener; None when it takes one."""
+    family, kind, protocol, _, where = place
+    try:
+        with socket.socket(family, kind, protocol) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind(where)
+    except OSError as fault:
+        return fault.errno
+    return None
+
+
+def _is_loopback(place: Place) -> bool:
+    return ipaddress.ip_address(str(place[4][0]).partition("%")[0]).is_loopback
+
+
+def _is_ours(command: list[str]) -> bool:
+    return any(PurePath(word).name == "rotator" for word in command)
+
+
+def _listener(machine: Machine, port: int) -> list[str] | None:
+    """The command line of whoever listens on the port; None where that is not ours to know."""
+    sockets = set()
+    for table in ("/proc/net/tcp", "/proc/net/tcp6"):
+        for row in (machine.text(table) or "").splitlines()[1:]:
+            fields = row.split()
+            if fields[3] == LISTENING and int(fields[1].rpartition(":")[2], 16) == port:
+                sockets.add(f"socket:[{fields[9]}]")
+    for descriptor in machine.glob("/proc/[0-9]*/fd/*"):
+        try:
+            target = os.readlink(machine.at(descriptor))
+        except OSError:
+            continue
+        if target in sockets:
+            return (machine.text(descriptor.parents[1] / "cmdline") or "a process without a name").split("\0")
+    return None

@@ -1,0 +1,127 @@
+"""The computer that is looked at: its files, its programs, its user.
+
+Knows where to look and how to ask. Knows nothing of what the answers mean. Nothing here writes.
+"""
+
+from __future__ import annotations
+
+import os
+import pwd
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from rotator.doctor.chips import Chips, real_chips
+
+PATIENCE_S = 5.0
+"""A program that has not answered by then is taken for one that does not answer."""
+SERVICE_USER = "rotator"
+SERVICE_FOLDERS = (Path("/run/rotator"), Path("/var/lib/rotator"))
+"""The service manager makes these for the service whenever it starts."""
+UNITS = ("/etc/systemd/system/rotator.service", "/usr/lib/systemd/system/rotator.service")
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    root: Path
+    """Where its file tree starts."""
+    programs: str
+    """Where its programs are, as in PATH."""
+    packages: tuple[str, ...]
+    """Where its Python packages are, as in `sys.path`."""
+    python: tuple[int, int, int]
+    pointer_bits: int
+    """Of that Python: 32 or 64."""
+    kernel: tuple[str, str]
+    """Release and machine, as `uname` tells them."""
+    user: str
+    """The person: behind sudo, the one who called it."""
+    free_bytes: Callable[[Path], int]
+    """What is left on the disk with that file."""
+    chips: Chips
+
+    def at(self, path: str | Path) -> Path:
+        """A file of this machine; a relative path starts in the working folder, as the program's does."""
+        path = Path(path)
+        return self.root / path.relative_to("/") if path.is_absolute() else path
+
+    def text(self, path: str | Path) -> str | None:
+        """What a file says, without the white space and NUL around it; None where it cannot be read."""
+        try:
+            return self.at(path).read_text(encoding="utf-8", errors="replace").strip(" \t\r\n\0")
+        except OSError:
+            return None
+
+    def glob(self, pattern: str) -> list[Path]:
+        """The files that match an absolute pattern, as this machine names them, sorted."""
+        return [Path("/", path.relative_to(self.root)) for path in sorted(self.root.glob(pattern.removeprefix("/")))]
+
+    def says(self, program: str, *arguments: str) -> str | None:
+        """What a program prints; None where it is missing, fails or hangs."""
+        path = shutil.which(program, path=self.programs)
+        if path is None:
+            return None
+        try:
+            asked = subprocess.run(
+                [path, *arguments],
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                timeout=PATIENCE_S,
+                check=True,
+                env={"PATH": self.programs, "LC_ALL": "C"},
+            )
+        except (OSError, subprocess.SubprocessError):
+            return None
+        return asked.stdout.decode("utf-8", "replace").strip()
+
+    @property
+    def model(self) -> str:
+        """What the board calls itself, such as `Raspberry Pi 4 Model B Rev 1.4`; empty on a PC."""
+        return self.text("/proc/device-tree/model") or ""
+
+    @property
+    def is_pi(self) -> bool:
+        return self.model.startswith("Raspberry Pi")
+
+    @property
+    def unit(self) -> str | None:
+        """The service's unit file; None where the service is not installed."""
+        return next((text for path in UNITS if (text := self.text(path)) is not None), None)
+
+    def may_write_in(self, folder: Path) -> bool:
+        """Whether the user may, or the service where it is installed; a folder that is not there yet counts as made."""
+        if self.unit is not None and any(folder.is_relative_to(made) for made in SERVICE_FOLDERS):
+            return True
+        place = nearest(self.at(folder))
+        return place.is_dir() and os.access(place, os.W_OK | os.X_OK)
+
+
+def nearest(path: Path) -> Path:
+    """The path itself if it is there, else the nearest folder above it that is."""
+    path = path.absolute()
+    return next(place for place in (path, *path.parents) if place.exists())
+
+
+def this_machine() -> Machine:
+    uname = os.uname()
+    return Machine(
+        root=Path("/"),
+        programs=os.pathsep.join((os.environ.get("PATH", os.defpath), "/usr/sbin", "/sbin")),
+        packages=tuple(sys.path),
+        python=sys.version_info[:3],
+        pointer_bits=64 if sys.maxsize > 2**32 else 32,
+        kernel=(uname.release, uname.machine),
+        user=os.environ.get("SUDO_USER") or _name(os.getuid()),
+        free_bytes=lambda path: shutil.disk_usage(path).free,
+        chips=real_chips(),
+    )
+
+
+def _name(uid: int) -> str:
+    try:
+        return pwd.getpwuid(uid).pw_name
+    except KeyError:
+        return str(uid)

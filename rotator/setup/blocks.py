@@ -1,0 +1,98 @@
+"""A marked block of our own lines in somebody else's file: put in, brought up to date, taken out without a trace.
+
+Knows lines and marks. Knows nothing of what the lines mean. A file without a line feed at its end gets the block
+without one too: so it can be told at the end that the line feed before the block is ours.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rotator.setup.plan import SetupError, lines
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    name: str
+    """Stands in the marks, and says where the block comes from."""
+    ours: re.Pattern[str]
+    """What a line of ours looks like. Anything else inside the marks is a person's, and stays."""
+    last: bool = False
+    """At the end of the file rather than at its top."""
+
+    @property
+    def begin(self) -> str:
+        return f"# {self.name}: begin"
+
+    @property
+    def end(self) -> str:
+        return f"# {self.name}: end"
+
+    def into(self, text: str, wanted: Sequence[str]) -> str:
+        """The text with these lines in the block; where there is one already it stays in its place.
+
+        Without any lines there is no block. Raises SetupError where a mark has no fellow.
+        """
+        rest = self.without(text)
+        if not wanted:
+            return rest
+        place = self._place(text)
+        if place is None:
+            place = len(rest) if self.last else 0
+        before, after = rest[:place], rest[place:]
+        line_end = "\r\n" if next(iter(lines(rest)), "").endswith("\r\n") else "\n"
+        block = line_end.join([self.begin, *wanted, self.end])
+        if before and not before.endswith("\n"):
+            return before + line_end + block
+        return before + block + line_end + after
+
+    def without(self, text: str) -> str:
+        """The text as it would be had the block never been there. Raises SetupError where a mark has no fellow."""
+        kept: list[str] = []
+        line_end = ""
+        inside = False
+        for line in lines(text):
+            match line.strip():
+                case self.begin if not inside:
+                    inside = True
+                    line_end = line[len(line.rstrip("\r\n")) :]
+                case self.end if inside:
+                    inside = False
+                    if not line.endswith("\n") and kept:
+                        kept[-1] = kept[-1].removesuffix(line_end)
+                case self.begin | self.end:
+                    raise self._torn()
+                case bare if inside and self.ours.fullmatch(bare):
+                    continue
+                case _:
+                    kept.append(line)
+        if inside:
+            raise self._torn()
+        return "".join(kept)
+
+    def strangers(self, text: str) -> list[str]:
+        """What a person has written inside the marks."""
+        inside = False
+        found = []
+        for line in map(str.strip, lines(text)):
+            if line in (self.begin, self.end):
+                inside = line == self.begin
+            elif inside and not self.ours.fullmatch(line):
+                found.append(line)
+        return found
+
+    def _place(self, text: str) -> int | None:
+        before = 0
+        for line in lines(text):
+            if line.strip() == self.begin:
+                return before
+            before += len(line)
+        return None
+
+    def _torn(self) -> SetupError:
+        return SetupError(
+            f'only one of the two marks "{self.begin}" and "{self.end}" is left: '
+            "take that line, and what belonged to it, out by hand"
+        )

@@ -1,0 +1,97 @@
+"""Reads config.txt, the file a Raspberry Pi's firmware reads before there is a kernel.
+
+Knows sections, settings, device tree parameters and GPIO lines, as on the config.txt pages of Raspberry Pi's
+documentation. Knows nothing of what the box wants there.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rotator.setup.pi import MODEL_FILTERS, Pi
+from rotator.setup.plan import lines
+
+NO, YES = frozenset({"0", "off", "no", "false"}), frozenset({"1", "on", "yes", "true", ""})
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """A line `key=value`."""
+
+    number: int
+    """The line, counted from 1."""
+    key: str
+    value: str
+    filters: tuple[str, ...]
+    """The sections that all have to be true: one model at most, and conditions of other kinds."""
+
+    def __str__(self) -> str:
+        section = "".join(f"[{each}]" for each in self.filters)
+        return f"line {self.number}, {self.key}={self.value}" + (f" under {section}" if section else "")
+
+    def may_hold_on(self, pi: Pi | None) -> bool:
+        """Whether it may be in force on this Pi; a condition that only the firmware can judge may be true."""
+        models = [each for each in self.filters if each in MODEL_FILTERS]
+        return "none" not in self.filters and (pi is None or all(each in pi.filters for each in models))
+
+    @property
+    def words(self) -> list[str]:
+        """What stands between the commas, blanks around it taken off."""
+        return [word.strip() for word in self.value.split(",")]
+
+
+def settings(text: str) -> list[Setting]:
+    found: list[Setting] = []
+    filters: tuple[str, ...] = ()
+    for number, line in enumerate(lines(text), 1):
+        bare = line.strip()
+        if section := re.fullmatch(r"\[(.*)\]", bare):
+            filters = _narrowed(filters, section[1].strip().lower())
+        elif bare and not bare.startswith("#"):
+            key, _, value = bare.partition("=")
+            found.append(Setting(number, key.strip().lower(), value.strip(), filters))
+    return found
+
+
+def _narrowed(filters: tuple[str, ...], section: str) -> tuple[str, ...]:
+    """[all] ends every filter, a model takes the place of another model, anything else comes on top."""
+    if section == "all":
+        return ()
+    if section in MODEL_FILTERS:
+        filters = tuple(each for each in filters if each not in MODEL_FILTERS)
+    return (*filters, section)
+
+
+def parameters(found: list[Setting], *names: str) -> Iterator[tuple[Setting, bool]]:
+    """Each time one of these switches stands in a `dtparam`, and whether it is switched on there."""
+    for setting in found:
+        if setting.key == "dtparam":
+            for word in setting.words:
+                name, _, value = word.partition("=")
+                if name in names and value.lower() in NO | YES:
+                    yield setting, value.lower() in YES
+
+
+def overlays(found: list[Setting], name: str) -> Iterator[tuple[Setting, dict[str, str]]]:
+    """Each time this overlay is loaded, with its parameters."""
+    for setting in found:
+        if setting.key == "dtoverlay" and setting.words[0] == name:
+            yield setting, {key: value for key, _, value in (word.partition("=") for word in setting.words[1:])}
+
+
+def pins(found: list[Setting]) -> Iterator[tuple[Setting, frozenset[int], frozenset[str]]]:
+    """Each line `gpio=4,5-7=op,dl`: the pins and what they are told."""
+    for setting in found:
+        if setting.key == "gpio":
+            numbers, _, told = setting.value.partition("=")
+            yield setting, _numbers(numbers), frozenset(word.strip().lower() for word in told.split(","))
+
+
+def _numbers(text: str) -> frozenset[int]:
+    numbers: set[int] = set()
+    for word in text.split(","):
+        if span := re.fullmatch(r"\s*(\d{1,3})(?:\s*-\s*(\d{1,3}))?\s*", word):
+            numbers.update(range(int(span[1]), int(span[2] or span[1]) + 1))
+    return frozenset(numbers)

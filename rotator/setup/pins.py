@@ -1,0 +1,167 @@
+"""The relay lines from power-on to the program's first second, and after its last: what config.txt has to say of them.
+
+Knows the pins of the 40-pin header, their pulls and their other trades. Touches no file.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+from rotator.config.model import Config
+from rotator.setup import boot_config
+from rotator.setup.blocks import Block
+from rotator.setup.boot_config import Setting
+from rotator.setup.pi import Pi
+from rotator.setup.plan import Change, Files, Plan, SetupError, changes
+
+STRICT, I2C = "dtparam=strict_gpiod", "dtparam=i2c_arm=on"
+BLOCK = Block(
+    "rotator setup pins",
+    re.compile(r"\[all\]|gpio=[0-9,]+=op,d[lh]|" + "|".join(map(re.escape, (STRICT, I2C)))),
+)
+
+I2C_MODULE = Path("etc/modules-load.d/rotator-pins.conf")
+_I2C_DEV = "# /dev/i2c-1 for the box's converter. Removed by `rotator setup pins --undo`.\ni2c-dev\n"
+
+HEADER_BUS = 1
+I2C_NAMES = ("i2c_arm", "i2c", "i2c1")
+"""One switch, three names."""
+PULLED_UP = range(9)
+"""GPIO 0 to 8 have a pull-up while the Pi starts, 9 to 27 a pull-down (BCM2835 ARM Peripherals, GPIO pull table)."""
+
+
+def off_levels(config: Config) -> dict[int, str]:
+    """Each line and the level at which nothing runs: `dl` low, `dh` high."""
+    off = "dl" if config.relays.active == "high" else "dh"
+    levels = dict.fromkeys(_relays(config), off)
+    if config.relays.heartbeat is not None:
+        levels[config.relays.heartbeat] = "dl"
+    return levels
+
+
+def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) -> Plan:
+    """Raises SetupError where a pin cannot be a relay's, or where another line of config.txt contradicts."""
+    _refuse(config)
+    before = str(files[boot] or "")
+    others = [each for each in boot_config.settings(BLOCK.without(before)) if each.may_hold_on(pi)]
+    _keep_off_the_buses(config, others)
+    wanted = _missing(config, others)
+    i2c_dev = _I2C_DEV if _uses_header_i2c(config) else None
+    module = root / I2C_MODULE
+    return Plan(
+        changes(
+            Change(boot, before, BLOCK.into(before, ["[all]", *wanted] if wanted else []), copied=True),
+            Change(module, files[module], i2c_dev),
+        ),
+        tuple(_pulls(config)),
+    )
+
+
+def undone(files: Files, root: Path, boot: Path) -> Plan:
+    """Takes out what `plan` puts in, and nothing else."""
+    before = str(files[boot] or "")
+    module = root / I2C_MODULE
+    return Plan(
+        changes(Change(boot, before, BLOCK.without(before), copied=True), Change(module, files[module], None)),
+    )
+
+
+def _relays(config: Config) -> dict[int, str]:
+    """Each relay's pin and the key that names it."""
+    keys = ("azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down", "master")
+    pins = config.relays.model_dump(include=set(keys))
+    return {pins[key]: f"relays.{key}" for key in keys if pins[key] is not None}
+
+
+def _lines(config: Config) -> Mapping[int, str]:
+    """Each output line, the heartbeat's too, and the key that names it."""
+    heartbeat = config.relays.heartbeat
+    return _relays(config) | ({heartbeat: "relays.heartbeat"} if heartbeat is not None else {})
+
+
+def _uses_header_i2c(config: Config) -> bool:
+    return config.adc.bus == HEADER_BUS or (config.lcd.kind == "pcf8574" and config.lcd.bus == HEADER_BUS)
+
+
+def _refuse(config: Config) -> None:
+    if config.rotor.hardware == "sim":
+        raise SetupError(
+            'the configuration is of a simulated rotor (hardware = "sim"): '
+            'put your pins in, say hardware = "pi" under [rotor], then run this again'
+        )
+    for pin, key in _lines(config).items():
+        if pin > 27:
+            raise SetupError(f"{key} = {pin} is not on the 40-pin header: take one from 4 to 27")
+        if pin < 2:
+            raise SetupError(f"{key} = {pin} is where the Pi looks for an ID EEPROM as it starts: take another pin")
+
+
+def _keep_off_the_buses(config: Config, others: list[Setting]) -> None:
+    trades: list[tuple[range, str, Setting | None]] = []
+    if _uses_header_i2c(config):
+        trades.append((range(2, 4), "the I2C bus of the converter or the display", None))
+    for pins, bus, names in (
+        (range(2, 4), "the I2C bus", I2C_NAMES),
+        (range(7, 12), "the SPI bus", ("spi",)),
+        (range(14, 16), "the serial port", ("uart0",)),
+    ):
+        trades += [(pins, bus, setting) for setting, on in boot_config.parameters(others, *names) if on]
+    trades += [
+        (range(14, 16), "the serial port", setting)
+        for setting in others
+        if (setting.key == "enable_uart" and setting.value not in boot_config.NO)
+        or (setting.key == "dtoverlay" and setting.words[0] in {"uart0", "uart0-pi5", "disable-bt", "miniuart-bt"})
+    ]
+    for pin, key in _lines(config).items():
+        for pins, bus, setting in trades:
+            if pin in pins:
+                switched_on = f" (config.txt, {setting})" if setting else ""
+                raise SetupError(f"{key} = {pin} is a pin of {bus}{switched_on}: take another pin, or switch that off")
+
+
+def _missing(config: Config, others: list[Setting]) -> list[str]:
+    """The lines that are not in force yet. Raises SetupError for one that says the opposite, for it comes later."""
+    levels = off_levels(config)
+    done: set[int] = set()
+    for setting, pins, told in boot_config.pins(others):
+        for pin in sorted(pins & levels.keys()):
+            if told & {"ip", "a0", "a1", "a2", "a3", "a4", "a5", "dl", "dh"} - {levels[pin]}:
+                raise _contradicts(setting, f"GPIO {pin} has to be op,{levels[pin]}")
+            if {"op", levels[pin]} <= told and not setting.filters:
+                done.add(pin)
+    missing = []
+    for level in ("dl", "dh"):
+        if pins_left := [pin for pin in levels if levels[pin] == level and pin not in done]:
+            missing.append(f"gpio={','.join(map(str, pins_left))}=op,{level}")
+    switches = {STRICT: ["strict_gpiod"]}
+    if _uses_header_i2c(config):
+        switches[I2C] = list(I2C_NAMES)
+    for line, names in switches.items():
+        found = list(boot_config.parameters(others, *names))
+        for setting, on in found:
+            if not on:
+                raise _contradicts(setting, f"{line} is needed")
+        if not any(not setting.filters for setting, _ in found):
+            missing.append(line)
+    return missing
+
+
+def _contradicts(setting: Setting, needed: str) -> SetupError:
+    return SetupError(f"config.txt says otherwise ({setting}), but {needed}: put a # before it and run this again")
+
+
+def _pulls(config: Config) -> list[str]:
+    """A sentence on the relays whose pin is pulled towards on whenever nobody drives it."""
+    pulled_up_is_on = config.relays.active == "high"
+    wrong = [pin for pin in _relays(config) if (pin in PULLED_UP) == pulled_up_is_on]
+    if not wrong:
+        return []
+    pins = ", ".join(map(str, wrong))
+    way, good = ("up", "12, 13, 16, 17, 22 to 27") if pulled_up_is_on else ("down", "4, 5, 6, and 7, 8 without SPI")
+    return [
+        f"WARNING: GPIO {pins}: pulled {way} at power-on and after the program's death, which switches the relay ON "
+        f'(active = "{config.relays.active}"). Take pins from {good}, '
+        "or fit 10 kΩ from each relay input to its off level."
+    ]

@@ -1,0 +1,141 @@
+"""The Pi's files: finds and reads what a set-up looks at, and carries a plan out, all of it or nothing.
+
+Knows files, below `/` or below any other folder. Knows nothing of what is in them.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Iterable
+from contextlib import suppress
+from datetime import date
+from pathlib import Path
+
+from rotator.setup.pi import Pi, known
+from rotator.setup.plan import Change, Content, Link, Plan, SetupError
+from rotator.store.whole import NEW, write_whole
+
+OVERLAYS = ("overlayroot=tmpfs", "boot=overlay")
+
+
+def boot_config(root: Path) -> Path:
+    """config.txt, in its place since Bookworm or in its older one. Raises SetupError."""
+    places = [root / "boot/firmware/config.txt", root / "boot/config.txt"]
+    for place in places:
+        if place.is_file():
+            return place
+    raise SetupError(f"there is no {places[0]} and no {places[1]}: is this a Raspberry Pi's SD card?")
+
+
+def pi(root: Path) -> Pi | None:
+    with suppress(OSError):
+        return known((root / "proc/device-tree/model").read_text(encoding="utf-8", errors="replace"))
+    return None
+
+
+def read(*paths: Path) -> dict[Path, Content]:
+    """What stands at each path. Raises SetupError."""
+    return {path: _content(path) for path in paths}
+
+
+def matching(root: Path, patterns: Iterable[str]) -> list[Path]:
+    """The files below root that match one of the patterns."""
+    return [path for pattern in patterns for path in sorted(root.glob(pattern)) if path.is_file()]
+
+
+def _content(path: Path) -> Content:
+    try:
+        # A person's file may be a link to it; below system/ a link is how a unit is switched on.
+        if path.is_symlink() and path.parent.name.endswith(".wants"):
+            return Link(os.readlink(path))
+        return path.read_bytes().decode("utf-8", "surrogateescape")
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as fault:
+        raise SetupError(_sentence(path, fault)) from fault
+
+
+def hindrance(plan: Plan) -> str | None:
+    """Why the plan could not be carried out, before anything is tried."""
+    for change in plan.changes:
+        folder = next(each for each in change.path.resolve().parents if each.is_dir())
+        if os.statvfs(folder).f_flag & os.ST_RDONLY:
+            return _read_only(folder)
+        if not os.access(folder, os.W_OK, effective_ids=True):
+            return f"{folder} may only be written by root: put sudo before the command"
+    return None
+
+
+def carry_out(plan: Plan, today: date) -> list[Path]:
+    """Do it all, and return the copies made of a person's files. Raises SetupError; then all is as it was."""
+    done: list[Change] = []
+    copies: list[Path] = []
+    for change in plan.changes:
+        try:
+            if change.copied and isinstance(change.before, str):
+                copies.append(_free_name(change.path, today))
+                write_whole(copies[-1], _bytes(change.before))
+            done.append(change)
+            _put(change.path, change.after)
+        except OSError as fault:
+            _take_back(done, copies)
+            raise SetupError(f"{_sentence(change.path, fault)}; everything is as it was") from fault
+    return copies
+
+
+def _put(path: Path, content: Content) -> None:
+    match content:
+        case None:
+            path.unlink(missing_ok=True)
+            if path.parent.name.endswith(".service.d"):
+                with suppress(OSError):
+                    path.parent.rmdir()
+        case Link(target):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.unlink(missing_ok=True)
+            path.symlink_to(target)
+        case text:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(path, _bytes(text))
+
+
+def _take_back(done: list[Change], copies: list[Path]) -> None:
+    for change in reversed(done):
+        with suppress(OSError):
+            if _content(change.path) != change.before:
+                _put(change.path, change.before)
+    for path in (*copies, *(change.path for change in done)):
+        with suppress(OSError):
+            path.with_name(path.name + NEW).unlink(missing_ok=True)
+    for copy in copies:
+        with suppress(OSError):
+            copy.unlink(missing_ok=True)
+
+
+def _free_name(path: Path, today: date) -> Path:
+    """`config.txt.before-rotator-2026-11-21`; the second one of a day ends in -2."""
+    first = f"{path.name}.before-rotator-{today.isoformat()}"
+    names = (first, *(f"{first}-{number}" for number in range(2, 1000)))
+    return next(free for name in names if not (free := path.with_name(name)).exists())
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode("utf-8", "surrogateescape")
+
+
+def _sentence(path: Path, fault: OSError) -> str:
+    match fault:
+        case PermissionError():
+            return f"{path}: no permission: put sudo before the command"
+        case OSError(errno=errno.EROFS):
+            return _read_only(path)
+        case _:
+            return f"{path}: {fault.strerror or fault}"
+
+
+def _read_only(path: Path) -> str:
+    return (
+        f"{path} is read-only: switch the overlay file system off in raspi-config, "
+        "or mount it with `sudo mount -o remount,rw`, then run this again"
+    )

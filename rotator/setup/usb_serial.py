@@ -1,0 +1,173 @@
+"""What makes a Pi a COM port: the USB controller told to be a device, and a unit that builds that device at each start.
+
+Knows config.txt's overlay, the unit and what else may claim the same controller. How the device is built is the
+gadget's; no file is touched here.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from rotator.setup import boot_config, link
+from rotator.setup.blocks import Block
+from rotator.setup.pi import Pi
+from rotator.setup.plan import Change, Content, Files, Link, Plan, SetupError, changes
+
+OVERLAY = "dtoverlay=dwc2,dr_mode=peripheral"
+BLOCK = Block("rotator setup usb-serial", re.compile(r"\[all\]|" + re.escape(OVERLAY)))
+
+NAME = "rotator-usb-serial"
+UNITS = Path("etc/systemd/system")
+UNIT = UNITS / f"{NAME}.service"
+WANTED = UNITS / f"multi-user.target.wants/{NAME}.service"
+GETTYS = tuple(UNITS / f"{getty}@ttyGS0.service.d/{NAME}.conf" for getty in ("serial-getty", "getty"))
+MODULES = ("etc/modules", *(f"{place}/modules-load.d/*.conf" for place in ("etc", "usr/lib", "usr/local/lib")))
+
+RPI_USB_GADGET = "usr/lib/modules-load.d/usb-gadget.conf"
+_LEGACY_GADGET = re.compile(r"g_[a-z_]+")
+
+_NO_GETTY = f"""\
+# The box speaks on this port: no login there. Removed by `rotator setup usb-serial --undo`.
+[Unit]
+ConditionPathExists=!/{UNIT}
+"""
+
+TWO_ADAPTERS = """\
+Without it the Pi and the PC still meet over two USB serial adapters (3.3 V or RS-232, both of one kind):
+  one in the Pi, one in the PC, TX of each to RX of the other, GND to GND, nothing else.
+  In rotator.toml: a [[link]] with serial = "/dev/ttyUSB0" and the protocol of your program.
+The page docs/usb-serial.md has the details."""
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    """Where the files are that this set-up looks at."""
+
+    root: Path
+    boot_config: Path
+    settings: Path
+    """rotator.toml"""
+
+    @property
+    def command_line(self) -> Path:
+        return self.boot_config.with_name("cmdline.txt")
+
+
+def unit(command: str, usb_id: str) -> str:
+    """The systemd unit; `command` starts `rotator`, quoted as systemd wants it."""
+    return f"""\
+[Unit]
+Description=The Pi's USB port as a serial port of the PC
+Requires=sys-kernel-config.mount
+After=sys-kernel-config.mount systemd-modules-load.service
+StartLimitIntervalSec=120
+StartLimitBurst=20
+
+[Service]
+Type=oneshot
+RemainAfterExit=yes
+ExecStartPre=/sbin/modprobe libcomposite
+ExecStart={command} setup usb-serial --up --usb-id {usb_id}
+ExecStop={command} setup usb-serial --down
+# The controller may appear later than this unit starts.
+Restart=on-failure
+RestartSec=2
+
+[Install]
+WantedBy=multi-user.target
+"""
+
+
+def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: str) -> Plan:
+    """Raises SetupError where the Pi cannot, or where something else has the port."""
+    if pi is None:
+        raise SetupError("this is no Raspberry Pi that is known here: only one can be made a COM port this way")
+    if pi.socket is None:
+        raise SetupError(f"a {pi.model} has no socket that can be a USB device: nothing was changed.\n{TWO_ADAPTERS}")
+    if rival := _rival(files, places):
+        raise SetupError(rival)
+    before = _text(files, places.boot_config)
+    settings, remark = link.added(_text(files, places.settings) if files[places.settings] is not None else None)
+    ours: dict[Path, Content] = {UNIT: unit(command, usb_id), WANTED: Link(f"/{UNIT}")}
+    ours |= dict.fromkeys(GETTYS, _NO_GETTY)
+    wanted = changes(
+        Change(places.boot_config, before, boot_text(before, pi), copied=True),
+        *(Change(places.root / path, files[places.root / path], content) for path, content in ours.items()),
+        Change(places.settings, files[places.settings], settings, copied=True),
+    )
+    notes = [
+        f"The port is {pi.socket} of this {pi.model}. {pi.power}",
+        "Afterwards no keyboard, network adapter or stick works at that socket.",
+    ]
+    if remark:
+        notes.append(f"{places.settings}: {remark}")
+    return Plan(wanted, tuple(notes))
+
+
+def undone(files: Files, places: Places) -> Plan:
+    """Takes out what `plan` puts in, and nothing else."""
+    before = _text(files, places.boot_config)
+    text = _text(files, places.settings) if files[places.settings] is not None else None
+    settings, remark = link.taken_out(text)
+    wanted = changes(
+        Change(places.boot_config, before, BLOCK.without(before), copied=True),
+        *(Change(places.root / path, files[places.root / path], None) for path in (WANTED, UNIT, *GETTYS)),
+        Change(places.settings, files[places.settings], settings, copied=True),
+    )
+    return Plan(wanted, (f"{places.settings}: {remark}",) if remark else ())
+
+
+def boot_text(text: str, pi: Pi) -> str:
+    """config.txt with the controller as a device. Raises SetupError where a line of somebody else's says otherwise."""
+    others = [each for each in boot_config.settings(BLOCK.without(text)) if each.may_hold_on(pi)]
+    for setting in others:
+        if setting.key == "otg_mode" and setting.value not in boot_config.NO:
+            raise _says_host(setting)
+    # The older driver of the same controller, which can only be a host.
+    for setting, _ in boot_config.overlays(others, "dwc-otg"):
+        raise _says_host(setting)
+    enough = False
+    for setting, told in boot_config.overlays(others, "dwc2"):
+        if told.get("dr_mode") == "host":
+            raise _says_host(setting)
+        # Without dr_mode, or as otg, the port is a device wherever nothing is plugged in that makes it a host.
+        enough = enough or not setting.filters
+    return BLOCK.into(text, [] if enough else ["[all]", OVERLAY])
+
+
+def _says_host(setting: boot_config.Setting) -> SetupError:
+    return SetupError(
+        f"config.txt makes the port a host ({setting}): if no USB device of yours hangs on it, "
+        "put a # before that line and run this again"
+    )
+
+
+def _rival(files: Files, places: Places) -> str | None:
+    """Whoever else builds a USB device at each start: there is one controller, and it takes one."""
+    if files.get(places.root / RPI_USB_GADGET) is not None:
+        return (
+            "Raspberry Pi's own USB gadget (Ethernet) has the port, and there is only one: "
+            "switch it off with `sudo rpi-usb-gadget off`, then run this again"
+        )
+    for path, content in files.items():
+        if isinstance(content, str) and any(path.relative_to(places.root).match(each) for each in MODULES):
+            for line in content.splitlines():
+                if _LEGACY_GADGET.fullmatch(line.strip().split(" ")[0]):
+                    return _taken(path, line.strip())
+    for word in _text(files, places.command_line).split():
+        if word.startswith("modules-load=") and (found := _LEGACY_GADGET.search(word)):
+            return _taken(places.command_line, found[0])
+        if word == "console=ttyGS0" or word.startswith("console=ttyGS0,"):
+            return f"{places.command_line} puts a console on this port: take {word} out of it, then run this again"
+    return None
+
+
+def _taken(path: Path, module: str) -> str:
+    return f"{path} loads {module}, which takes the port, and there is only one: take it out, then run this again"
+
+
+def _text(files: Files, path: Path) -> str:
+    content = files.get(path)
+    return content if isinstance(content, str) else ""

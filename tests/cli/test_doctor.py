@@ -1,0 +1,80 @@
+"""`rotator doctor` as a user starts it, on whatever machine this is."""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+Start = Callable[..., Any]
+Rotator = Callable[..., Any]
+
+
+def checks(answer: Any) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = json.loads(answer.stdout)["checks"]
+    return found
+
+
+def test_lines_for_people(rotator: Rotator, config: Path) -> None:
+    answer = rotator("doctor", "--config", config)
+    lines = answer.stdout.splitlines()
+    assert answer.stderr == ""
+    assert answer.returncode == int(any(line.startswith("✗") for line in lines))
+    assert lines[0] == f"✓  configuration     {config}: a simulated rotor"
+    assert any(line.startswith("✓  pots              simulated: azimuth: ") for line in lines)
+    assert all(line == line.rstrip() and "\x1b" not in line for line in lines)
+
+
+def test_an_object_for_programs(rotator: Rotator, config: Path) -> None:
+    answer = rotator("doctor", "--config", config, "--json")
+    said = json.loads(answer.stdout)
+    assert list(said) == ["version", "rotator", "ok", "checks"]
+    assert said["ok"] is (answer.returncode == 0)
+    assert {check["name"] for check in said["checks"]} >= {"configuration", "python", "pots", "groups"}
+
+
+def test_without_a_file_it_looks_at_what_would_run(rotator: Rotator) -> None:
+    configuration = checks(rotator("doctor", "--json"))[0]
+    assert configuration["found"].startswith(("the shipped one", "/etc/rotator/rotator.toml"))
+
+
+def test_a_configuration_that_cannot_be_used(rotator: Rotator, tmp_path: Path) -> None:
+    path = tmp_path / "bad.toml"
+    path.write_text('[rotor]\nhardware = "pie"\n')
+    answer = rotator("doctor", "--config", path, "--json")
+    assert answer.returncode == 2
+    assert "must be one of sim, pi" in checks(answer)[0]["found"]
+    assert {check["name"]: check["ok"] for check in checks(answer)}["python"] is True
+    assert rotator("doctor", "--config", path).returncode == 2
+
+
+def test_real_hardware_where_there_is_none(rotator: Rotator, tmp_path: Path) -> None:
+    path = tmp_path / "real.toml"
+    path.write_text('[rotor]\nhardware = "pi"\n[relays]\nchip = "/dev/gpiochip250"\n[adc]\nbus = 250\n')
+    answer = rotator("doctor", "--config", path, "--json")
+    ok = {check["name"]: check["ok"] for check in checks(answer)}
+    assert answer.returncode == 1
+    assert answer.stderr == ""
+    assert (ok["GPIO chip"], ok["I2C bus"], ok["pots"]) == (False, False, None)
+    assert not any("check itself failed" in check["found"] for check in checks(answer))
+
+
+def test_the_running_box_is_told_from_another_program(rotator: Rotator, start: Start, config: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        taken = other.getsockname()[1]
+        with socket.create_server(("127.0.0.1", 0)) as probe:
+            port = probe.getsockname()[1]
+        text = config.read_text()
+        config.write_text(f'{text}[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{port}"\n')
+        box = start("run", "--config", config)
+        box.until("elevation 0°\n")
+        config.write_text(f'{config.read_text()}[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{taken}"\n')
+        ours, theirs = (
+            check for check in checks(rotator("doctor", "--config", config, "--json")) if check["name"] == "TCP ports"
+        )
+        assert box.stop() == 0
+    assert (ours["ok"], ours["found"]) == (True, f"127.0.0.1:{port}: the running box")
+    assert theirs["ok"] is False
+    assert "pytest" in theirs["found"]

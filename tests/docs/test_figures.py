@@ -1,0 +1,111 @@
+"""The figures of the wiring pages, reckoned once more from the data sheets, and found on the pages."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from docs.drawings.album import profile
+from docs.drawings.figures import (
+    ADC_LIMIT_V,
+    BASE_OHM,
+    DIVIDER_LOWER_OHM,
+    DIVIDER_UPPER_OHM,
+    POT_END_OHM,
+    POT_OHM,
+    OneShot,
+    divided_v,
+)
+
+DOCS = Path(__file__).parents[2] / "docs"
+EDGE_EVERY_S = 0.1
+"""The control loop changes the line's level 20 times a second at least: ten rising edges."""
+
+
+def ends(pot_ohm: float, end_ohm: float) -> tuple[float, float]:
+    """What a pot with a resistor at each end reads at its two ends, as shares of the supply."""
+    whole_ohm = pot_ohm + 2 * end_ohm
+    return end_ohm / whole_ohm, (pot_ohm + end_ohm) / whole_ohm
+
+
+def page(name: str) -> str:
+    return " ".join((DOCS / name).read_text(encoding="utf-8").split())
+
+
+def test_the_one_shot_lasts_half_a_second() -> None:
+    shot = OneShot()
+    assert shot.pulse_s == pytest.approx(0.7 * 330e3 * 2.2e-6) == pytest.approx(0.508, abs=0.001)
+    assert (shot.shortest_s, shot.longest_s) == (pytest.approx(0.41, abs=0.005), pytest.approx(0.62, abs=0.005))
+
+
+def test_it_does_not_drop_out_between_two_beats_and_not_for_three_missed_ones() -> None:
+    assert OneShot().shortest_s > 4 * EDGE_EVERY_S
+
+
+def test_the_page_says_what_the_one_shot_does() -> None:
+    text = page("wiring-heartbeat.md")
+    assert "0.7 × 330 kΩ × 2.2 µF = 0.51 s" in text
+    assert "0.41 s" in text
+    assert "0.62 s" in text
+
+
+def test_the_transistor_is_driven_far_into_saturation() -> None:
+    """At 4 mA the output still gives 3.84 V (SCHS123); the base takes 0.8 V of them, the coil 80 mA."""
+    base_a = (3.84 - 0.8) / BASE_OHM
+    assert base_a < 0.004
+    assert 0.080 / base_a < 30
+    assert "3 mA into the base, 80 mA through the coil" in page("wiring-heartbeat.md")
+
+
+@pytest.mark.parametrize(
+    ("socket_v", "adc_v"),
+    [(0.20, 0.128), (0.22, 0.141), (2.20, 1.410), (4.20, 2.692), (4.23, 2.712), (4.50, 2.885), (5.00, 3.205)],
+)
+def test_the_divider_gives_what_the_profile_and_the_pages_say(socket_v: float, adc_v: float) -> None:
+    assert divided_v(socket_v) == pytest.approx(adc_v, abs=0.0006)
+    assert divided_v(socket_v) < ADC_LIMIT_V
+    assert f"{adc_v:.3f}" in page("wiring-g5500.md")
+
+
+def test_the_g5500s_supply_is_five_volts_behind_the_divider() -> None:
+    assert (DIVIDER_UPPER_OHM, DIVIDER_LOWER_OHM) == (56_000, 100_000)
+    assert profile("g5500").adc.supply_v == pytest.approx(divided_v(5.0), abs=0.001)
+
+
+def test_the_f1efws_pots_read_what_its_profile_says() -> None:
+    low, high = ends(POT_OHM, POT_END_OHM)
+    box = profile("f1efw")
+    for table in (box.azimuth, box.elevation):
+        assert table.calibration is not None
+        assert (table.calibration[0][0], table.calibration[-1][0]) == (
+            pytest.approx(low, abs=0.001),
+            pytest.approx(high, abs=0.001),
+        )
+
+
+@pytest.mark.parametrize(("pot_ohm", "end_ohm"), [(500, 33), (1000, 68), (5000, 330), (10_000, 680)])
+def test_the_end_resistors_of_the_table_keep_the_wiper_off_the_rails(pot_ohm: float, end_ohm: float) -> None:
+    low, high = ends(pot_ohm, end_ohm)
+    assert low > 0.05
+    assert high < 0.95
+    assert f"{low:.3f} to {high:.3f}" in page("wiring.md")
+
+
+def test_an_ssr_behind_the_uln2803_sees_enough() -> None:
+    """A CX240D5 closes from 3.0 V on and takes 15 mA, at which a ULN2803 keeps about 1 V for itself."""
+    assert 5.0 - 1.0 > 3.0
+    assert "which leaves it about 4 V" in page("wiring-ssr.md")
+
+
+def test_what_a_snubber_lets_through() -> None:
+    assert 24 * 2 * math.pi * 50 * 100e-9 == pytest.approx(0.75e-3, abs=0.01e-3)
+    assert "0.75 mA" in page("wiring-ssr.md")
+
+
+@pytest.mark.parametrize(("motor_a", "fuse_a"), [(1.0, 2.0), (2.0, 4.0)])
+def test_the_fuse_is_the_next_standard_size_above_both_motors(motor_a: float, fuse_a: float) -> None:
+    sizes_a = (0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3)
+    assert next(size_a for size_a in sizes_a if size_a >= 2 * motor_a) == fuse_a
+    assert f"of {motor_a:g} A, {fuse_a:g} A" in page("wiring.md")

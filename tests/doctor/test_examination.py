@@ -1,0 +1,116 @@
+"""The examination as a whole: without a configuration, with a check that fails, on a simulated rotor."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION, Examination, examine
+from rotator.doctor.reference import checks_table
+from rotator.views.examination import as_object, verdict
+from tests.doctor.conftest import STATION, Pi
+
+PAGE = Path(__file__).parents[2] / "docs" / "troubleshooting.md"
+NAMES = ["configuration", *(check.name for check in OF_THE_MACHINE), *(check.name for check in OF_THE_STATION)]
+
+
+def marks(examination: Examination) -> dict[str, str]:
+    return {name: finding.mark for name, finding in examination.findings}
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    file = tmp_path / "rotator.toml"
+    file.write_text(STATION)
+    return file
+
+
+def test_a_healthy_pi_is_well(pi: Pi, file: Path) -> None:
+    examination = examine(pi.machine, file)
+    assert examination.exit_code == 0
+    assert set(marks(examination).values()) <= {"✓", "–"}
+    assert verdict(examination.findings) == "✓ All well."
+
+
+def test_every_check_is_told_in_order(pi: Pi, file: Path) -> None:
+    assert list(marks(examine(pi.machine, file))) == NAMES
+
+
+def test_one_fault_makes_it_1(pi: Pi, file: Path) -> None:
+    pi.write("/sys/module/pinctrl_bcm2835/parameters/persist_gpio_outputs", "Y\n")
+    examination = examine(pi.machine, file)
+    assert examination.exit_code == 1
+    assert verdict(examination.findings) == "✗ 1 to mend."
+
+
+def test_a_warning_leaves_it_0(pi: Pi, file: Path) -> None:
+    pi.program("timedatectl", "echo no")
+    examination = examine(pi.machine, file)
+    assert examination.exit_code == 0
+    assert verdict(examination.findings) == "! 1 to think about."
+
+
+def test_without_a_usable_configuration_the_machine_is_still_looked_at(pi: Pi, file: Path) -> None:
+    file.write_text('[rotor]\nhardwear = "pi"\n')
+    examination = examine(pi.machine, file)
+    seen = marks(examination)
+    assert examination.exit_code == 2
+    assert seen["configuration"] == "✗"
+    assert "did you mean hardware?" in examination.findings[0][1].found
+    assert all(seen[check.name] != "✗" for check in OF_THE_MACHINE)
+    assert {seen[check.name] for check in OF_THE_STATION} == {"–"}
+
+
+def test_a_file_that_is_not_there(pi: Pi, tmp_path: Path) -> None:
+    examination = examine(pi.machine, tmp_path / "nowhere.toml")
+    assert examination.exit_code == 2
+    assert "--config" in examination.findings[0][1].advice
+
+
+def test_a_check_that_fails_keeps_none_from_its_look(pi: Pi, file: Path) -> None:
+    def explode() -> object:
+        raise RuntimeError("boom")
+
+    machine = replace(pi.machine, chips=replace(pi.machine.chips, gpio=explode))
+    examination = examine(machine, file)
+    assert list(marks(examination)) == NAMES
+    chip = next(finding for name, finding in examination.findings if name == "GPIO chip")
+    assert (chip.ok, chip.found) == (False, "the check itself failed: RuntimeError: boom")
+    assert marks(examination)["I2C devices"] == "✓"
+
+
+def test_a_simulated_rotor_has_chips_too(pi: Pi) -> None:
+    examination = examine(pi.machine, None)
+    assert examination.exit_code == 0
+    said = dict(examination.findings)
+    assert said["pots"].found.startswith("simulated: elevation: 0.05")
+    assert all(said[check.name].found.startswith("simulated: ") for check in OF_THE_STATION if check.on_chips)
+    assert said["boot pins"].found == "the rotor is simulated"
+
+
+def test_the_object_for_programs(pi: Pi, file: Path) -> None:
+    pi.remove("/dev/watchdog")
+    examination = examine(pi.machine, file)
+    said = as_object(examination.findings, program="1.2.3", ok=True)
+    assert {key: said[key] for key in ("version", "rotator", "ok")} == {"version": 1, "rotator": "1.2.3", "ok": True}
+    checks = said["checks"]
+    assert isinstance(checks, list)
+    assert all(list(check) == ["name", "ok", "found", "advice"] for check in checks)
+    by_name = {check["name"]: check for check in checks}
+    assert by_name["python"] == {"name": "python", "ok": True, "found": "Python 3.11.2, 64-bit", "advice": None}
+    assert by_name["watchdog"]["ok"] is True
+    assert "watchdog" in by_name["watchdog"]["advice"]
+    assert by_name["service"]["ok"] is None
+
+
+def test_the_page_holds_the_table_of_checks() -> None:
+    """If this fails, paste what `python -c "from rotator.doctor.reference import *; print(checks_table())"` prints."""
+    page = PAGE.read_text(encoding="utf-8")
+    between = page.split("<!-- checks: begin -->\n")[1].split("<!-- checks: end -->\n")[0]
+    assert between == f"\n{checks_table()}\n\n"
+
+
+def test_every_check_has_its_row() -> None:
+    assert [row.split("|")[1].strip() for row in checks_table().splitlines()[2:]] == NAMES
