@@ -7,15 +7,14 @@ together, and in which order they start and stop.
 from __future__ import annotations
 
 import asyncio
-import itertools
 import os
 import time
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 from hw.ports import Axis
-from rotator.config.model import AxisTable, Config, Link, SimAxisTable, address
+from rotator.config.model import AxisTable, Config, SimAxisTable
 from rotator.control.axis import AxisSettings
 from rotator.control.calibration import Calibration
 from rotator.control.controller import Controller, Settings
@@ -27,31 +26,15 @@ from rotator.display import DisplayThread
 from rotator.door import Door
 from rotator.engine import Engine, process_end
 from rotator.keeping import Keeper
-from rotator.links.pty import PtyLink
-from rotator.links.serial import SerialLink
-from rotator.links.tcp import TcpLink
-from rotator.links.wire import Wire
 from rotator.loop import ControlLoop
 from rotator.orders import Source
-from rotator.protocols.f1efw import F1efwSession
-from rotator.protocols.gs232 import Dialect
-from rotator.protocols.gs232_session import Gs232Session
-from rotator.protocols.rotctld import RotctldSession
-from rotator.protocols.session import Box, Session
 from rotator.simulation import SIM_CALIBRATION_RAW
 from rotator.station import Station
 from rotator.status import LearntMotor
 from rotator.store.learnt import LearntFile, Motors
 from rotator.supervisor import Supervisor
+from rotator.switchboard import build_link
 from rotator.views import lcd
-
-
-class RunningLink(Protocol):
-    wire: Wire
-
-    async def open(self) -> None: ...
-
-    async def run(self) -> None: ...
 
 
 def build_offsets(config: Config) -> Offsets:
@@ -146,22 +129,6 @@ def missing(table: AxisTable) -> tuple[str, ...]:
     return tuple(name for name, is_done in zip(EVERYTHING, done, strict=True) if not is_done)
 
 
-def session_maker(link: Link, box: Box) -> Session:
-    """A fresh conversation on a link, in its protocol."""
-    match link.protocol:
-        case "gs232a" | "gs232b":
-            return Gs232Session(
-                box,
-                Dialect.A if link.protocol == "gs232a" else Dialect.B,
-                ack=b"\r" if link.ack == "cr" else b"",
-                may_calibrate=link.may_calibrate,
-            )
-        case "gs232-f1efw":
-            return F1efwSession(box)
-        case "rotctld":
-            return RotctldSession(box)
-
-
 RELAY_LINES = "relay-lines.json"
 """What the unit's ExecStopPost reads to open the relays of a program that has died."""
 
@@ -184,7 +151,7 @@ class App:
             after_good_step=self._sign_of_life,
         )
         self.console = Door(self.loop, mount, Source("console"))
-        self.links = [self._link(link, mount) for link in config.link]
+        self.links = [build_link(link, self.loop, mount) for link in config.link]
         self._engine = Engine(self.loop, self.station.bank)
         self._keeper = Keeper(self.loop, path, build_offsets(config), learnt)
 
@@ -230,17 +197,3 @@ class App:
     def _sign_of_life(self) -> None:
         self._supervisor.alive()
         self.station.beat()
-
-    def _link(self, link: Link, mount: Mount) -> RunningLink:
-        wire = Wire(link.name or link.protocol, link.protocol, link.where)
-        connections = itertools.count(1)
-
-        def session() -> Session:
-            return session_maker(link, Door(self.loop, mount, Source(wire.name, next(connections))))
-
-        if link.pty is not None:
-            return PtyLink(wire, Path(link.pty), session)
-        if link.serial is not None:
-            return SerialLink(wire, link.serial, link.baud, session)
-        host, port = address(link.where)
-        return TcpLink(wire, host, port, session)

@@ -5,25 +5,17 @@ Knows the file's words. Knows no file, no hardware and nothing of what the progr
 
 from __future__ import annotations
 
-import re
 from itertools import pairwise
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
-ProtocolName = Literal["gs232a", "gs232b", "gs232-f1efw", "rotctld"]
+from rotator.config.links import Link
+from rotator.config.table import Table
 
 Gpio = Annotated[int, Field(ge=0, le=57)]
 I2CAddress = Annotated[int, Field(ge=0x08, le=0x77)]
 Channel = Annotated[int, Field(ge=0, le=3)]
-
-
-class Table(BaseModel):
-    """A table of the file: no key but those named, nothing changed after loading."""
-
-    model_config = ConfigDict(
-        extra="forbid", frozen=True, allow_inf_nan=False, strict=True, use_attribute_docstrings=True
-    )
 
 
 class Rotor(Table):
@@ -226,51 +218,6 @@ class Sim(Table):
     """The simulated elevation motor and pot."""
     bus_takes_time: bool = True
     """The simulated I2C bus is as slow as a real one."""
-
-
-class Link(Table):
-    protocol: ProtocolName
-    """What the program at the other end speaks."""
-    name: str | None = Field(None, min_length=1, max_length=24)
-    """What the log and the display call it; left out, its protocol."""
-    pty: str | None = Field(None, min_length=1)
-    """A symlink made to a pseudo-terminal, for programs on the same machine."""
-    serial: str | None = Field(None, min_length=1)
-    """A serial port, or any URL that pyserial opens; waited for while it is missing."""
-    tcp: str | None = None
-    """A listening socket, "host:port"."""
-    baud: int = Field(9600, ge=50, le=4_000_000)
-    """Serial ports only; always 8N1."""
-    ack: Literal["none", "cr"] = "none"
-    """GS-232: what follows a command that asks nothing; old Hamlib (3.x) wants the CR."""
-    may_calibrate: bool = False
-    """GS-232: O, F, O2 and F2 take the present reading for an end of the range."""
-
-    @model_validator(mode="after")
-    def _one_place(self) -> Link:
-        places = [place for place in (self.pty, self.serial, self.tcp) if place is not None]
-        if len(places) != 1:
-            raise ValueError("must have exactly one of pty, serial, tcp")
-        return self
-
-    @field_validator("tcp")
-    @classmethod
-    def _an_address(cls, text: str | None) -> str | None:
-        if text is not None:
-            address(text)
-        return text
-
-    @property
-    def where(self) -> str:
-        return self.pty or self.serial or self.tcp or ""
-
-
-def address(text: str) -> tuple[str, int]:
-    """`host:port` taken apart; an IPv6 host stands in brackets. Raises ValueError."""
-    parts = re.fullmatch(r"(?:\[([0-9a-fA-F:.%\w]+)\]|([^:\[\]\s]+)):(\d{1,5})", text)
-    if not parts or not 0 < int(parts[3]) < 65536:
-        raise ValueError(f'"{text}" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"')
-    return parts[1] or parts[2], int(parts[3])
 
 
 class Config(Table):
