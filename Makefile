@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: run test check tests test-install bench picture drawings clean
+.PHONY: run test check tests test-kernel test-install bench picture drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -23,6 +23,10 @@ tests: $(VENV)/.dev
 # install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in build/roots.
 test-install: $(VENV)/.dev
 	$(BIN)/pytest tests/install
+
+# The tests that need a real Linux kernel: Debian's own under QEMU, with simulated chips on its buses. TESTS chooses some.
+test-kernel: $(VENV)/.dev
+	@$(BIN)/python -m tests.kernel.stage $(TESTS)
 
 # The figures of the README: pointing first, the same on every machine; then latency and load, on this one.
 bench: $(VENV)/.dev

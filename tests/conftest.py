@@ -11,6 +11,15 @@ from pathlib import Path
 import pytest
 
 PASSES = sorted((Path(__file__).parent / "passes").glob("*.csv"))
+collect_ignore = [] if "GS232_KERNEL" in os.environ else ["kernel"]
+"""Tests that need a kernel of their own run in it: `make test-kernel`."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    group = parser.getgroup("hardware", "tests/contract on a Raspberry Pi")
+    group.addoption("--hardware", action="store_true", help="run tests/contract on this machine's pins and I2C bus")
+    group.addoption("--hardware-config", metavar="FILE", help="the rotator.toml with the pins and addresses")
+    group.addoption("--motors-are-unplugged", action="store_true", help="relays may close")
 
 
 @pytest.fixture

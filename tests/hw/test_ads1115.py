@@ -57,17 +57,6 @@ def test_one_shot_against_ground_with_the_comparator_off(channel: int, settings:
 # --- volts
 
 
-@pytest.mark.parametrize("channel", range(4))
-def test_each_channel_reads_its_own_input(channel: int) -> None:
-    assert Bench().driver().volts(channel) == pytest.approx(INPUTS_V[channel], abs=125e-6)
-
-
-def test_channels_in_any_order_do_not_mix() -> None:
-    adc = Bench().driver()
-    for channel in (0, 1, 0, 3, 2, 1, 1, 3, 0):
-        assert adc.volts(channel) == pytest.approx(INPUTS_V[channel], abs=125e-6)
-
-
 @pytest.mark.parametrize(
     ("full_scale_v", "step_v"),
     [(6.144, 187.5e-6), (4.096, 125e-6), (2.048, 62.5e-6), (1.024, 31.25e-6), (0.512, 15.625e-6), (0.256, 7.8125e-6)],
@@ -124,22 +113,6 @@ def test_a_pot_read_at_860_sps_leaves_a_20_hz_loop_its_time() -> None:
 
 
 # --- what goes wrong
-
-
-def test_a_chip_that_is_not_there() -> None:
-    bench = Bench()
-    with pytest.raises(HardwareError, match=r"I2C bus 1: the device does not answer.*\(address 0x4a\)"):
-        bench.driver(0x4A).volts(0)
-
-
-def test_a_chip_that_comes_back_is_read_again() -> None:
-    bench = Bench()
-    adc = bench.driver()
-    bench.wire.gone.add(0x48)
-    with pytest.raises(HardwareError):
-        adc.volts(0)
-    bench.wire.gone.clear()
-    assert adc.volts(1) == pytest.approx(INPUTS_V[1], abs=125e-6)
 
 
 def test_a_conversion_that_does_not_end() -> None:

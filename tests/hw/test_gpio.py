@@ -77,12 +77,6 @@ def test_a_chip_that_went_away_is_passed_over() -> None:
     assert find_chip(gpio, paths=["/dev/gpiochip9", *gpio.paths()]) == "/dev/gpiochip0"
 
 
-def test_without_a_header_the_sentence_lists_what_there_is() -> None:
-    gpio = simulated(PC)
-    with pytest.raises(HardwareError, match=r"GPIO: no chip labelled .*; found /dev/gpiochip0 \(INTC1055:00\)"):
-        find_chip(gpio, paths=gpio.paths())
-
-
 def test_without_any_chip_it_says_so() -> None:
     with pytest.raises(HardwareError, match="found none at all"):
         find_chip(simulated({}), paths=[])
@@ -121,15 +115,6 @@ def test_named_lines_switch_in_one_instant() -> None:
     assert instants == [{22: True, 23: True}, {22: False}]
 
 
-def test_the_lines_carry_our_name_until_closed() -> None:
-    gpio = simulated(PI_4)
-    lines = take(gpio)
-    with gpio.Chip("/dev/gpiochip0") as chip:
-        assert chip.get_line_info(22).consumer == "rotator-relays"
-        lines.close()
-        assert not chip.get_line_info(22).used
-
-
 def test_closing_leaves_what_was_off_off() -> None:
     gpio = simulated(PI_4)
     lines = take(gpio)
@@ -137,30 +122,6 @@ def test_closing_leaves_what_was_off_off() -> None:
     lines.set({"azimuth_cw": False})
     lines.close()
     assert not gpio.level(22)
-
-
-def test_a_busy_line_is_a_sentence_with_its_pins() -> None:
-    gpio = simulated(PI_4)
-    take(gpio, pins={"somebody": 23})
-    with pytest.raises(HardwareError) as fault:
-        take(gpio)
-    assert "/dev/gpiochip0: cannot take azimuth_cw on GPIO22, azimuth_ccw on GPIO23" in str(fault.value)
-    assert "a line is taken by another program" in str(fault.value)
-
-
-def test_a_request_that_failed_took_nothing() -> None:
-    gpio = simulated(PI_4)
-    other = take(gpio, pins={"somebody": 23})
-    with pytest.raises(HardwareError):
-        take(gpio)
-    other.close()
-    take(gpio).set({"azimuth_cw": True})
-    assert gpio.level(22)
-
-
-def test_a_line_that_the_chip_does_not_have_is_a_sentence() -> None:
-    with pytest.raises(HardwareError, match="GPIO: /dev/gpiochip0: line offset"):
-        take(simulated(PI_4), pins={"azimuth_cw": 99})
 
 
 def test_a_chip_that_is_not_there_is_a_sentence() -> None:

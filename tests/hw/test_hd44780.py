@@ -18,7 +18,6 @@ from firmware_sim.pcf8574 import Backpack
 from hw.gpio import GpioOutputs
 from hw.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780, NibblePort
 from hw.i2c import SmbusI2C
-from hw.ports import HardwareError
 
 ADDRESS = 0x27
 ROWS = ("SAT A:235 E:025 ", "SIM A:231 E:024 ")
@@ -170,20 +169,6 @@ def test_a_row_is_one_write_of_about_68_bytes() -> None:
     bench.display.show(ROWS[:1])
     wire_bytes = round((bench.clock() - started_s) / 90e-6)
     assert 68 <= wire_bytes <= 74  # four a character, the address, RS in between: 6.5 ms at 100 kHz
-
-
-def test_a_backpack_that_is_gone_is_a_sentence_and_comes_back() -> None:
-    bench = OnBackpack()
-    bench.display.reset()
-    bench.wire.gone.add(ADDRESS)
-    with pytest.raises(HardwareError, match=r"does not answer.*0x27"):
-        bench.display.show(ROWS)
-    with pytest.raises(HardwareError):
-        bench.display.reset()
-    bench.wire.gone.clear()
-    bench.display.reset()
-    bench.display.show(ROWS)
-    assert bench.glass.text() == ROWS
 
 
 def test_a_display_plugged_in_again_is_brought_up_from_power_on() -> None:

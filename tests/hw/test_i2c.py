@@ -91,22 +91,6 @@ def test_a_chip_that_does_not_answer(bus: SmbusI2C, wire: SimI2CBus, way: str) -
     assert isinstance(fault.value.__cause__, OSError)
 
 
-def test_a_chip_that_comes_back_answers(bus: SmbusI2C, wire: SimI2CBus) -> None:
-    wire.gone.add(ADDRESS)
-    with pytest.raises(HardwareError):
-        bus.write(ADDRESS, b"\x00")
-    wire.gone.clear()
-    assert bus.write_read(ADDRESS, b"\x01", 2) == b"\x85\x83"
-
-
-def test_a_bus_that_hangs_until_the_kernel_gives_up(bus: SmbusI2C, wire: SimI2CBus) -> None:
-    wire.hang(hang_timeout_s=0.01)
-    with pytest.raises(HardwareError, match="the bus hangs; something holds SDA or SCL low"):
-        bus.write(ADDRESS, b"\x00")
-    wire.release()
-    bus.write(ADDRESS, b"\x00")
-
-
 @pytest.mark.parametrize(
     ("number", "words"),
     [
@@ -121,12 +105,6 @@ def test_a_bus_that_hangs_until_the_kernel_gives_up(bus: SmbusI2C, wire: SimI2CB
 def test_each_error_number_is_a_sentence(number: int, words: str) -> None:
     with pytest.raises(HardwareError, match=rf"^I2C bus 1: .*{words}.*\(address 0x27\)$"):
         SmbusI2C(BrokenAdapter(number), "bus 1").write(0x27, b"\x00")
-
-
-def test_a_closed_bus_is_a_sentence_too(bus: SmbusI2C) -> None:
-    bus.close()
-    with pytest.raises(HardwareError, match=r"it has been closed \(address 0x48\)"):
-        bus.write(ADDRESS, b"\x00")
 
 
 def test_asking_who_answers_writes_nothing(bus: SmbusI2C, chip: Memory) -> None:

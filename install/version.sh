@@ -1,0 +1,110 @@
+# shellcheck shell=bash disable=SC2034,SC2154  # the variables are install.sh's
+# Part of install.sh: from sources, or from wheels, to a folder in /opt/rotator/versions that works.
+#
+# Knows Python, pip and what goes wrong with them, in a sentence each. Knows nothing of users, units and configuration.
+
+check_python() {
+    "$PYTHON" -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' 2>/dev/null ||
+        die "$PYTHON is not Python 3.11, 3.12 or 3.13; Raspberry Pi OS has one from Bookworm on, or name another: PYTHON=python3.12"
+}
+
+find_source() { # sets source_at, what pip is given; version; and print: which sources, for which Python
+    local sums
+    if [ -n "$wheels" ]; then
+        [ -d "$wheels" ] || die "there is no folder $wheels; where there is a network, make it: ./install.sh --fetch-wheels $wheels"
+        wheels=$(readlink -f "$wheels")
+        source_at=$(find "$wheels" -maxdepth 1 -name 'gs232_rotator-*.whl' | sort -V | tail -n 1)
+        [ -n "$source_at" ] || die "$wheels holds no wheel of the rotator; where there is a network, fill it: ./install.sh --fetch-wheels $wheels"
+        version=$(basename "$source_at" | cut -d- -f2)
+        sums=$(cd "$wheels" && sha256sum -- *.whl; cd "$HERE" && sha256sum install/*)
+    else
+        [ -f "$HERE/pyproject.toml" ] || die "this folder holds no sources; if it holds wheels: --wheels $HERE"
+        source_at=$HERE
+        version=$(sed -n 's/^__version__ = "\(.*\)"$/\1/p' "$HERE/rotator/__init__.py")
+        sums=$(cd "$HERE" && find pyproject.toml install rotator hw firmware_sim -type f ! -path '*/__pycache__/*' -print0 |
+            LC_ALL=C sort -z | xargs -0 sha256sum)
+    fi
+    # An upgrade of the system changes its Python, and an environment made for another one is dead.
+    print="$("$PYTHON" -c 'import sys; print("python%d.%d" % sys.version_info[:2])') $(sha256sum <<<"$sums" | cut -c1-16)"
+}
+
+find_version() { # sets version_at: the folder that has these sources already, or the one to build
+    local file
+    for file in "$APP"/versions/*/print; do
+        if [ "$(cat "$file" 2>/dev/null)" = "$print" ]; then version_at=$(dirname "$file"); return; fi
+    done
+    version_at=$APP/versions/$version
+    # The same number with other sources, as after `git pull`, or for another Python: it gets a name of its own.
+    if [ -e "$version_at/print" ]; then version_at+=+$(sha256sum <<<"$print" | cut -c1-8); fi
+}
+
+build_version() { # The print goes in last and says that the folder is whole.
+    local from=() log=$scratch/log
+    half_built=$version_at
+    rm -rf "$version_at"
+    mkdir -p "$version_at"
+    if [ -n "$wheels" ]; then from=(--no-index --find-links "$wheels"); fi
+    {
+        make_environment "$version_at" &&
+            "$version_at/bin/pip" install --quiet --no-cache-dir --retries 1 --timeout 20 "${from[@]}" "$source_at" &&
+            cp -r "$HERE/install" "$version_at/install"
+    } >"$log" 2>&1 || die "$(what_went_wrong "$log"); nothing has been changed"
+    try_out "$version_at" || die "version $version does not work here, it says why above; nothing has been changed"
+    echo "$print" >"$version_at/print"
+    half_built=''
+}
+
+make_environment() { # FOLDER. In two steps: in one, venv would keep to itself why pip cannot be put in.
+    "$PYTHON" -m venv --without-pip "$1" && "$1/bin/python" -m ensurepip --default-pip
+}
+
+fetch_wheels() { # into $fetch, for $arch and each Python that will do
+    local log=$scratch/log machine platforms=() minor
+    arch=${arch:-$(dpkg --print-architecture)}
+    case $arch in
+        arm64) machine=aarch64 ;;
+        armhf) machine=armv7l ;;
+        amd64) machine=x86_64 ;;
+        *) die "--arch $arch: must be arm64, armhf or amd64" ;;
+    esac
+    check_python
+    [ -f "$HERE/pyproject.toml" ] || die "this folder holds no sources; run it where they are"
+    # Every C library up to Bookworm's, which has 2.36.
+    for minor in {5..36}; do platforms+=(--platform "manylinux_2_${minor}_$machine"); done
+    platforms+=(--platform "manylinux2014_$machine")
+    echo "  fetches for $arch, Python 3.11, 3.12 and 3.13, into $fetch"
+    mkdir "$scratch/wheels"
+    {
+        make_environment "$scratch/venv" &&
+            "$scratch/venv/bin/pip" wheel --quiet --retries 1 --timeout 20 --no-deps --wheel-dir "$scratch/wheels" "$HERE"
+    } >"$log" 2>&1 || die "$(what_went_wrong "$log")"
+    for minor in 11 12 13; do
+        "$scratch/venv/bin/pip" download --quiet --retries 1 --timeout 20 --dest "$scratch/wheels" --only-binary=:all: --implementation cp \
+            --python-version "3.$minor" --abi "cp3$minor" --abi abi3 --abi none "${platforms[@]}" \
+            "$scratch"/wheels/gs232_rotator-*.whl >"$log" 2>&1 || die "$(what_went_wrong "$log")"
+    done
+    mkdir -p "$fetch"
+    rm -f "$fetch"/*.whl
+    cp -r "$scratch"/wheels/*.whl "$HERE/install.sh" "$HERE/install" "$fetch/"
+    echo "All is in $fetch. Carry it over; there: sudo ./install.sh --wheels ."
+}
+
+what_went_wrong() { # LOG
+    local missing
+    missing=$(sed -n 's/.*No matching distribution found for \([^ (;<>=]*\).*/\1/p' "$1" | tail -n 1)
+    if grep -q 'No space left on device' "$1"; then
+        echo "the disk is full: $ROOM_MB MB are needed in $APP"
+    elif grep -qE 'ensurepip is not|No module named (venv|ensurepip)' "$1"; then
+        echo "Python cannot make a virtual environment: sudo apt install python3-venv"
+    elif grep -qE 'NewConnectionError|ConnectTimeout|ReadTimeout|NameResolution|ProxyError|SSLError' "$1"; then
+        echo "the network cannot be reached; for a machine without one see --fetch-wheels and --wheels"
+    elif grep -qE '(gcc|cc|cargo)[^ ]* failed|Python\.h|command .*(gcc|cc|cargo).* not found' "$1"; then
+        echo "a package has to be compiled on this machine: sudo apt install gcc python3-dev, and again"
+    elif [ -n "$missing" ] && [ -n "$fetch" ]; then
+        echo "nobody offers a ready-made $missing for $arch: such a machine needs the network to install"
+    elif [ -n "$missing" ] && [ -n "$wheels" ]; then
+        echo "$wheels lacks $missing for this Python and machine: fetch with --arch $(dpkg --print-architecture)"
+    else
+        echo "pip failed: $(grep -vE '^ *$|WARNING|notice' "$1" | tail -n 1)"
+    fi
+}
