@@ -79,7 +79,8 @@ class Pointing:
             self._way = Way(axis_azimuth_deg, flipped=False)
             return AimGoal(axis_azimuth_deg, self._standing_tolerance_deg(elevation_deg)), None
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
-        if self._way is not None and self._track.moving(now_s):
+        moving = self._track.moving(now_s)
+        if self._way is not None and moving:
             # On its way the antenna stays there, wherever it has got to.
             flown_deg, _ = self._mount.on_the_way(
                 *_direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
@@ -87,7 +88,7 @@ class Pointing:
             self._way = Way(flown_deg, self._way.flipped)
         elif not again:
             self._way = Way(axis_azimuth_deg, axis_elevation_deg > ZENITH_DEG)
-        return self._standing()
+        return self._standing(settled=not moving)
 
     def raise_to(self, elevation_deg: float, azimuth_deg: float) -> AimGoal:
         """The goal for an order of elevation alone, with azimuth where it is."""
@@ -99,7 +100,7 @@ class Pointing:
         if self._way is None:
             return None
         if not self._track.moving(now_s):
-            return self._standing() if had_path else None
+            return self._standing(settled=True) if had_path else None
         if self._planned_s is not None and now_s - self._planned_s < PLAN_EVERY_S:
             return None
         self._planned_s = now_s
@@ -137,11 +138,17 @@ class Pointing:
         may_flip = (self.wanted.elevation_deg or 0.0) <= ZENITH_DEG
         self._way = best_way(self._mount, directions, self._way, speeds, may_flip=may_flip)
 
-    def _standing(self) -> Goals:
-        """Goals for the last order as it stands, on the way chosen."""
-        way, wanted = self._way, self.wanted
-        assert way is not None
+    def _standing(self, *, settled: bool) -> Goals:
+        """Goals for the last order as it stands, on the way chosen; a target that has settled beyond the end of its
+        turn is worth going round for."""
+        wanted = self.wanted
+        assert self._way is not None
         assert wanted.azimuth_deg is not None
+        if settled and self._mount.azimuth.nearest(self._way.azimuth_deg) != self._way.azimuth_deg:
+            near_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
+            axis_deg, _ = self._mount.axis_angles(wanted.azimuth_deg, wanted.elevation_deg, near_deg)
+            self._way = Way(axis_deg, self._way.flipped)
+        way = self._way
         if wanted.elevation_deg is None:
             return AimGoal(self._mount.azimuth.nearest(way.azimuth_deg), self._azimuth_tolerance_deg), None
         azimuth_deg, elevation_deg = self._mount.on_the_way(

@@ -17,6 +17,9 @@ from rotator.control.angles import great_circle_deg
 MEMORY_S = 25.0
 """An order's weight falls by e in this time: longer averages the rounding better, shorter bends more easily."""
 KEPT_S = 4 * MEMORY_S
+THIN_S = 0.4
+"""Orders that come faster tell no more: of those within this time the latest counts."""
+REFIT_S = 0.2
 LEAST_ORDERS = 4
 LONGEST_GAP_S = 5.0
 """Orders further apart are no stream: each is a place of its own."""
@@ -52,12 +55,15 @@ class Track:
             surprised = great_circle_deg(*expected_deg, azimuth_deg, elevation_deg) > LARGEST_SURPRISE_DEG
             if surprised or now_s - self._orders[-1][0] > LONGEST_GAP_S:
                 self.clear()
-            elif now_s <= self._orders[-1][0]:
+            elif now_s <= self._orders[-1][0] or (len(self._orders) > 1 and now_s - self._orders[-2][0] < THIN_S):
                 self._orders.pop()
         self._orders.append((now_s, azimuth_deg, elevation_deg))
         while self._orders[0][0] < now_s - KEPT_S:
             self._orders.popleft()
-        self._fit = _Fit(self._orders) if self._is_stream() else None
+        if not self._is_stream():
+            self._fit = None
+        elif self._fit is None or now_s - self._fit.at_s >= REFIT_S:
+            self._fit = _Fit(self._orders)
 
     def moving(self, now_s: float) -> bool:
         """Whether there is a path; else the last order is where the target stands."""
@@ -69,10 +75,10 @@ class Track:
 
     def direction(self, at_s: float) -> tuple[float, float]:
         """Azimuth and elevation at a moment, now or to come. There must have been an order."""
-        last_s, azimuth_deg, elevation_deg = self._orders[-1]
         if self._fit is None:
+            _, azimuth_deg, elevation_deg = self._orders[-1]
             return azimuth_deg, elevation_deg
-        return self._fit.direction(at_s - last_s)
+        return self._fit.direction(at_s)
 
     def _is_stream(self) -> bool:
         if len(self._orders) < LEAST_ORDERS:
@@ -86,6 +92,7 @@ class _Fit:
 
     def __init__(self, orders: Sequence[tuple[float, float, float]]) -> None:
         last_s, azimuth_deg, elevation_deg = orders[-1]
+        self.at_s = last_s
         az, el = math.radians(azimuth_deg), math.radians(elevation_deg)
         # The plane touches the sky at the last order; its axes point along growing azimuth and growing elevation.
         self._ahead = _unit(azimuth_deg, elevation_deg)
@@ -112,7 +119,8 @@ class _Fit:
             matrix[i][i] += prior
         self._a, self._b, self._c, self._d, self._g = _solve(matrix, side)
 
-    def direction(self, s: float) -> tuple[float, float]:
+    def direction(self, at_s: float) -> tuple[float, float]:
+        s = at_s - self.at_s
         x, y, z = self._a + self._b * s, self._c + self._d * s, 1.0 + self._g * s
         east, north, up = (
             x * right + y * upward + z * ahead

@@ -7,14 +7,18 @@ from __future__ import annotations
 
 import asyncio
 import fcntl
+import grp
 import os
 import tty
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from rotator.links.fd import converse, writer
 from rotator.links.wire import Conversation, LinkError, Wire
 from rotator.protocols.session import Session
+
+SERIAL_GROUP = "dialout"
 
 
 class PtyLink:
@@ -40,6 +44,7 @@ class PtyLink:
             if self._path.is_symlink():
                 self._path.unlink()
             self._path.symlink_to(self._name)
+            self._share()
         except BlockingIOError as fault:
             self._close_fds()
             raise LinkError(f"{self._path}: another program of this kind has it") from fault
@@ -58,6 +63,12 @@ class PtyLink:
                 self._path.unlink()
             self._close_fds()
             self.wire.state = "closed"
+
+    def _share(self) -> None:
+        """Open to whoever may use serial ports: programs of other users than the service's come to this one too."""
+        with suppress(KeyError, OSError):
+            os.chown(self._name, -1, grp.getgrnam(SERIAL_GROUP).gr_gid)
+            os.chmod(self._name, 0o660)
 
     def _lock(self) -> None:
         """A link left by a program that died may be replaced; one whose program lives may not."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import socket
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -22,7 +23,7 @@ def test_lines_for_people(rotator: Rotator, config: Path) -> None:
     lines = answer.stdout.splitlines()
     assert answer.stderr == ""
     assert answer.returncode == int(any(line.startswith("✗") for line in lines))
-    assert lines[0] == f"✓  configuration     {config}: a simulated rotor"
+    assert lines[0].startswith(f"✓  configuration     {config}:")
     assert any(line.startswith("✓  pots              simulated: azimuth: ") for line in lines)
     assert all(line == line.rstrip() and "\x1b" not in line for line in lines)
 
@@ -77,4 +78,4 @@ def test_the_running_box_is_told_from_another_program(rotator: Rotator, start: S
         assert box.stop() == 0
     assert (ours["ok"], ours["found"]) == (True, f"127.0.0.1:{port}: the running box")
     assert theirs["ok"] is False
-    assert "pytest" in theirs["found"]
+    assert f"127.0.0.1:{taken} is taken by {sys.executable}" in theirs["found"]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import grp
 import os
+import stat
 import termios
 from collections.abc import Callable
 from contextlib import suppress
@@ -42,6 +44,20 @@ def test_it_is_there_while_the_link_runs(link: PtyLink, path: Path, running: Run
             assert link.wire.state == f"→ {os.readlink(path)}"
         assert not path.is_symlink()
         assert link.wire.state == "closed"
+
+    asyncio.run(look())
+
+
+def test_whoever_may_use_serial_ports_may_open_it(link: PtyLink, path: Path, running: Running) -> None:
+    group = next((each for each in grp.getgrall() if each.gr_name == "dialout"), None)
+    if group is None or (os.getuid() != 0 and group.gr_gid not in os.getgroups()):
+        pytest.skip("this user may not give files to the group dialout: sudo adduser $USER dialout")
+
+    async def look() -> None:
+        async with running(link):
+            terminal = path.stat()
+            assert terminal.st_gid == group.gr_gid
+            assert stat.S_IMODE(terminal.st_mode) == 0o660
 
     asyncio.run(look())
 
