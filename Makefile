@@ -17,9 +17,9 @@ check: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-# On two cores at once: many tests wait for a foreign program's own pauses.
+# Several files at once: many tests wait for a foreign program's own pauses.
 tests: $(VENV)/.dev
-	$(BIN)/pytest -n 3 --dist loadgroup $(TESTS)
+	$(BIN)/pytest -n 3 --dist loadfile $(TESTS)
 
 # install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in build/roots.
 test-install: $(VENV)/.dev

@@ -18,8 +18,6 @@ PASSES = sorted(path.stem for path in (Path(__file__).parents[1] / "passes").glo
 COMPARED = ("low-1-iss", "north-1-iss")
 """A pass low in the south, and one through the rotor's stop in the north, where the sketch turns all the way back."""
 TOLERANCE_DEG = 4.0
-# Flown once, for all of these; the flights themselves use every core.
-pytestmark = pytest.mark.xdist_group("passes")
 
 
 @pytest.fixture(scope="session")
