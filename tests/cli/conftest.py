@@ -157,7 +157,9 @@ def start_in_terminal(tmp_path: Path) -> Iterator[Callable[..., InTerminal]]:
             stdout=slave,
             stderr=slave,
             start_new_session=True,
-            env=os.environ | {"TERM": "xterm-256color"},
+            # The size is the terminal's own, whatever the environment says of another one.
+            env={key: value for key, value in os.environ.items() if key not in ("COLUMNS", "LINES")}
+            | {"TERM": "xterm-256color"},
         )
         started.append((InTerminal(process, master, slave), master, slave))
         return started[-1][0]
