@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: run test check tests test-kernel test-install bench picture drawings clean
+.PHONY: run test check tests test-kernel test-install test-gpredict bench fuzz picture picture-gpredict drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -29,6 +29,10 @@ test-install: $(VENV)/.dev
 test-kernel: $(VENV)/.dev
 	@$(BIN)/python -m tests.kernel.stage $(TESTS)
 
+# Debian's Gpredict in a window on a virtual screen tracks with the box; -rP shows how fast it was stopped.
+test-gpredict: $(VENV)/.dev
+	$(BIN)/pytest -rP tests/gpredict
+
 # The figures of the README: pointing first, the same on every machine; then latency and load, on this one.
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.passes --svg docs/img/passes.svg
@@ -36,10 +40,19 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.mount
 	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
+	$(BIN)/python -m benchmarks.clients
+
+# Hostile bytes on every link of two running boxes, for ten minutes or as long as MINUTES says.
+fuzz: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.fuzz --minutes $(or $(MINUTES),10)
 
 # The picture of it running, from the running box itself.
 picture: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.screenshot docs/img/run.svg
+
+# Gpredict's window while it tracks with the box: sudo apt install gpredict xvfb xdotool imagemagick
+picture-gpredict: $(VENV)/.dev
+	$(BIN)/pytest tests/gpredict -k follows --picture docs/img/gpredict.png
 
 # The wiring pictures, from their source in docs/drawings.
 drawings: $(VENV)/.dev

@@ -10,6 +10,7 @@ import asyncio
 import os
 import time
 from collections.abc import Mapping
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -26,14 +27,16 @@ from rotator.display import DisplayThread
 from rotator.door import Door
 from rotator.engine import Engine, process_end
 from rotator.keeping import Keeper
+from rotator.links.monitor import MonitorSocket
 from rotator.loop import ControlLoop
 from rotator.orders import Source
+from rotator.overhearing import Tape
 from rotator.simulation import SIM_CALIBRATION_RAW
 from rotator.station import Station
 from rotator.status import LearntMotor
 from rotator.store.learnt import LearntFile, Motors
 from rotator.supervisor import Supervisor
-from rotator.switchboard import build_link
+from rotator.switchboard import build_links
 from rotator.views import lcd
 
 
@@ -133,6 +136,13 @@ RELAY_LINES = "relay-lines.json"
 """What the unit's ExecStopPost reads to open the relays of a program that has died."""
 
 
+def monitor_path(config: Config, environment: Mapping[str, str]) -> Path:
+    """Where the socket for watchers is."""
+    runtime = environment.get("RUNTIME_DIRECTORY", "").split(":")[0]
+    beside = Path(runtime) if runtime else Path(config.state.path).parent
+    return Path(config.monitor.path) if config.monitor.path else beside / "monitor"
+
+
 class App:
     """The whole box, in real time. Build it, `await run(stop)`, and every relay is off when that returns."""
 
@@ -151,7 +161,8 @@ class App:
             after_good_step=self._sign_of_life,
         )
         self.console = Door(self.loop, mount, Source("console"))
-        self.links = [build_link(link, self.loop, mount) for link in config.link]
+        self._tape = Tape(datetime.now, lambda: self.loop.status)
+        self.links = build_links(config.link, self.loop, mount, self._tape)
         self._engine = Engine(self.loop, self.station.bank)
         self._keeper = Keeper(self.loop, path, build_offsets(config), learnt)
 
@@ -161,7 +172,8 @@ class App:
     async def run(self, stop: asyncio.Event) -> None:
         """Run until `stop` is set. Raises LinkError, or whatever stopped the control thread."""
         display = DisplayThread(self.station.display, self.lcd_rows, time.monotonic) if self.station.display else None
-        tasks: list[asyncio.Task[object]] = []
+        tasks: list[asyncio.Task[Any]] = []
+        monitor: asyncio.Task[None] | None = None
         try:
             if self.station.sentinel:
                 self._supervisor.leave(RELAY_LINES, self.station.lines.to_json())
@@ -174,6 +186,8 @@ class App:
                 await asyncio.sleep(0)
             if display:
                 display.start()
+            watching = MonitorSocket(monitor_path(self.config, os.environ), self._tape.listeners, self._tape.greeting)
+            monitor = asyncio.create_task(watching.run(), name="monitor")
             tasks.append(asyncio.create_task(self._keeper.run()))
             tasks.append(asyncio.create_task(stop.wait()))
             self._supervisor.ready()
@@ -182,6 +196,9 @@ class App:
         finally:
             self._supervisor.stopping()
             outcomes: list[object] = [await self._engine.halt()]
+            if monitor:
+                # Whatever becomes of it, the box goes on: it is not among those whose end is the end.
+                tasks.append(monitor)
             for task in tasks:
                 task.cancel()
             outcomes += await asyncio.gather(*tasks, return_exceptions=True)

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections import deque
 from collections.abc import Callable, Mapping
 
 from hw.ports import AngleSensor, Axis, Direction, HardwareError, SwitchedDrive
 from rotator.control.controller import Controller
 from rotator.control.sensing import Reading
-from rotator.orders import Order, Source
+from rotator.orders import Jog, Order, Source
+from rotator.seldom import Seldom
 from rotator.status import Status
 
 log = logging.getLogger(__name__)
@@ -44,7 +44,8 @@ class ControlLoop:
         self._sensors = sensors
         self._clock = clock
         self._period_s = period_s
-        self._inbox: deque[tuple[Source, Order]] = deque()
+        self._inbox: list[tuple[Source, Order, bool]] = []
+        self._inbox_lock = threading.Lock()
         self._wake = threading.Event()
         self._pause = threading.Event()
         self._stopping = False
@@ -55,13 +56,27 @@ class ControlLoop:
         self._late_s = 0.0
         self._supply_cut = False
         self._noticed: dict[Axis, tuple[str, ...]] = dict.fromkeys(Axis, ())
+        self._movers = Seldom(clock)
         self.status: Status = controller.status(clock(), dict.fromkeys(Axis, Direction.OFF))
         """The latest status; replaced whole, never changed."""
 
-    def post(self, source: Source, order: Order) -> None:
-        """Hand over an order; it takes effect at once, not at the next cycle."""
-        self._inbox.append((source, order))
-        self._wake.set()
+    def post(self, source: Source, order: Order, *, can_wait: bool = False) -> None:
+        """Hand over an order; it takes effect at once, not at the next cycle.
+
+        One that `can_wait` does so until the next cycle, and takes the place of those of its kind from the same source
+        that wait as well: so many of them cost little, and the newest wins.
+        """
+        with self._inbox_lock:
+            if can_wait:
+                kind = _kind(order)
+                self._inbox = [
+                    (whose, each, waits)
+                    for whose, each, waits in self._inbox
+                    if not (waits and whose == source and _kind(each) == kind)
+                ]
+            self._inbox.append((source, order, can_wait))
+        if not can_wait:
+            self._wake.set()
 
     def cycle(self) -> None:
         """Read every sensor, then act. For whoever runs the loop in one thread, in simulated time."""
@@ -70,7 +85,9 @@ class ControlLoop:
 
     def act(self) -> None:
         """Take the orders that have come, decide, drive, tell. With the readings as they are."""
-        orders = [self._inbox.popleft() for _ in range(len(self._inbox))]
+        with self._inbox_lock:
+            posted, self._inbox = self._inbox, []
+        orders = [(source, order) for source, order, _ in posted]
         now_s = self._clock()
         before = self.status
         runs = self._controller.step(now_s, dict(self._readings), orders)
@@ -182,6 +199,9 @@ class ControlLoop:
         for fault in self.status.faults:
             if fault not in before.faults:
                 log.error("FAULT %s", fault)
+        mover = self.status.controlled_by
+        if mover and mover != before.controlled_by and (told := self._movers.tell(f"{mover} moves the antenna")):
+            log.info("%s", told)
         if before.faults and not self.status.faults:
             log.warning("faults acknowledged")
         for axis in Axis:
@@ -191,3 +211,8 @@ class ControlLoop:
             self._noticed[axis] = self.status.axis(axis).notices
         if self.status.latched != before.latched:
             log.warning(f"stopped by {self.status.latched} until released" if self.status.latched else "released")
+
+
+def _kind(order: Order) -> object:
+    """Two orders of one kind: the later one alone is left to do."""
+    return (Jog, order.axis) if isinstance(order, Jog) else type(order)

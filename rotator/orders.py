@@ -112,3 +112,5 @@ class Refusal:
     """Why an order is not obeyed, for the log; the protocol has its own words for it."""
 
     reason: str
+    forbidden: bool = False
+    """It is not this order: the sender may give none."""

@@ -22,8 +22,9 @@ from rotator.orders import Order, Source
 from rotator.passes import Pass
 from rotator.protocols.gs232 import Command, Dialect, encode
 from rotator.protocols.gs232_session import Gs232Session
-from rotator.protocols.rotctld import Request, RotctldSession
+from rotator.protocols.rotctld import Request
 from rotator.protocols.rotctld import encode as encode_request
+from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
 from rotator.simulation import arduino_station
 from rotator.station import Station

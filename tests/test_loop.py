@@ -20,7 +20,7 @@ from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from rotator.app import build_controller
 from rotator.config.model import Config
 from rotator.loop import ControlLoop
-from rotator.orders import Aim, Source, Stop
+from rotator.orders import Aim, Jog, Source, Stop
 from rotator.station import Station
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -216,6 +216,34 @@ def test_a_drive_that_fails_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixt
     rig.run(2.0)
     assert len(records(caplog, "No such device")) == 1
     assert not records(caplog, "answers again")
+
+
+def test_an_order_that_can_wait_makes_room_for_the_next_of_its_kind(rig: Rig) -> None:
+    rig.run(0.2)
+    for azimuth_deg in range(1000):
+        rig.loop.post(LINK, Aim(float(azimuth_deg % 90), 20.0), can_wait=True)
+        rig.loop.post(Source("other", 1), Jog(EL, Direction.PLUS), can_wait=True)
+    rig.loop.post(LINK, Aim(300.0, None), can_wait=True)
+    rig.loop.act()
+    assert rig.loop.status.wanted_azimuth_deg == 300.0
+    assert rig.world.drives() == (1, 1), "the newest of the one, and the other's jog before it"
+
+
+def test_it_waits_for_the_cycle_and_no_longer(rig: Rig) -> None:
+    relays = Relays(rig.world)
+    loop = ControlLoop(build_controller(rig.config), rig.station.bank, rig.station.sensors, time.monotonic, PERIOD_S)
+    with running(loop):
+        loop.post(LINK, Jog(AZ, Direction.PLUS), can_wait=True)
+        assert relays.come_to(1, 0)
+
+
+def test_who_moves_it_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.INFO)
+    for second in range(20):
+        rig.loop.post(LINK if second % 2 else Source("rotctld", 2), Aim(300.0, 20.0))
+        rig.run(1.0)
+    said = [record.message for record in caplog.records if "moves the antenna" in record.message]
+    assert said == ["rotctld#2 moves the antenna", "gs232b#1 moves the antenna"]
 
 
 # --- the end

@@ -87,6 +87,18 @@ def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, axis: str
 
 @cli.command()
 @CONFIG
+@click.option("--to", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="Write to a new file.")
+@click.option("--link", "links", multiple=True, metavar="NAME", help="Only this link; may be given several times.")
+@click.option("--limit-mb", type=click.FloatRange(0, min_open=True), default=10.0, help="The file's end; 10 MB.")
+def monitor(path: Path | None, to: Path | None, links: tuple[str, ...], limit_mb: float) -> None:
+    """Show every byte on the links of the running box, with its time."""
+    from rotator.cli.monitor import watch
+
+    watch(path, to, links, limit_mb)
+
+
+@cli.command()
+@CONFIG
 def off(path: Path | None) -> None:
     """Open every relay, when the box is not running: after a crash, whatever the kernel left switched on."""
     from rotator.cli.off import relays_off

@@ -5,14 +5,34 @@ Knows the words of one link. Does not know how a link is made, nor the other lin
 
 from __future__ import annotations
 
+import ipaddress
 import re
-from typing import Literal
+from typing import Final, Literal
 
 from pydantic import Field, field_validator, model_validator
 
 from rotator.config.table import Table
 
-ProtocolName = Literal["gs232a", "gs232b", "gs232-f1efw", "rotctld"]
+ProtocolName = Literal[
+    "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow",
+    "easycomm1", "easycomm2", "easycomm3", "rot1prog", "rot2prog", "md01", "dcu1",
+    "pstrotator", "n1mm", "macdoppler", "wsjtx",
+]  # fmt: skip
+
+FOLLOW: Final = "rotctld-follow"
+"""The one protocol in which the box asks."""
+USUAL_BAUD = 9600
+LAST_PORT = 65_535
+_BAUDS: dict[ProtocolName, int] = {"rot1prog": 1200, "rot2prog": 600, "dcu1": 4800}
+"""What the makers' own boxes are fixed to, and so the programs that look for them."""
+_PLACES: dict[str, tuple[ProtocolName, ...]] = {
+    "connect": (FOLLOW,),
+    "udp": ("pstrotator", "n1mm", "macdoppler"),
+    "file": ("wsjtx",),
+}
+"""Places that are for some protocols only, and those for no others."""
+_MANY_PROTOCOLS_PLACES = ("pty", "serial", "tcp")
+_ONLY_ORDERS: tuple[ProtocolName, ...] = (FOLLOW, "macdoppler", "wsjtx")
 
 
 class Link(Table):
@@ -26,35 +46,141 @@ class Link(Table):
     """A serial port, or any URL that pyserial opens; waited for while it is missing."""
     tcp: str | None = None
     """A listening socket, "host:port"."""
-    baud: int = Field(9600, ge=50, le=4_000_000)
-    """Serial ports only; always 8N1."""
+    connect: str | None = None
+    """rotctld-follow: the other program's rotctld, "host:port"; asked where it points, again and again."""
+    poll_s: float = Field(0.1, ge=0.02, le=10)
+    """rotctld-follow: how often it is asked."""
+    udp: str | None = None
+    """pstrotator, n1mm, macdoppler: where datagrams are received, "host:port"; 0.0.0.0 for broadcasts too."""
+    file: str | None = Field(None, min_length=1)
+    """wsjtx: its file azel.dat; waited for while it is missing."""
+    body: Literal["Moon", "Sun", "Source"] = "Moon"
+    """wsjtx: what is followed."""
+    rotor_name: str | None = Field(None, min_length=1, max_length=40)
+    """n1mm: obey what is for the rotor of this name, capitals as in N1MM; left out, whatever comes."""
+    status_to: str | None = None
+    """n1mm: the PC that shows where the antenna points, "address:13010"; 255.255.255.255 for all. Needs rotor_name."""
+    baud: int | None = Field(None, ge=50, le=4_000_000)
+    """Serial ports only; always 8N1. Left out, 9600; rot1prog 1200, rot2prog 600, dcu1 4800."""
     ack: Literal["none", "cr"] = "none"
     """GS-232: what follows a command that asks nothing; old Hamlib (3.x) wants the CR."""
     may_calibrate: bool = False
     """GS-232: O, F, O2 and F2 take the present reading for an end of the range."""
+    easycomm_answer: Literal["named", "pstrotator"] = "named"
+    """EasyComm: AZ EL is answered AZ235.0 EL25.0, or +235.0 25.0 as PstRotator is said to want it."""
+    pulses_per_degree: Literal[1, 2, 4, 10] | None = None
+    """Rot2Prog and MD-01: how finely orders come. Left out, rot2prog 2, md01 10."""
+    read_only: bool = False
+    """Questions are answered and orders refused, a stop too."""
+    allow: list[str] | None = None
+    """Network links: the machines that may connect, as addresses and networks; left out, all that reach the address."""
+    most_clients: int = Field(128, ge=1, le=1000)
+    """TCP: how many may be connected at a time."""
+    most_per_s: int = Field(100, ge=1, le=10_000)
+    """Orders a second from one connection that act at once; of those beyond, the newest counts. Stops always act."""
 
     @model_validator(mode="after")
     def _one_place(self) -> Link:
-        places = [place for place in (self.pty, self.serial, self.tcp) if place is not None]
-        if len(places) != 1:
+        own = next((place for place, protocols in _PLACES.items() if self.protocol in protocols), None)
+        given = [place for place in (*_MANY_PROTOCOLS_PLACES, *_PLACES) if getattr(self, place) is not None]
+        for place in given:
+            if place != own and place in _PLACES:
+                right = own or "exactly one of pty, serial, tcp"
+                raise ValueError(f"{place} is for {', '.join(_PLACES[place])} only; {self.protocol} must have {right}")
+        if own and given != [own]:
+            raise ValueError(f"{self.protocol} must have {own}, and none of pty, serial, tcp")
+        if len(given) != 1:
             raise ValueError("must have exactly one of pty, serial, tcp")
         return self
 
-    @field_validator("tcp")
+    @model_validator(mode="after")
+    def _answers_have_a_port(self) -> Link:
+        if self.protocol == "pstrotator" and self.udp and address(self.udp)[1] == LAST_PORT:
+            raise ValueError(f"pstrotator answers one port higher: {LAST_PORT} leaves none")
+        return self
+
+    @model_validator(mode="after")
+    def _status_has_a_name_and_a_way(self) -> Link:
+        if self.status_to is None:
+            return self
+        if self.protocol != "n1mm" or self.rotor_name is None:
+            raise ValueError("status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name")
+        if self.udp and _is_here(address(self.udp)[0]) and not _is_here(address(self.status_to)[0]):
+            raise ValueError(f'udp = "{self.udp}" reaches this machine only, and status_to is not on it: use 0.0.0.0')
+        return self
+
+    @model_validator(mode="after")
+    def _rights_fit(self) -> Link:
+        if self.read_only and self.protocol in _ONLY_ORDERS:
+            raise ValueError(f"{self.protocol} does nothing but give orders: leave out read_only")
+        if self.allow is not None and (self.pty or self.serial or self.connect or self.file):
+            raise ValueError("allow is for links that others connect to over a network: leave it out")
+        return self
+
+    @field_validator("name")
+    @classmethod
+    def _one_readable_word_or_more(cls, text: str | None) -> str | None:
+        if text is not None and (not text.isprintable() or set(text) & set("<>#")):
+            raise ValueError(f"{text!r} must be printable characters, and none of < > #")
+        return text
+
+    @field_validator("allow")
+    @classmethod
+    def _networks(cls, texts: list[str] | None) -> list[str] | None:
+        for text in texts or ():
+            try:
+                ipaddress.ip_network(text, strict=False)
+            except ValueError:
+                raise ValueError(f'"{text}" must be an address or a network, such as "192.168.1.0/24"') from None
+        return texts
+
+    @field_validator("tcp", "connect", "udp")
     @classmethod
     def _an_address(cls, text: str | None) -> str | None:
         if text is not None:
             address(text)
         return text
 
+    @field_validator("status_to")
+    @classmethod
+    def _a_numeric_address(cls, text: str | None) -> str | None:
+        if text is not None:
+            host, _ = address(text)
+            try:
+                ipaddress.IPv4Address(host)
+            except ValueError:
+                raise ValueError(f'"{text}" must be an IPv4 address and a port, such as "192.168.1.20:13010"') from None
+        return text
+
+    @property
+    def serial_baud(self) -> int:
+        return self.baud or _BAUDS.get(self.protocol, USUAL_BAUD)
+
     @property
     def where(self) -> str:
-        return self.pty or self.serial or self.tcp or ""
+        return self.pty or self.serial or self.tcp or self.connect or self.udp or self.file or ""
 
 
 def address(text: str) -> tuple[str, int]:
     """`host:port` taken apart; an IPv6 host stands in brackets. Raises ValueError."""
     parts = re.fullmatch(r"(?:\[([0-9a-fA-F:.%\w]+)\]|([^:\[\]\s]+)):(\d{1,5})", text)
-    if not parts or not 0 < int(parts[3]) < 65536:
+    if not parts or not 0 < int(parts[3]) <= LAST_PORT:
         raise ValueError(f'"{text}" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"')
     return parts[1] or parts[2], int(parts[3])
+
+
+_THIS_MACHINE = frozenset(("localhost", "127.0.0.1", "::1", "0.0.0.0", "::"))
+
+
+def is_same_place(server: str, client: str) -> bool:
+    """Whether whoever connects to `client` may reach what listens at `server` on this machine; both "host:port"."""
+    (listens, server_port), (goes_to, client_port) = address(server), address(client)
+    if server_port != client_port:
+        return False
+    here = goes_to in _THIS_MACHINE or goes_to.startswith("127.")
+    return listens == goes_to or (here and (listens in _THIS_MACHINE or listens.startswith("127.")))
+
+
+def _is_here(host: str) -> bool:
+    """Whether an address is one that only this machine's own programs reach."""
+    return host in ("localhost", "::1") or host.startswith("127.")

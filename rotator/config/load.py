@@ -108,15 +108,14 @@ def _mend(values: dict[str, Any], place: list[int | str]) -> None:
         parent = parent[part]
     match parent, last:
         case dict(), "protocol":
-            parent[last] = "rotctld"
-        case dict(), "pty" | "serial" | "tcp" if place[0] == "link":
+            places = {"connect": "rotctld-follow", "udp": "pstrotator", "file": "wsjtx"}
+            parent[last] = next((protocol for key, protocol in places.items() if key in parent), "rotctld")
+        case dict(), "pty" | "serial" | "tcp" | "connect" | "udp" | "file" if place[0] == "link":
             parent[last] = f"mended-{place[1]}:1"
         case dict(), _:
             parent.pop(last, None)
         case list(), int() if place[0] == "link" and len(place) == 2:
             parent[last] = {"protocol": "rotctld", "pty": f"mended-{last}"}
-        case list(), int():
-            values[str(place[0])].pop(str(place[1]), None)
         case _:
             _mend(values, way)
 

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from rotator.config.links import Link
+from rotator.config.links import Link, is_same_place
 from rotator.config.table import Table
 
 Gpio = Annotated[int, Field(ge=0, le=57)]
@@ -119,6 +119,12 @@ class MountTable(Table):
 class StateTable(Table):
     path: str = Field("run/state.json", min_length=1)
     """Where the box keeps what it has learnt of its motors; on a Pi `/var/lib/rotator/state.json` is the place."""
+
+
+class MonitorTable(Table):
+    path: str | None = Field(None, min_length=1)
+    """The socket that `rotator monitor` reads; left out, `monitor` in systemd's runtime directory, else beside the
+    state file."""
 
 
 class Control(Table):
@@ -233,6 +239,8 @@ class Config(Table):
     """The control loop."""
     state: StateTable = StateTable()
     """What the box remembers from one run to the next."""
+    monitor: MonitorTable = MonitorTable()
+    """Watching what goes over the links."""
     relays: Relays = Relays()
     """The motor relays. Numbers are GPIO (BCM), not pins of the header."""
     adc: Adc = Adc()
@@ -242,11 +250,12 @@ class Config(Table):
     sim: Sim = Sim()
     """The simulated rotor; without effect on real hardware."""
     link: list[Link] = Field(default_factory=list)
-    """A way in for a program: give exactly one of `pty`, `serial`, `tcp`. As many as you like."""
+    """A way in for a program: give exactly one of `pty`, `serial`, `tcp` (rotctld-follow: `connect`; pstrotator, n1mm,
+    macdoppler: `udp`; wsjtx: `file`). As many as you like."""
 
     @model_validator(mode="after")
     def _nothing_twice(self) -> Config:
-        twice = [*self._pins_twice(), *self._places_twice()]
+        twice = [*self._pins_twice(), *self._places_twice(), *self._follows_itself()]
         if len({self.adc.azimuth_channel, self.adc.elevation_channel, self.adc.reference_channel}) < 3:
             twice.append("adc: azimuth_channel, elevation_channel and reference_channel must differ")
         if self.lcd.kind == "pcf8574" and (self.lcd.bus, self.lcd.address) == (self.adc.bus, self.adc.address):
@@ -267,7 +276,17 @@ class Config(Table):
         return [f"GPIO {pin} is used by {' and '.join(keys)}" for pin, keys in users.items() if len(keys) > 1]
 
     def _places_twice(self) -> list[str]:
-        users: dict[str, int] = {}
+        users: dict[tuple[str, str | None, str | None], int] = {}
         for link in self.link:
-            users[link.where] = users.get(link.where, 0) + 1
-        return [f"{count} links use {where}" for where, count in users.items() if count > 1]
+            place = (link.where, link.connect, link.udp)
+            users[place] = users.get(place, 0) + 1
+        return [f"{count} links use {where}" for (where, *_), count in users.items() if count > 1]
+
+    def _follows_itself(self) -> list[str]:
+        return [
+            f'link[{number}].connect = "{link.connect}" is the box itself (link[{other}].tcp = "{server.tcp}"): '
+            "give one of the two another port"
+            for number, link in enumerate(self.link)
+            for other, server in enumerate(self.link)
+            if link.connect and server.tcp and is_same_place(server.tcp, link.connect)
+        ]

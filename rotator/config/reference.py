@@ -20,6 +20,7 @@ _KINDS = {
     int: "whole number",
     float: "number",
     list[tuple[float, float]]: "list of [number, number]",
+    list[str]: "list of texts",
 }
 _EDGES = {"ge": "from {}", "gt": "above {}", "le": "to {}", "lt": "below {}", "max_length": "up to {}"}
 """How limits are worded; that a text is not empty goes without saying."""

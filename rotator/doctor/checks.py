@@ -44,6 +44,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
     Check("serial ports", "those of the links are there, yours to open, and no console", links.serial_ports),
     Check("pseudo-terminals", "those of the links can be made", links.pseudo_terminals),
     Check("TCP ports", "those of the links are free, or the box's; which are open to the network", links.tcp_ports),
+    Check("UDP ports", "the same of those that hear datagrams", links.udp_ports),
     Check("groups", "gpio, i2c and dialout of you and of the service's user", account.groups),
     Check("state folder", "it can be written to, and the card is not full", account.state_folder),
 )

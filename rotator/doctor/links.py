@@ -1,4 +1,4 @@
-"""The checks of the links: serial ports, pseudo-terminals and TCP ports, before a program at the other end complains.
+"""The checks of the links: serial ports, pseudo-terminals, TCP and UDP ports, before a program at the other end fails.
 
 Knows what the box needs of each, and who may have taken it. Sends nothing, and accepts nobody.
 """
@@ -19,8 +19,8 @@ from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
 
-LISTENING = "0A"
-"""A socket's state in /proc/net/tcp."""
+LISTENING = {socket.SOCK_STREAM: ("tcp", "0A"), socket.SOCK_DGRAM: ("udp", "07")}
+"""The table in /proc/net of each kind of socket, and the state there of those that wait for somebody."""
 PORTS = ("/dev/ttyS0", "/dev/ttyAMA*", "/dev/ttyGS*", "/dev/ttyACM*", "/dev/ttyUSB*")
 """Those that a Pi has and gets."""
 
@@ -83,13 +83,21 @@ def tcp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
     if not names:
         yield skipped("no link has one")
     for name in names:
-        yield _tcp_port(machine, name)
+        yield _port(machine, name, socket.SOCK_STREAM)
 
 
-def _tcp_port(machine: Machine, name: str) -> Finding:
+def udp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
+    names = [link.udp for link in config.link if link.udp is not None]
+    if not names:
+        yield skipped("no link has one")
+    for name in names:
+        yield _port(machine, name, socket.SOCK_DGRAM)
+
+
+def _port(machine: Machine, name: str, kind: socket.SocketKind) -> Finding:
     host, port = address(name)
     try:
-        places = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+        places = socket.getaddrinfo(host, port, type=kind, flags=socket.AI_PASSIVE)
     except (socket.gaierror, UnicodeError):
         return wrong(f"{name}: no machine has that name", ANY_ADDRESS)
     refusals = [number for place in places if (number := _refusal(place))]
@@ -97,7 +105,7 @@ def _tcp_port(machine: Machine, name: str) -> Finding:
         case []:
             state = "free"
         case [errno.EADDRINUSE, *_]:
-            owner = _listener(machine, port)
+            owner = _listener(machine, port, kind)
             if owner is None:
                 return warn(f"{name} is taken, perhaps by the running box", "sudo rotator doctor says by whom.")
             if not _is_ours(owner):
@@ -135,13 +143,14 @@ def _is_ours(command: list[str]) -> bool:
     return any(PurePath(word).name == "rotator" for word in command)
 
 
-def _listener(machine: Machine, port: int) -> list[str] | None:
+def _listener(machine: Machine, port: int, kind: socket.SocketKind) -> list[str] | None:
     """The command line of whoever listens on the port; None where that is not ours to know."""
     sockets = set()
-    for table in ("/proc/net/tcp", "/proc/net/tcp6"):
+    table_name, listening = LISTENING[kind]
+    for table in (f"/proc/net/{table_name}", f"/proc/net/{table_name}6"):
         for row in (machine.text(table) or "").splitlines()[1:]:
             fields = row.split()
-            if fields[3] == LISTENING and int(fields[1].rpartition(":")[2], 16) == port:
+            if fields[3] == listening and int(fields[1].rpartition(":")[2], 16) == port:
                 sockets.add(f"socket:[{fields[9]}]")
     for descriptor in machine.glob("/proc/[0-9]*/fd/*"):
         try:

@@ -7,38 +7,53 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import os
-import socket
+import time
 from collections.abc import Callable
 from typing import cast
 
-from rotator.links.wire import Conversation, LinkError, Wire
+from rotator.links.allowed import Allowed
+from rotator.links.wire import Conversation, LinkError, Wire, reason
 from rotator.protocols.session import Session
+from rotator.seldom import Seldom
 
 log = logging.getLogger(__name__)
 
 MOST_CLIENTS = 128
 UNREAD_LIMIT = 65_536
 """A client that reads nothing is dropped once this many bytes wait for it."""
+READ_BYTES = 512
+"""Taken from one client before the others have their turn: a flood of commands holds up nobody's stop."""
 
 
 class TcpLink:
-    def __init__(self, wire: Wire, host: str, port: int, session: Callable[[], Session]) -> None:
+    def __init__(
+        self,
+        wire: Wire,
+        host: str,
+        port: int,
+        session: Callable[[], Session],
+        *,
+        allowed: Allowed = Allowed(),  # noqa: B008 - it never changes
+        most_clients: int = MOST_CLIENTS,
+    ) -> None:
         self.wire = wire
+        self.allowed = allowed
+        self.most_clients = most_clients
+        self.session = session
+        self.clients: set[_Client] = set()
         self._host = host
         self._port = port
-        self._session = session
-        self._clients: set[_Client] = set()
+        self._complaints = Seldom(time.monotonic)
         self._server: asyncio.Server | None = None
 
     async def open(self) -> None:
         """Raises LinkError."""
         try:
             self._server = await asyncio.get_running_loop().create_server(
-                lambda: _Client(self.wire, self._session, self._clients), self._host, self._port, reuse_address=True
+                lambda: _Client(self), self._host, self._port, reuse_address=True
             )
         except (OSError, UnicodeError) as fault:
-            raise LinkError(f"{self._host}:{self._port}: cannot listen there: {_why(fault)}") from fault
+            raise LinkError(f"{self._host}:{self._port}: cannot listen there: {reason(fault)}") from fault
         self.wire.state = "listening"
 
     async def run(self) -> None:
@@ -48,51 +63,54 @@ class TcpLink:
             await asyncio.Event().wait()
         finally:
             self._server.close()
-            for client in list(self._clients):
+            for client in list(self.clients):
                 client.drop()
             self.wire.state = "closed"
 
+    def complain(self, text: str) -> None:
+        told = self._complaints.tell(text)
+        if told:
+            log.warning("%s: %s", self.wire.name, told)
 
-def _why(fault: OSError | UnicodeError) -> str:
-    match fault:
-        case socket.gaierror():
-            return fault.strerror or str(fault)
-        case OSError(errno=int() as number):
-            # asyncio wraps the system's words in many of its own.
-            return os.strerror(number)
-        case OSError():
-            return str(fault)
-        case _:
-            return "no machine can have that name"
+    def note(self) -> None:
+        count = len(self.clients)
+        self.wire.state = f"{count} client{'s' if count != 1 else ''}" if count else "listening"
 
 
-class _Client(asyncio.Protocol):
-    def __init__(self, wire: Wire, session: Callable[[], Session], clients: set[_Client]) -> None:
-        self._wire = wire
-        self._session = session
-        self._clients = clients
+class _Client(asyncio.BufferedProtocol):
+    def __init__(self, link: TcpLink) -> None:
+        self._link = link
+        self._buffer = bytearray(READ_BYTES)
         self._transport: asyncio.Transport | None = None
         self._conversation: Conversation | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._transport = cast(asyncio.Transport, transport)
-        if len(self._clients) >= MOST_CLIENTS:
-            log.warning("%s: %d clients already, one more is turned away", self._wire.name, MOST_CLIENTS)
+        host = str((self._transport.get_extra_info("peername") or ("",))[0])
+        if not self._link.allowed(host):
+            self._link.complain(f"{host} is not in allow: turned away")
             self._transport.abort()
             return
-        self._clients.add(self)
-        self._conversation = Conversation(self._session(), self._wire, self._write, self._transport.close)
-        self._note()
+        if len(self._link.clients) >= self._link.most_clients:
+            self._link.complain(f"{self._link.most_clients} clients already, one more is turned away")
+            self._transport.abort()
+            return
+        self._link.clients.add(self)
+        self._conversation = Conversation(self._link.session(), self._link.wire, self._write, self._transport.close)
+        self._link.note()
 
-    def data_received(self, data: bytes) -> None:
+    def get_buffer(self, sizehint: int) -> bytearray:
+        return self._buffer
+
+    def buffer_updated(self, nbytes: int) -> None:
         if self._conversation is not None:
-            self._conversation.received(data)
+            self._conversation.received(bytes(self._buffer[:nbytes]))
 
     def connection_lost(self, exc: Exception | None) -> None:
         if self._conversation is not None:
             self._conversation.close()
-        self._clients.discard(self)
-        self._note()
+        self._link.clients.discard(self)
+        self._link.note()
 
     def drop(self) -> None:
         if self._transport is not None:
@@ -102,11 +120,7 @@ class _Client(asyncio.Protocol):
         if self._transport is None or self._transport.is_closing():
             return
         if self._transport.get_write_buffer_size() + len(data) > UNREAD_LIMIT:
-            log.warning("%s: a client reads nothing: dropped", self._wire.name)
+            self._link.complain("a client reads nothing: dropped")
             self._transport.abort()
             return
         self._transport.write(data)
-
-    def _note(self) -> None:
-        count = len(self._clients)
-        self._wire.state = f"{count} client{'s' if count != 1 else ''}" if count else "listening"

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
+import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -19,6 +21,20 @@ KEPT_BYTES = 64
 
 class LinkError(Exception):
     """A link cannot be opened; the text says which, and what to do."""
+
+
+def reason(fault: OSError | UnicodeError) -> str:
+    """Why an address cannot be listened at or reached, in the system's words."""
+    match fault:
+        case socket.gaierror():
+            return fault.strerror or str(fault)
+        case OSError(errno=int() as number):
+            # asyncio wraps the system's words in many of its own.
+            return os.strerror(number)
+        case OSError():
+            return str(fault)
+        case _:
+            return "no machine can have that name"
 
 
 @dataclass(slots=True)

@@ -10,7 +10,7 @@ from rotator.orders import Order
 from rotator.protocols import gs232, rotctld
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
-from rotator.protocols.rotctld import RotctldSession
+from rotator.protocols.rotctld_session import RotctldSession
 from rotator.status import AxisStatus, Status
 
 AZIMUTH_DEG, ELEVATION_DEG = 235.0, 25.0
@@ -20,19 +20,33 @@ _GS232_EXAMPLES = {"M": "M235", "W": "W235 025"}
 """Commands that are written with numbers; all others stand alone."""
 _TIMED_LIST = b"W010 235 025 240 030 245 035\r"
 """What has been sent before T and N, which make no sense without."""
-_ROTCTLD_EXAMPLES = {"set_pos": ("235", "25")}
-_ROTCTLD_MEANINGS = {
-    "set_pos": "Go there: azimuth, elevation",
-    "get_pos": "Read azimuth, then elevation",
-    "stop": "Stop everything",
-    "park": "Go to the park position",
-    "get_info": "What this is",
-    "quit": "Close the connection",
-    "dump_state": "The limits, asked by `rotctl -m 2` when it connects",
+_ROTCTLD_EXAMPLES = {
+    "set_pos": "235 25",
+    "reset": "1",
+    "move": "CW -1",
+    "set_level": "SPEED 2",
+    "get_level": "SPEED",
+    "set_func": "?",
+    "get_func": "?",
+    "set_parm": "?",
+    "get_parm": "?",
+    "set_conf": "max_az 540",
+    "get_conf": "max_az",
+    "send_cmd": "C2",
+    "lonlat2loc": "-70.5 42.3 6",
+    "loc2lonlat": "FN42rh",
+    "dms2dec": "70 30 36 1",
+    "dec2dms": "-70.51",
+    "dmmm2dec": "70 30.6 1",
+    "dec2dmmm": "-70.51",
+    "qrb": "-70.5 42.3 10.2 50.1",
+    "a_sp2a_lp": "30",
+    "d_sp2d_lp": "1000",
+    "pause": "5",
 }
 
 
-class _Example:
+class Example:
     """A box that stands at 235/25 and agrees to everything."""
 
     def status(self) -> Status:
@@ -48,33 +62,34 @@ def gs232_table() -> str:
     for verb in gs232.VERBS:
         example = _GS232_EXAMPLES.get(verb.text, verb.text)
         rows.append((f"`{verb.text}`", verb.help, f"`{example}`", *(_gs232_answer(each, example) for each in Dialect)))
-    return _table(rows)
+    return table(rows)
 
 
 def rotctld_table() -> str:
     """Every rotctld command that the box knows, with an example and its answer."""
     rows: list[tuple[str, ...]] = [("command", "long form", "what it does", "example", "answer")]
     for verb in rotctld.VERBS:
-        request = rotctld.Request(verb.name, _ROTCTLD_EXAMPLES.get(verb.name, ()))
-        session = RotctldSession(_Example())
+        request = rotctld.Request(verb.name, tuple(_ROTCTLD_EXAMPLES.get(verb.name, "").split()))
+        session = RotctldSession(Example())
         answer = b"".join(session.receive(rotctld.encode(request)))
         letter = f"`{verb.letter}`" if verb.letter.isascii() else ""
-        shown = "the connection ends" if session.closed else _shown(answer)
+        said = "the connection ends" if session.closed else shown(answer)
         example = rotctld.encode(request).decode().strip()
         if verb.letter.isascii():
             example = verb.letter + example[1:]
-        rows.append((letter, f"`\\{verb.name}`", _ROTCTLD_MEANINGS[verb.name], f"`{example}`", shown))
-    return _table(rows)
+        rows.append((letter, f"`\\{verb.name}`", verb.help, f"`{example}`", said))
+    return table(rows)
 
 
 def _gs232_answer(dialect: Dialect, example: str) -> str:
-    session = Gs232Session(_Example(), dialect, may_calibrate=True)
+    session = Gs232Session(Example(), dialect, may_calibrate=True)
     if example in ("T", "N"):
         session.receive(_TIMED_LIST)
-    return _shown(b"".join(session.receive(example.encode() + b"\r")))
+    return shown(b"".join(session.receive(example.encode() + b"\r")))
 
 
-def _shown(answer: bytes) -> str:
+def shown(answer: bytes) -> str:
+    """An answer as the page has it."""
     if not answer:
         return "nothing"
     if len(answer) > LONGEST_SHOWN:
@@ -84,6 +99,7 @@ def _shown(answer: bytes) -> str:
     return f"`{text}`"
 
 
-def _table(rows: list[tuple[str, ...]]) -> str:
+def table(rows: list[tuple[str, ...]]) -> str:
+    """Markdown, with the first row for a head."""
     ruled = [rows[0], tuple("---" for _ in rows[0]), *rows[1:]]
     return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |\n" for row in ruled)

@@ -1,35 +1,33 @@
-"""Hamlib's rotctld protocol, server side: requests by letter or long name, answers to the byte.
+"""Hamlib's rotctld protocol on the wire: the command table, requests and answers, both ways.
 
-Knows the command table and the answers that old and new clients accept. Unlike the genuine server it is line-based,
-answers everything (Gpredict's window freezes on silence) and gives each answer in one piece (Gpredict and SatDump read
-once a command).
+Knows letters, long names, separators of the extended protocol and the form of every answer. Knows nothing of what a
+command does. Unlike the genuine server it is line-based: a line is understood whole before any of it is obeyed, and
+arguments do not go on in the next line.
 """
 
 from __future__ import annotations
 
 import re
+import string
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from rotator import __version__
-from rotator.orders import Aim, Order, Park, Stop
-from rotator.protocols.lines import LineReader
-from rotator.protocols.session import Box
-from rotator.status import Status
-
 MAX_LINE = 512
-NO_NEWLINE_S = 0.1
-"""Windows builds of Gpredict up to 2018 end no line: a whole command and then silence is taken as sent."""
 
 OK = 0
 INVALID_PARAMETER = -1
 NOT_IMPLEMENTED = -4
 IO_ERROR = -6
+REJECTED = -9
+NOT_AVAILABLE = -11
 
-_PRETENDED_MODEL = 603
+QUESTION = "?"
+"""In place of a name: which names there are. No value follows it."""
+_SEPARATORS = frozenset(string.punctuation) - frozenset("\\_#")
 _BLANKS = re.compile(r"[ \t]+")
 _NUMBER = re.compile(r"[+-]?(\d{1,12}([.,]\d{0,12})?|[.,]\d{1,12})([eE][+-]?\d)?")
 """A finite number in any locale; neither `nan` nor `inf` is a direction."""
+_WHOLE = re.compile(r"[+-]?\d{1,9}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,18 +36,47 @@ class Verb:
 
     letter: str
     name: str
+    help: str
     arguments: int = 0
+    asks: bool = False
+    """The first argument may be `?`, and is then the only one."""
+    rest_of_line: bool = False
+    """Its one argument is all that follows."""
 
 
 VERBS = (
-    Verb("P", "set_pos", 2),
-    Verb("p", "get_pos"),
-    Verb("S", "stop"),
-    Verb("K", "park"),
-    Verb("_", "get_info"),
-    Verb("Q", "quit"),
-    Verb("q", "quit"),
-    Verb("\x8f", "dump_state"),
+    Verb("P", "set_pos", "Go there: azimuth, elevation", 2),
+    Verb("p", "get_pos", "Read azimuth, then elevation"),
+    Verb("S", "stop", "Stop everything"),
+    Verb("K", "park", "Go to the park position"),
+    Verb("R", "reset", "Stop everything and acknowledge faults, as `S`; any number", 1),
+    Verb("M", "move", "Turn until stopped: direction, speed (1 to 100; -1: unchanged)", 2),
+    Verb("V", "set_level", "Set SPEED, 1 to 4", 2, asks=True),
+    Verb("v", "get_level", "Read SPEED", 1),
+    Verb("U", "set_func", "No rotor has any", 2, asks=True),
+    Verb("u", "get_func", "No rotor has any", 1),
+    Verb("X", "set_parm", "No rotor has any", 2, asks=True),
+    Verb("x", "get_parm", "No rotor has any", 1),
+    Verb("C", "set_conf", "Never widens a limit; see below", 2, asks=True),
+    Verb("\xad", "get_conf", "Read one value of the list of `3`; `?`: all", 1),
+    Verb("_", "get_info", "What this is"),
+    Verb("s", "get_status", "What moves, and which ends have been reached"),
+    Verb("w", "send_cmd", "There is no device to pass it on to", 1, rest_of_line=True),
+    Verb("1", "dump_caps", "What the rotor can do"),
+    Verb("3", "dump_conf", "The values of `get_conf`"),
+    Verb("\x8f", "dump_state", "The limits, asked by `rotctl -m 2` when it connects"),
+    Verb("L", "lonlat2loc", "Longitude, latitude, number of characters to a locator", 3),
+    Verb("l", "loc2lonlat", "Locator to longitude and latitude of its middle", 1),
+    Verb("D", "dms2dec", "Degrees, minutes, seconds, 1 for south or west, to decimal degrees", 4),
+    Verb("d", "dec2dms", "Decimal degrees to degrees, minutes, seconds, 1 for south or west", 1),
+    Verb("E", "dmmm2dec", "Degrees, minutes, 1 for south or west, to decimal degrees", 3),
+    Verb("e", "dec2dmmm", "Decimal degrees to degrees, minutes, 1 for south or west", 1),
+    Verb("B", "qrb", "Km and bearing from longitude, latitude to longitude, latitude", 4),
+    Verb("A", "a_sp2a_lp", "Short-path bearing to long-path bearing", 1),
+    Verb("a", "d_sp2d_lp", "Short-path km to long-path km", 1),
+    Verb("\x8c", "pause", "Answered at once: nobody is made to wait", 1),
+    Verb("Q", "quit", "Close the connection"),
+    Verb("q", "quit", "Close the connection"),
 )
 _BY_LETTER = {verb.letter: verb for verb in VERBS}
 _BY_NAME = {verb.name: verb for verb in VERBS}
@@ -59,10 +86,27 @@ _BY_NAME = {verb.name: verb for verb in VERBS}
 class Request:
     name: str
     arguments: tuple[str, ...] = ()
+    separator: str = ""
+    """What parts the records of the answer in the extended protocol; empty: the default protocol."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a command has to say. `encode_answer` gives it the form that the request asked for."""
+
+    code: int = OK
+    records: tuple[tuple[str, str], ...] = ()
+    """Values with their labels, which only the extended protocol shows; an empty label is never shown."""
+    text: str = ""
+    """Whole lines that look the same in both protocols."""
+    always_reports: bool = False
+    """RPRT follows the text in the default protocol too."""
+    default_text: str = ""
+    """In the default protocol all of the above is replaced by this."""
 
 
 class BadRequest(ValueError):  # noqa: N818 - it is an answer, not a failure of the program
-    """The rest of the line cannot be understood; `code` says why in Hamlib's numbers."""
+    """The rest of the line cannot be understood, or not be obeyed; `code` says why in Hamlib's numbers."""
 
     def __init__(self, code: int) -> None:
         super().__init__(code)
@@ -72,132 +116,70 @@ class BadRequest(ValueError):  # noqa: N818 - it is an answer, not a failure of 
 def requests(line: str) -> Iterator[Request]:
     """The requests in one line, in order. Raises BadRequest where the line stops making sense."""
     words = [word for word in _BLANKS.split(line) if word]
+    separator = ""
     while words:
         word = words.pop(0)
         if word.startswith("#"):
             return
+        if word[0] in _SEPARATORS:
+            separator = "\n" if word[0] == "+" else word[0]
+            words[:0] = [word[1:]] if word[1:] else []
+            continue
         if word.startswith("\\"):
             verb, rest = _BY_NAME.get(word[1:]), ""
         else:
             verb, rest = _BY_LETTER.get(word[0]), word[1:]
         if verb is None:
             raise BadRequest(NOT_IMPLEMENTED)
-        if rest:
-            # `P20 10` and `pp` need no blank.
-            words.insert(0, rest)
-        if len(words) < verb.arguments:
+        # `P20 10` and `pp` need no blank.
+        words[:0] = [rest] if rest else []
+        count = 1 if verb.asks and words[:1] == [QUESTION] else verb.arguments
+        if len(words) < count:
             raise BadRequest(INVALID_PARAMETER)
-        arguments, words = words[: verb.arguments], words[verb.arguments :]
-        yield Request(verb.name, tuple(arguments))
+        if verb.rest_of_line:
+            words = [" ".join(words)]
+        arguments, words = tuple(words[:count]), words[count:]
+        yield Request(verb.name, arguments, separator)
+        separator = ""
+    if separator:
+        raise BadRequest(NOT_IMPLEMENTED)
 
 
 def encode(request: Request) -> bytes:
     """A request as a client sends it."""
     letter = _BY_NAME[request.name].letter
     head = letter if letter.isascii() else "\\" + request.name
-    return (" ".join((head, *request.arguments)) + "\n").encode()
+    mark = "+" if request.separator == "\n" else request.separator
+    return (mark + " ".join((head, *request.arguments)) + "\n").encode()
+
+
+def encode_answer(request: Request, answer: Answer) -> bytes:
+    """An answer in the form that its request asked for."""
+    said = answer.code == OK
+    if request.separator:
+        mark = request.separator
+        rows = [" ".join((f"{request.name}:", *request.arguments))]
+        rows += [f"{label}: {value}" if label else value for label, value in answer.records] if said else []
+        text = "".join(row + mark for row in rows) + (answer.text if said else "")
+        return text.encode("latin-1") + report(answer.code)
+    text = "".join(f"{value}\n" for _, value in answer.records) + answer.text if said else ""
+    text = answer.default_text or text
+    return text.encode("latin-1") + (report(answer.code) if not text or answer.always_reports else b"")
 
 
 def report(code: int) -> bytes:
     return f"RPRT {code}\n".encode()
 
 
-def angle(word: str) -> float:
+def number(word: str) -> float:
     """A number as clients of any locale write it. Raises BadRequest."""
     if not _NUMBER.fullmatch(word):
         raise BadRequest(INVALID_PARAMETER)
     return float(word.replace(",", "."))
 
 
-def dump_state(status: Status) -> bytes:
-    """Limits for clients that enforce them. Bare numbers first for Hamlib up to 4.5.0, then `key=value` for later ones.
-
-    Azimuth covers at least the whole circle and elevation 0 to 180, since the box turns any direction into axis angles
-    itself; never below zero without need, because CQRLOG takes that for a shifted scale.
-    """
-    min_az_deg = min(0.0, status.azimuth.min_deg)
-    max_az_deg = max(360.0, status.azimuth.max_deg)
-    limits = {"min_az": min_az_deg, "max_az": max_az_deg, "min_el": 0.0, "max_el": 180.0}
-    rows = ["1", str(_PRETENDED_MODEL)]
-    rows += [f"{value:.6f}" for value in limits.values()]
-    rows += ["0"]
-    rows += [f"{key}={value:.6f}" for key, value in limits.items()]
-    rows += ["south_zero=0", "rot_type=AzEl", "done"]
-    return "".join(row + "\n" for row in rows).encode()
-
-
-class RotctldSession:
-    idle_s = NO_NEWLINE_S
-
-    def __init__(self, box: Box) -> None:
-        self._box = box
-        self._lines = LineReader(MAX_LINE)
-        self.closed = False
-
-    def receive(self, data: bytes) -> list[bytes]:
-        return [reply for line in self._lines.feed(data) for reply in self._answers(line)]
-
-    def idle(self) -> list[bytes]:
-        pending = self._lines.pending.decode("latin-1")
-        try:
-            whole = bool(pending) and all(map(self._complete, requests(pending)))
-        except BadRequest:
-            return []
-        return self._answers(self._lines.flush()) if whole else []
-
-    def _complete(self, request: Request) -> bool:
-        return all(_NUMBER.fullmatch(word) for word in request.arguments)
-
-    def _answers(self, line: bytes | None) -> list[bytes]:
-        if self.closed:
-            return []
-        if line is None:
-            return [report(INVALID_PARAMETER)]
-        try:
-            # Understood whole before any of it is obeyed: KEEPALIVE is no order to park.
-            understood = list(requests(line.decode("latin-1")))
-        except BadRequest as fault:
-            return [report(fault.code)]
-        replies = []
-        for request in understood:
-            try:
-                replies.append(self._answer(request))
-            except BadRequest as fault:
-                replies.append(report(fault.code))
-            if self.closed:
-                break
-        return [reply for reply in replies if reply]
-
-    def _answer(self, request: Request) -> bytes:
-        match request.name:
-            case "set_pos":
-                return self._set_position(*map(angle, request.arguments))
-            case "get_pos":
-                return self._position()
-            case "stop":
-                return self._order(Stop())
-            case "park":
-                return self._order(Park())
-            case "get_info":
-                return f"gs232-rotator {__version__}\n".encode()
-            case "dump_state":
-                return dump_state(self._box.status())
-            case "quit":
-                self.closed = True
-                return b""
-        raise BadRequest(NOT_IMPLEMENTED)
-
-    def _set_position(self, azimuth_deg: float, elevation_deg: float) -> bytes:
-        if not (-180 <= azimuth_deg <= 540 and -90 <= elevation_deg <= 180):  # Hamlib's widest limits
-            raise BadRequest(INVALID_PARAMETER)
-        # A negative azimuth is a direction; only from zero on can it name a turn of the overlap.
-        return self._order(Aim(azimuth_deg % 360 if azimuth_deg < 0 else azimuth_deg, elevation_deg))
-
-    def _order(self, order: Order) -> bytes:
-        return report(INVALID_PARAMETER if self._box.order(order) else OK)
-
-    def _position(self) -> bytes:
-        status = self._box.status()
-        if status.azimuth.angle_deg is None or status.elevation.angle_deg is None:
-            return report(IO_ERROR)
-        return f"{status.azimuth.angle_deg:.2f}\n{status.elevation.angle_deg:.2f}\n".encode()
+def whole_number(word: str) -> int:
+    """Raises BadRequest."""
+    if not _WHOLE.fullmatch(word):
+        raise BadRequest(INVALID_PARAMETER)
+    return int(word)

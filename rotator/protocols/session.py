@@ -37,3 +37,21 @@ class Session(Protocol):
 
     def idle(self) -> list[bytes]:
         """The line has been silent for `idle_s`: what is buffered is all that will come."""
+
+
+class NotUnderstood(Exception):  # noqa: N818 - what the other end says, no failure of the program
+    """The other end does not speak this protocol; the text says what it said."""
+
+
+class Inquiry(Protocol):
+    """One connection's side of a protocol in which the box asks, and the other end answers."""
+
+    @property
+    def trouble(self) -> str:
+        """What is wrong with the last answer, though it was one; empty: nothing."""
+
+    def ask(self) -> bytes:
+        """The next question. What is left of an earlier answer is forgotten."""
+
+    def receive(self, data: bytes) -> bool:
+        """Take bytes as they arrive, in any pieces. True: the answer is whole. Raises NotUnderstood."""

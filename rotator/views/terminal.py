@@ -43,7 +43,7 @@ class WireView(Protocol):
 def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str]:
     """Where to connect, in plain lines."""
     what = "a SIMULATED rotor" if hardware == "sim" else "the rotor on this Pi"
-    return [f"rotator {version}: {what}", *(f"  {wire.protocol:<12}{wire.where}  ({wire.state})" for wire in wires)]
+    return [f"rotator {version}: {what}", *(f"  {wire.protocol:<11} {wire.where}  ({wire.state})" for wire in wires)]
 
 
 def line(status: Status) -> str:

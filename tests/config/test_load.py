@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
+from rotator.config.links import FOLLOW, ProtocolName
 from rotator.config.load import ConfigError, load, parse, shipped
 from rotator.config.model import Config
 
@@ -51,14 +53,33 @@ def test_the_keys_that_others_rely_on() -> None:
         "pot_bow_deg": 0.0,
     }
     assert config.sim.elevation.speed_dps == 2.7
-    assert parse('[[link]]\nprotocol = "gs232a"\nserial = "/dev/ttyGS0"\n', "x").link[0].baud == 9600
+    assert parse('[[link]]\nprotocol = "gs232a"\nserial = "/dev/ttyGS0"\n', "x").link[0].serial_baud == 9600
 
 
 def test_whole_numbers_are_numbers() -> None:
     assert parse("[azimuth]\ntolerance_deg = 2\ncalibration = [[0, 0], [1, 360]]\n", "x").azimuth.tolerance_deg == 2
 
 
-@pytest.mark.parametrize("protocol", ["gs232a", "gs232b", "gs232-f1efw", "rotctld"])
+@pytest.mark.parametrize(
+    ("link", "baud"),
+    [
+        ('protocol = "gs232b"', 9600),
+        ('protocol = "easycomm2"', 9600),
+        ('protocol = "md01"', 9600),
+        ('protocol = "dcu1"', 4800),
+        ('protocol = "rot1prog"', 1200),
+        ('protocol = "rot2prog"', 600),
+        ('protocol = "rot2prog"\nbaud = 9600', 9600),
+    ],
+)
+def test_a_makers_own_speed_unless_another_is_given(link: str, baud: int) -> None:
+    assert parse(f'[[link]]\n{link}\nserial = "/dev/ttyGS0"\n', "x").link[0].serial_baud == baud
+
+
+ONE_PLACE = (FOLLOW, "pstrotator", "n1mm", "macdoppler", "wsjtx")
+
+
+@pytest.mark.parametrize("protocol", [name for name in get_args(ProtocolName) if name not in ONE_PLACE])
 @pytest.mark.parametrize("place", ['pty = "x"', 'serial = "/dev/ttyUSB0"', 'tcp = "[::1]:4533"'])
 def test_any_protocol_on_any_link(protocol: str, place: str) -> None:
     assert parse(f'[[link]]\nprotocol = "{protocol}"\n{place}\n', "x").link[0].where in place

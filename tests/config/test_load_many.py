@@ -56,7 +56,9 @@ def test_every_fault_at_once() -> None:
         "azimuth.tolerance_deg = -1: must be greater than 0",
         "elevation: min_deg (90) must be below max_deg (0)",
         'relays.azimuth_cw = "22": must be a whole number',
-        'link[0].protocol = "gs232": must be one of gs232a, gs232b, gs232-f1efw, rotctld; did you mean gs232b?',
+        'link[0].protocol = "gs232": must be one of gs232a, gs232b, gs232-f1efw, rotctld, rotctld-follow, easycomm1, '
+        "easycomm2, easycomm3, rot1prog, rot2prog, md01, dcu1, pstrotator, n1mm, macdoppler, wsjtx; "
+        "did you mean gs232b?",
         'link[1].tcp: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
     }
     assert any(

@@ -45,7 +45,10 @@ def test_every_key_has_its_row(name: str) -> None:
         "| `address` | whole number | 0x08 to 0x77 | `0x48` |",
         "| `master` | whole number | 0 to 57 | left out |",
         "| `calibration` | list of [number, number] |  | left out |",
-        '| `protocol` | text | "gs232a", "gs232b", "gs232-f1efw", "rotctld" | must be given |',
+        '| `protocol` | text | "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow", "easycomm1", '
+        '"easycomm2", "easycomm3", "rot1prog", "rot2prog", "md01", "dcu1", "pstrotator", "n1mm", '
+        '"macdoppler", "wsjtx" | must be given |',
+        "| `pulses_per_degree` | whole number | 1, 2, 4, 10 | left out |",
         "| `name` | text | up to 24 characters | left out |",
         "| `direction_checked` | true or false |  | `false` |",
     ],

@@ -149,6 +149,45 @@ def test_an_address_of_another_machine(pi: Pi, host: str) -> None:
     assert "address of this machine" in finding.advice
 
 
+# --- UDP ports
+
+
+def udp(where: str) -> str:
+    return f'[[link]]\nprotocol = "pstrotator"\nudp = "{where}"\n'
+
+
+@pytest.fixture
+def heard() -> Iterator[int]:
+    """A port at which somebody hears datagrams."""
+    with socket.socket(type=socket.SOCK_DGRAM) as ears:
+        ears.bind(("127.0.0.1", 0))
+        yield ears.getsockname()[1]
+
+
+def test_a_free_udp_port_though_the_tcp_port_is_taken(pi: Pi, taken: int) -> None:
+    pi.station(udp(f"127.0.0.1:{taken}"))
+    assert (pi.only("UDP ports").mark, pi.only("UDP ports").found) == ("✓", f"127.0.0.1:{taken}: free")
+    assert pi.only("TCP ports").mark == "–"
+
+
+@pytest.mark.parametrize(
+    ("command", "mark", "found"),
+    [(["rotator", "run"], "✓", ": the running box"), (["PstRotator.exe"], "✗", " is taken by PstRotator.exe")],
+)
+def test_a_udp_port_that_is_taken(pi: Pi, heard: int, command: list[str], mark: str, found: str) -> None:
+    pi.station(udp(f"127.0.0.1:{heard}"))
+    listens(pi, heard, command)
+    pi.write("/proc/net/udp", pi.machine.at("/proc/net/tcp").read_text().replace(" 0A ", " 07 "))
+    pi.machine.at("/proc/net/tcp").unlink()
+    assert (pi.only("UDP ports").mark, pi.only("UDP ports").found) == (mark, f"127.0.0.1:{heard}{found}")
+
+
+def test_a_udp_port_that_is_open_to_the_network(pi: Pi) -> None:
+    pi.station(udp("0.0.0.0:15333"))
+    assert pi.only("UDP ports").mark == "!"
+    assert "open to the network" in pi.only("UDP ports").found
+
+
 # --- groups
 
 

@@ -32,23 +32,28 @@ class RunningBox:
         return self.process.wait(timeout=START_S)
 
 
-def free_port() -> int:
+def _free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         return int(probe.getsockname()[1])
 
 
 @pytest.fixture
+def free_port() -> Callable[[], int]:
+    return _free_port
+
+
+@pytest.fixture
 def start_box(tmp_path: Path) -> Iterator[Callable[..., RunningBox]]:
     boxes: list[subprocess.Popen[str]] = []
 
-    def start(dialect: str = "gs232b", extra: str = FAST_ROTOR) -> RunningBox:
-        pty, gs232_port, rotctld_port = tmp_path / "gs232", free_port(), free_port()
+    def start(dialect: str = "gs232b", extra: str = FAST_ROTOR, links: str = "") -> RunningBox:
+        pty, gs232_port, rotctld_port = tmp_path / "gs232", _free_port(), _free_port()
         config = tmp_path / "rotator.toml"
         config.write_text(
             f'{extra}\n[state]\npath = "{tmp_path / "state.json"}"\n[[link]]\nprotocol = "{dialect}"\npty = "{pty}"\n'
             f'[[link]]\nname = "tcp"\nprotocol = "{dialect}"\ntcp = "127.0.0.1:{gs232_port}"\n'
-            f'[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{rotctld_port}"\n'
+            f'[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{rotctld_port}"\n{links}'
         )
         process = subprocess.Popen(
             [sys.executable, "-m", "rotator", "run", "--plain", "--config", str(config)],

@@ -12,6 +12,19 @@ import pytest
 Start = Callable[..., "RunningBox"]  # noqa: F821 - a fixture's type
 TOLERANCE_DEG = 4.5
 """What the box promises, and half a degree for whole-degree replies."""
+DIALECTS = {
+    **dict.fromkeys((601, 602), "gs232a"),
+    603: "gs232b",
+    201: "easycomm1",
+    202: "easycomm2",
+    204: "easycomm3",
+    901: "rot2prog",
+    902: "rot1prog",
+    903: "md01",
+    **dict.fromkeys((401, 403, 404, 405), "dcu1"),
+}
+SPEEDS = {903: ("-s", "9600")}
+"""The MD-01 model's own default, 460800, is one that this Hamlib cannot set."""
 PATIENCE_S = 60.0
 """How long to go on asking whether the antenna has arrived: each question is a rotctl of its own."""
 
@@ -22,7 +35,7 @@ def rotctl(need_program: Callable[[str, str], str]) -> Callable[..., str]:
 
     def run(model: int, where: Path | str, *words: str) -> str:
         done = subprocess.run(
-            [program, "-m", str(model), "-r", str(where), *words],
+            [program, "-m", str(model), "-r", str(where), *SPEEDS.get(model, ()), *words],
             capture_output=True,
             text=True,
             timeout=30,
@@ -39,6 +52,10 @@ def position(output: str) -> tuple[float, float]:
     return float(azimuth), float(elevation)
 
 
+def place(box: RunningBox, over: str) -> Path | str:  # noqa: F821 - as above
+    return box.pty if over == "pty" else f"127.0.0.1:{box.gs232_port}"
+
+
 def arrive(rotctl: Callable[..., str], model: int, where: Path | str, goal: tuple[float, float]) -> None:
     """Ask again and again, as a tracking program does, until the antenna is where it was sent."""
     seen = (float("nan"), float("nan"))
@@ -50,26 +67,87 @@ def arrive(rotctl: Callable[..., str], model: int, where: Path | str, goal: tupl
     pytest.fail(f"the antenna stands at {seen}, not at {goal}")
 
 
-@pytest.mark.parametrize(("model", "dialect"), [(601, "gs232a"), (602, "gs232a"), (603, "gs232b")])
+def rest(rotctl: Callable[..., str], model: int, where: Path | str) -> tuple[float, float]:
+    """Ask until two answers in a row agree; of a rotor at full speed they would not."""
+    before = position(rotctl(model, where, "p"))
+    give_up_s = time.monotonic() + PATIENCE_S
+    while time.monotonic() < give_up_s:
+        seen = position(rotctl(model, where, "p"))
+        if seen == pytest.approx(before, abs=1):
+            return seen
+        before = seen
+    pytest.fail("the antenna does not come to rest")
+
+
+@pytest.mark.parametrize("model", [601, 602, 603, 202, 204, 901, 903])
 @pytest.mark.parametrize("over", ["pty", "tcp"])
-def test_set_read_and_stop(start_box: Start, rotctl: Callable[..., str], model: int, dialect: str, over: str) -> None:
-    box = start_box(dialect)
-    where = box.pty if over == "pty" else f"127.0.0.1:{box.gs232_port}"
-    assert position(rotctl(model, where, "p")) == (0, 0)
+def test_set_read_and_stop(start_box: Start, rotctl: Callable[..., str], model: int, over: str) -> None:
+    box = start_box(DIALECTS[model])
+    where = place(box, over)
+    assert position(rotctl(model, where, "p")) == pytest.approx((0, 0), abs=0.2)
     rotctl(model, where, "P", "75", "25")
     arrive(rotctl, model, where, (75, 25))
-    rotctl(model, where, "P", "440", "25")
+    # Hamlib itself lets EasyComm go no farther than 360.
+    rotctl(model, where, "P", "360" if model in (202, 204) else "440", "25")
     rotctl(model, where, "S")
-    stopped = position(rotctl(model, where, "p"))
-    assert stopped[0] < 430
-    assert position(rotctl(model, where, "p")) == pytest.approx(stopped, abs=2)
+    assert rest(rotctl, model, where)[0] < 350
     assert box.stop() == 0
 
 
-@pytest.mark.parametrize(("model", "dialect"), [(601, "gs232a"), (603, "gs232b")])
-def test_move(start_box: Start, rotctl: Callable[..., str], model: int, dialect: str) -> None:
+@pytest.mark.parametrize(
+    ("model", "over"), [(902, "pty"), (902, "tcp"), (401, "pty"), (404, "pty"), (405, "pty"), (405, "tcp")]
+)
+def test_azimuth_only(start_box: Start, rotctl: Callable[..., str], model: int, over: str) -> None:
+    box = start_box(DIALECTS[model])
+    where = place(box, over)
+    rotctl(model, where, "P", "75", "0")
+    arrive(rotctl, model, where, (75, 0))
+    rotctl(model, where, "P", "350", "0")
+    rotctl(model, where, "S")
+    assert rest(rotctl, model, where)[0] < 340
+
+
+@pytest.mark.parametrize(("model", "elevation_deg"), [(201, 25), (403, 0)])
+def test_models_that_cannot_read_the_position(
+    start_box: Start, rotctl: Callable[..., str], model: int, elevation_deg: int
+) -> None:
+    """Set and stop; where the antenna is, rotctld tells."""
+    box = start_box(DIALECTS[model])
+    rotctld = f"127.0.0.1:{box.rotctld_port}"
+    rotctl(model, box.pty, "P", "75", str(elevation_deg))
+    arrive(rotctl, 2, rotctld, (75, elevation_deg))
+    rotctl(model, place(box, "tcp"), "P", "350", str(elevation_deg))
+    rotctl(model, place(box, "tcp"), "S")
+    assert rest(rotctl, 2, rotctld)[0] < 340
+
+
+@pytest.mark.parametrize("model", [202, 204])
+def test_easycomm_parks_moves_and_resets(start_box: Start, rotctl: Callable[..., str], model: int) -> None:
+    box = start_box(DIALECTS[model])
+    rotctl(model, box.pty, "P", "75", "25")
+    arrive(rotctl, model, box.pty, (75, 25))
+    rotctl(model, box.pty, "K")
+    arrive(rotctl, model, box.pty, (0, 0))
+    rotctl(model, box.pty, "M", "16", "50")
+    rotctl(model, box.pty, "M", "2", "50")
+    arrive(rotctl, model, box.pty, (450, 180))
+    rotctl(model, box.pty, "M", "8", "50")
+    rotctl(model, box.pty, "R", "1")
+    assert 100 < rest(rotctl, model, box.pty)[0] < 450
+
+
+def test_md_01_moves_one_way_at_a_time(start_box: Start, rotctl: Callable[..., str]) -> None:
+    box = start_box(DIALECTS[903])
+    rotctl(903, box.pty, "M", "16", "50")
+    arrive(rotctl, 903, box.pty, (450, 0))
+    rotctl(903, box.pty, "M", "2", "50")
+    arrive(rotctl, 903, box.pty, (450, 180))
+
+
+@pytest.mark.parametrize("model", [601, 603])
+def test_move(start_box: Start, rotctl: Callable[..., str], model: int) -> None:
     """M 16: clockwise, M 2: up; both until stopped, here by the end of the range."""
-    box = start_box(dialect)
+    box = start_box(DIALECTS[model])
     rotctl(model, box.pty, "M", "16", "-1")
     rotctl(model, box.pty, "M", "2", "100")
     arrive(rotctl, model, box.pty, (450, 180))

@@ -24,7 +24,7 @@ from rotator.loop import ControlLoop
 from rotator.orders import Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
-from rotator.protocols.rotctld import RotctldSession
+from rotator.protocols.rotctld_session import RotctldSession
 from rotator.station import Station
 
 PATIENCE_S = 30.0
@@ -38,7 +38,7 @@ class Bench:
         config = Config()
         self.station = Station(config, clock, clock.sleep, (235.0, 25.0))
         self.loop = ControlLoop(build_controller(config), self.station.bank, self.station.sensors, clock, 0.05)
-        self._mount = build_mount(config)
+        self.mount = build_mount(config)
         self.loop.cycle()
 
     def drives(self) -> tuple[int, int]:
@@ -48,10 +48,10 @@ class Bench:
         return self.station.world.drives()
 
     def gs232(self, dialect: Dialect = Dialect.B) -> Gs232Session:
-        return Gs232Session(Door(self.loop, self._mount, Source("gs232", 1)), dialect)
+        return Gs232Session(Door(self.loop, self.mount, Source("gs232", 1)), dialect)
 
     def rotctld(self) -> RotctldSession:
-        return RotctldSession(Door(self.loop, self._mount, Source("rotctld", 1)))
+        return RotctldSession(Door(self.loop, self.mount, Source("rotctld", 1)))
 
 
 class Ear:

@@ -144,6 +144,29 @@ def test_half_a_command_and_silence_is_no_order(rotctld: TcpLink, port: int, run
     asyncio.run(talk())
 
 
+def test_nobodys_flood_and_nobodys_pause_holds_up_a_stop(
+    rotctld: TcpLink, port: int, running: Running, bench: Any
+) -> None:
+    """Ten clients send half a million questions, one wants to pause; then a hand presses stop."""
+
+    async def talk() -> None:
+        clock = asyncio.get_running_loop().time
+        async with running(rotctld), AsyncExitStack() as crowd:
+            hand = await crowd.enter_async_context(connected(port))
+            floods = [(b"p" * 100 + b"\n") * 500] * 10 + [b"\\pause 600\n"]
+            clients = [await crowd.enter_async_context(connected(port)) for _ in floods]
+            assert await hand.ask(b"P 300 80\n") == b"RPRT 0\n"
+            assert bench.drives() == (1, 1)
+            for client, flood in zip(clients, floods, strict=True):
+                client.writer.write(flood)
+            pressed_s = clock()
+            assert await hand.ask(b"S\n") == b"RPRT 0\n"
+            assert clock() - pressed_s < 1.0
+            assert bench.drives() == (0, 0)
+
+    asyncio.run(talk())
+
+
 # --- coming and going
 
 

@@ -1,4 +1,4 @@
-"""Hamlib's rotctld, as far as `P p S K _ q` and `\\dump_state`: the table, the answers and what real clients send.
+"""Hamlib's rotctld, the part that every client uses: `P p S K _ q` and `\\dump_state`, and what real clients send.
 
 Transcripts are of the genuine server 4.5.4, of Hamlib's own network client and of Gpredict 2.3. Where the genuine one
 says nothing at all, this one answers: Gpredict's window freezes on silence.
@@ -13,7 +13,8 @@ import pytest
 
 from rotator import __version__
 from rotator.orders import Aim, Order, Park, Stop
-from rotator.protocols.rotctld import BadRequest, Request, RotctldSession, encode, requests
+from rotator.protocols.rotctld import BadRequest, Request, encode, requests
+from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
 
 if TYPE_CHECKING:

@@ -201,6 +201,32 @@ def test_the_display_shows_the_order(config: Config, tmp_path: Path) -> None:
     asyncio.run(talk())
 
 
+def test_its_links_can_be_watched_and_where_they_cannot_it_runs_all_the_same(config: Config, tmp_path: Path) -> None:
+    """Two boxes share a folder, and so the place of the monitor: the second one goes without."""
+
+    async def talk() -> None:
+        second = config.model_copy(update={"link": [config.link[0].model_copy(update={"pty": f"{tmp_path}/other"})]})
+        async with running(App(config)), terminal(tmp_path / "gs232") as line:
+            async with asyncio.timeout(PATIENCE_S):
+                while not (tmp_path / "monitor").is_socket():
+                    await asyncio.sleep(0)
+            async with running(App(second)), terminal(tmp_path / "other") as other:
+                reader, writer = await asyncio.open_unix_connection(str(tmp_path / "monitor"))
+                watcher = Line(reader, writer.write)
+                assert (await watcher.answer()).startswith(b"# rotator ")
+                await other.ask(b"C2\r")
+                await line.ask(b"C2\r")
+                async with asyncio.timeout(PATIENCE_S):
+                    heard = b""
+                    while b"<" not in heard:
+                        heard = await watcher.answer()
+                assert heard.endswith(b" gs232b#1 < AZ=000  EL=000\\r\\n\n")
+                writer.close()
+        assert not (tmp_path / "monitor").exists()
+
+    asyncio.run(talk())
+
+
 # --- ends that nobody asked for
 
 

@@ -1,0 +1,120 @@
+"""`rotator monitor`: every byte on every link of the running box, live or to a file.
+
+Knows where the box's monitor socket may be, and how a recording ends. What the lines say is the transcript's.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import click
+
+from rotator.app import monitor_path
+from rotator.config.load import load
+from rotator.links.wire import LinkError
+from rotator.transcript import LinkNote, Piece, Remark, parse
+
+OF_THE_SERVICE = Path("/run/rotator/monitor")
+BYTES_PER_MB = 1_000_000
+
+
+def watch(path: Path | None, to: Path | None, links: Sequence[str], limit_mb: float) -> None:
+    """Until Ctrl-C, until the box ends, or until the file is full. Raises ConfigError, LinkError."""
+    config = load(path)
+    beside = monitor_path(config, os.environ)
+    places = [beside] if config.monitor.path else [beside, OF_THE_SERVICE]
+    with _connected(places) as box:
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
+        lines = _only(links, _lines(box))
+        if to is None:
+            _show(lines)
+        else:
+            _record(lines, to, limit_mb)
+
+
+def _connected(places: Sequence[Path]) -> socket.socket:
+    for place in places:
+        box = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        try:
+            box.connect(str(place))
+            return box
+        except PermissionError:
+            box.close()
+            raise LinkError(f"{place} is not yours to read: use sudo, or join its group") from None
+        except OSError:
+            box.close()
+    tried = " or ".join(map(str, places))
+    raise LinkError(f"no box is running with a monitor at {tried}: start it, or name its file with --config")
+
+
+def _lines(box: socket.socket) -> Iterator[str]:
+    with box.makefile(encoding="ascii", errors="backslashreplace", newline="\n") as lines:
+        for line in lines:
+            yield line.rstrip("\n")
+
+
+def _only(links: Sequence[str], lines: Iterator[str]) -> Iterator[str]:
+    """The lines of these links, and the remarks; of all links where none is named. Raises LinkError."""
+    there: list[str] = []
+    for line in lines:
+        entry = parse(line)
+        match entry:
+            case LinkNote(name):
+                there.append(name)
+                wanted = name in links
+            case Piece(source=source):
+                wanted = source.link in links
+            case _:
+                wanted = True
+        if not isinstance(entry, LinkNote | Remark):
+            # All links have been named by now.
+            strangers = [name for name in links if name not in there]
+            if strangers:
+                raise LinkError(f"no link is called {strangers[0]}; there are: {', '.join(there)}")
+        if wanted or not links:
+            yield line
+
+
+def _show(lines: Iterator[str]) -> None:
+    try:
+        for line in lines:
+            click.echo(line)
+        click.echo("the box has ended", err=True)
+    except KeyboardInterrupt:
+        pass
+
+
+def _record(lines: Iterator[str], to: Path, limit_mb: float) -> None:
+    try:
+        file = to.open("x", encoding="ascii")
+    except FileExistsError:
+        raise LinkError(f"{to} is there already: give another name") from None
+    except OSError as fault:
+        raise LinkError(f"{to} cannot be written to: {fault.strerror}") from fault
+    pieces = 0
+    end = "the box has ended"
+
+    def write(text: str) -> None:
+        # Line by line: what has been heard is there whatever happens next.
+        file.write(text + "\n")
+        file.flush()
+
+    with file:
+        click.echo(f"writing to {to}; Ctrl-C ends it", err=True)
+        try:
+            for line in lines:
+                if file.tell() + len(line) > limit_mb * BYTES_PER_MB:
+                    end = f"the file is full: {limit_mb:g} MB"
+                    break
+                write(line)
+                pieces += not line.startswith("#")
+        except KeyboardInterrupt:
+            end = "stopped"
+        except OSError as fault:
+            raise LinkError(f"{to} cannot be written to: {fault.strerror}") from fault
+        write(f"# {end}")
+    click.echo(f"{pieces} pieces in {to}: {end}", err=True)

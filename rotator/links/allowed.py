@@ -1,0 +1,31 @@
+"""Which machines may connect to a link.
+
+Knows addresses and networks. Knows no link.
+"""
+
+from __future__ import annotations
+
+import ipaddress
+from collections.abc import Sequence
+
+Network = ipaddress.IPv4Network | ipaddress.IPv6Network
+
+
+class Allowed:
+    """`networks` such as "192.168.1.0/24", "fd00::/8" or one address; None: everybody. Raises ValueError."""
+
+    def __init__(self, networks: Sequence[str] | None = None) -> None:
+        # "192.168.1.5/24" names the network that this machine is in.
+        self._networks = None if networks is None else [ipaddress.ip_network(text, strict=False) for text in networks]
+
+    def __call__(self, host: str) -> bool:
+        """Whether the machine with this address may."""
+        if self._networks is None:
+            return True
+        try:
+            address = ipaddress.ip_address(host.partition("%")[0])
+        except ValueError:
+            return False
+        # A socket for both families shows an IPv4 machine as ::ffff:192.168.1.5.
+        mapped = address.ipv4_mapped if isinstance(address, ipaddress.IPv6Address) else None
+        return any((mapped or address) in network for network in self._networks)

@@ -1,0 +1,119 @@
+"""A connection to another program's server, which is asked again and again; it may come and go at any time.
+
+Knows how to connect, to ask in time and to wait longer and longer for a server that is not there. Knows no protocol and
+decides nothing.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import Callable
+
+from rotator.links.wire import Wire, reason
+from rotator.protocols.session import Inquiry, NotUnderstood
+
+log = logging.getLogger(__name__)
+
+READ_BYTES = 4096
+SILENCE_S = 3.0
+"""How long a server may take to connect and to answer: a rotctld with a slow controller takes 1.8 s to give up."""
+FIRST_RETRY_S = 1.0
+LONGEST_RETRY_S = 10.0
+
+
+class AskingLink:
+    def __init__(
+        self,
+        wire: Wire,
+        host: str,
+        port: int,
+        inquiry: Callable[[], Inquiry],
+        *,
+        every_s: float,
+        silence_s: float = SILENCE_S,
+        retry_s: float = FIRST_RETRY_S,
+    ) -> None:
+        self.wire = wire
+        self._host = host
+        self._port = port
+        self._inquiry = inquiry
+        self._every_s = every_s
+        self._silence_s = silence_s
+        self._first_retry_s = self._retry_s = retry_s
+        self._told: str | None = None
+
+    async def open(self) -> None:
+        """Nothing to do: a server that is not there yet is waited for."""
+
+    async def run(self) -> None:
+        clock = asyncio.get_running_loop().time
+        try:
+            while True:
+                begun_s = clock()
+                why, detail = await self._connect()
+                self._tell(why, detail)
+                self.wire.state = "waiting for it"
+                if clock() - begun_s > LONGEST_RETRY_S:
+                    self._retry_s = self._first_retry_s
+                await asyncio.sleep(self._retry_s)
+                self._retry_s = min(2 * self._retry_s, LONGEST_RETRY_S)
+        finally:
+            self.wire.state = "closed"
+
+    async def _connect(self) -> tuple[str, str]:
+        """Connect and ask until that comes to an end. Returns why it did, and what there is to add."""
+        try:
+            async with asyncio.timeout(self._silence_s):
+                reader, writer = await asyncio.open_connection(self._host, self._port)
+        except TimeoutError:
+            return "cannot be reached", ": nobody answers there"
+        except (OSError, UnicodeError) as fault:
+            return "cannot be reached", f": {reason(fault)}"
+        try:
+            return await self._keep_asking(reader, writer)
+        finally:
+            writer.transport.abort()
+
+    async def _keep_asking(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> tuple[str, str]:
+        inquiry = self._inquiry()
+        clock = asyncio.get_running_loop().time
+        while True:
+            asked_s = clock()
+            question = inquiry.ask()
+            try:
+                async with asyncio.timeout(self._silence_s):
+                    writer.write(question)
+                    self.wire.went(question)
+                    await self._hear_out(inquiry, reader)
+            except TimeoutError:
+                return f"gives no answer within {self._silence_s:g} s", ""
+            except EOFError:
+                return "has closed the connection", ""
+            except NotUnderstood as fault:
+                return "does not speak the protocol", f": {fault}"
+            except OSError as fault:
+                return "is gone", f": {reason(fault)}"
+            self.wire.state = "open"
+            self._tell(inquiry.trouble, "")
+            await asyncio.sleep(max(0.0, asked_s + self._every_s - clock()))
+
+    async def _hear_out(self, inquiry: Inquiry, reader: asyncio.StreamReader) -> None:
+        """Raises EOFError, OSError, NotUnderstood."""
+        whole = False
+        while not whole:
+            data = await reader.read(READ_BYTES)
+            if not data:
+                raise EOFError
+            self.wire.came(data)
+            whole = inquiry.receive(data)
+
+    def _tell(self, trouble: str, detail: str) -> None:
+        """Log a trouble once, however often it is met, and once that it is over."""
+        if trouble == self._told:
+            return
+        self._told = trouble
+        if trouble:
+            log.warning("%s: %s:%d %s%s", self.wire.name, self._host, self._port, trouble, detail)
+        else:
+            log.info("%s: %s:%d answers", self.wire.name, self._host, self._port)

@@ -1,0 +1,89 @@
+"""A file that another program writes again and again: what it holds after each change is a message.
+
+Knows how to look at a file that may be missing, half written or on a network that hangs. Knows no protocol and decides
+nothing. It looks at what the file holds: times of change are coarse on a memory card, and somebody else's clock on a
+network share.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+
+from rotator.links.wire import Conversation, Wire
+from rotator.protocols.session import Session
+
+log = logging.getLogger(__name__)
+
+LOOK_EVERY_S = 0.5
+MOST_BYTES = 4096
+
+
+class FileLink:
+    def __init__(
+        self, wire: Wire, path: Path, session: Callable[[], Session], *, look_every_s: float = LOOK_EVERY_S
+    ) -> None:
+        self.wire = wire
+        self._path = path
+        self._session = session
+        self._look_every_s = look_every_s
+        self._trouble: str | None = None
+
+    async def open(self) -> None:
+        """Nothing to do: a file that is not there yet is waited for."""
+
+    async def run(self) -> None:
+        loop = asyncio.get_running_loop()
+        conversation = Conversation(self._session(), self.wire, lambda _reply: None)
+        leaving = threading.Event()
+
+        def found(what: bytes | str) -> None:
+            if leaving.is_set():
+                return
+            self._tell("" if isinstance(what, bytes) else what)
+            if isinstance(what, bytes):
+                conversation.received(what)
+
+        def watch() -> None:
+            """In a thread of its own: a file on a share whose server is gone keeps whoever reads it."""
+            before: bytes | str | None = None
+            while not leaving.is_set():
+                now = _content(self._path)
+                if now != before:
+                    before = now
+                    with suppress(RuntimeError):  # the event loop has ended meanwhile
+                        loop.call_soon_threadsafe(found, now)
+                leaving.wait(self._look_every_s)
+
+        threading.Thread(target=watch, name=self.wire.name, daemon=True).start()
+        try:
+            await asyncio.Event().wait()
+        finally:
+            leaving.set()
+            conversation.close()
+            self.wire.state = "closed"
+
+    def _tell(self, trouble: str) -> None:
+        """Log a trouble once, however often it is met, and once that it is over."""
+        self.wire.state = "waiting for it" if trouble else "open"
+        if trouble == self._trouble:
+            return
+        self._trouble = trouble
+        if trouble:
+            log.warning("%s: %s cannot be used: %s; waiting for it", self.wire.name, self._path, trouble)
+        else:
+            log.info("%s: %s is there", self.wire.name, self._path)
+
+
+def _content(path: Path) -> bytes | str:
+    """What the file holds, or why that is not to be had."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(MOST_BYTES + 1)
+    except OSError as fault:
+        return fault.strerror or str(fault)
+    return data if len(data) <= MOST_BYTES else f"it is longer than {MOST_BYTES} bytes"

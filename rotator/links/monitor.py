@@ -1,0 +1,114 @@
+"""The monitor's socket: a way to watch, and nothing else. Whoever connects hears line after line, and is not heard.
+
+Knows Unix sockets and watchers that read too slowly. Knows nothing of what the lines say.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import fcntl
+import logging
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import cast
+
+from rotator.links.wire import reason
+
+log = logging.getLogger(__name__)
+
+MOST_WATCHERS = 8
+UNREAD_LIMIT = 262_144
+"""Bytes that may wait for a watcher; what does not fit is left out, and it is told how much."""
+MODE = 0o660
+
+
+class MonitorSocket:
+    """`listeners` is where each watcher's ear is put in and taken out; `greeting` is what it hears first.
+
+    Nothing of it may keep the box from running: where it cannot be opened the log says so, and that is all.
+    """
+
+    def __init__(self, path: Path, listeners: list[Callable[[str], None]], greeting: Callable[[], list[str]]) -> None:
+        self._path = path
+        self._listeners = listeners
+        self._greeting = greeting
+        self._watchers: set[_Watcher] = set()
+
+    async def run(self) -> None:
+        locked = -1
+        try:
+            try:
+                self._path.parent.mkdir(parents=True, exist_ok=True)
+                # What a program left that died may be replaced; what a living one has may not.
+                locked = os.open(self._path.with_name(f".{self._path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600)
+                fcntl.flock(locked, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                if self._path.is_socket():
+                    self._path.unlink()
+                server = await asyncio.get_running_loop().create_unix_server(self._watcher, str(self._path))
+            except BlockingIOError:
+                log.warning("%s: another box has it; this one cannot be monitored", self._path)
+                return
+            except OSError as fault:
+                log.warning("%s: cannot be monitored there: %s", self._path, reason(fault))
+                return
+            self._path.chmod(MODE)
+            try:
+                await asyncio.Event().wait()
+            finally:
+                server.close()
+                for watcher in list(self._watchers):
+                    watcher.drop()
+                self._path.unlink(missing_ok=True)
+        finally:
+            if locked >= 0:
+                os.close(locked)
+
+    def _watcher(self) -> _Watcher:
+        return _Watcher(self._listeners, self._greeting, self._watchers)
+
+
+class _Watcher(asyncio.Protocol):
+    def __init__(
+        self, listeners: list[Callable[[str], None]], greeting: Callable[[], list[str]], watchers: set[_Watcher]
+    ) -> None:
+        self._listeners = listeners
+        self._greeting = greeting
+        self._watchers = watchers
+        self._transport: asyncio.Transport | None = None
+        self._missed = 0
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._transport = cast(asyncio.Transport, transport)
+        if len(self._watchers) >= MOST_WATCHERS:
+            self._transport.write(f"# {MOST_WATCHERS} are watching already\n".encode())
+            self._transport.close()
+            return
+        self._watchers.add(self)
+        for line in self._greeting():
+            self._hear(line)
+        self._listeners.append(self._hear)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._watchers.discard(self)
+        if self._hear in self._listeners:
+            self._listeners.remove(self._hear)
+
+    def drop(self) -> None:
+        if self._transport is None:
+            return
+        if self._transport.get_write_buffer_size():
+            self._transport.abort()
+        else:
+            self._transport.close()
+
+    def _hear(self, line: str) -> None:
+        if self._transport is None or self._transport.is_closing():
+            return
+        text = f"# {self._missed} lines left out here: read too slowly\n" if self._missed else ""
+        text += line + "\n"
+        if self._transport.get_write_buffer_size() + len(text) > UNREAD_LIMIT:
+            self._missed += 1
+            return
+        self._missed = 0
+        self._transport.write(text.encode())

@@ -1,0 +1,168 @@
+"""A UDP socket: each datagram is a message of its own, and each address that sends some has a conversation of its own.
+
+Knows datagrams and who sent them. Knows no protocol and decides nothing.
+
+A sender is an address without its port: many programs send every datagram from a port of its own, and a stop that
+silences a stream would not hold for the next datagram. Nobody says goodbye here, so one that is silent is forgotten.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import socket
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from rotator.links.allowed import Allowed
+from rotator.links.wire import Conversation, LinkError, Wire, reason
+from rotator.protocols.session import Session
+from rotator.seldom import Seldom
+
+log = logging.getLogger(__name__)
+
+MOST_BYTES = 4096
+MOST_SENDERS = 64
+FORGOTTEN_AFTER_S = 60.0
+"""Longer than a stopped stream has to pause: being forgotten is no way round that."""
+LOOK_EVERY_S = 1.0
+"""How often a report may go out, and senders are forgotten."""
+
+Address = tuple[Any, ...]
+"""Host and port; for IPv6 two numbers more."""
+
+
+@dataclass(slots=True)
+class _Sender:
+    conversation: Conversation
+    heard_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """What the box says by itself, and to whom. `due` is asked once a second, with the time; None: nothing now."""
+
+    to: tuple[str, int]
+    due: Callable[[float], bytes | None]
+
+
+class UdpLink:
+    """`answer_port`: where senders listen for answers; None: the protocol has none."""
+
+    def __init__(
+        self,
+        wire: Wire,
+        host: str,
+        port: int,
+        session: Callable[[], Session],
+        *,
+        answer_port: int | None = None,
+        report: Report | None = None,
+        allowed: Allowed = Allowed(),  # noqa: B008 - it never changes
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self.wire = wire
+        self._host = host
+        self._port = port
+        self._session = session
+        self._answer_port = answer_port
+        self._report = report
+        self._allowed = allowed
+        self._clock = clock
+        self._complaints = Seldom(clock)
+        self._senders: dict[str, _Sender] = {}
+        self._transport: asyncio.DatagramTransport | None = None
+
+    async def open(self) -> None:
+        """Raises LinkError."""
+        try:
+            transport, _ = await asyncio.get_running_loop().create_datagram_endpoint(
+                lambda: _Socket(self.received, self._failed),
+                local_addr=(self._host, self._port),
+                # The programs know IPv4 only, and a name such as localhost may mean both.
+                family=socket.AF_INET6 if ":" in self._host else socket.AF_INET,
+                allow_broadcast=True,
+            )
+        except (OSError, UnicodeError) as fault:
+            raise LinkError(f"{self._host}:{self._port}: cannot listen there: {reason(fault)}") from fault
+        self._transport = transport
+        self.wire.state = "listening"
+
+    async def run(self) -> None:
+        assert self._transport is not None, "open() comes first"
+        try:
+            while True:
+                self._forget_the_silent()
+                self._say_what_is_due()
+                await asyncio.sleep(LOOK_EVERY_S)
+        finally:
+            self._transport.abort()
+            for sender in self._senders.values():
+                sender.conversation.close()
+            self.wire.state = "closed"
+
+    def received(self, data: bytes, address: Address) -> None:
+        """One datagram, from there."""
+        host = str(address[0])
+        if not self._allowed(host):
+            self._complain(f"{host} is not in allow: not heard")
+            return
+        if len(data) > MOST_BYTES:
+            self._complain(f"{host}: a datagram of more than {MOST_BYTES} bytes is dropped")
+            return
+        sender = self._senders.get(host)
+        if sender is None:
+            if len(self._senders) >= MOST_SENDERS:
+                self._complain(f"{MOST_SENDERS} senders already, {host} is not heard")
+                return
+            conversation = Conversation(self._session(), self.wire, lambda reply: self._answer(reply, address))
+            sender = self._senders[host] = _Sender(conversation, self._clock())
+            self._note()
+        sender.heard_s = self._clock()
+        sender.conversation.received(data)
+
+    def _answer(self, reply: bytes, address: Address) -> None:
+        if self._transport is not None and self._answer_port is not None:
+            self._transport.sendto(reply, (address[0], self._answer_port, *address[2:]))
+
+    def _say_what_is_due(self) -> None:
+        said = self._report.due(self._clock()) if self._report else None
+        if said and self._report and self._transport:
+            self.wire.went(said)
+            self._transport.sendto(said, self._report.to)
+
+    def _failed(self, fault: OSError) -> None:
+        self._complain(f"cannot send: {reason(fault)}")
+
+    def _forget_the_silent(self) -> None:
+        now_s = self._clock()
+        for host, sender in list(self._senders.items()):
+            if now_s - sender.heard_s >= FORGOTTEN_AFTER_S:
+                sender.conversation.close()
+                del self._senders[host]
+        self._note()
+
+    def _complain(self, text: str) -> None:
+        told = self._complaints.tell(text)
+        if told:
+            log.warning("%s: %s", self.wire.name, told)
+
+    def _note(self) -> None:
+        count = len(self._senders)
+        self.wire.state = f"{count} sender{'s' if count != 1 else ''}" if count else "listening"
+
+
+class _Socket(asyncio.DatagramProtocol):
+    def __init__(self, received: Callable[[bytes, Address], None], failed: Callable[[OSError], None]) -> None:
+        self._received = received
+        self._failed = failed
+
+    def datagram_received(self, data: bytes, addr: Address) -> None:
+        self._received(data, addr)
+
+    def error_received(self, exc: Exception) -> None:
+        if isinstance(exc, OSError) and not isinstance(exc, ConnectionError):
+            # Refused: the other end does not listen for answers, which is its own affair.
+            self._failed(exc)

@@ -1,0 +1,140 @@
+"""Hy-Gain's DCU-1 protocol with what Rotor-EZ and Green Heron's RT-21 made of it: azimuth only, ended by `;` or CR.
+
+Knows the command table, its codec and what the commands make the box do. Does not know how the box does it. Sources:
+Idiom Press' command reference as Hamlib keeps it, and what Hamlib 4.5 sends to models 401 to 406 (see
+docs/protocols.md).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from rotator.orders import Stop
+from rotator.protocols.aiming import aim
+from rotator.protocols.session import Box
+
+MAX_COMMAND = 16
+SAME_BREATH_S = 0.1
+"""RT-21's `AP1235.0` ends in CR and `;`, sent together; a `;` that comes later is a stop."""
+AZIMUTH_TOP_DEG = 360
+SEMICOLON, CR = b";", b"\r"
+
+
+@dataclass(frozen=True, slots=True)
+class Verb:
+    """One row of the command list."""
+
+    text: str
+    help: str
+
+
+VERBS = (
+    Verb("AP1", "Set the target: three digits, and RT-21's tenth. Go there at once where CR ends it"),
+    Verb("AM1", "Go to the target"),
+    Verb("AI1", "Read azimuth"),
+    Verb("BI1", "Read azimuth with a decimal (RT-21)"),
+    Verb("AS1", "Stop"),
+    Verb("", "Stop"),
+)
+_BY_TEXT = {verb.text: verb for verb in VERBS}
+_TARGET = re.compile(r"AP1(\d{3}(?:\.\d)?)")
+_NOISE = bytes((*range(0x21), *range(0x7F, 0x100)))
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    verb: str
+    azimuth_deg: float | None = None
+
+
+def parse(text: bytes) -> Command | None:
+    """One command, without its end; None: it is none. Capitals only, as in the reference."""
+    if target := _TARGET.fullmatch(text.decode("latin-1")):
+        azimuth_deg = float(target[1])
+        return Command("AP1", azimuth_deg) if azimuth_deg <= AZIMUTH_TOP_DEG else None
+    verb = _BY_TEXT.get(text.decode("latin-1"))
+    return Command(verb.text) if verb and verb.text != "AP1" else None
+
+
+def encode(command: Command) -> bytes:
+    """A command as Hamlib writes it: whole degrees as to a DCU-1, tenths as to an RT-21."""
+    match command.azimuth_deg:
+        case None:
+            return command.verb.encode() + SEMICOLON
+        case float() as azimuth_deg if azimuth_deg % 1:
+            return f"AP1{azimuth_deg:05.1f}\r;".encode()
+        case azimuth_deg:
+            return f"AP1{azimuth_deg:03.0f};".encode()
+
+
+def azimuth_reply(azimuth_deg: float) -> bytes:
+    """`;235`: exactly four bytes, 000 to 359."""
+    return f";{math.floor(azimuth_deg + 0.5) % 360:03d}".encode()
+
+
+def tenths_reply(azimuth_deg: float) -> bytes:
+    """`235.0;`: at least four characters before the `;`, 0.0 to 359.9."""
+    return f"{math.floor(azimuth_deg * 10 + 0.5) % 3600 / 10:4.1f};".encode()
+
+
+class Dcu1Session:
+    """A DCU-1 on one connection. The protocol has no word for a refusal: it is silent, and stands still."""
+
+    idle_s = SAME_BREATH_S
+    closed = False
+
+    def __init__(self, box: Box) -> None:
+        self._box = box
+        self._begun = bytearray()
+        self._target_deg: float | None = None
+        self._half_ended = False
+        """RT-21's CR has come; a `;` in the same breath is not a command of its own."""
+
+    def receive(self, data: bytes) -> list[bytes]:
+        replies = [self._take(bytes([octet])) for octet in data]
+        return [reply for reply in replies if reply]
+
+    def idle(self) -> list[bytes]:
+        self._half_ended = False
+        return []
+
+    def _take(self, octet: bytes) -> bytes:
+        half_ended, self._half_ended = self._half_ended, False
+        if octet == SEMICOLON and half_ended:
+            return b""
+        if octet not in (SEMICOLON, CR):
+            # Noise before a command is none of it: a stop behind a burst must be heard. A long one stays too long.
+            if (self._begun or octet not in _NOISE) and len(self._begun) <= MAX_COMMAND:
+                self._begun += octet
+            return b""
+        text = bytes(self._begun)
+        self._begun.clear()
+        command = parse(text) if len(text) <= MAX_COMMAND else None
+        if octet == CR and command == Command(""):
+            return b""
+        self._half_ended = octet == CR and b"." in text
+        return self._obey(command, at_once=octet == CR) if command else b""
+
+    def _obey(self, command: Command, *, at_once: bool) -> bytes:
+        match command:
+            case Command("AP1", azimuth_deg):
+                self._target_deg = azimuth_deg
+                if at_once:
+                    self._go()
+            case Command("AM1"):
+                self._go()
+            case Command("AI1" | "BI1" as verb):
+                azimuth_deg = self._box.status().azimuth.angle_deg
+                if azimuth_deg is not None:
+                    return azimuth_reply(azimuth_deg) if verb == "AI1" else tenths_reply(azimuth_deg)
+            case Command("AS1" | ""):
+                self._target_deg = None
+                self._box.order(Stop())
+        return b""
+
+    def _go(self) -> None:
+        order = aim(self._target_deg, None)
+        if self._target_deg is not None and order is not None:
+            self._box.order(order)

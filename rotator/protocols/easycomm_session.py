@@ -1,0 +1,140 @@
+"""One connection that speaks EasyComm: what each command makes the box do, and what it answers.
+
+Knows the command set's meaning. Does not know bytes on the wire (that is `easycomm`) nor how the box carries an order
+out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+
+from hw.ports import Axis, Direction
+from rotator import __version__
+from rotator.orders import Jog, Order, Park, Stop
+from rotator.protocols import easycomm
+from rotator.protocols.aiming import aim
+from rotator.protocols.easycomm import Level, Word
+from rotator.protocols.lines import LineReader
+from rotator.protocols.session import Box
+from rotator.status import Fault
+
+NO_LINE_END_S = 0.2
+
+_STOPS = {"SA": Axis.AZIMUTH, "SE": Axis.ELEVATION}
+_TURNS = {
+    "L": (Axis.AZIMUTH, Direction.MINUS),
+    "R": (Axis.AZIMUTH, Direction.PLUS),
+    "U": (Axis.ELEVATION, Direction.PLUS),
+    "D": (Axis.ELEVATION, Direction.MINUS),
+}
+"""The second letter of a move or velocity command."""
+_IDLE, _MOVING, _POINTING, _FAULT = 1, 2, 4, 8
+_SENSOR, _JAM, _UNCALIBRATED = 1, 2, 4
+_JAMS = ("motor runs and pot stands still", "motor on longer than the travel takes", "end stop reached")
+
+
+class EasycommSession:
+    """EasyComm on one connection. `pstrotator`: `AZ EL` is answered as PstRotator reads it.
+
+    An order that is refused gets no alarm, though the standard has one: no client waits for an answer to an order, and
+    over TCP Hamlib would take the alarm for the answer to its next question.
+    """
+
+    idle_s = NO_LINE_END_S
+    closed = False
+
+    def __init__(self, box: Box, level: Level, *, pstrotator: bool = False) -> None:
+        self._box = box
+        self._level = level
+        self._pstrotator = pstrotator
+        self._lines = LineReader(easycomm.MAX_LINE)
+
+    def receive(self, data: bytes) -> list[bytes]:
+        return [reply for line in self._lines.feed(data) for reply in self._answers(line)]
+
+    def idle(self) -> list[bytes]:
+        return self._answers(self._lines.flush()) if easycomm.is_whole(self._lines.pending) else []
+
+    def _answers(self, line: bytes | None) -> list[bytes]:
+        if line is None:
+            return []
+        replies = [self._obey(kind, list(words)) for kind, words in groupby(easycomm.parse(line, self._level), _kind)]
+        return [reply for reply in replies if reply]
+
+    def _obey(self, kind: str, words: list[Word]) -> bytes:
+        match kind:
+            case "ask":
+                return self._position({word.verb for word in words})
+            case "VE":
+                return easycomm.reply("VE", __version__)
+            case "GS":
+                return easycomm.reply("GS", self._state())
+            case "GE":
+                return easycomm.reply("GE", self._faults())
+        for order in _orders(kind, words):
+            self._box.order(order)
+        return b""
+
+    def _position(self, asked: set[str]) -> bytes:
+        status = self._box.status()
+        azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
+        both = len(asked) > 1
+        if (azimuth_deg is None and "AZ" in asked) or (elevation_deg is None and "EL" in asked):
+            # The first standard has no word for it.
+            return b"" if self._level is Level.I else easycomm.alarm("position not known")
+        if self._pstrotator and both and azimuth_deg is not None and elevation_deg is not None:
+            return easycomm.pstrotator_reply(azimuth_deg, elevation_deg)
+        return easycomm.position_reply(azimuth_deg if "AZ" in asked else None, elevation_deg if "EL" in asked else None)
+
+    def _state(self) -> int:
+        status = self._box.status()
+        targets = (status.azimuth.target_deg, status.elevation.target_deg)
+        state = _MOVING if status.moving else 0
+        state += _POINTING if targets != (None, None) else 0
+        return (state or _IDLE) + (_FAULT if status.faults else 0)
+
+    def _faults(self) -> int:
+        status = self._box.status()
+        kinds = {_fault_kind(fault) for fault in status.faults}
+        uncalibrated = status.azimuth.uncalibrated or status.elevation.uncalibrated
+        return sum(kinds) + (_UNCALIBRATED if uncalibrated else 0)
+
+
+def _orders(kind: str, words: list[Word]) -> Iterator[Order]:
+    match kind:
+        case "aim":
+            angles_deg = {word.verb: word.value for word in words}
+            order = aim(angles_deg.get("AZ"), angles_deg.get("EL"))
+            if order is not None:
+                yield order
+        case "stop":
+            axes = {_STOPS[word.verb] for word in words}
+            yield Stop() if len(axes) == len(_STOPS) else Stop(tuple(axes))
+        case "PARK":
+            yield Park()
+        case "RESET":
+            yield Stop()
+        case _:
+            for word in words:
+                axis, direction = _TURNS[word.verb[1]]
+                yield Stop((axis,)) if word.value == 0 else Jog(axis, direction)
+
+
+def _kind(word: Word) -> str:
+    """Neighbours of one kind are one order, or one question."""
+    match word:
+        case Word("AZ" | "EL", None):
+            return "ask"
+        case Word("AZ" | "EL"):
+            return "aim"
+        case Word("SA" | "SE"):
+            return "stop"
+        case _:
+            return word.verb
+
+
+def _fault_kind(fault: Fault) -> int:
+    if fault.name in _JAMS:
+        return _JAM
+    return _SENSOR if fault.name.startswith(("pot", "sensor")) else 0

@@ -1,0 +1,63 @@
+"""MacDoppler's broadcasts: `[AzEl Rotor Report:Azimuth:39.00, Elevation:0.00, SatName:XW-2C]`, and nothing back.
+
+Knows that one report, its codec, and that it is an order. Its reports for radios are passed over. Does not know
+sockets: one `receive` is one datagram. Source: what bridges from MacDoppler to rotors read (see docs/protocols.md).
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.session import Box
+
+_REPORT = re.compile(
+    r"\[AzEl Rotor Report:Azimuth:([^,\[\]]*), *Elevation:([^,\[\]]*)(?:, *SatName:([^\r\n]*))?\][\s\0]*$"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Where the satellite is."""
+
+    azimuth_deg: float
+    elevation_deg: float
+    satellite: str = ""
+
+
+def parse(datagram: bytes) -> Report | None:
+    """The report at the end of a datagram, behind a number and the Mac's name; None: there is none."""
+    found = _REPORT.search(datagram.decode("latin-1"))
+    if not found:
+        return None
+    azimuth_deg, elevation_deg = degrees(found[1]), degrees(found[2])
+    if azimuth_deg is None or elevation_deg is None:
+        return None
+    return Report(azimuth_deg, elevation_deg, found[3] or "")
+
+
+def encode(report: Report, mac: str = "MacBook") -> bytes:
+    """A datagram as MacDoppler writes it."""
+    angles = f"Azimuth:{report.azimuth_deg:.2f}, Elevation:{report.elevation_deg:.2f}"
+    return f"00000001 {mac} [AzEl Rotor Report:{angles}, SatName:{report.satellite}]".encode()
+
+
+class MacDopplerSession:
+    """MacDoppler on one Mac: it says where the satellite is, and listens to nobody."""
+
+    idle_s = None
+    closed = False
+
+    def __init__(self, box: Box) -> None:
+        self._box = box
+
+    def receive(self, data: bytes) -> list[bytes]:
+        report = parse(data)
+        order = aim(report.azimuth_deg, report.elevation_deg) if report else None
+        if order is not None:
+            self._box.order(order)
+        return []
+
+    def idle(self) -> list[bytes]:
+        return []

@@ -1,0 +1,139 @@
+"""N1MM Logger+ and its rotor messages: orders for an azimuth as XML, and where the antenna points as `name @ 2350`.
+
+Knows the messages, their codec and what they make the box do. Does not know sockets: one `receive` is one datagram.
+Sources: what other rotor servers for N1MM take and send (see docs/protocols.md).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from xml.sax.saxutils import escape, unescape
+
+from rotator.orders import Aim, Stop
+from rotator.protocols.aiming import degrees
+from rotator.protocols.session import Box
+
+REPORT_EVERY_S = 15.0
+REPORT_MOVED_TENTHS = 10
+"""Turned so far, it reports before its time."""
+TURN_TENTHS = 3600
+
+_MESSAGE = re.compile(r"\ufeff?\s*(?:<\?xml[^<>]*\?>)?\s*<N1MMRotor>(.*)</N1MMRotor>[\s\0]*", re.DOTALL)
+_FIELD = re.compile(r"\s*<([A-Za-z]+)>([^<>]*)</\1>\s*")
+_NO = ("0", "false")
+
+
+@dataclass(frozen=True, slots=True)
+class Go:
+    """Turn the rotor of that name. `offset`: what N1MM wants added, as it writes it."""
+
+    rotor: str
+    azimuth_deg: float
+    offset: str = "0.0"
+
+
+@dataclass(frozen=True, slots=True)
+class Halt:
+    """Stop the rotor of that name; empty: N1MM has not said which."""
+
+    rotor: str
+
+
+def parse(datagram: bytes) -> Go | Halt | None:
+    """One message; None: it is none. A message with a stop in it is a stop, whatever else it says."""
+    message = _MESSAGE.fullmatch(datagram.decode("utf-8", errors="replace"))
+    if not message:
+        return None
+    before, opened, rest = message[1].partition("<stop>")
+    inner, closed, after = rest.partition("</stop>")
+    fields = _fields(before + after)
+    if opened and closed and inner.strip().lower() not in _NO:
+        return Halt(((_fields(inner) or {}).get("rotor") or (fields or {}).get("rotor", "")).strip())
+    if fields is None or bool(opened) != bool(closed):
+        return None
+    azimuth_deg = degrees(fields.get("goazi", "").strip())
+    if azimuth_deg is None or not 0 <= azimuth_deg <= 360:
+        return None
+    return Go(fields.get("rotor", "").strip(), azimuth_deg, fields.get("offset", "").strip())
+
+
+def _fields(text: str) -> dict[str, str] | None:
+    fields, at = {}, 0
+    while at < len(text):
+        found = _FIELD.match(text, at)
+        if not found:
+            return None
+        fields[found[1]] = unescape(found[2])
+        at = found.end()
+    return fields
+
+
+def encode(command: Go | Halt) -> bytes:
+    """A message as N1MM writes it."""
+    rotor = f"<rotor>{escape(command.rotor)}</rotor>"
+    match command:
+        case Go(_, azimuth_deg, offset):
+            aimed = f"<goazi>{azimuth_deg:.1f}</goazi><offset>{offset}</offset><bidirectional>0</bidirectional>"
+            return f"<N1MMRotor>{rotor}{aimed}<freqband>14</freqband></N1MMRotor>".encode()
+        case Halt():
+            return f"<N1MMRotor><stop>{rotor}<freqband>14</freqband></stop></N1MMRotor>".encode()
+
+
+class N1mmSession:
+    """N1MM on one PC. It expects no answers.
+
+    `rotor_name`: obey what is for this one only, capitals as N1MM has them; None: whatever comes.
+    """
+
+    idle_s = None
+    closed = False
+
+    def __init__(
+        self, box: Box, rotor_name: str | None = None, remark: Callable[[str], None] = lambda _text: None
+    ) -> None:
+        self._box = box
+        self._rotor_name = rotor_name
+        self._remark = remark
+
+    def receive(self, data: bytes) -> list[bytes]:
+        command = parse(data)
+        match command:
+            case Halt(rotor) if not rotor or self._is_ours(rotor):
+                self._box.order(Stop())
+            case Go(rotor, azimuth_deg, offset) if self._is_ours(rotor):
+                if degrees(offset):
+                    self._remark(f"N1MM's offset of {offset} degrees is not added: give the box its own")
+                self._box.order(Aim(azimuth_deg, None))
+            case Go(rotor) | Halt(rotor):
+                self._remark(f'orders for rotor {rotor[:24]!a} are not for this box, which is "{self._rotor_name}"')
+        return []
+
+    def idle(self) -> list[bytes]:
+        return []
+
+    def _is_ours(self, rotor: str) -> bool:
+        return self._rotor_name is None or rotor == self._rotor_name
+
+
+class N1mmReport:
+    """Where the antenna points, for N1MM's bearing windows: while it turns whenever asked, else every 15 s."""
+
+    def __init__(self, box: Box, rotor_name: str) -> None:
+        self._box = box
+        self._rotor_name = rotor_name
+        self._said_s = -math.inf
+        self._said_tenths = 0
+
+    def due(self, now_s: float) -> bytes | None:
+        azimuth_deg = self._box.status().azimuth.angle_deg
+        if azimuth_deg is None:
+            return None
+        tenths = math.floor(azimuth_deg * 10 + 0.5) % TURN_TENTHS
+        turned = abs((tenths - self._said_tenths + TURN_TENTHS // 2) % TURN_TENTHS - TURN_TENTHS // 2)
+        if turned < REPORT_MOVED_TENTHS and now_s - self._said_s < REPORT_EVERY_S:
+            return None
+        self._said_s, self._said_tenths = now_s, tenths
+        return f"{self._rotor_name} @ {tenths}".encode()

@@ -1,0 +1,159 @@
+"""The programs that turn antennas: which protocol each wants, what to set in it, what it says, and how we know.
+
+Knows facts about other people's programs. Does not know what their words do: the protocols' own sessions are asked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+LONGEST_SHOWN = 44
+VERIFIED = "**verified**"
+"""The real program was run against this box."""
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    name: str
+    protocols: tuple[str, ...]
+    where: str
+    """Which kind of link, in words; empty: any that the protocol has."""
+    settings: str
+    says: tuple[bytes, ...]
+    """What it is known to send, to the byte; each must be understood."""
+    known: str
+
+
+PROGRAMS = (
+    Program(
+        "Hamlib `rotctl`, `rotctld`",
+        ("gs232b", "gs232a", "rotctld", "easycomm2", "rot2prog", "md01", "dcu1"),
+        "",
+        "the model that goes with the protocol: [see below](#hamlib-in-one-line)",
+        (b"W235 025\r", b"C2\r", b"S\r"),
+        VERIFIED,
+    ),
+    Program(
+        "Gpredict",
+        ("rotctld",),
+        "TCP",
+        "host, port 4533; Az type 0 → 180 → 360; Max El 90, unless your rotor goes over the top: "
+        "[see below](#gpredict)",
+        (b"p\n", b"P 174.46 12.00\n", b"P 174,46 12,00\n", b"S\n"),
+        VERIFIED,
+    ),
+    Program(
+        "PstRotator",
+        ("gs232b", "gs232a"),
+        "serial or TCP",
+        "Yaesu GS-232 with the same letter, 9600 8N1; it polls `C` or `C2` up to 5 times a second and wants its answer",
+        (b"M235\r", b"W235 025\r", b"C2\r", b"C\r", b"S\r"),
+        "users' reports",
+    ),
+    Program(
+        "SatPC32",
+        ("gs232b",),
+        "serial",
+        "rotor menu *Yaesu_GS-232*; limits and 450° in the same menu",
+        (b"W235 025\r", b"C2\r"),
+        "its manual, and another builder's controller that it drives",
+    ),
+    Program(
+        "OscarWatch",
+        ("gs232a", "gs232b"),
+        "serial or TCP",
+        "its default is 4800 baud: set 9600, or `baud = 4800` on the link; 360/450 and elevation 90/180 as your rotor",
+        (b"W235 025\r", b"C2\r", b"C\r", b"B\r", b"S\r"),
+        "its source",
+    ),
+    Program(
+        "SDRangel",
+        ("gs232b", "rotctld"),
+        "serial, or TCP",
+        "GS-232, not the A form: it reads that ten times too small",
+        (b"W235 025\r\n", b"M235\r\n", b"C2\r\n"),
+        "its source",
+    ),
+    Program(
+        "Orbitron or SDR Console through WispDDE",
+        ("gs232-f1efw", "gs232b"),
+        "serial",
+        "GS-232; it knows COM1 to COM4 only: renumber the port in the Device Manager",
+        (b"W235 025\r",),
+        "WispDDE's source",
+    ),
+    Program(
+        "remoteRotator",
+        ("gs232b", "gs232a"),
+        "serial",
+        "Yaesu; it asks every 5 s",
+        (b"C2\r\n", b"M235\r\n", b"W235 025\r\n", b"S\r\n"),
+        "its source",
+    ),
+    Program(
+        "Termite, or any terminal",
+        ("gs232b", "gs232-f1efw"),
+        "serial",
+        "9600; append CR, LF or CR LF, any will do",
+        (b"w235 25\r", b"W235 025\n"),
+        "general use",
+    ),
+    Program(
+        "Loggers, balloon trackers and others that steer PstRotator",
+        ("pstrotator",),
+        "UDP `0.0.0.0:12000`",
+        "PstRotator, the Pi's address, port 12000; answers come back at 12001",
+        (b"<PST><AZIMUTH>85</AZIMUTH></PST>", b"<PST>AZ?</PST>", b"<PST><STOP>1</STOP></PST>"),
+        "PstRotator's manual, and some of these programs' sources",
+    ),
+    Program(
+        "N1MM Logger+",
+        ("n1mm",),
+        "UDP `0.0.0.0:12040`",
+        "Configurer, Antennas: the rotor's name as `rotor_name`; Broadcast Data: Rotor to the Pi's address, port 12040",
+        (
+            b"<N1MMRotor><rotor>mast</rotor><goazi>55.0</goazi><offset>0.0</offset>"
+            b"<bidirectional>0</bidirectional><freqband>14</freqband></N1MMRotor>",
+        ),
+        "other rotor servers for it",
+    ),
+    Program(
+        "MacDoppler",
+        ("macdoppler",),
+        "UDP `0.0.0.0:9932`",
+        "UDP broadcast on",
+        (b"00000001 mac [AzEl Rotor Report:Azimuth:39.00, Elevation:0.00, SatName:XW-2C]",),
+        "bridges from it to rotors",
+    ),
+    Program(
+        "WSJT-X",
+        ("wsjtx",),
+        "its file `azel.dat`",
+        "View, Astronomical data: keep it open",
+        (b"18:03:22,123.4,045.6,Moon\n",),
+        "its source",
+    ),
+    Program(
+        "Look4Sat (Android)",
+        ("rotctld",),
+        "TCP `0.0.0.0:4533`",
+        "TCP, the Pi's address, port 4533; the default template `P $AZ $EL` is right",
+        (b"P 114.8 9.05\n",),
+        "its source",
+    ),
+)
+
+
+def programs_table() -> str:
+    rows = ["| program | link | set in the program | it says | how we know |", "| --- | --- | --- | --- | --- |"]
+    for program in PROGRAMS:
+        protocols = ", ".join(f"`{protocol}`" for protocol in program.protocols)
+        link = f"{protocols}; {program.where}" if program.where else protocols
+        says = " ".join(f"`{_shown(word)}`" for word in program.says)
+        rows.append(f"| {program.name} | {link} | {program.settings} | {says} | {program.known} |")
+    return "\n".join(rows) + "\n"
+
+
+def _shown(said: bytes) -> str:
+    text = said.decode("ascii").encode("unicode_escape").decode("ascii")
+    return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 1] + "…"

@@ -1,0 +1,174 @@
+"""PstRotator's UDP control, as programs send it to PstRotator: `<PST><AZIMUTH>235</AZIMUTH></PST>`, `<PST>AZ?</PST>`.
+
+Knows the tags, their codec and what they make the box do. Does not know sockets: one `receive` is one datagram, and
+what it says stands for itself. Sources: PstRotator's manual, Rev. 7.5, as others quote it; what Hamlib 4.6 and other
+programs send (see docs/protocols.md).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from rotator.orders import Order, Park, Stop
+from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.session import Box
+
+ANSWERS_ABOVE = 1
+"""Answers go to the sender's address, so many ports above the box's own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tag:
+    """One row of the list. A question ends in `?`."""
+
+    text: str
+    help: str
+
+
+TAGS = (
+    Tag("AZIMUTH", "Go there; without ELEVATION in the same datagram, elevation goes on as it was"),
+    Tag("ELEVATION", "Go there; without AZIMUTH in the same datagram, azimuth goes on as it was"),
+    Tag("STOP", "1: stop everything and acknowledge faults"),
+    Tag("PARK", "1: go to the park position"),
+    Tag("HOME", "1: the same"),
+    Tag("TRACK", "Azimuth and elevation: go there; 0 or 1: passed over, for nothing here tracks by itself"),
+    Tag("AZ?", "Read azimuth"),
+    Tag("EL?", "Read elevation"),
+    Tag("TGA?", "Read the azimuth of the target; without one, azimuth"),
+    Tag("TGE?", "Read the elevation of the target; without one, elevation"),
+    Tag("MODE?", "Read whether it tracks by itself: never"),
+)
+
+_OPEN, _CLOSE = "<PST>", "</PST>"
+_BETWEEN = re.compile(_CLOSE + r"\s*" + _OPEN)
+_ITEM = re.compile(r"\s*(?:<([A-Z][A-Z0-9]*)>([^<>]*)</\1>|([A-Z][A-Z0-9]*\?))\s*")
+_STOP = re.compile(r"<STOP>([^<>]*)</STOP>")
+_SLIP = re.compile(r"(\d\.\d{6})\.2")
+"""Hamlib's model 3 writes `%f.2` where it means `%.2f`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """A tag with its value, or a question."""
+
+    tag: str
+    value: str | None = None
+
+
+def parse(datagram: bytes) -> tuple[Item, ...]:
+    """What a datagram holds, in order. One that is damaged is good for its stops only."""
+    text = datagram.decode("latin-1").upper().strip(" \t\r\n\0")
+    items = None
+    if text.startswith(_OPEN) and text.endswith(_CLOSE) and len(text) >= len(_OPEN + _CLOSE):
+        items = _items(_BETWEEN.sub(" ", text[len(_OPEN) : -len(_CLOSE)]))
+    if items is None:
+        return tuple(Item("STOP", value.strip()) for value in _STOP.findall(text))
+    return items
+
+
+def _items(text: str) -> tuple[Item, ...] | None:
+    items, at = [], 0
+    while at < len(text):
+        found = _ITEM.match(text, at)
+        if not found:
+            return None
+        items.append(Item(found[3]) if found[3] else Item(found[1], found[2].strip()))
+        at = found.end()
+    return tuple(items)
+
+
+def encode(*items: Item) -> bytes:
+    """One datagram, as programs write it."""
+    written = (item.tag if item.value is None else f"<{item.tag}>{item.value}</{item.tag}>" for item in items)
+    return f"{_OPEN}{''.join(written)}{_CLOSE}".encode()
+
+
+class PstRotatorSession:
+    """PstRotator for one sender. Orders get no answer; what is refused moves nothing, in silence.
+
+    `remark`: where the sender asks for something that is not here, for the log.
+    """
+
+    idle_s = None
+    closed = False
+
+    def __init__(self, box: Box, remark: Callable[[str], None] = lambda _text: None) -> None:
+        self._box = box
+        self._remark = remark
+
+    def receive(self, data: bytes) -> list[bytes]:
+        asked: dict[str, None] = {}
+        before: list[Order] = []
+        angles: dict[str, str] = {}
+        for item in parse(data):
+            match item:
+                case Item("AZIMUTH" | "ELEVATION" as axis, str() as value):
+                    angles[axis] = value
+                case Item("TRACK", str() as value) if len(value.split()) == 2:
+                    angles["AZIMUTH"], angles["ELEVATION"] = value.split()
+                case Item("TRACK", "0"):
+                    pass
+                case Item("STOP", value):
+                    if value != "0":
+                        # What was said before it is stopped as well; what comes after it is meant.
+                        before = [Stop()]
+                        angles.clear()
+                case Item("PARK" | "HOME", value):
+                    if value == "1":
+                        before = [*(order for order in before if isinstance(order, Stop)), Park()]
+                        angles.clear()
+                case Item(question, None) if _is_listed(question):
+                    # Once, however often it is asked: a small datagram is not to call forth a thousand.
+                    asked[question] = None
+                case Item(tag, value):
+                    shown = "" if value is None else f" {value[:16]!a}"
+                    self._remark(f"{tag[:24]}{shown} does nothing here")
+        for order in before:
+            self._box.order(order)
+        self._point(angles)
+        return [answer for question in asked for answer in self._answer(question)]
+
+    def idle(self) -> list[bytes]:
+        return []
+
+    def _point(self, angles: dict[str, str]) -> None:
+        """One order for both axes, or for the one that is named. A number that is damaged leaves both alone."""
+        meant = {axis: degrees(_SLIP.sub(r"\1", text)) for axis, text in angles.items()}
+        if not meant or None in meant.values():
+            return
+        order = aim(meant.get("AZIMUTH"), meant.get("ELEVATION"))
+        if order is not None:
+            self._box.order(order)
+
+    def _answer(self, question: str) -> Iterator[bytes]:
+        """Nothing while the position is not known."""
+        status = self._box.status()
+        azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
+        match question:
+            case "AZ?" if azimuth_deg is not None:
+                yield f"AZ:{_tenths(azimuth_deg) % 3600 / 10:05.1f}\r".encode()
+            case "EL?" if elevation_deg is not None:
+                yield f"EL:{_tenths(elevation_deg) / 10:04.1f}\r".encode()
+            case "TGA?" if azimuth_deg is not None:
+                wanted_deg = status.wanted_azimuth_deg
+                yield f"TGA:{_whole(azimuth_deg if wanted_deg is None else wanted_deg) % 360:03d}\r".encode()
+            case "TGE?" if elevation_deg is not None:
+                wanted_deg = status.wanted_elevation_deg
+                yield f"TGE:{_whole(elevation_deg if wanted_deg is None else wanted_deg):02d}\r".encode()
+            case "MODE?":
+                yield b"MODE:0\r"
+
+
+def _is_listed(question: str) -> bool:
+    return any(tag.text == question for tag in TAGS)
+
+
+def _tenths(angle_deg: float) -> int:
+    return math.floor(angle_deg * 10 + 0.5)
+
+
+def _whole(angle_deg: float) -> int:
+    return math.floor(angle_deg + 0.5)

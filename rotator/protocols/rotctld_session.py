@@ -1,0 +1,212 @@
+"""One connection that speaks rotctld: what each command makes the box do, and what it answers.
+
+Knows the commands' meaning. Does not know bytes on the wire (that is `rotctld`). It answers everything (Gpredict's
+window freezes on silence) and gives each answer in one piece (Gpredict and SatDump read once a command).
+"""
+
+from __future__ import annotations
+
+from hw.ports import Axis, Direction
+from rotator import __version__
+from rotator.orders import Jog, Order, Park, Speed, Stop
+from rotator.protocols import rotctld_caps, rotctld_earth
+from rotator.protocols.aiming import aim
+from rotator.protocols.lines import LineReader
+from rotator.protocols.rotctld import (
+    INVALID_PARAMETER,
+    IO_ERROR,
+    MAX_LINE,
+    NOT_AVAILABLE,
+    NOT_IMPLEMENTED,
+    QUESTION,
+    REJECTED,
+    Answer,
+    BadRequest,
+    Request,
+    encode_answer,
+    number,
+    report,
+    requests,
+    whole_number,
+)
+from rotator.protocols.session import Box
+
+NO_NEWLINE_S = 0.1
+"""Windows builds of Gpredict up to 2018 end no line: a whole command and then silence is taken as sent."""
+
+UNCHANGED_SPEED = -1
+FULL_SPEED = 100
+
+_LEFT, _RIGHT = Jog(Axis.AZIMUTH, Direction.MINUS), Jog(Axis.AZIMUTH, Direction.PLUS)
+_UP, _DOWN = Jog(Axis.ELEVATION, Direction.PLUS), Jog(Axis.ELEVATION, Direction.MINUS)
+_WAYS: dict[tuple[str, ...], tuple[Jog, ...]] = {
+    ("2", "UP"): (_UP,),
+    ("4", "DOWN"): (_DOWN,),
+    ("8", "LEFT", "CCW"): (_LEFT,),
+    ("16", "RIGHT", "CW"): (_RIGHT,),
+    ("32", "UP_LEFT", "UP_CCW"): (_UP, _LEFT),
+    ("64", "UP_RIGHT", "UP_CW"): (_UP, _RIGHT),
+    ("128", "DOWN_LEFT", "DOWN_CCW"): (_DOWN, _LEFT),
+    ("256", "DOWN_RIGHT", "DOWN_CW"): (_DOWN, _RIGHT),
+}
+_DIRECTIONS = {word: jogs for words, jogs in _WAYS.items() for word in words}
+
+
+class RotctldSession:
+    idle_s = NO_NEWLINE_S
+
+    def __init__(self, box: Box) -> None:
+        self._box = box
+        self._lines = LineReader(MAX_LINE)
+        self.closed = False
+
+    def receive(self, data: bytes) -> list[bytes]:
+        return [reply for line in self._lines.feed(data) for reply in self._answers(line)]
+
+    def idle(self) -> list[bytes]:
+        pending = self._lines.pending.decode("latin-1")
+        try:
+            whole = bool(pending) and all(map(_complete, requests(pending)))
+        except BadRequest:
+            return []
+        return self._answers(self._lines.flush()) if whole else []
+
+    def _answers(self, line: bytes | None) -> list[bytes]:
+        if self.closed:
+            return []
+        if line is None:
+            return [report(INVALID_PARAMETER)]
+        try:
+            # Understood whole before any of it is obeyed: KEEPALIVE is no order to park.
+            understood = list(requests(line.decode("latin-1")))
+        except BadRequest as fault:
+            return [report(fault.code)]
+        replies = []
+        for request in understood:
+            if request.name == "quit":
+                self.closed = True
+                break
+            try:
+                answer = self._answer(request)
+            except BadRequest as fault:
+                answer = Answer(fault.code)
+            replies.append(encode_answer(request, answer))
+        return replies
+
+    def _answer(self, request: Request) -> Answer:
+        words = request.arguments
+        match request.name:
+            case "set_pos":
+                return self._set_position(*map(number, words))
+            case "get_pos":
+                return self._position()
+            case "stop":
+                return self._order(Stop())
+            case "reset":
+                whole_number(words[0])
+                return self._order(Stop())
+            case "park":
+                return self._order(Park())
+            case "move":
+                return self._move(*words)
+            case "pause":
+                # Whoever wants to wait does it at the other end: here it would hold up a stop behind it.
+                whole_number(words[0])
+                return Answer()
+            case "send_cmd":
+                return Answer(NOT_AVAILABLE)
+            case name if name in rotctld_earth.NAMES:
+                return rotctld_earth.answer(request)
+            case _:
+                return self._setting(request.name, words) or self._told(request.name)
+
+    def _setting(self, name: str, words: tuple[str, ...]) -> Answer | None:
+        """Levels, functions, parameters and configuration; None: it is none of these."""
+        status = self._box.status()
+        match name, words:
+            case "set_level", ("?",):
+                return Answer(text="SPEED \n", always_reports=True)
+            case "get_level", ("?",):
+                return Answer(text="SPEED \n")
+            case "set_level", ("SPEED", "?"):
+                return Answer(text=f"{rotctld_caps.SPEED_RANGE}\n", always_reports=True)
+            case "set_level", ("SPEED", word):
+                return self._set_speed(whole_number(word))
+            case "get_level", ("SPEED",):
+                return Answer(text=f"{status.speed_level}\n")
+            case (("set_func" | "set_parm"), ("?",)):
+                return Answer(text="\n", always_reports=True)
+            case (("get_func" | "get_parm"), ("?",)):
+                return Answer(text="\n")
+            case (("set_level" | "set_func" | "set_parm"), _):
+                return Answer(NOT_AVAILABLE)
+            case (("get_level" | "get_func" | "get_parm"), _):
+                return Answer(INVALID_PARAMETER)
+            case "set_conf", (token, value):
+                return rotctld_caps.set_conf(token, value, status)
+            case "set_conf", _:
+                return Answer(INVALID_PARAMETER)
+            case "get_conf", (token,):
+                listed = token == QUESTION
+                return (
+                    rotctld_caps.dump_conf(status, always_reports=False)
+                    if listed
+                    else rotctld_caps.get_conf(token, status)
+                )
+        return None
+
+    def _told(self, name: str) -> Answer:
+        """What a command without arguments reads."""
+        status = self._box.status()
+        match name:
+            case "get_info":
+                return Answer(records=(("Info", f"gs232-rotator {__version__}"),))
+            case "get_status":
+                return Answer(records=(("Status flags", rotctld_caps.status_words(status)),))
+            case "dump_caps":
+                return rotctld_caps.dump_caps(status)
+            case "dump_conf":
+                return rotctld_caps.dump_conf(status, always_reports=True)
+            case "dump_state":
+                return rotctld_caps.dump_state(status)
+        raise BadRequest(NOT_IMPLEMENTED)
+
+    def _set_position(self, azimuth_deg: float, elevation_deg: float) -> Answer:
+        order = aim(azimuth_deg, elevation_deg)
+        return self._order(order) if order else Answer(INVALID_PARAMETER)
+
+    def _move(self, way: str, speed: str) -> Answer:
+        jogs, percent = _DIRECTIONS.get(way), whole_number(speed)
+        if jogs is None or not (percent == UNCHANGED_SPEED or 1 <= percent <= FULL_SPEED):
+            raise BadRequest(INVALID_PARAMETER)
+        if percent != UNCHANGED_SPEED:
+            self._set_speed(-(-percent * len(rotctld_caps.SPEEDS) // FULL_SPEED))
+        return self._order(*jogs)
+
+    def _set_speed(self, level: int) -> Answer:
+        if level not in rotctld_caps.SPEEDS:
+            raise BadRequest(INVALID_PARAMETER)
+        return self._order(Speed(level))
+
+    def _order(self, *orders: Order) -> Answer:
+        refusals = [refusal for order in orders if (refusal := self._box.order(order))]
+        if not refusals:
+            return Answer()
+        return Answer(REJECTED if refusals[0].forbidden else INVALID_PARAMETER)
+
+    def _position(self) -> Answer:
+        status = self._box.status()
+        azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
+        if azimuth_deg is None or elevation_deg is None:
+            return Answer(IO_ERROR)
+        return Answer(records=(("Azimuth", f"{azimuth_deg:z.2f}"), ("Elevation", f"{elevation_deg:z.2f}")))
+
+
+def _complete(request: Request) -> bool:
+    """Whether it may end where silence has caught it: a word could go on; a number is what those clients send last."""
+    try:
+        for word in request.arguments:
+            number(word)
+    except BadRequest:
+        return False
+    return True

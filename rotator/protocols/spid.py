@@ -1,0 +1,160 @@
+"""The frames of SPID's Rot1Prog, Rot2Prog and MD-01, as a table, with their codec.
+
+Knows thirteen bytes to the controller, five or twelve from it, and how to find a frame among other bytes. Does not know
+what the box does about a frame: that is `spid_session`. Sources: LA6YKA's description of the protocol, and what Hamlib
+4.5 and 4.6 send to models 901, 902 and 903 (see docs/protocols.md).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from enum import Enum, IntEnum, IntFlag
+
+START, END = 0x57, 0x20
+LENGTH = 13
+OFFSET_DEG = 360
+"""Added to every angle, so that none is below zero."""
+_COMMAND_AT, _END_AT = 11, 12
+_AZIMUTH, _ELEVATION = slice(1, 5), slice(6, 10)
+_AZIMUTH_PULSES_AT, _ELEVATION_PULSES_AT = 5, 10
+_MOST_TENTHS = 9999
+
+
+class Model(Enum):
+    ROT1PROG = "Rot1Prog"
+    """Azimuth only, whole degrees."""
+    ROT2PROG = "Rot2Prog"
+    MD01 = "MD-01"
+    """As Rot2Prog; it answers a set as well, and turns by hand."""
+
+
+class Command(IntEnum):
+    """The byte called K."""
+
+    STOP = 0x0F
+    STATUS = 0x1F
+    SET = 0x2F
+    MOVE = 0x14
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One row of the command list."""
+
+    command: Command
+    help: str
+    models: tuple[Model, ...] = tuple(Model)
+    answered: tuple[Model, ...] = ()
+    """Those that answer with their position."""
+
+
+ROWS = (
+    Row(Command.STATUS, "Read the position", answered=tuple(Model)),
+    Row(Command.SET, "Go there", answered=(Model.MD01,)),
+    Row(Command.STOP, "Stop everything", answered=tuple(Model)),
+    Row(Command.MOVE, "Turn until stopped: 1 left, 2 right, 4 up, 8 down, or a sum", models=(Model.MD01,)),
+)
+_BY_COMMAND: dict[int, Row] = {row.command: row for row in ROWS}
+
+
+class Turn(IntFlag):
+    """The first byte of a move."""
+
+    LEFT = 1
+    RIGHT = 2
+    UP = 4
+    DOWN = 8
+
+
+TURNS = tuple(x | y for x in (Turn(0), Turn.LEFT, Turn.RIGHT) for y in (Turn(0), Turn.UP, Turn.DOWN) if x | y)
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """One command. A set has angles, to the pulse; a move has a turn."""
+
+    command: Command
+    azimuth_deg: float | None = None
+    elevation_deg: float | None = None
+    turn: Turn | None = None
+
+
+def answers(model: Model, command: Command) -> bool:
+    return model in _BY_COMMAND[command].answered
+
+
+@dataclass(slots=True)
+class FrameReader:
+    """Feed it pieces; it gives whole frames. What is no frame is passed over, a byte at a time."""
+
+    model: Model
+    pulses: int
+    _buffer: bytearray = field(default_factory=bytearray)
+
+    def feed(self, data: bytes) -> list[Frame]:
+        self._buffer += data
+        frames = []
+        at = 0
+        while (at := self._buffer.find(START, at)) >= 0 and len(self._buffer) - at >= LENGTH:
+            frame = decode(bytes(self._buffer[at : at + LENGTH]), self.model, self.pulses)
+            if frame:
+                frames.append(frame)
+            at += LENGTH if frame else 1
+        del self._buffer[: len(self._buffer) if at < 0 else at]
+        return frames
+
+
+def decode(octets: bytes, model: Model, pulses: int) -> Frame | None:
+    """Thirteen bytes to a command for a controller that counts so many pulses a degree; None: they are none.
+
+    The pulses that a client sends are ignored, as by the real ones: it has to ask for the controller's.
+    """
+    row = _BY_COMMAND.get(octets[_COMMAND_AT])
+    if octets[0] != START or octets[_END_AT] != END or row is None or model not in row.models:
+        return None
+    match row.command:
+        case Command.SET:
+            azimuth, elevation = octets[_AZIMUTH], octets[_ELEVATION]
+            if model is Model.ROT1PROG:
+                # Hundreds first and a last digit that is always 0: not the pulses of the others.
+                return Frame(Command.SET, int(azimuth[:3]) - OFFSET_DEG) if azimuth.isdigit() else None
+            if not (azimuth.isdigit() and elevation.isdigit()):
+                return None
+            return Frame(Command.SET, int(azimuth) / pulses - OFFSET_DEG, int(elevation) / pulses - OFFSET_DEG)
+        case Command.MOVE:
+            # Hamlib leaves whatever was in memory in the two bytes for the pulses.
+            turn = Turn(octets[1])
+            return Frame(Command.MOVE, turn=turn) if turn in TURNS else None
+        case _:
+            return Frame(row.command)
+
+
+def encode(frame: Frame, model: Model, pulses: int) -> bytes:
+    """A command as Hamlib writes it; angles are cut to the pulse below."""
+    octets = bytearray(LENGTH)
+    octets[0], octets[_COMMAND_AT], octets[_END_AT] = START, frame.command, END
+    if frame.turn is not None:
+        octets[1] = frame.turn
+    if frame.azimuth_deg is not None and model is Model.ROT1PROG:
+        octets[_AZIMUTH] = b"%03d0" % int(frame.azimuth_deg + OFFSET_DEG)
+    elif frame.azimuth_deg is not None and frame.elevation_deg is not None:
+        octets[_AZIMUTH] = b"%04d" % int(pulses * (frame.azimuth_deg + OFFSET_DEG))
+        octets[_ELEVATION] = b"%04d" % int(pulses * (frame.elevation_deg + OFFSET_DEG))
+        octets[_AZIMUTH_PULSES_AT] = octets[_ELEVATION_PULSES_AT] = pulses
+    return bytes(octets)
+
+
+def azimuth_reply(azimuth_deg: float) -> bytes:
+    """Rot1Prog's five bytes: whole degrees, three digits as values, not as characters."""
+    return bytes([START, *_digits(math.floor(azimuth_deg + 0.5))[:3], END])
+
+
+def position_reply(azimuth_deg: float, elevation_deg: float, pulses: int) -> bytes:
+    """The twelve bytes of the others: tenths of a degree, whatever a pulse is."""
+    return bytes([START, *_digits(azimuth_deg), pulses, *_digits(elevation_deg), pulses, END])
+
+
+def _digits(angle_deg: float) -> list[int]:
+    tenths = math.floor((angle_deg + OFFSET_DEG) * 10 + 0.5)
+    return [int(digit) for digit in f"{min(max(tenths, 0), _MOST_TENTHS):04d}"]

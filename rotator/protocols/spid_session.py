@@ -1,0 +1,67 @@
+"""One connection that speaks as a SPID controller: what each frame makes the box do, and what it answers.
+
+Knows the frames' meaning. Does not know bytes on the wire (that is `spid`) nor how the box carries an order out.
+"""
+
+from __future__ import annotations
+
+from hw.ports import Axis, Direction
+from rotator.orders import Jog, Stop
+from rotator.protocols import spid
+from rotator.protocols.aiming import aim
+from rotator.protocols.session import Box
+from rotator.protocols.spid import Command, Frame, FrameReader, Model, Turn
+
+PULSES = {Model.ROT1PROG: 1, Model.ROT2PROG: 2, Model.MD01: 10}
+"""How many a degree, where the configuration does not say: Rot2Prog counts half degrees, MD-01 tenths."""
+
+_TURNS = {
+    Turn.LEFT: Jog(Axis.AZIMUTH, Direction.MINUS),
+    Turn.RIGHT: Jog(Axis.AZIMUTH, Direction.PLUS),
+    Turn.UP: Jog(Axis.ELEVATION, Direction.PLUS),
+    Turn.DOWN: Jog(Axis.ELEVATION, Direction.MINUS),
+}
+
+
+class SpidSession:
+    """A SPID controller on one connection. The protocol has no word for a refusal: it is silent, and stands still."""
+
+    idle_s = None
+    closed = False
+
+    def __init__(self, box: Box, model: Model, pulses: int | None = None) -> None:
+        self._box = box
+        self._model = model
+        self._pulses = pulses or PULSES[model]
+        self._frames = FrameReader(model, self._pulses)
+
+    def receive(self, data: bytes) -> list[bytes]:
+        replies = [self._answer(frame) for frame in self._frames.feed(data)]
+        return [reply for reply in replies if reply]
+
+    def idle(self) -> list[bytes]:
+        return []
+
+    def _answer(self, frame: Frame) -> bytes:
+        match frame:
+            case Frame(Command.STOP):
+                self._box.order(Stop())
+            case Frame(Command.SET, azimuth_deg, elevation_deg):
+                order = aim(azimuth_deg, elevation_deg)
+                if order is not None:
+                    self._box.order(order)
+            case Frame(Command.MOVE, turn=Turn() as turn):
+                for way, jog in _TURNS.items():
+                    if way in turn:
+                        self._box.order(jog)
+        return self._position() if spid.answers(self._model, frame.command) else b""
+
+    def _position(self) -> bytes:
+        """Nothing while it is not known: a client takes that for a controller that is switched off."""
+        status = self._box.status()
+        azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
+        if azimuth_deg is None:
+            return b""
+        if self._model is Model.ROT1PROG:
+            return spid.azimuth_reply(azimuth_deg)
+        return b"" if elevation_deg is None else spid.position_reply(azimuth_deg, elevation_deg, self._pulses)

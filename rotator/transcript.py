@@ -1,0 +1,143 @@
+r"""What went over the links, as text: a line for each piece of bytes, for a person at once and for a program exactly.
+
+    # rotator 1.0, 2026-11-21
+    # link gs232b {"protocol": "gs232b", "pty": "run/gs232"}
+    # at 235.00 25.00, under gs232b#1
+    18:03:22.114 gs232b#1 > W235 025\r
+    18:03:22.301 gs232b#1 < AZ=235  EL=025\r\n
+    18:03:22.377 md01#1 > \hex 57 00 00 00 00 00 00 00 00 00 00 1F 20
+
+`>` is what came in, `<` what the box said. A backslash begins \\, \r, \n, \t or \x and two hexadecimal digits; what is
+no text stands as `\hex` and pairs of digits. A blank at the end is \x20, for editors eat it. Other lines that begin
+with # are remarks. Knows the form. Knows no link, no file and no clock.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import datetime
+from enum import Enum
+
+from rotator.orders import Source
+
+
+class Way(Enum):
+    IN = ">"
+    OUT = "<"
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """Bytes that came or went in one go."""
+
+    day_s: float
+    """Seconds since midnight, local time."""
+    source: Source
+    way: Way
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class LinkNote:
+    """A link, and the keys of its table of the configuration."""
+
+    name: str
+    keys: Mapping[str, object]
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """Where the antenna pointed, in degrees on the rotor's own scale."""
+
+    azimuth_deg: float
+    elevation_deg: float
+    under: str = ""
+    """Whose orders it obeyed; empty: nobody's."""
+
+
+@dataclass(frozen=True, slots=True)
+class Remark:
+    text: str
+
+
+Entry = Piece | LinkNote | At | Remark
+
+
+class NotATranscript(ValueError):  # noqa: N818 - it is about what somebody wrote, not a failure of the program
+    """A line is in none of the forms; the text shows it."""
+
+
+_ESCAPES = {0x5C: "\\\\", 0x0D: "\\r", 0x0A: "\\n", 0x09: "\\t"}
+_PARTS = re.compile(r"\\(\\|r|n|t|x[0-9a-fA-F]{2})|([ -\[\]-~])")
+_MEANT = {"\\": "\\", "r": "\r", "n": "\n", "t": "\t"}
+_HEX = "\\hex "
+_PIECE = re.compile(r"(\d\d):(\d\d):(\d\d\.\d{3}) ([^<>]+?)(?:#(\d+))? ([<>]) (.+)")
+_LINK = re.compile(r"# link (.+?) (\{.*\})")
+_ANGLE = r"(-?\d{1,3}(?:\.\d+)?)"
+_AT = re.compile(rf"# at {_ANGLE} {_ANGLE}(?:, under (.+))?")
+
+
+def parse(line: str) -> Entry:
+    """One line, without its end. Raises NotATranscript."""
+    if link := _LINK.fullmatch(line):
+        return LinkNote(link[1], _keys(link[2]))
+    if at := _AT.fullmatch(line):
+        return At(float(at[1]), float(at[2]), at[3] or "")
+    if line.startswith("#") or not line:
+        return Remark(line.removeprefix("#").strip())
+    if piece := _PIECE.fullmatch(line):
+        hours, minutes, seconds, name, number, way, text = piece.groups()
+        day_s = 3600 * int(hours) + 60 * int(minutes) + float(seconds)
+        return Piece(day_s, Source(name, int(number or 0)), Way(way), unescape(text))
+    raise NotATranscript(f"{line!r} is no line of a transcript")
+
+
+def encode_piece(moment: datetime, source: Source, way: Way, data: bytes, *, text: bool = True) -> str:
+    """`text`: bytes that mean characters read best as such; those of a binary protocol as digits."""
+    said = escape(data) if text else _HEX + data.hex(" ").upper()
+    return f"{moment:%H:%M:%S}.{moment.microsecond // 1000:03d} {source} {way.value} {said}"
+
+
+def encode_link(note: LinkNote) -> str:
+    return f"# link {note.name} {json.dumps(note.keys)}"
+
+
+def encode_at(at: At) -> str:
+    under = f", under {at.under}" if at.under else ""
+    return f"# at {at.azimuth_deg:z.2f} {at.elevation_deg:z.2f}{under}"
+
+
+def escape(data: bytes) -> str:
+    """Bytes as one line of printable characters; `unescape` gives back the same bytes."""
+    text = "".join(_ESCAPES.get(byte) or (chr(byte) if 0x20 <= byte < 0x7F else f"\\x{byte:02x}") for byte in data)
+    return text[:-1] + "\\x20" if text.endswith(" ") else text
+
+
+def unescape(text: str) -> bytes:
+    """Raises NotATranscript."""
+    if text.startswith(_HEX):
+        try:
+            return bytes.fromhex(text.removeprefix(_HEX))
+        except ValueError as fault:
+            raise NotATranscript(f"{text!r}: pairs of hexadecimal digits follow \\hex") from fault
+    data, at = bytearray(), 0
+    while at < len(text):
+        part = _PARTS.match(text, at)
+        if part is None:
+            raise NotATranscript(f"{text!r}: what stands at character {at + 1} is no escape and not printable")
+        escaped, plain = part.groups()
+        data += (plain or _MEANT.get(escaped) or chr(int(escaped[1:], 16))).encode("latin-1")
+        at = part.end()
+    return bytes(data)
+
+
+def _keys(text: str) -> dict[str, object]:
+    try:
+        keys = json.loads(text)
+    except ValueError as fault:
+        raise NotATranscript(f"{text!r}: the keys of a link are a JSON object") from fault
+    assert isinstance(keys, dict), "the braces make it one"
+    return keys

@@ -1,0 +1,205 @@
+"""Any bytes at all, in any pieces, in EasyComm and the protocols of SPID and Hy-Gain: no crash, no ill-formed answer,
+bounded memory, and no motion but what a second reading of the same bytes finds there.
+
+The second readings below are written from the protocols' descriptions, by hand and without the program's own parsers.
+"""
+
+from __future__ import annotations
+
+import re
+import tracemalloc
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, Jog, Order, Park
+from rotator.protocols.dcu1 import Dcu1Session
+from rotator.protocols.easycomm import Level
+from rotator.protocols.easycomm_session import EasycommSession
+from rotator.protocols.session import Box, Session
+from rotator.protocols.spid import Model
+from rotator.protocols.spid_session import SpidSession
+
+if TYPE_CHECKING:
+    from tests.protocols.conftest import BenchBox
+
+SESSIONS: dict[str, Callable[[Box], Session]] = {
+    "easycomm1": lambda box: EasycommSession(box, Level.I),
+    "easycomm2": lambda box: EasycommSession(box, Level.II, pstrotator=True),
+    "easycomm3": lambda box: EasycommSession(box, Level.III),
+    "rot1prog": lambda box: SpidSession(box, Model.ROT1PROG),
+    "rot2prog": lambda box: SpidSession(box, Model.ROT2PROG),
+    "md01": lambda box: SpidSession(box, Model.MD01),
+    "dcu1": Dcu1Session,
+}
+_EASYCOMM = rb"AZ-?\d+\.\d( EL-?\d+\.\d)?\n|EL-?\d+\.\d\n|"
+WELL_FORMED = {
+    "easycomm1": _EASYCOMM[:-1],
+    "easycomm2": _EASYCOMM + rb"\+\d+\.\d -?\d+\.\d\n|AL[ -~]+\n|VE[ -~]+\n",
+    "easycomm3": _EASYCOMM + rb"AL[ -~]+\n|VE[ -~]+\n|G[SE]\d+\n",
+    "rot1prog": rb"W[\0-\x09]{3} ",
+    "rot2prog": rb"W[\0-\x09]{4}\x02[\0-\x09]{4}\x02 ",
+    "md01": rb"W[\0-\x09]{4}\x0a[\0-\x09]{4}\x0a ",
+    "dcu1": rb";\d{3}|[ \d]\d?\d\.\d;",
+}
+
+NUMBERS = st.one_of(
+    st.integers(-200, 600).map(lambda n: b"%d" % n),
+    st.decimals(-200, 600, places=1).map(lambda n: str(n).encode()),
+    st.sampled_from([b"", b"-", b"12,5", b".5", b"9.", b"1234", b"nan", b"1e2", b"000", b"005.5", b"1_0", b"\xb2"]),
+)
+WORDS = st.builds(
+    bytes.__add__,
+    st.sampled_from(
+        [
+            *b"AZ EL AZ EL AZ EL SA SE ML MR MU MD VE VL VR VU VD GS GE PARK RESET UP DN X az el".split(),
+            *b"AP1 AP1 AM1 AI1 BI1 AS1".split(),
+        ]
+    ),
+    NUMBERS,
+)
+FRAMES = st.builds(
+    lambda azimuth, ph, elevation, pv, command, end: b"W" + azimuth + ph + elevation + pv + command + end,
+    st.one_of(st.integers(0, 9999).map(lambda n: b"%04d" % n), st.binary(min_size=4, max_size=4)),
+    st.binary(min_size=1, max_size=1),
+    st.one_of(st.integers(0, 9999).map(lambda n: b"%04d" % n), st.sampled_from([b"\0\0\0\0", b"WWWW"])),
+    st.binary(min_size=1, max_size=1),
+    st.sampled_from([b"\x0f", b"\x1f", b"\x2f", b"\x2f", b"\x2f", b"\x14", b"\x3f"]),
+    st.sampled_from([b" ", b" ", b" ", b"", b"!"]),
+)
+GAPS = st.sampled_from([b" ", b" ", b"\n", b"\r", b"\r\n", b";", b";", b"\r;", b"\t", b"\xff", b"\0"])
+PIECES = st.lists(st.one_of(st.binary(max_size=6), WORDS, WORDS, FRAMES, GAPS, GAPS, GAPS), max_size=40)
+
+TURNS = {
+    b"L": Jog(Axis.AZIMUTH, Direction.MINUS),
+    b"R": Jog(Axis.AZIMUTH, Direction.PLUS),
+    b"U": Jog(Axis.ELEVATION, Direction.PLUS),
+    b"D": Jog(Axis.ELEVATION, Direction.MINUS),
+}
+
+
+def direction(azimuth: float | None, elevation: float | None) -> Iterator[Order]:
+    if (azimuth is None or -180 <= azimuth <= 540) and (elevation is None or -90 <= elevation <= 180):
+        yield Aim(azimuth if azimuth is None or azimuth >= 0 else azimuth + 360, elevation)
+
+
+def easycomm_motions(heard: bytes, level: int) -> list[Order]:
+    """Whatever might be meant: in each line every pair of angles, every turn and every park, in order."""
+    motions: list[Order] = []
+    for line in re.split(rb"[\r\n]", heard.upper())[:-1]:
+        azimuths: list[float | None] = [None]
+        elevations: list[float | None] = [None]
+        for word in re.split(rb"[ ;\t]", line):
+            bare = word.lstrip(bytes(range(0x20)) + bytes(range(0x7F, 0x100)))
+            try:
+                number = float(bare[2:].replace(b",", b"."))
+            except ValueError:
+                number = None
+            if number is not None and bare[:2] in (b"AZ", b"EL"):
+                (azimuths if bare[:2] == b"AZ" else elevations).append(number)
+                pairs = ((azimuth, elevation) for azimuth in azimuths for elevation in elevations)
+                motions += [aim for pair in pairs for aim in direction(*pair)]
+            if level >= 2 and bare[:1] == b"M" and len(bare) == 2 and bare[1:] in TURNS:
+                motions.append(TURNS[bare[1:]])
+            if level >= 3 and bare[:1] == b"V" and bare[1:2] in TURNS and number:
+                motions.append(TURNS[bare[1:2]])
+            if level >= 2 and bare == b"PARK":
+                motions.append(Park())
+    return motions
+
+
+def spid_motions(heard: bytes, protocol: str) -> list[Order]:
+    """Exactly what a SPID controller is to do."""
+    stands = rb".{10}[\x0f\x1f]"
+    moves = rb"|(?P<turn>[\x01\x02\x04\x05\x06\x08\x09\x0a]).{9}\x14" if protocol == "md01" else b""
+    elevation = rb".{6}" if protocol == "rot1prog" else rb".(?P<el>\d{4})."
+    motions: list[Order] = []
+    for frame in re.finditer(rb"W(?:(?P<az>\d{4})" + elevation + rb"/|" + stands + moves + rb") ", heard, re.DOTALL):
+        found = frame.groupdict()
+        if found["az"] and protocol == "rot1prog":
+            motions += direction(int(found["az"]) // 10 - 360, None)
+        elif found["az"]:
+            pulses = 2 if protocol == "rot2prog" else 10
+            motions += direction(int(found["az"]) / pulses - 360, int(found["el"]) / pulses - 360)
+        elif found.get("turn"):
+            turn = found["turn"][0]
+            motions += [jog for bit, jog in zip((1, 2, 4, 8), TURNS.values(), strict=True) if turn & bit]
+    return motions
+
+
+def dcu1_motions(heard: bytes) -> list[Order]:
+    """Exactly what a DCU-1 is to do."""
+    motions: list[Order] = []
+    target: float | None = None
+    for command in re.finditer(rb"([^;\r]*)([;\r])", re.sub(rb"(\.[^;\r]*\r);", rb"\1", heard)):
+        text = command[1].lstrip(bytes(range(0x21)) + bytes(range(0x7F, 0x100)))
+        good = re.fullmatch(rb"AP1(\d\d\d)(\.\d)?", text)
+        if good and float(text[3:]) <= 360:
+            target = float(text[3:])
+        if target is not None and ((good and float(text[3:]) <= 360 and command[2] == b"\r") or text == b"AM1"):
+            motions.append(Aim(target, None))
+        if text == b"AS1" or (not text and command[2] == b";"):
+            target = None
+    return motions
+
+
+@pytest.mark.parametrize("protocol", SESSIONS)
+@settings(max_examples=100, deadline=None)
+@given(pieces=PIECES, silences=st.sets(st.integers(0, 40), max_size=5))
+def test_nothing_crashes_and_answers_are_well_formed(
+    new_box: type[BenchBox], protocol: str, pieces: list[bytes], silences: set[int]
+) -> None:
+    session = SESSIONS[protocol](new_box())
+    for number, piece in enumerate(pieces):
+        replies = session.receive(piece) + (session.idle() if number in silences else [])
+        assert all(re.fullmatch(WELL_FORMED[protocol], reply) for reply in replies)
+
+
+@pytest.mark.parametrize("protocol", SESSIONS)
+@settings(max_examples=200, deadline=None)
+@given(pieces=PIECES)
+def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
+    box, heard = new_box((0, 540)), b"".join(pieces)
+    session = SESSIONS[protocol](box)
+    for piece in pieces:
+        session.receive(piece)
+    match protocol:
+        case "dcu1":
+            assert box.motions == dcu1_motions(heard)
+        case "rot1prog" | "rot2prog" | "md01":
+            assert box.motions == spid_motions(heard, protocol)
+        case _:
+            possible = iter(easycomm_motions(heard, int(protocol[-1])))
+            assert all(motion in possible for motion in box.motions), "in this order"
+    if not box.motions:
+        box.wait(0.5)
+        assert box.turned == set()
+
+
+@pytest.mark.parametrize("protocol", SESSIONS)
+@settings(max_examples=50, deadline=None)
+@given(pieces=PIECES)
+def test_pieces_make_no_difference(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
+    torn, whole = new_box(at_once=False), new_box(at_once=False)
+    in_pieces, at_once = SESSIONS[protocol](torn), SESSIONS[protocol](whole)
+    replies = [reply for piece in pieces for reply in in_pieces.receive(piece)]
+    assert at_once.receive(b"".join(pieces)) == replies
+    assert whole.orders == torn.orders
+
+
+@pytest.mark.parametrize("junk", [b"Z", b"W", b"AZ235.0 ", b"\0", b"AP1", b"W0000"])
+@pytest.mark.parametrize("protocol", SESSIONS)
+def test_what_never_ends_is_not_kept(new_box: type[BenchBox], protocol: str, junk: bytes) -> None:
+    session = SESSIONS[protocol](new_box())
+    packet = (junk * 4096)[:4096]
+    tracemalloc.start()
+    for _ in range(32):
+        assert session.receive(packet) == []
+    kept, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert kept < 20_000
+    assert peak < 100_000

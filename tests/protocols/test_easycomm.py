@@ -1,0 +1,139 @@
+"""EasyComm's words, both ways: as the standard writes them, as Hamlib does, and as they come damaged."""
+
+from __future__ import annotations
+
+import pytest
+
+from rotator.protocols import easycomm
+from rotator.protocols.easycomm import VERBS, Level, Word, encode, is_whole, parse
+
+HAMLIB = [
+    (b"AZ235.6 EL25.0\n", (Word("AZ", 235.6), Word("EL", 25.0))),
+    (b"AZ-10.5 EL-5.5\n", (Word("AZ", -10.5), Word("EL", -5.5))),
+    (b"AZ EL\n", (Word("AZ"), Word("EL"))),
+    (b"AZ\n", (Word("AZ"),)),
+    (b"EL\n", (Word("EL"),)),
+    (b"SA SE\n", (Word("SA"), Word("SE"))),
+    (b"PARK\n", (Word("PARK"),)),
+    (b"RESET\n", (Word("RESET"),)),
+    (b"ML\n", (Word("ML"),)),
+    (b"MR\n", (Word("MR"),)),
+    (b"MU\n", (Word("MU"),)),
+    (b"MD\n", (Word("MD"),)),
+    (b"VL0000\n", (Word("VL", 0.0),)),
+    (b"VR4900\n", (Word("VR", 4900.0),)),
+    (b"VU9900\n", (Word("VU", 9900.0),)),
+    (b"VD0100\n", (Word("VD", 100.0),)),
+    (b"VE\n", (Word("VE"),)),
+    (b"GS\n", (Word("GS"),)),
+    (b"GE\n", (Word("GE"),)),
+]
+
+
+@pytest.mark.parametrize(("line", "words"), HAMLIB)
+def test_reads_what_it_writes_and_writes_what_it_reads(line: bytes, words: tuple[Word, ...]) -> None:
+    assert parse(line.removesuffix(b"\n"), Level.III) == words
+    assert encode(*words) == line
+
+
+def test_every_row_of_the_table_is_written_and_read_above() -> None:
+    assert {verb.text for verb in VERBS} == {word.verb for _, words in HAMLIB for word in words}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"AZ235.5 EL25.0",
+        b"EL25.0 AZ235.5",
+        b"AZ235.5 EL25.0 ",  # WispDDE
+        b"AZ235,5 EL25,0",  # a European desktop
+        b"AZ+235.5 EL+25",
+        b"AZ235.50000 EL25.",
+        b"az235.5 el25.0",  # by hand
+        b"\tAZ235.5\tEL25.0",
+        b"AZ235.5;EL25.0",
+        b";AZ235.5 EL25.0",  # Hamlib leaves the `;` of `GS\n;` in front of the next command
+        b"\0\xff AZ235.5 EL25.0",  # a port being plugged in
+        b"AZ235.5 EL25.0 UP000 XXX DN000 XXX",  # Hamlib's EasyComm I
+        b"AZ235.5 EL25.0 UP145900000 USB DN435800000 CW",
+        b"UP145900000 UMFM DN435800000 DMFM DR1 UR2 AZ235.5 EL25.0 AO ST26:11:21:18:00:00 OP1 IP1 AN2",
+    ],
+)
+@pytest.mark.parametrize("level", Level)
+def test_however_it_is_written(line: bytes, level: Level) -> None:
+    assert {word.verb: word.value for word in parse(line, level)} == {"AZ": 235.5, "EL": 25.0}
+
+
+@pytest.mark.parametrize(("text", "value"), [(b".5", 0.5), (b"-.5", -0.5), (b",5", 0.5), (b"5", 5.0), (b"0", 0.0)])
+def test_visual_basics_numbers(text: bytes, value: float) -> None:
+    assert parse(b"EL" + text, Level.I) == (Word("EL", value),)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"AZ1x0 EL20.0",
+        b"AZ1 20.5 EL20.0",
+        b"AZ235.5EL25.0",
+        b"AZ235.5 EL2\xff.0",
+        b"AZ235.5 EL25.0 \x00",
+        b"AZ=235.5 EL=25.0",
+        b"AZ 235.5 EL 25.0",
+        b"AZx35.5 EL20.0",
+        b"AZ1235 EL20.0",
+        b"AZnan EL20.0",
+        b"AZ1e2 EL20.0",
+        b"AZ- EL20.0",
+        b"AZ.  EL20.0",
+        b"MR 5",
+        b"PARK \xb2",
+    ],
+)
+def test_a_damaged_line_is_good_for_its_stops_only(line: bytes) -> None:
+    assert parse(line, Level.III) == ()
+    assert parse(line + b" SA SE", Level.III) == (Word("SA"), Word("SE"))
+
+
+@pytest.mark.parametrize("line", [b"", b" ", b";", b"XX", b"UP145900000", b"PARKED", b"MRx", b"SA1", b"VR", b"VR-5"])
+def test_what_is_not_for_a_rotor_is_passed_over(line: bytes) -> None:
+    assert parse(line, Level.III) == ()
+
+
+@pytest.mark.parametrize(
+    ("level", "known"),
+    [
+        (Level.I, {"AZ", "EL", "SA", "SE"}),
+        (Level.II, {"AZ", "EL", "SA", "SE", "ML", "MR", "MU", "MD", "VE", "PARK", "RESET"}),
+        (Level.III, {verb.text for verb in VERBS}),
+    ],
+)
+def test_each_level_has_the_commands_of_those_below(level: Level, known: set[str]) -> None:
+    line = b" ".join(b"VL5 VR5 VU5 VD5".split() + [verb.text.encode() for verb in VERBS])
+    assert {word.verb for word in parse(line, level)} == known
+
+
+@pytest.mark.parametrize("begun", [b"AZ235.5 EL25.0", b"EL25.0 AZ235.5 ", b"AZ235.5", b"EL-5.0", b"az45.0"])
+def test_whole_without_an_end(begun: bytes) -> None:
+    assert is_whole(begun)
+
+
+@pytest.mark.parametrize(
+    "begun", [b"", b"AZ", b"AZ2", b"AZ235", b"AZ235.", b"AZ235.5 EL", b"AZ235.5 EL2", b"AZ EL", b"PARK", b"xAZ1.0"]
+)
+def test_only_begun(begun: bytes) -> None:
+    assert not is_whole(begun)
+
+
+@pytest.mark.parametrize(
+    ("azimuth_deg", "elevation_deg", "reply"),
+    [
+        (235.55, 25.04, b"AZ235.6 EL25.0\n"),
+        (-10.5, -5.5, b"AZ-10.5 EL-5.5\n"),
+        (-0.04, 0.0, b"AZ0.0 EL0.0\n"),
+        (400.0, 7.0, b"AZ400.0 EL7.0\n"),
+        (235.0, None, b"AZ235.0\n"),
+        (None, 25.0, b"EL25.0\n"),
+    ],
+)
+def test_positions(azimuth_deg: float | None, elevation_deg: float | None, reply: bytes) -> None:
+    assert easycomm.position_reply(azimuth_deg, elevation_deg) == reply
