@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 
 
@@ -23,6 +24,10 @@ class MotorSpec:
     """Total play between the shaft (where the pot sits) and the boom (where the antenna is)."""
     stop_low_deg: float
     stop_high_deg: float
+
+
+Stretch = Callable[[float, float, Callable[[float], float]], None]
+"""From which moment, for how many seconds, and where the shaft is after so many of them. Nothing turns back within."""
 
 
 class SimMotor:
@@ -51,6 +56,8 @@ class SimMotor:
         """Where it can turn no further; a fault may move them."""
         self.shorted_s = 0.0
         """How long both directions were fed at once: what burns a motor. Must stay 0."""
+        self.on_turn: list[Stretch] = []
+        """Told of every stretch that the shaft has turned, in order."""
         self._now_s = now_s
         self._contacts = (False, False)
         self._moving_contacts: deque[tuple[float, tuple[bool, bool]]] = deque()
@@ -80,7 +87,7 @@ class SimMotor:
         left_s = until_s - self._now_s
         if left_s <= 0:
             return
-        self._now_s = until_s
+        from_s, self._now_s = self._now_s, until_s
         if self.supply and (self._contacts[0] or self.welded > 0) and (self._contacts[1] or self.welded < 0):
             self.shorted_s += left_s
         self.drive = self._fed()
@@ -91,34 +98,40 @@ class SimMotor:
         # A reversal is two runs, so that the play is taken up where the shaft really turned.
         turn_s = self._time_to_standstill(wanted_dps)
         if turn_s is not None and turn_s < left_s:
-            self._glide(wanted_dps, turn_s)
-            left_s -= turn_s
-        self._glide(wanted_dps, left_s)
+            self._glide(wanted_dps, turn_s, from_s)
+            from_s, left_s = from_s + turn_s, left_s - turn_s
+        self._glide(wanted_dps, left_s, from_s)
 
     def _time_to_standstill(self, wanted_dps: float) -> float | None:
         if self.spec.lag_s <= 0 or wanted_dps * self.speed_dps >= 0:
             return None
         return self.spec.lag_s * math.log((wanted_dps - self.speed_dps) / wanted_dps)
 
-    def _glide(self, wanted_dps: float, seconds: float) -> None:
+    def _glide(self, wanted_dps: float, seconds: float, from_s: float) -> None:
         """Run with the speed closing in on `wanted_dps`."""
         if wanted_dps == 0.0 and self.speed_dps == 0.0:
             return
-        lag_s = self.spec.lag_s
-        if lag_s <= 0:
-            self.speed_dps = wanted_dps
-            self._move_to(self.shaft_deg + wanted_dps * seconds)
-            return
-        fade = math.exp(-seconds / lag_s)
+        lag_s, start_deg = self.spec.lag_s, self.shaft_deg
         gap_dps = self.speed_dps - wanted_dps
-        self.speed_dps = wanted_dps + gap_dps * fade
+
+        def shaft_deg(after_s: float) -> float:
+            if lag_s <= 0:
+                return start_deg + wanted_dps * after_s
+            return start_deg + wanted_dps * after_s + gap_dps * lag_s * (1.0 - math.exp(-after_s / lag_s))
+
+        self.speed_dps = wanted_dps if lag_s <= 0 else wanted_dps + gap_dps * math.exp(-seconds / lag_s)
         if wanted_dps == 0.0 and abs(self.speed_dps) < 1e-6:  # a millionth of a degree a second is rest
             self.speed_dps = 0.0
-        self._move_to(self.shaft_deg + wanted_dps * seconds + gap_dps * lag_s * (1.0 - fade))
+        self._move_to(shaft_deg(seconds))
+        for told in self.on_turn:
+            told(from_s, seconds, lambda after_s: self._stopped(shaft_deg(after_s)))
 
     def _move_to(self, shaft_deg: float) -> None:
-        self.shaft_deg = min(max(shaft_deg, self.stop_low_deg), self.stop_high_deg)
+        self.shaft_deg = self._stopped(shaft_deg)
         if self.shaft_deg != shaft_deg:
             self.speed_dps = 0.0
         half_deg = self.spec.backlash_deg / 2
         self.boom_deg = min(max(self.boom_deg, self.shaft_deg - half_deg), self.shaft_deg + half_deg)
+
+    def _stopped(self, shaft_deg: float) -> float:
+        return min(max(shaft_deg, self.stop_low_deg), self.stop_high_deg)

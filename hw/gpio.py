@@ -1,7 +1,7 @@
-"""Digital outputs on the Linux GPIO character device, through libgpiod's Python package.
+"""Digital outputs and contacts on the Linux GPIO character device, through libgpiod's Python package.
 
-Knows how to find a Raspberry Pi's header among the chips and how to take lines without a glitch. Does not know what is
-wired to them. The only importer of gpiod.
+Knows how to find a Raspberry Pi's header among the chips, how to take lines without a glitch, and how the kernel keeps
+the changes of an input for whoever asks later. Does not know what is wired to them. The only importer of gpiod.
 """
 
 from __future__ import annotations
@@ -10,12 +10,16 @@ import errno
 import glob
 import re
 from collections.abc import Iterable, Mapping
+from datetime import timedelta
 from typing import Any
 
-from hw.ports import HardwareError
+from hw.ports import ContactChange, HardwareError
 
 PI_HEADER_LABEL = r"pinctrl-(bcm2835|bcm2711|rp1)"
 """The chip with the 40-pin header, by label: its number changed twice on the Pi 5 alone."""
+
+EVENTS_KEPT = 1024
+"""How many changes the kernel keeps for us, the most it does: a contact that chatters 50 times a second for 20 s."""
 
 
 class LinesBusyError(HardwareError):
@@ -81,17 +85,7 @@ class GpioOutputs:
         setting = gpiod.LineSettings(
             direction=line.Direction.OUTPUT, active_low=active_low, output_value=line.Value.INACTIVE
         )
-        try:
-            self._request = api.request_lines(path, consumer=consumer, config={tuple(offsets.values()): setting})
-        except PermissionError as fault:
-            raise HardwareError(f"GPIO: no permission for {path}: add the user to the group gpio") from fault
-        except OSError as fault:
-            pins = ", ".join(f"{name} on GPIO{offset}" for name, offset in offsets.items())
-            if fault.errno == errno.EBUSY:
-                raise LinesBusyError(f"GPIO: {path}: cannot take {pins}: a line is taken by another program") from fault
-            raise HardwareError(f"GPIO: {path}: cannot take {pins}: {fault.strerror or fault}") from fault
-        except ValueError as fault:
-            raise HardwareError(f"GPIO: {path}: {fault}") from fault
+        self._request = _taken(api, path, self._offsets, {tuple(offsets.values()): setting}, consumer=consumer)
 
     def set(self, levels: dict[str, bool]) -> None:
         values = {self._offsets[name]: self._on if on else self._off for name, on in levels.items()}
@@ -102,3 +96,85 @@ class GpioOutputs:
 
     def close(self) -> None:
         self._request.release()
+
+
+class GpioContact:
+    """One contact on an input line, through `api`; the kernel waits out the bounce and notes the moments.
+
+    A change is noted `debounce_s` after the contact has come to rest: what opens and closes within that is not seen.
+    `active_low`: the line is low while the contact is closed, as with an opto-isolator to ground. `pull`: the Pi's own
+    resistor holds the line at the open contact's level.
+    """
+
+    def __init__(
+        self,
+        api: Any,
+        path: str,
+        offset: int,
+        *,
+        consumer: str,
+        active_low: bool = True,
+        pull: bool = True,
+        debounce_s: float = 0.02,
+    ) -> None:
+        line = real_gpiod().line
+        self._offset = offset
+        self._closed = line.Value.ACTIVE
+        self._seqno = 0
+        resting = line.Bias.PULL_UP if active_low else line.Bias.PULL_DOWN
+        setting = real_gpiod().LineSettings(
+            direction=line.Direction.INPUT,
+            edge_detection=line.Edge.BOTH,
+            bias=resting if pull else line.Bias.DISABLED,
+            active_low=active_low,
+            debounce_period=timedelta(seconds=debounce_s),
+        )
+        self._request = _taken(
+            api, path, {"contact": offset}, {offset: setting}, consumer=consumer, event_buffer_size=EVENTS_KEPT
+        )
+
+    def closed(self) -> bool:
+        try:
+            return bool(self._request.get_value(self._offset) is self._closed)
+        except OSError as fault:
+            raise HardwareError(f"GPIO: cannot read GPIO{self._offset}: {fault.strerror or fault}") from fault
+
+    def changes(self) -> list[ContactChange]:
+        changes: list[ContactChange] = []
+        try:
+            while self._request.wait_edge_events(0):
+                for event in self._request.read_edge_events():
+                    # The kernel numbers the events of a line: what is missing was dropped while nobody read.
+                    lost = event.line_seqno - self._seqno - 1
+                    self._seqno = event.line_seqno
+                    closed = event.event_type.name == "RISING_EDGE"
+                    changes.append(ContactChange(event.timestamp_ns * 1e-9, closed, lost))
+        except OSError as fault:
+            raise HardwareError(f"GPIO: cannot read GPIO{self._offset}: {fault.strerror or fault}") from fault
+        return changes
+
+    def close(self) -> None:
+        self._request.release()
+
+
+def _taken(
+    api: Any,
+    path: str,
+    offsets: Mapping[str, int],
+    config: Mapping[Any, Any],
+    *,
+    consumer: str,
+    event_buffer_size: int | None = None,
+) -> Any:
+    """A request of these lines. Raises HardwareError that names them."""
+    try:
+        return api.request_lines(path, consumer=consumer, config=config, event_buffer_size=event_buffer_size)
+    except PermissionError as fault:
+        raise HardwareError(f"GPIO: no permission for {path}: add the user to the group gpio") from fault
+    except OSError as fault:
+        pins = ", ".join(f"{name} on GPIO{offset}" for name, offset in offsets.items())
+        if fault.errno == errno.EBUSY:
+            raise LinesBusyError(f"GPIO: {path}: cannot take {pins}: a line is taken by another program") from fault
+        raise HardwareError(f"GPIO: {path}: cannot take {pins}: {fault.strerror or fault}") from fault
+    except ValueError as fault:
+        raise HardwareError(f"GPIO: {path}: {fault}") from fault

@@ -7,6 +7,7 @@ here is a `typing.Protocol`: a driver conforms by its shape and imports nothing 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import Enum, IntEnum
 from typing import Protocol
 
@@ -103,3 +104,46 @@ class I2CBus(Protocol):
 
     def write_read(self, address: int, data: bytes, count: int) -> bytes:
         """Write, then read `count` bytes after a repeated start. Raises HardwareError."""
+
+
+class PositionedDrive(Protocol):
+    """Motors that go to an angle by themselves. Angles are degrees on the rotor's own scale."""
+
+    def aim(self, axis: Axis, angle_deg: float, rate_dps: float, until_s: float) -> None:
+        """Be at `angle_deg` now, moving on at `rate_dps`; the moment `until_s`, at the latest, the axis decelerates and
+        holds unless told again. No command lives longer than the longest lease. Raises HardwareError.
+        """
+
+    def hold(self, axis: Axis) -> None:
+        """Decelerate, and hold where it comes to rest. Raises HardwareError."""
+
+    def release(self) -> None:
+        """Let go, without torque: an antenna that is not balanced turns. Only a person asks for that."""
+
+    def off(self) -> None:
+        """The safe state, from any thread: every axis decelerates and holds."""
+
+    def due_s(self) -> float | None:
+        """The moment `enforce` has something to do; None: nothing moves."""
+
+    def enforce(self, now_s: float) -> None:
+        """Hold every axis whose command has expired. The guard's only task; it touches no sensor."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactChange:
+    """A contact closed or opened, at that moment of time.monotonic(); so many changes before it went unseen."""
+
+    at_s: float
+    closed: bool
+    lost: int = 0
+
+
+class ContactInput(Protocol):
+    """A contact whose changes are noted, bounce left out, by somebody who never sleeps: the kernel."""
+
+    def closed(self) -> bool:
+        """What it is now. Raises HardwareError."""
+
+    def changes(self) -> list[ContactChange]:
+        """What has happened since this was asked the last time, in order of time. Never waits. Raises HardwareError."""

@@ -8,12 +8,12 @@ from __future__ import annotations
 import errno
 import threading
 from collections.abc import Mapping
+from datetime import timedelta
 from itertools import pairwise
 
 import pytest
 from gpiod import LineSettings
-from gpiod.line import Bias, Direction, Drive, Value
-from gpiod.line import Edge as EdgeDetection
+from gpiod.line import Bias, Clock, Direction, Drive, Value
 
 from firmware_sim.gpio import Edge, RequestReleasedError, SimGpio
 
@@ -222,10 +222,11 @@ def test_a_released_request_is_dead(gpio: SimGpio) -> None:
     [
         ({58: OUTPUT}, ValueError),
         ({(12, 13): OUTPUT, 12: INPUT}, ValueError),
-        ({12: LineSettings(edge_detection=EdgeDetection.BOTH)}, NotImplementedError),
         ({12: LineSettings(drive=Drive.OPEN_DRAIN)}, NotImplementedError),
+        ({12: LineSettings(event_clock=Clock.REALTIME)}, NotImplementedError),
+        ({12: LineSettings(direction=Direction.OUTPUT, debounce_period=timedelta(seconds=0.02))}, OSError),
     ],
-    ids=["out of range", "twice", "edge detection", "open drain"],
+    ids=["out of range", "twice", "open drain", "another clock", "a debounced output"],
 )
 def test_a_request_that_cannot_be(gpio: SimGpio, config: object, fault: type[Exception]) -> None:
     with pytest.raises(fault):

@@ -1,0 +1,163 @@
+"""A simulated rotor of the Alliance U-100 kind: two motors behind relays, and a cam contact on each shaft.
+
+Knows what is wired where, and its faults by name. Knows no driver: it offers lines in the shape of gpiod, and the rest
+is physics. The contacts come through opto-isolators: a closed one pulls its line low.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from firmware_sim.contact import ContactFault, ContactSpec, SimContact
+from firmware_sim.gpio import SimGpio
+from firmware_sim.motor import MotorSpec, SimMotor
+from firmware_sim.world import SimFault
+
+U100_MOTOR = MotorSpec(
+    speed_dps=6.0, lag_s=0.1, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=0.0, stop_high_deg=360.0
+)
+"""One turn a minute; it stands half a second after its relay has opened."""
+
+
+@dataclass(frozen=True, slots=True)
+class PulseAxisSpec:
+    """One axis of the rotor, and the pins it is wired to."""
+
+    plus_pin: int
+    minus_pin: int
+    contact_pin: int
+    motor: MotorSpec = U100_MOTOR
+    contact: ContactSpec = field(default_factory=ContactSpec)
+    start_deg: float = 0.0
+    seed: int = 0
+    """Of its bouncing."""
+
+
+class SimPulseAxis:
+    """A motor with its contact. Looked at only through the rotor, under its lock."""
+
+    def __init__(self, spec: PulseAxisSpec, now_s: float) -> None:
+        self.spec = spec
+        self.motor = SimMotor(spec.motor, spec.start_deg, now_s)
+        self.contact = SimContact(spec.contact, spec.start_deg, spec.seed)
+        self.motor.on_turn.append(self.contact.turned)
+        self.coils = (False, False)
+
+
+class PulseRotor:
+    """`clock` tells the time; nothing here lets it pass."""
+
+    def __init__(
+        self,
+        azimuth: PulseAxisSpec,
+        elevation: PulseAxisSpec,
+        clock: Callable[[], float],
+        *,
+        relays_active_low: bool = False,
+    ) -> None:
+        self._clock = clock
+        self._active_low = relays_active_low
+        self._lock = threading.RLock()
+        self.gpio = SimGpio(clock)
+        self.azimuth = SimPulseAxis(azimuth, clock())
+        self.elevation = SimPulseAxis(elevation, clock())
+        self.relay_starts = 0
+        """How often a motor relay has closed."""
+        self._axes = (self.azimuth, self.elevation)
+        for axis in self._axes:
+            self.gpio.drive_input(axis.spec.contact_pin, not axis.contact.closed)
+        self.gpio.on_edges.append(self._relays_changed)
+        self.gpio.on_look.append(self._catch_up)
+        self.faults = self._fault_table()
+
+    def antenna(self) -> tuple[float, float]:
+        """Where the boom really points: azimuth and elevation on the rotor's own scales."""
+        with self._lock:
+            self._advance()
+            return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
+
+    def shafts(self) -> tuple[float, float]:
+        """Where the shafts really are, before the play of the gears."""
+        with self._lock:
+            self._advance()
+            return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg
+
+    def drives(self) -> tuple[int, int]:
+        """The relays' coils: -1, 0, 1 for each axis."""
+        with self._lock:
+            return tuple(int(plus) - int(minus) for plus, minus in (axis.coils for axis in self._axes))  # type: ignore[return-value]
+
+    def inject(self, name: str) -> None:
+        """Let something go wrong, by name. Raises ValueError that lists the names."""
+        self._fault(name).inject()
+
+    def clear(self, name: str) -> None:
+        self._fault(name).clear()
+
+    def _fault(self, name: str) -> SimFault:
+        if name not in self.faults:
+            raise ValueError(f"no fault called {name!r}; there are: {', '.join(sorted(self.faults))}")
+        return self.faults[name]
+
+    def _relays_changed(self, now_s: float, changes: Mapping[int, bool]) -> None:
+        with self._lock:
+            for axis in self._axes:
+                pins = (axis.spec.plus_pin, axis.spec.minus_pin)
+                if changed := changes.keys() & set(pins):
+                    plus, minus = axis.coils = (self._pulled(pins[0]), self._pulled(pins[1]))
+                    axis.motor.coils(plus, minus, now_s)
+                    self.relay_starts += sum(self._pulled(pin) for pin in changed)
+
+    def _pulled(self, pin: int) -> bool:
+        return self.gpio.level(pin) != self._active_low
+
+    def _advance(self) -> None:
+        now_s = self._clock()
+        for axis in self._axes:
+            axis.motor.advance(now_s)
+
+    def _catch_up(self, now_s: float) -> None:
+        """The contacts' pins, up to now. The lines' lock is held, and always taken before the rotor's."""
+        with self._lock:
+            self._advance()
+            changes = [(*change, axis) for axis in self._axes for change in axis.contact.take(now_s)]
+        for at_s, closed, axis in sorted(changes, key=lambda change: change[0]):
+            self.gpio.drive_input(axis.spec.contact_pin, not closed, at_s)
+
+    def _fault_table(self) -> dict[str, SimFault]:
+        table: dict[str, SimFault] = {}
+        for name, axis, plus, minus in (
+            ("azimuth", self.azimuth, "cw", "ccw"),
+            ("elevation", self.elevation, "up", "down"),
+        ):
+            table |= {
+                f"{name}-contact-stuck-open": self._contact_fault(axis, ContactFault.STUCK_OPEN),
+                f"{name}-contact-stuck-closed": self._contact_fault(axis, ContactFault.STUCK_CLOSED),
+                f"{name}-pulses-missed": self._contact_fault(axis, ContactFault.MISSES),
+                f"{name}-pulses-doubled": self._contact_fault(axis, ContactFault.DOUBLES),
+                f"{name}-motor-stalled": self._motor_fault(axis, "stalled", True, False),
+                f"{name}-motor-reversed": self._motor_fault(axis, "reversed", True, False),
+                f"{name}-motor-slow": self._motor_fault(axis, "pace", 0.4, 1.0),
+                f"{name}-hand-turns": self._motor_fault(axis, "pushed", 1.0, 0.0),
+                f"{name}-relay-welded-{plus}": self._motor_fault(axis, "welded", 1, 0),
+                f"{name}-relay-welded-{minus}": self._motor_fault(axis, "welded", -1, 0),
+            }
+        return table
+
+    def _contact_fault(self, axis: SimPulseAxis, fault: ContactFault) -> SimFault:
+        def become(wanted: ContactFault) -> None:
+            with self._lock:
+                self._advance()
+                axis.contact.break_down(wanted, self._clock())
+
+        return SimFault(lambda: become(fault), lambda: become(ContactFault.NONE))
+
+    def _motor_fault(self, axis: SimPulseAxis, field: str, bad: object, good: object) -> SimFault:
+        def become(value: object) -> None:
+            with self._lock:
+                self._advance()
+                setattr(axis.motor, field, value)
+
+        return SimFault(lambda: become(bad), lambda: become(good))

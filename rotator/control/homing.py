@@ -1,0 +1,95 @@
+"""Finding the low end stop of an axis that counts pulses: only a person orders it, and watches.
+
+Down until no pulse comes for three periods; that may be the stop, or a contact that died. So up again until a pulse has
+come, and down once more: the same pulses must come back before it is quiet again. Then the axis stands at its stop.
+Knows what the relays do and how often the contact has changed. Knows no angle, and cannot tell a stop from a branch
+that the antenna hangs in: that is what the person is for.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+from hw.ports import Direction
+
+QUIET_PERIODS = 3.0
+PROOF = 2
+"""Changes of the contact on the way up that prove it alive: it has closed and opened."""
+ALIKE = 1
+"""Changes that may be missing on the way back, or too many: the stop may be just at an edge of the contact."""
+
+
+class _Phase(Enum):
+    DOWN = "down"
+    UP = "up"
+    DOWN_AGAIN = "down again"
+    SETTLE = "settle"
+
+
+class Homing:
+    """One axis. Ask `step` every cycle for the direction to drive, until it has `homed` or there is a `failure`.
+
+    `period_s`: from one pulse to the next at full speed. `travel_s`: from end to end. `coast_s`: from the relay's
+    opening until it stands for certain.
+    """
+
+    def __init__(self, *, period_s: float, travel_s: float, coast_s: float) -> None:
+        self.homed = False
+        self.failure = ""
+        """Why it has given up, for a person; empty: it has not."""
+        self._quiet_after_s = QUIET_PERIODS * period_s
+        self._longest_s = 1.5 * travel_s + 2.0 * self._quiet_after_s
+        self._coast_s = coast_s
+        self._phase = _Phase.DOWN
+        self._began_s: float | None = None
+        self._still_s = 0.0
+        """Since when nothing has changed: neither the contact nor what the relays do."""
+        self._driven = Direction.OFF
+        self._changes = 0
+        self._base = 0
+        self._up = 0
+
+    def step(self, now_s: float, driven: Direction, changes: int) -> Direction:
+        """What to drive now, given what the relays do (a reversal takes its dead time) and the contact's count."""
+        if self._began_s is None:
+            self._began_s, self._still_s, self._changes = now_s, now_s, changes
+        if driven is not self._driven or changes != self._changes:
+            turning_back = driven is Direction.MINUS and self._driven is not Direction.MINUS
+            if self._phase is _Phase.DOWN_AGAIN and turning_back:
+                self._up, self._base = changes - self._base, changes
+            self._driven, self._changes, self._still_s = driven, changes, now_s
+        if self.homed or self.failure:
+            return Direction.OFF
+        if now_s - self._began_s > self._longest_s:
+            return self._fail("it is driven for longer than its whole travel takes, and pulses still come")
+        still_s = now_s - self._still_s
+        wanted = self._wanted()
+        quiet = driven is wanted and still_s > self._quiet_after_s
+        match self._phase:
+            case _Phase.DOWN if quiet:
+                self._phase, self._base = _Phase.UP, changes
+            case _Phase.UP if changes - self._base >= PROOF:
+                self._phase = _Phase.DOWN_AGAIN
+            case _Phase.UP if quiet:
+                return self._fail("no pulse came in either direction: look at the contact, its wires and the motor")
+            case _Phase.DOWN_AGAIN if quiet:
+                back = changes - self._base
+                if abs(back - self._up) > ALIKE:
+                    return self._fail(f"{self._up} edges came on the way up and {back} on the way back")
+                self._phase = _Phase.SETTLE
+            case _Phase.SETTLE if driven is Direction.OFF and still_s >= self._coast_s:
+                self.homed = True
+        return self._wanted()
+
+    def _wanted(self) -> Direction:
+        match self._phase:
+            case _Phase.DOWN | _Phase.DOWN_AGAIN:
+                return Direction.MINUS
+            case _Phase.UP:
+                return Direction.PLUS
+            case _Phase.SETTLE:
+                return Direction.OFF
+
+    def _fail(self, why: str) -> Direction:
+        self.failure = f"not homed: {why}"
+        return Direction.OFF

@@ -1,0 +1,177 @@
+"""Counts survive a restart; what was moving, damaged or counted on another cam is lost, and known to be."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from hw.ports import Axis
+from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing, decode, encode
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+CAMS = {AZ: {"spacing_deg": 5.0, "closes_at_deg": 0.3}, EL: {"spacing_deg": 10.0, "closes_at_deg": 2.5}}
+BOTH = {AZ: Place(Standing.KNOWN, 123.456), EL: Place(Standing.KNOWN, 45.0)}
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "run" / "counts.json"
+
+
+def kept(path: Path) -> CountsFile:
+    """A file in which both axes are known."""
+    file = CountsFile(path, CAMS)
+    for axis, place in BOTH.items():
+        file.home(axis, place.angle_deg)
+    return file
+
+
+def on_disk(path: Path) -> dict[Axis, Place]:
+    return CountsFile(path, CAMS).load()
+
+
+# --- the form
+
+
+def test_there_and_back() -> None:
+    assert decode(encode(BOTH, CAMS), CAMS) == BOTH
+
+
+def test_moving_is_lost_when_read_again() -> None:
+    assert decode(encode(BOTH | {AZ: Place(Standing.MOVING)}, CAMS), CAMS) == BOTH | {AZ: LOST}
+
+
+def test_an_axis_without_a_line_was_never_homed() -> None:
+    assert decode(encode({AZ: BOTH[AZ], EL: NEVER}, CAMS), CAMS) == {AZ: BOTH[AZ], EL: NEVER}
+
+
+def test_another_cam_makes_the_count_worthless() -> None:
+    assert decode(encode(BOTH, CAMS), CAMS | {AZ: {"spacing_deg": 6.0}}) == BOTH | {AZ: LOST}
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "\x00" * 100,
+        "[]",
+        "null",
+        "{}",
+        '{"format": "rotator counts 1"}',
+        '{"format": "rotator counts 1", "axes": [1]}',
+        '{"format": "rotator counts 1", "axes": {"azimuth": 5}}',
+        '{"format": "rotator counts 1", "axes": {"azimuth": {"standing": "asleep"}}}',
+        '{"format": "rotator state 1", "axes": {}}',
+        encode(BOTH, CAMS)[:-20],
+        encode(BOTH, CAMS).replace("45.0", "NaN"),
+        encode(BOTH, CAMS).replace("45.0", '"45"'),
+        encode(BOTH, CAMS).replace("45.0", "true"),
+        "[" * 100_000,
+    ],
+    ids=lambda text: text[:30].replace("\n", " ") or "empty",
+)
+def test_a_file_that_cannot_be_believed_leaves_every_axis_lost(
+    path: Path, text: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    path.parent.mkdir()
+    path.write_text(text)
+    assert on_disk(path) == {AZ: LOST, EL: LOST}
+    assert "cannot be believed" in caplog.text
+
+
+def test_no_file_no_homing(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    assert on_disk(path) == {AZ: NEVER, EL: NEVER}
+    assert not caplog.records
+
+
+# --- a move
+
+
+def test_before_it_moves_the_file_says_so(path: Path) -> None:
+    file = kept(path)
+    assert file.start(AZ)
+    assert on_disk(path) == BOTH | {AZ: LOST}
+
+
+def test_an_axis_that_was_never_homed_needs_no_mark(path: Path) -> None:
+    file = CountsFile(path, CAMS)
+    assert file.start(AZ)
+    assert not path.exists()
+
+
+def test_a_rest_is_written_when_it_has_stood_for_two_seconds(path: Path) -> None:
+    file = kept(path)
+    file.start(AZ)
+    for cycle in range(41):
+        assert on_disk(path)[AZ] == LOST
+        file.rest(100.0 + cycle * 0.05, AZ, 130.0)
+    assert on_disk(path)[AZ] == Place(Standing.KNOWN, 130.0)
+
+
+def test_a_count_in_doubt_is_lost_on_disk_too_until_it_is_homed(path: Path) -> None:
+    file = kept(path)
+    file.lose(AZ)
+    assert on_disk(path)[AZ] == LOST
+    assert file.start(AZ)
+    file.home(AZ, 0.0)
+    assert on_disk(path)[AZ] == Place(Standing.KNOWN, 0.0)
+
+
+def test_at_the_end_what_stands_is_written_at_once(path: Path) -> None:
+    file = kept(path)
+    file.start(AZ)
+    file.rest(100.0, AZ, 130.0)
+    file.start(EL)
+    file.close()
+    assert on_disk(path) == {AZ: Place(Standing.KNOWN, 130.0), EL: LOST}
+
+
+# --- wear
+
+
+@pytest.mark.parametrize(
+    ("moves_s", "rests_s", "a_minute"), [(0.5, 1.5, 0), (0.5, 4.5, 2), (1.0, 12.0, 2), (1.0, 20.5, 5.6), (1.0, 61.0, 2)]
+)
+def test_tracking_costs_two_writes_a_minute_and_nothing_more_than_six(
+    path: Path, moves_s: float, rests_s: float, a_minute: float
+) -> None:
+    file = kept(path)
+    written, before = 0, path.read_text()
+    for cycle in range(6000):  # ten minutes
+        now_s = 1000.0 + cycle * 0.1
+        if now_s % (moves_s + rests_s) < moves_s:
+            file.start(AZ)
+        else:
+            file.rest(now_s, AZ, 100.0 + now_s // (moves_s + rests_s))
+        if (now := path.read_text()) != before:  # every write says something new
+            written, before = written + 1, now
+    assert 10 * a_minute - 2 <= written <= 10 * a_minute + 2
+
+
+def test_standing_for_days_writes_nothing(path: Path) -> None:
+    file = kept(path)
+    path.unlink()
+    for hour in range(100):
+        file.rest(hour * 3600.0, AZ, 123.456)
+    file.close()
+    assert not path.exists()
+
+
+# --- trouble
+
+
+def test_where_the_mark_cannot_be_written_nothing_may_start(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    file = kept(path)
+    path.unlink()
+    path.parent.rmdir()
+    path.parent.write_text("")  # a file where its folder should be: not even root writes there
+    assert not file.start(AZ)
+    assert not file.start(AZ)
+    assert file.trouble
+    assert caplog.text.count("cannot be kept") == 1
+    path.parent.unlink()
+    assert file.start(AZ)
+    assert not file.trouble
+    assert json.loads(path.read_text())["axes"]["azimuth"]["standing"] == "moving"
