@@ -1,0 +1,78 @@
+"""The CAN bus between a computer and its controllers: which frame reaches whom, and who answers.
+
+Knows CAN ids as moteus uses them, and faults of the wire. Knows neither the line nor the Python library in front of it;
+`SimTransport` has the shape of the library's own transport, so that the library runs on it in simulated time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from firmware_sim.moteus.controller import SimController
+
+WANTS_REPLY = 0x8000
+EVERYBODY = 0x7F
+NOP = b"\x50"
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    arbitration_id: int
+    data: bytes
+
+
+class SimCan:
+    """`controllers` by CAN id. Whoever stands in `muted` hears and says nothing: no supply, or a broken wire."""
+
+    def __init__(self, controllers: Mapping[int, SimController]) -> None:
+        self.controllers = controllers
+        self.muted: set[int] = set()
+
+    def send(self, frame: Frame) -> list[Frame]:
+        """Put a frame on the bus; returns the replies."""
+        destination, source = frame.arbitration_id & 0x7F, frame.arbitration_id >> 8 & 0x7F
+        prefix = frame.arbitration_id >> 16
+        replies = []
+        for can_id, controller in self.controllers.items():
+            if destination not in (can_id, EVERYBODY) or can_id in self.muted:
+                continue
+            answer = controller.handle(frame.data)
+            if answer is not None and frame.arbitration_id & WANTS_REPLY:
+                replies.append(Frame(prefix << 16 | can_id << 8 | source, answer))
+        return replies
+
+
+@dataclass(slots=True)
+class _Received:
+    """A reply as the library's parser wants it."""
+
+    arbitration_id: int
+    data: bytes
+    bus: int = 1
+
+
+class SimTransport:
+    """Stands where `moteus.Fdcanusb` stands; every command is answered at once, and a muted one by nobody."""
+
+    def __init__(self, can: SimCan) -> None:
+        self._can = can
+
+    async def cycle(self, commands: Sequence[Any]) -> list[Any]:
+        results = []
+        for command in commands:
+            reply = WANTS_REPLY if command.reply_required else 0
+            wanted = command.can_prefix << 16 | reply | command.source << 8 | command.destination
+            replies = self._can.send(Frame(wanted, padded(command.data)))
+            results += [command.parse(_Received(each.arbitration_id, padded(each.data))) for each in replies]
+        return results
+
+    def close(self) -> None:
+        pass
+
+
+def padded(data: bytes) -> bytes:
+    """Filled up to a length that a CAN-FD frame can have."""
+    lengths = [*range(9), 12, 16, 20, 24, 32, 48, 64]
+    return data.ljust(next(length for length in lengths if length >= len(data)), NOP)

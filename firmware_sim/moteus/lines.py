@@ -1,0 +1,94 @@
+"""The text protocol of an mjbots CAN-FD adapter, as a moteus controller's own UART speaks it.
+
+Knows lines, checksums and the two commands' answers; in: bytes, out: lines with the moment they are due. Knows no port.
+Checksums are asked for from the first line on that carries a good one.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from firmware_sim.moteus.bus import Frame, SimCan
+
+LONGEST_LINE = 512
+_SEND = re.compile(rb"can send ([0-9a-fA-F]+) ((?:[0-9a-fA-F]{2})*)((?: [BbFfRr]+)?)")
+_SUM = re.compile(rb"(.*)\*([0-9a-fA-F]{2})", re.DOTALL)
+
+
+def crc8(data: bytes) -> int:
+    """Polynomial 0x97, from 0, most significant bit first."""
+    crc = 0
+    for octet in data:
+        crc ^= octet
+        for _ in range(8):
+            crc = (crc << 1 ^ 0x97 if crc & 0x80 else crc << 1) & 0xFF
+    return crc
+
+
+@dataclass(slots=True)
+class Mishaps:
+    """What happens to lines on their way to the computer."""
+
+    deaf: bool = False
+    """The adapter takes lines and says nothing at all."""
+    dropped: bool = False
+    """Replies get lost; the adapter's own OK comes."""
+    garbled: bool = False
+    """A letter of each reply is wrong."""
+    late_s: float = 0.0
+    """Replies come so much later."""
+
+
+@dataclass(slots=True)
+class LineServer:
+    """`transcript` keeps the latest lines, `>` from the computer and `<` to it, without their ends."""
+
+    can: SimCan
+    clock: Callable[[], float]
+    mishaps: Mishaps = field(default_factory=Mishaps)
+    transcript: list[str] = field(default_factory=list)
+    _pending: bytes = b""
+    _summed: bool = False
+
+    def receive(self, data: bytes) -> list[tuple[float, bytes]]:
+        """Bytes from the computer; returns lines for it, each with the moment it is due."""
+        *lines, self._pending = re.split(rb"[\r\n]", self._pending + data)
+        self._pending = self._pending if len(self._pending) <= LONGEST_LINE else b""
+        return [] if self.mishaps.deaf else [due for line in lines if line for due in self._answer(line)]
+
+    def _answer(self, line: bytes) -> list[tuple[float, bytes]]:
+        self._note(">", line)
+        now_s = self.clock()
+        if found := _SUM.fullmatch(line):
+            line, claimed = found[1], int(found[2], 16)
+            if crc8(line) != claimed:
+                return [(now_s, self._ended(b"ERR checksum"))]
+            self._summed = True
+        elif self._summed:
+            return [(now_s, self._ended(b"ERR checksum"))]
+        command = _SEND.fullmatch(line.rstrip(b" "))
+        if command is None:
+            return [(now_s, self._ended(b"ERR unknown command"))]
+        replies = self.can.send(Frame(int(command[1], 16), bytes.fromhex(command[2].decode("ascii"))))
+        ok = self._ended(b"OK")  # before the replies, always
+        heard = [] if self.mishaps.dropped else [self._reply(reply) for reply in replies]
+        return [(now_s, ok), *((now_s + self.mishaps.late_s, line) for line in heard)]
+
+    def _reply(self, reply: Frame) -> bytes:
+        line = self._ended(f"rcv {reply.arbitration_id:08x} {reply.data.hex()}".encode("ascii"))
+        if self.mishaps.garbled:
+            return line[:14] + (b"0" if line[14:15] != b"0" else b"f") + line[15:]
+        return line
+
+    def _ended(self, line: bytes) -> bytes:
+        if self._summed:
+            line += b" "
+            line += b"*%02X" % crc8(line)
+        self._note("<", line)
+        return line + b"\r\n"
+
+    def _note(self, arrow: str, line: bytes) -> None:
+        self.transcript.append(f"{arrow} {line.decode('latin1')}")
+        del self.transcript[:-1000]

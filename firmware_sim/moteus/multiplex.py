@@ -1,0 +1,145 @@
+"""The register protocol that moteus controllers speak inside a CAN-FD frame: subframes that write, read and answer.
+
+Knows opcodes, number formats and varuints (mjbots, "moteus reference", subframes). Does not know which registers there
+are; their integer scales are looked up. Streams (opcodes 0x40 to 0x44) are not built: a frame ends where one begins.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import IntEnum
+
+from firmware_sim.moteus.registers import steps_of
+
+WRITE, READ, REPLY = 0x00, 0x10, 0x20
+WRITE_ERROR, READ_ERROR = 0x30, 0x31
+NOP = 0x50
+
+UNKNOWN_REGISTER, NOT_WRITEABLE = 1, 2
+
+
+class Kind(IntEnum):
+    """How a number travels; bits 2 and 3 of the opcode."""
+
+    INT8 = 0
+    INT16 = 1
+    INT32 = 2
+    F32 = 3
+
+
+_FORMATS = {
+    Kind.INT8: struct.Struct("<b"),
+    Kind.INT16: struct.Struct("<h"),
+    Kind.INT32: struct.Struct("<i"),
+    Kind.F32: struct.Struct("<f"),
+}
+_LARGEST = {Kind.INT8: 0x7F, Kind.INT16: 0x7FFF, Kind.INT32: 0x7FFFFFFF}
+
+
+@dataclass(frozen=True, slots=True)
+class Write:
+    register: int
+    value: float
+    """In the register's own unit; NaN where the sender gave the format's NaN."""
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    first: int
+    count: int
+    kind: Kind
+
+
+class ShortFrameError(ValueError):
+    """The frame ends in the middle of a subframe."""
+
+
+def subframes(data: bytes) -> Iterator[Write | Read]:
+    """What a frame asks for, in order. Ends at an unknown opcode, as the firmware does. Raises ShortFrameError."""
+    at = 0
+    while at < len(data):
+        opcode = data[at]
+        at += 1
+        if opcode == NOP:
+            continue
+        if opcode & 0xF0 not in (WRITE, READ):
+            return
+        kind = Kind(opcode >> 2 & 0b11)
+        count = opcode & 0b11
+        if not count:
+            count, at = _varuint(data, at)
+        first, at = _varuint(data, at)
+        if opcode & 0xF0 == READ:
+            yield Read(first, count, kind)
+            continue
+        for register in range(first, first + count):
+            number, at = _number(kind, data, at)
+            yield Write(register, from_wire(register, kind, number))
+
+
+def reply(read: Read, values: list[float]) -> bytes:
+    """The answer to a read: the same shape, with the values, given in the registers' own units."""
+    head = (
+        bytes([REPLY | read.kind << 2 | read.count])
+        if 1 <= read.count <= 3
+        else bytes([REPLY | read.kind << 2, read.count])
+    )
+    body = b"".join(to_wire(read.first + at, read.kind, value) for at, value in enumerate(values))
+    return head + varuint(read.first) + body
+
+
+def error(opcode: int, register: int, code: int) -> bytes:
+    return bytes([opcode]) + varuint(register) + varuint(code)
+
+
+def from_wire(register: int, kind: Kind, number: float) -> float:
+    step = steps_of(register)[kind] if kind is not Kind.F32 else 1
+    if step == 1:  # a whole number has no NaN
+        return number
+    if number == -_LARGEST[kind] - 1:
+        return math.nan
+    return number * step
+
+
+def to_wire(register: int, kind: Kind, value: float) -> bytes:
+    if kind is Kind.F32:
+        return _FORMATS[kind].pack(value)
+    largest = _LARGEST[kind]
+    step = steps_of(register)[kind]
+    if step == 1:  # a whole number: its bits as they are
+        width = largest + 1
+        return _FORMATS[kind].pack((int(value) + width) % (2 * width) - width)
+    if not math.isfinite(value):
+        return _FORMATS[kind].pack(-largest - 1)
+    return _FORMATS[kind].pack(max(-largest, min(largest, round(value / step))))
+
+
+def varuint(value: int) -> bytes:
+    octets = bytearray()
+    while True:
+        value, low = value >> 7, value & 0x7F
+        octets.append(low | (0x80 if value else 0))
+        if not value:
+            return bytes(octets)
+
+
+def _varuint(data: bytes, at: int) -> tuple[int, int]:
+    value = 0
+    for shift in range(0, 35, 7):
+        if at >= len(data):
+            raise ShortFrameError
+        value |= (data[at] & 0x7F) << shift
+        at += 1
+        if not data[at - 1] & 0x80:
+            return value, at
+    raise ShortFrameError
+
+
+def _number(kind: Kind, data: bytes, at: int) -> tuple[float, int]:
+    layout = _FORMATS[kind]
+    if at + layout.size > len(data):
+        raise ShortFrameError
+    return layout.unpack_from(data, at)[0], at + layout.size

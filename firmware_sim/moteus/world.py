@@ -1,0 +1,169 @@
+"""A simulated rotor of two moteus controllers, and its faults by name.
+
+Knows which controller turns which axis and how revolutions become degrees of the antenna. Knows no driver: it offers a
+transport in the shape of the Python library's, and an adapter on a pseudo-terminal.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from firmware_sim.moteus.bus import SimCan, SimTransport
+from firmware_sim.moteus.controller import SimController
+from firmware_sim.moteus.lines import LineServer
+from firmware_sim.moteus.motor import Settings, SimMotor
+from firmware_sim.moteus.terminal import SimAdapter
+from firmware_sim.world import SimFault
+
+FAULT_CODES = {
+    "calibration": 32,
+    "gate-driver": 33,
+    "over-voltage": 34,
+    "encoder": 35,
+    "not-configured": 36,
+    "pwm-overrun": 37,
+    "over-temperature": 38,
+    "start-outside-limit": 39,
+    "under-voltage": 40,
+    "config-changed": 41,
+    "theta-invalid": 42,
+    "position-invalid": 43,
+    "driver-enable": 44,
+    "stop-position": 45,
+    "timing": 46,
+    "bemf-feedforward": 47,
+    "invalid-limits": 48,
+    "position-error": 49,
+    "velocity-error": 50,
+}
+"""The firmware's faults, each of which lets go of the motor until it is told to stop."""
+
+FACTORY_BOUND_REV = 0.01
+LATE_S = 0.3
+
+
+@dataclass(frozen=True, slots=True)
+class AxisSpec:
+    can_id: int
+    start_deg: float = 0.0
+    rev_per_turn: float = 1.0
+    """Revolutions of the controller's scale for 360° of the antenna; below 0 it runs the other way."""
+    zero_rev: float = 0.0
+    settings: Settings = field(default_factory=Settings)
+
+
+class MoteusWorld:
+    """`clock` tells the time: a SimClock with `transport`, a real one with `adapter`."""
+
+    def __init__(self, azimuth: AxisSpec, elevation: AxisSpec, clock: Callable[[], float]) -> None:
+        self._clock = clock
+        self._lock = threading.RLock()
+        self._specs = {"azimuth": azimuth, "elevation": elevation}
+        self._controllers = {
+            name: SimController(
+                clock,
+                spec.settings,
+                shaft_rev=spec.zero_rev + spec.start_deg / 360 * spec.rev_per_turn,
+                serial=spec.can_id,
+            )
+            for name, spec in self._specs.items()
+        }
+        self.can = SimCan({spec.can_id: self._controllers[name] for name, spec in self._specs.items()})
+        self.lines = LineServer(self.can, clock)
+        self.faults = self._fault_table()
+
+    def transport(self) -> SimTransport:
+        """For the library in simulated time; everything in one thread."""
+        return SimTransport(self.can)
+
+    def adapter(self, path: Path) -> SimAdapter:
+        """For the library in real time: plug it in. The faults then have `adapter-unplugged`, too."""
+
+        def receive(data: bytes) -> list[tuple[float, bytes]]:
+            with self._lock:
+                return self.lines.receive(data)
+
+        adapter = SimAdapter(path, receive, self._clock)
+        self.faults["adapter-unplugged"] = SimFault(adapter.unplug, adapter.plug)
+        return adapter
+
+    def controller(self, axis: str) -> SimController:
+        """The controller of `azimuth` or `elevation`, for a test or a page to look into."""
+        return self._controllers[axis]
+
+    def antenna(self) -> tuple[float, float]:
+        """Where the boom really points: azimuth and elevation on the rotor's own scales."""
+        azimuth_deg, elevation_deg = (self._antenna_deg(name) for name in self._specs)
+        return azimuth_deg, elevation_deg
+
+    def inject(self, name: str) -> None:
+        """Let something go wrong, by name. Raises ValueError that lists the names."""
+        self._fault(name).inject()
+
+    def clear(self, name: str) -> None:
+        self._fault(name).clear()
+
+    def _fault(self, name: str) -> SimFault:
+        if name not in self.faults:
+            raise ValueError(f"no fault called {name!r}; there are: {', '.join(sorted(self.faults))}")
+        return self.faults[name]
+
+    def _antenna_deg(self, name: str) -> float:
+        spec = self._specs[name]
+        with self._lock:
+            motor = self._controllers[name].motor
+            motor.advance()
+            return (motor.shaft_rev - spec.zero_rev) / spec.rev_per_turn * 360
+
+    def _fault_table(self) -> dict[str, SimFault]:
+        mishaps = self.lines.mishaps
+        table = {
+            "adapter-deaf": self._switch(mishaps, "deaf", True, False),
+            "lines-dropped": self._switch(mishaps, "dropped", True, False),
+            "lines-garbled": self._switch(mishaps, "garbled", True, False),
+            "lines-late": self._switch(mishaps, "late_s", LATE_S, 0.0),
+        }
+        for axis, spec in self._specs.items():
+            motor, can_id = self._controllers[axis].motor, spec.can_id
+            table |= {
+                f"{axis}-silent": SimFault(
+                    lambda can_id=can_id: self.can.muted.add(can_id),  # type: ignore[misc]
+                    lambda can_id=can_id: self.can.muted.discard(can_id),  # type: ignore[misc]
+                ),
+                f"{axis}-jammed": self._switch(motor, "jammed", True, False),
+                f"{axis}-power-cycled": self._once(motor.power_cycle),
+                f"{axis}-factory-bounds": self._bounds(motor),
+            }
+            for name, code in FAULT_CODES.items():
+                table[f"{axis}-{name}"] = self._once(lambda motor=motor, code=code: motor.fail(code))  # type: ignore[misc]
+        return table
+
+    def _once(self, happen: Callable[[], None]) -> SimFault:
+        def inject() -> None:
+            with self._lock:
+                happen()
+
+        return SimFault(inject, lambda: None)
+
+    def _switch(self, part: object, field: str, bad: object, good: object) -> SimFault:
+        def become(value: object) -> None:
+            with self._lock:
+                for controller in self._controllers.values():
+                    controller.motor.advance()
+                setattr(part, field, value)
+
+        return SimFault(lambda: become(bad), lambda: become(good))
+
+    def _bounds(self, motor: SimMotor) -> SimFault:
+        settings = motor.settings
+        bounds = settings.position_min_rev, settings.position_max_rev
+
+        def become(low_rev: float, high_rev: float) -> None:
+            with self._lock:
+                motor.advance()
+                settings.position_min_rev, settings.position_max_rev = low_rev, high_rev
+
+        return SimFault(lambda: become(-FACTORY_BOUND_REV, FACTORY_BOUND_REV), lambda: become(*bounds))

@@ -1,0 +1,56 @@
+"""What a moteus means by the number in its fault register, and what to do about it.
+
+Knows the firmware's codes (mjbots, "moteus reference", fault codes). Knows no controller.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    name: str
+    remedy: str
+
+
+FAULTS: dict[int, Fault] = {
+    32: Fault("calibration fault", "calibrate the motor with moteus_tool --calibrate"),
+    33: Fault("gate driver fault", "the supply drooped, or a motor wire is shorted: check both"),
+    34: Fault("supply voltage too high", "braking feeds the supply: lower the acceleration, or use one that takes it"),
+    35: Fault("encoder fault", "check the encoder's magnet and wires"),
+    36: Fault("motor not configured", "calibrate the motor with moteus_tool --calibrate"),
+    37: Fault("control cycle overrun", "write the controller's firmware again, or lower its PWM rate"),
+    38: Fault("too hot", "let it cool, and look for what turns hard"),
+    39: Fault("started outside its position bounds", "set servopos.position_min and position_max with tview"),
+    40: Fault("supply voltage too low", "check the supply and its wires under load"),
+    41: Fault("configuration changed while it ran", "leave tview alone while the box runs"),
+    42: Fault("no valid commutation angle", "check the encoder, then calibrate the motor"),
+    43: Fault("no valid position", "check the output encoder's magnet and wires"),
+    44: Fault("motor driver cannot be enabled", "check the supply; if it stays, the board is broken"),
+    45: Fault("stop position together with limits", "another program commands this controller: end it"),
+    46: Fault("timing violation", "write the controller's firmware again"),
+    47: Fault("feedforward without acceleration limit", "set servo.bemf_feedforward to 0 with tview"),
+    48: Fault("limits that contradict each other", "check the limits in moteus.azimuth and moteus.elevation"),
+    49: Fault("too far from where it should be", "something holds the antenna, or the motor is too weak"),
+    50: Fault("too fast or too slow", "something drives or holds the antenna, or the motor is too weak"),
+}
+"""Codes that let go of the motor until it has been told to stop."""
+
+LIMITS: dict[int, str] = {
+    96: "its velocity limit",
+    97: "its power limit",
+    98: "the supply voltage",
+    99: "its current limit",
+    100: "its own temperature",
+    101: "the motor's temperature",
+    102: "its torque limit",
+    103: "its position bounds (servopos.position_min, position_max)",
+    104: "braking that feeds the supply",
+    105: "field weakening",
+}
+"""Codes of a controller that runs, and is held back by something."""
+
+
+def explain(code: int) -> Fault:
+    return FAULTS.get(code, Fault(f"fault {code}", "look the number up in the moteus reference"))
