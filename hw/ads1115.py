@@ -59,29 +59,30 @@ class Ads1115:
         config = START | (MUX_AGAINST_GROUND | channel) << 12 | self._settings
         self._write(config)
         self._sleep(self._conversion_s)
-        self._await_end(_POLLS)
-        raw: int = struct.unpack(">h", self._read(CONVERSION))[0]
+        raw = self._result()
         self._quiet = True
         return raw * self._full_scale_v / _STEPS
+
+    def _result(self) -> int:
+        """Asks whether it has ended and for the result in one transfer, which is most of what a reading costs."""
+        for _ in range(_POLLS):
+            status, result = self._bus.read_each(self._address, (CONFIG, CONVERSION), 2)
+            if int.from_bytes(status, "big") & READY:
+                return int.from_bytes(result, "big", signed=True)
+            self._sleep(_WAKE_UP_S)
+        raise self._endless()
 
     def _quieten(self) -> None:
         """Let a conversion that somebody else began come to its end: a start given meanwhile would be lost."""
         self._write(self._settings)
-        self._await_end(_SLOWEST_POLLS)
-
-    def _await_end(self, polls: int) -> None:
-        for _ in range(polls):
-            if self._word(CONFIG) & READY:
+        for _ in range(_SLOWEST_POLLS):
+            if int.from_bytes(self._bus.write_read(self._address, bytes([CONFIG]), 2), "big") & READY:
                 return
             self._sleep(_WAKE_UP_S)
-        raise HardwareError(f"ADS1115 at 0x{self._address:02x}: a conversion does not end")
+        raise self._endless()
+
+    def _endless(self) -> HardwareError:
+        return HardwareError(f"ADS1115 at 0x{self._address:02x}: a conversion does not end")
 
     def _write(self, config: int) -> None:
         self._bus.write(self._address, struct.pack(">BH", CONFIG, config))
-
-    def _word(self, register: int) -> int:
-        word: int = struct.unpack(">H", self._read(register))[0]
-        return word
-
-    def _read(self, register: int) -> bytes:
-        return self._bus.write_read(self._address, bytes([register]), 2)

@@ -6,6 +6,7 @@ Knows Linux's error numbers. Does not know any chip. The only importer of smbus2
 from __future__ import annotations
 
 import errno
+from collections.abc import Sequence
 from typing import Any
 
 from smbus2 import SMBus, i2c_msg
@@ -28,6 +29,14 @@ class SmbusI2C:
         answer = i2c_msg.read(address, count)
         self._transfer(address, i2c_msg.write(address, data), answer)
         return bytes(answer)
+
+    def read_each(self, address: int, registers: Sequence[int], count: int) -> list[bytes]:
+        answers = [i2c_msg.read(address, count) for _ in registers]
+        pairs = [
+            (i2c_msg.write(address, [register]), answer) for register, answer in zip(registers, answers, strict=True)
+        ]
+        self._transfer(address, *(message for pair in pairs for message in pair))
+        return [bytes(answer) for answer in answers]
 
     def answers(self, address: int) -> bool:
         """Whether anything acknowledges the address, asked by reading a byte. Raises HardwareError for a sick bus."""

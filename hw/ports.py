@@ -105,6 +105,9 @@ class I2CBus(Protocol):
     def write_read(self, address: int, data: bytes, count: int) -> bytes:
         """Write, then read `count` bytes after a repeated start. Raises HardwareError."""
 
+    def read_each(self, address: int, registers: Sequence[int], count: int) -> list[bytes]:
+        """Read `count` bytes from each register, in that order, in one transfer. Raises HardwareError."""
+
 
 class PositionedDrive(Protocol):
     """Motors that go to an angle by themselves. Angles are degrees on the rotor's own scale."""

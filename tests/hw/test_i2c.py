@@ -73,6 +73,11 @@ def test_a_read_follows_its_pointer_in_the_same_transfer(bus: SmbusI2C, chip: Me
     assert chip.log == [b"\x01", 2]
 
 
+def test_several_registers_are_read_in_order_in_one_transfer(bus: SmbusI2C, chip: Memory) -> None:
+    assert bus.read_each(ADDRESS, (1, 0), 2) == [b"\x85\x83", b"\x85\x83"]
+    assert chip.log == [b"\x01", 2, b"\x00", 2]
+
+
 def test_bytes_come_in_the_order_of_the_wire(bus: SmbusI2C, chip: Memory) -> None:
     # smbus2's read_word_data would make 0x1027 of these
     chip.answer = b"\x27\x10"

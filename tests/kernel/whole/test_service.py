@@ -2,7 +2,7 @@
 box started again.
 
 systemd runs as process 1 of a container inside this kernel. Only what is not here is set aside by a drop-in: the user
-of an installed system, its paths, and the services of a whole Debian.
+of an installed system, its paths (this project may stand in /tmp or at home), and the services of a whole Debian.
 """
 
 from __future__ import annotations
@@ -34,6 +34,7 @@ User=root
 Group=root
 SupplementaryGroups=
 ProtectHome=no
+PrivateTmp=no
 ExecStart=
 ExecStart={bin}/rotator run --plain --config {site.config}
 ExecStopPost=
