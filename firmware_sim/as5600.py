@@ -1,0 +1,116 @@
+"""A simulated AS5600: a magnet over a chip with twelve bits a turn, I2C registers.
+
+Knows the register map, how the gain follows the magnet, and what burning would do. Knows nothing of axes. Leaves out
+the analog output, the low-power modes and the hysteresis at the ends of a narrowed range.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from enum import Enum
+
+ZMCO, ZPOS, MPOS, MANG, CONF = 0x00, 0x01, 0x03, 0x05, 0x07
+STATUS, RAW_ANGLE, ANGLE, AGC, MAGNITUDE = 0x0B, 0x0C, 0x0E, 0x1A, 0x1B
+BURN = 0xFF
+HELD = (RAW_ANGLE, ANGLE, MAGNITUDE)
+"""Once addressed here the pointer stays, so that the two bytes can be read over and over."""
+
+WEAKEST_MT, STRONGEST_MT, DETECTED_MT = 30.0, 90.0, 8.0
+GAIN_MAX_3V3 = 128
+"""At 5 V it would be 255."""
+STEPS = 4096
+
+
+class MagnetFault(Enum):
+    NONE = ""
+    MISSING = "magnet-missing"
+    WEAK = "magnet-weak"
+    STRONG = "magnet-strong"
+
+
+FIELD_MT = {MagnetFault.NONE: 60.0, MagnetFault.MISSING: 1.0, MagnetFault.WEAK: 15.0, MagnetFault.STRONG: 120.0}
+
+
+class As5600:
+    """The chip. `turn` tells where the magnet is, in turns (2.25 reads like 0.25)."""
+
+    def __init__(
+        self, turn: Callable[[], float], *, noise_deg_rms: float = 0.015, noise: random.Random | None = None
+    ) -> None:
+        self.fault = MagnetFault.NONE
+        self.burns: list[int] = []
+        """What was written to BURN: on a real chip that cannot be undone."""
+        self._turn = turn
+        self._noise_turn_rms = noise_deg_rms / 360.0
+        self._noise = noise or random.Random(5600)
+        self._settings = bytearray(CONF + 2)
+        self._pointer = 0
+        self._held = False
+
+    # --- I2C
+
+    def write(self, data: bytes) -> None:
+        if not data:
+            return
+        self._pointer = data[0]
+        self._held = self._pointer in HELD
+        for register, value in enumerate(data[1:], self._pointer):
+            if register == BURN:
+                self.burns.append(value)
+            elif ZPOS <= register < len(self._settings):
+                self._settings[register] = value
+
+    def read(self, count: int) -> bytes:
+        if self._held:
+            return (self._word(self._pointer) * (count // 2 + 1))[:count]
+        octets = bytes(self._octet(register & 0xFF) for register in range(self._pointer, self._pointer + count))
+        self._pointer = (self._pointer + count) & 0xFF
+        return octets
+
+    # --- registers
+
+    def _octet(self, register: int) -> int:
+        if register < len(self._settings):
+            return self._settings[register]
+        if register == STATUS:
+            return self._status()
+        if register == AGC:
+            return self._gain()
+        for word in HELD:
+            if register in (word, word + 1):
+                return self._word(word)[register - word]
+        return 0
+
+    def _word(self, register: int) -> bytes:
+        match register:
+            case 0x0C:
+                value = self._raw()
+            case 0x0E:
+                value = self._narrowed(self._raw())
+            case _:
+                value = round(min(FIELD_MT[self.fault] * 30.0, STEPS - 1))
+        return value.to_bytes(2, "big")
+
+    def _raw(self) -> int:
+        if self.fault is MagnetFault.MISSING:
+            return self._noise.randrange(STEPS)  # the angle of nothing
+        return round((self._turn() + self._noise.gauss(0.0, self._noise_turn_rms)) * STEPS) % STEPS
+
+    def _narrowed(self, raw: int) -> int:
+        """From ZPOS to MPOS is the whole output range; outside it the nearer end."""
+        zero, end = (int.from_bytes(self._settings[at : at + 2], "big") % STEPS for at in (ZPOS, MPOS))
+        width = (end - zero) % STEPS or STEPS
+        beyond = (raw - zero) % STEPS
+        if beyond > width:
+            return 0 if beyond - width > STEPS - beyond else STEPS - 1
+        return min(beyond * STEPS // width, STEPS - 1)
+
+    def _status(self) -> int:
+        field_mt = FIELD_MT[self.fault]
+        detected, weak, strong = field_mt >= DETECTED_MT, field_mt < WEAKEST_MT, field_mt > STRONGEST_MT
+        return detected << 5 | weak << 4 | strong << 3
+
+    def _gain(self) -> int:
+        lacking = (STRONGEST_MT - FIELD_MT[self.fault]) / (STRONGEST_MT - WEAKEST_MT)
+        return round(GAIN_MAX_3V3 * max(0.0, min(1.0, lacking)))

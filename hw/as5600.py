@@ -1,0 +1,65 @@
+"""The AS5600 and AS5600L: the angle of a magnet above the chip, as a share of one turn.
+
+Knows the chip's registers (ams AS5600, "Register Description") and what it says of its magnet. Does not know gears: a
+magnet that turns more than once over the axis's range tells only where in its turn it is. Writes nothing but register
+addresses, so that nobody's chip is ever burned by accident.
+"""
+
+from __future__ import annotations
+
+from hw.ports import HardwareError, I2CBus
+
+ADDRESS = 0x36
+ADDRESS_L = 0x40
+"""The AS5600L as it is delivered."""
+
+STATUS = 0x0B
+RAW_ANGLE = 0x0C
+"""Not ANGLE at 0x0E: that one is cut and stretched by whatever has been burned into the chip."""
+
+MAGNET_DETECTED = 1 << 5
+MAGNET_WEAK = 1 << 4
+MAGNET_STRONG = 1 << 3
+STEPS = 4096
+
+
+class As5600:
+    """One chip. `zero_turn` is where the reading begins, 0 to 1: put it outside the axis's range, for there it jumps.
+
+    A calibration made with one `zero_turn` is worth nothing with another.
+    """
+
+    source = "measured"
+
+    def __init__(self, bus: I2CBus, address: int = ADDRESS, *, zero_turn: float = 0.0) -> None:
+        self._bus = bus
+        self._address = address
+        self._zero_turn = zero_turn
+
+    def read(self) -> float:
+        """The share of a turn, 0 up to 1, in steps of 1/4096.
+
+        Raises HardwareError when the chip does not answer, or has no magnet whose angle can be relied on.
+        """
+        # The status comes second: it vouches for the angle that was read before it.
+        angle = int.from_bytes(self._bus.write_read(self._address, bytes([RAW_ANGLE]), 2), "big")
+        status = self._bus.write_read(self._address, bytes([STATUS]), 1)[0]
+        self._check(angle, status)
+        return (angle / STEPS - self._zero_turn) % 1.0
+
+    def _check(self, angle: int, status: int) -> None:
+        weak, strong = bool(status & MAGNET_WEAK), bool(status & MAGNET_STRONG)
+        if angle >= STEPS or (weak and strong):
+            raise self._error(
+                f"the answer makes no sense (angle 0x{angle:04x}, status 0x{status:02x}); "
+                "shorten the I2C cable, and check that nothing else has this address"
+            )
+        if not status & MAGNET_DETECTED:
+            raise self._error("there is no magnet; put one over the middle of the chip, 0.5 to 3 mm away")
+        if weak:
+            raise self._error("the magnet is too weak or too far; bring it nearer, or take one magnetized across")
+        if strong:
+            raise self._error("the magnet is too strong or too near; move it away a little")
+
+    def _error(self, text: str) -> HardwareError:
+        return HardwareError(f"AS5600 at 0x{self._address:02x}: {text}")

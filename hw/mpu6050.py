@@ -1,0 +1,145 @@
+"""The MPU6050 on the boom: elevation from the direction in which gravity pulls.
+
+Knows the chip's registers (InvenSense RM-MPU-6000A), how the board is mounted, and that gravity cannot be told from an
+acceleration: what is not near 1 g is not taken. Knows no rotor. The gyroscopes are not used.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from hw.ports import HardwareError, I2CBus
+
+ADDRESS = 0x68
+"""With AD0 low; 0x69 with AD0 high."""
+
+CONFIG = 0x1A
+ACCEL_CONFIG = 0x1C
+ACCEL_OUT = 0x3B
+POWER = 0x6B
+WHO_AM_I = 0x75
+
+IDENTITY = 0x68
+AWAKE = 0x00
+LOW_PASS_10_HZ = 5
+"""13.8 ms late. It keeps the motor's vibration out, which would look like an acceleration."""
+RANGE_2_G = 0x00
+STEPS_PER_G = 16384
+SETTLING_S = 0.05
+
+SHAKEN_G = 0.15
+"""A reading further from 1 g than this says more of the motor or the wind than of the angle."""
+LASTS_S = 0.3
+"""So long the readings before a shaken one stand for it; they are averaged, and none is older."""
+LEAST_IN_PLANE_G = 0.5
+
+_AXES = {"x": 0, "y": 1, "z": 2}
+
+
+@dataclass(frozen=True, slots=True)
+class Mounting:
+    """Which arrow on the board points along the boom, and which one up while the boom is level: `+x`, `-z`, ...
+
+    Raises ValueError where that is no way to mount a board.
+    """
+
+    forward: str = "+x"
+    up: str = "+z"
+
+    def __post_init__(self) -> None:
+        for name, arrow in (("forward", self.forward), ("up", self.up)):
+            if len(arrow) != 2 or arrow[0] not in "+-" or arrow[1] not in _AXES:
+                raise ValueError(f"{name} is {arrow!r}; write +x, -x, +y, -y, +z or -z")
+        if self.forward[1] == self.up[1]:
+            raise ValueError(
+                f"forward {self.forward} and up {self.up} are the same axis; look at the arrows on the board"
+            )
+
+    def plane_g(self, board_g: tuple[float, float, float]) -> tuple[float, float]:
+        """The parts along the boom and across it, in the plane in which the boom turns."""
+        return _along(self.forward, board_g), _along(self.up, board_g)
+
+
+def _along(arrow: str, board_g: tuple[float, float, float]) -> float:
+    part = board_g[_AXES[arrow[1]]]
+    return part if arrow[0] == "+" else -part
+
+
+class Mpu6050:
+    """One chip. `clock` tells the time, `sleep` lets it pass while the chip wakes up; `averaged` readings at most."""
+
+    source = "measured"
+
+    def __init__(
+        self,
+        bus: I2CBus,
+        clock: Callable[[], float],
+        sleep: Callable[[float], None],
+        *,
+        address: int = ADDRESS,
+        mounting: Mounting | None = None,
+        averaged: int = 4,
+    ) -> None:
+        self._bus = bus
+        self._clock = clock
+        self._sleep = sleep
+        self._address = address
+        self._mounting = mounting or Mounting()
+        self._taken: deque[tuple[float, float, float]] = deque(maxlen=averaged)
+        """When, and gravity along the boom and across it."""
+        self._awake = False
+
+    def read(self) -> float:
+        """Elevation in degrees, -90 up to 270, so that a boom over the top reads 180 without a jump.
+
+        Raises HardwareError when the chip does not answer or is another, and when it has been shaken for too long.
+        """
+        try:
+            board_g = self._gravity_g()
+        except HardwareError:
+            self._awake = False
+            raise
+        now_s = self._clock()
+        while self._taken and now_s - self._taken[0][0] > LASTS_S:
+            self._taken.popleft()
+        force_g = math.hypot(*board_g)
+        if abs(force_g - 1.0) <= SHAKEN_G:
+            self._taken.append((now_s, *self._in_plane(board_g)))
+        else:
+            self._awake = False  # after a dip in its supply the chip sleeps and says 0 g: wake it, it does no harm
+            if not self._taken:
+                raise self._error(
+                    f"it feels {force_g:.2f} g where gravity is 1 g; wait until the antenna stands still, "
+                    "and fix the board to the boom where it shakes least"
+                )
+        forward, up = (math.fsum(taken[part] for taken in self._taken) for part in (1, 2))
+        return (math.degrees(math.atan2(forward, up)) + 90.0) % 360.0 - 90.0
+
+    def _in_plane(self, board_g: tuple[float, float, float]) -> tuple[float, float]:
+        plane_g = self._mounting.plane_g(board_g)
+        if math.hypot(*plane_g) < LEAST_IN_PLANE_G:
+            raise self._error("the board lies on its side; check which arrows point forward and up")
+        return plane_g
+
+    def _gravity_g(self) -> tuple[float, float, float]:
+        if not self._awake:
+            self._wake()
+        x, y, z = struct.unpack(">hhh", self._bus.write_read(self._address, bytes([ACCEL_OUT]), 6))
+        return x / STEPS_PER_G, y / STEPS_PER_G, z / STEPS_PER_G
+
+    def _wake(self) -> None:
+        identity, power = (self._bus.write_read(self._address, bytes([at]), 1)[0] for at in (WHO_AM_I, POWER))
+        if identity != IDENTITY:
+            raise self._error(f"WHO_AM_I says 0x{identity:02x}, an MPU6050 says 0x68; another chip has this address")
+        for register, value in ((POWER, AWAKE), (CONFIG, LOW_PASS_10_HZ), (ACCEL_CONFIG, RANGE_2_G)):
+            self._bus.write(self._address, bytes([register, value]))
+        if power != AWAKE:
+            self._sleep(SETTLING_S)
+        self._awake = True
+
+    def _error(self, text: str) -> HardwareError:
+        return HardwareError(f"MPU6050 at 0x{self._address:02x}: {text}")
