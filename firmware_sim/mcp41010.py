@@ -1,0 +1,114 @@
+"""A simulated MCP41010: a shift register behind three pins, and the wiper it sets.
+
+Knows edges, frames and commands. Knows nothing of what the wiper is wired to. Also here: the kernel's SPI controller in
+the shape of the module `spidev`, which moves the same pins.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Callable, Mapping, Sequence
+
+FRAME_BITS = 16
+POWER_ON_STEP = 0x80
+WRITE, SHUTDOWN = 0b01, 0b10
+
+
+class Mcp41010:
+    """The chip. `before_change` is called before the wiper moves: what hangs there catches up."""
+
+    def __init__(self) -> None:
+        self.before_change: list[Callable[[], None]] = []
+        self.deaf = False
+        """Fault: its select line is broken."""
+        self.frames = 0
+        """How many it has obeyed."""
+        self.step = POWER_ON_STEP
+        self.shut_down = False
+        self._cs, self._sck = True, False
+        self._shifted, self._count = 0, 0
+
+    def share(self) -> float:
+        """Where the wiper is between B (0) and A (1), with nothing drawn from it."""
+        return 0.0 if self.shut_down else self.step / 256
+
+    def power_on(self) -> None:
+        """Its supply has been away for a moment."""
+        self._announce()
+        self.step, self.shut_down = POWER_ON_STEP, False
+        self._shifted, self._count = 0, 0
+
+    def pins(self, *, cs: bool, sck: bool, si: bool) -> None:
+        """The levels from now on."""
+        cs = cs or self.deaf
+        if self._cs and not cs:
+            self._shifted, self._count = 0, 0
+        elif not cs and sck and not self._sck:
+            self._shifted = (self._shifted << 1 | si) & 0xFFFF
+            self._count += 1
+        elif cs and not self._cs and self._count and self._count % FRAME_BITS == 0:
+            self._obey(self._shifted >> 8, self._shifted & 0xFF)
+        self._cs, self._sck = cs, sck
+
+    def _obey(self, command: int, data: int) -> None:
+        if not command & 0b01:  # the second pot of another chip of the family
+            return
+        self._announce()
+        match command >> 4 & 0b11:
+            case 0b01:
+                self.step, self.shut_down = data, False
+            case 0b10:
+                self.shut_down = True
+            case _:
+                return
+        self.frames += 1
+
+    def _announce(self) -> None:
+        for catch_up in self.before_change:
+            catch_up()
+
+
+class SimSpidev:
+    """Stands where the module `spidev` stands. `chips` are at /dev/spidevBUS.SELECT by those two numbers."""
+
+    def __init__(self, chips: Mapping[tuple[int, int], Mcp41010]) -> None:
+        self.chips = chips
+
+    def SpiDev(self) -> SimSpiDevice:  # noqa: N802 - spidev's own name
+        return SimSpiDevice(self.chips)
+
+
+class SimSpiDevice:
+    """As `spidev.SpiDev`, in modes 0 and 3 (CPOL and CPHA alike), the ones that the chip takes."""
+
+    def __init__(self, chips: Mapping[tuple[int, int], Mcp41010]) -> None:
+        self.mode = 0
+        self.max_speed_hz = 500_000
+        self._chips = chips
+        self._chip: Mcp41010 | None = None
+
+    def open(self, bus: int, device: int) -> None:
+        if (bus, device) not in self._chips:
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
+        self._chip = self._chips[bus, device]
+
+    def xfer2(self, values: Sequence[int]) -> list[int]:
+        """Select, clock every byte, let go; nothing answers."""
+        if self._chip is None:
+            raise OSError(errno.EBADF, os.strerror(errno.EBADF))
+        rest = self.mode == 3
+        si = False
+        self._chip.pins(cs=True, sck=rest, si=si)
+        self._chip.pins(cs=False, sck=rest, si=si)
+        for value in values:
+            for bit in range(7, -1, -1):
+                si = bool(value >> bit & 1)
+                self._chip.pins(cs=False, sck=False, si=si)
+                self._chip.pins(cs=False, sck=True, si=si)
+        self._chip.pins(cs=False, sck=rest, si=si)
+        self._chip.pins(cs=True, sck=rest, si=si)
+        return [0] * len(values)
+
+    def close(self) -> None:
+        self._chip = None

@@ -1,0 +1,95 @@
+"""Frames to chips on SPI, mode 0, most significant bit first: by the kernel's driver, or bit by bit on GPIO lines.
+
+Knows clocks and selects. Does not know any chip; nothing is read back. The only importer of spidev.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from hw.ports import HardwareError, OutputLines
+
+SCK, SI = "sck", "si"
+SPEED_HZ = 100_000
+"""Slow on purpose: the wires to a control box are long, and a frame has 16 bits."""
+
+
+class SpiBus(Protocol):
+    """An SPI adapter as drivers use it; the chips are called by the names of their select lines."""
+
+    def send(self, chip: str, frame: bytes) -> None:
+        """Select the chip, clock the frame in, let the chip go. Raises HardwareError when the lines cannot be set."""
+
+
+class LineSpi:
+    """SPI on any GPIO lines. `selects` are requested as active low; `wires` are `SCK` and `SI`, active high."""
+
+    def __init__(self, selects: OutputLines, wires: OutputLines) -> None:
+        self._selects = selects
+        self._wires = wires
+        self._lock = threading.Lock()
+
+    def send(self, chip: str, frame: bytes) -> None:
+        with self._lock:
+            self._selects.set({chip: True})
+            try:
+                for octet in frame:
+                    for bit in range(7, -1, -1):
+                        self._wires.set({SCK: False, SI: bool(octet >> bit & 1)})
+                        self._wires.set({SCK: True})
+                self._wires.set({SCK: False})
+            finally:
+                self._selects.set({chip: False})
+
+
+class KernelSpi:
+    """SPI on the Pi's controller, through `api`: the spidev package, or of its shape.
+
+    `selects` gives each chip the number of its select: /dev/spidevBUS.SELECT. Raises HardwareError.
+    """
+
+    def __init__(self, api: Any, bus: int, selects: Mapping[str, int]) -> None:
+        self._lock = threading.Lock()
+        self._devices = {chip: _opened(api, bus, select) for chip, select in selects.items()}
+
+    def send(self, chip: str, frame: bytes) -> None:
+        with self._lock:
+            try:
+                self._devices[chip].xfer2(list(frame))
+            except OSError as fault:
+                raise HardwareError(f"SPI: cannot send to {chip}: {fault.strerror or fault}") from fault
+
+    def close(self) -> None:
+        for device in self._devices.values():
+            device.close()
+
+
+def real_spidev() -> Any:
+    """The spidev package. Raises HardwareError where it is missing."""
+    try:
+        import spidev  # noqa: PLC0415 - hardware packages are imported when hardware is opened
+    except ImportError as fault:
+        raise HardwareError(
+            f"SPI: the Python package spidev cannot be loaded ({fault}): install it, or use GPIO lines"
+        ) from fault
+    return spidev
+
+
+def _opened(api: Any, bus: int, select: int) -> Any:
+    path = f"/dev/spidev{bus}.{select}"
+    device = api.SpiDev()
+    try:
+        device.open(bus, select)
+    except FileNotFoundError as fault:
+        raise HardwareError(
+            f"SPI: there is no {path}: switch SPI on (dtparam=spi=on in /boot/firmware/config.txt) and reboot"
+        ) from fault
+    except PermissionError as fault:
+        raise HardwareError(f"SPI: no permission for {path}: add the user to the group spi") from fault
+    except OSError as fault:
+        raise HardwareError(f"SPI: {path}: {fault.strerror or fault}") from fault
+    device.mode = 0
+    device.max_speed_hz = SPEED_HZ
+    return device
