@@ -10,10 +10,10 @@ import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from firmware_sim.faults import Fallible, SimFault
 from firmware_sim.gpio import SimGpio
 from firmware_sim.mcp41010 import Mcp41010, SimSpidev
 from firmware_sim.motor import MotorSpec, SimMotor
-from firmware_sim.world import SimFault
 
 BOX_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.15, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=-3.0, stop_high_deg=363.0
@@ -61,7 +61,7 @@ class SimBox:
             self.motor.coils(driven > 0, driven < 0, self._now_s)
 
 
-class DigipotRotor:
+class DigipotRotor(Fallible):
     """`clock` tells the time; nothing here lets it pass.
 
     `enable_pin`: the relay that feeds both boxes, on while the line is high; None: they are always fed.
@@ -97,18 +97,6 @@ class DigipotRotor:
             self._advance()
             return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
 
-    def inject(self, name: str) -> None:
-        """Let something go wrong, by name. Raises ValueError that lists the names."""
-        self._fault(name).inject()
-
-    def clear(self, name: str) -> None:
-        self._fault(name).clear()
-
-    def _fault(self, name: str) -> SimFault:
-        if name not in self.faults:
-            raise ValueError(f"no fault called {name!r}; there are: {', '.join(sorted(self.faults))}")
-        return self.faults[name]
-
     def _lines_changed(self, _now_s: float, changes: Mapping[int, bool]) -> None:
         with self._lock:
             if self._enable_pin is not None and self._enable_pin in changes:
@@ -134,10 +122,3 @@ class DigipotRotor:
                 f"{name}-motor-slow": self._fault_of(box.motor, "pace", 0.4, 1.0),
             }
         return table
-
-    def _fault_of(self, part: object, field: str, bad: object, good: object) -> SimFault:
-        def become(value: object) -> None:
-            self._advance()
-            setattr(part, field, value)
-
-        return SimFault(lambda: become(bad), lambda: become(good))

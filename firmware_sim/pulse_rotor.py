@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from firmware_sim.contact import ContactFault, ContactSpec, SimContact
+from firmware_sim.faults import Fallible, SimFault
 from firmware_sim.gpio import SimGpio
 from firmware_sim.motor import MotorSpec, SimMotor
-from firmware_sim.world import SimFault
 
 U100_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.1, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=0.0, stop_high_deg=360.0
@@ -46,7 +46,7 @@ class SimPulseAxis:
         self.coils = (False, False)
 
 
-class PulseRotor:
+class PulseRotor(Fallible):
     """`clock` tells the time; nothing here lets it pass."""
 
     def __init__(
@@ -89,18 +89,6 @@ class PulseRotor:
         with self._lock:
             return tuple(int(plus) - int(minus) for plus, minus in (axis.coils for axis in self._axes))  # type: ignore[return-value]
 
-    def inject(self, name: str) -> None:
-        """Let something go wrong, by name. Raises ValueError that lists the names."""
-        self._fault(name).inject()
-
-    def clear(self, name: str) -> None:
-        self._fault(name).clear()
-
-    def _fault(self, name: str) -> SimFault:
-        if name not in self.faults:
-            raise ValueError(f"no fault called {name!r}; there are: {', '.join(sorted(self.faults))}")
-        return self.faults[name]
-
     def _relays_changed(self, now_s: float, changes: Mapping[int, bool]) -> None:
         with self._lock:
             for axis in self._axes:
@@ -137,12 +125,12 @@ class PulseRotor:
                 f"{name}-contact-stuck-closed": self._contact_fault(axis, ContactFault.STUCK_CLOSED),
                 f"{name}-pulses-missed": self._contact_fault(axis, ContactFault.MISSES),
                 f"{name}-pulses-doubled": self._contact_fault(axis, ContactFault.DOUBLES),
-                f"{name}-motor-stalled": self._motor_fault(axis, "stalled", True, False),
-                f"{name}-motor-reversed": self._motor_fault(axis, "reversed", True, False),
-                f"{name}-motor-slow": self._motor_fault(axis, "pace", 0.4, 1.0),
-                f"{name}-hand-turns": self._motor_fault(axis, "pushed", 1.0, 0.0),
-                f"{name}-relay-welded-{plus}": self._motor_fault(axis, "welded", 1, 0),
-                f"{name}-relay-welded-{minus}": self._motor_fault(axis, "welded", -1, 0),
+                f"{name}-motor-stalled": self._fault_of(axis.motor, "stalled", True, False),
+                f"{name}-motor-reversed": self._fault_of(axis.motor, "reversed", True, False),
+                f"{name}-motor-slow": self._fault_of(axis.motor, "pace", 0.4, 1.0),
+                f"{name}-hand-turns": self._fault_of(axis.motor, "pushed", 1.0, 0.0),
+                f"{name}-relay-welded-{plus}": self._fault_of(axis.motor, "welded", 1, 0),
+                f"{name}-relay-welded-{minus}": self._fault_of(axis.motor, "welded", -1, 0),
             }
         return table
 
@@ -153,11 +141,3 @@ class PulseRotor:
                 axis.contact.break_down(wanted, self._clock())
 
         return SimFault(lambda: become(fault), lambda: become(ContactFault.NONE))
-
-    def _motor_fault(self, axis: SimPulseAxis, field: str, bad: object, good: object) -> SimFault:
-        def become(value: object) -> None:
-            with self._lock:
-                self._advance()
-                setattr(axis.motor, field, value)
-
-        return SimFault(lambda: become(bad), lambda: become(good))

@@ -10,11 +10,11 @@ import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from firmware_sim.faults import Fallible, SimFault
 from firmware_sim.gpio import SimGpio
 from firmware_sim.i2c import SimI2CBus
 from firmware_sim.pca9685 import Pca9685
 from firmware_sim.servo import ServoSpec, SimServo
-from firmware_sim.world import SimFault
 
 WIND_DPS = 10.0
 
@@ -28,7 +28,7 @@ class ServoAxisSpec:
     servo: ServoSpec = field(default_factory=ServoSpec)
 
 
-class ServoRotor:
+class ServoRotor(Fallible):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none).
 
     `enable_pin`: the line at the board's OE input, active low, with a pull-up to 3.3 V beside it.
@@ -67,18 +67,6 @@ class ServoRotor:
         with self._lock:
             return self.azimuth.angle_deg(), self.elevation.angle_deg()
 
-    def inject(self, name: str) -> None:
-        """Let something go wrong, by name. Raises ValueError that lists the names."""
-        self._fault(name).inject()
-
-    def clear(self, name: str) -> None:
-        self._fault(name).clear()
-
-    def _fault(self, name: str) -> SimFault:
-        if name not in self.faults:
-            raise ValueError(f"no fault called {name!r}; there are: {', '.join(sorted(self.faults))}")
-        return self.faults[name]
-
     def _pulse_us(self, channel: int) -> float | None:
         return self.board.pulse_us(channel) if self._enabled else None
 
@@ -110,10 +98,3 @@ class ServoRotor:
         """VCC goes for an instant, which resets the chip."""
         self.board.supply = False
         self.board.supply = True
-
-    def _fault_of(self, part: object, field: str, bad: object, good: object) -> SimFault:
-        def become(value: object) -> None:
-            self._advance()
-            setattr(part, field, value)
-
-        return SimFault(lambda: become(bad), lambda: become(good))

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from firmware_sim.ads1115 import Ads1115
+from firmware_sim.faults import Fallible, SimFault
 from firmware_sim.gpio import SimGpio
 from firmware_sim.hd44780 import Hd44780
 from firmware_sim.i2c import SimI2CBus
@@ -55,14 +56,6 @@ class WorldSpec:
     lcd: LcdSpec | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class SimFault:
-    """Something that can be made to go wrong, and put right again."""
-
-    inject: Callable[[], None]
-    clear: Callable[[], None]
-
-
 class SimAxis:
     """A motor with its pot. Looked at only through the world, under its lock."""
 
@@ -73,7 +66,7 @@ class SimAxis:
         self.coils = (False, False)
 
 
-class World:
+class World(Fallible):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none)."""
 
     def __init__(
@@ -110,18 +103,6 @@ class World:
         """The relays' coils: -1, 0, 1 for each axis."""
         with self._lock:
             return tuple(int(plus) - int(minus) for plus, minus in (self.azimuth.coils, self.elevation.coils))  # type: ignore[return-value]
-
-    def inject(self, name: str) -> None:
-        """Let something go wrong, by name. Raises ValueError that lists the names."""
-        self._fault(name).inject()
-
-    def clear(self, name: str) -> None:
-        self._fault(name).clear()
-
-    def _fault(self, name: str) -> SimFault:
-        if name not in self.faults:
-            raise ValueError(f"no fault called {name!r}; there are: {', '.join(sorted(self.faults))}")
-        return self.faults[name]
 
     def _wire_lcd(self, spec: LcdSpec) -> Hd44780:
         if spec.address is not None:
@@ -184,16 +165,19 @@ class World:
                 f"{name}-pot-stuck": self._pot_fault(axis, PotFault.STUCK),
                 f"{name}-pot-jumps": SimFault(lambda axis=axis: self._jump(axis), lambda: None),  # type: ignore[misc]
                 f"{name}-pot-loose": self._fault_of(axis.pot, "loose_deg", 90.0, 0.0),
-                f"{name}-motor-stalled": self._motor_fault(axis, "stalled", True, False),
-                f"{name}-motor-reversed": self._motor_fault(axis, "reversed", True, False),
-                f"{name}-motor-slow": self._motor_fault(axis, "pace", 0.4, 1.0),
-                f"{name}-hand-turns": self._motor_fault(axis, "pushed", 1.0, 0.0),
-                f"{name}-wind-turns": self._motor_fault(axis, "pushed", 0.3, 0.0),
-                f"{name}-stop-early": self._motor_fault(
-                    axis, "stop_high_deg", axis.spec.pot.high_deg - EARLY_DEG, axis.spec.motor.stop_high_deg
+                f"{name}-motor-stalled": self._fault_of(axis.motor, "stalled", True, False),
+                f"{name}-motor-reversed": self._fault_of(axis.motor, "reversed", True, False),
+                f"{name}-motor-slow": self._fault_of(axis.motor, "pace", 0.4, 1.0),
+                f"{name}-hand-turns": self._fault_of(axis.motor, "pushed", 1.0, 0.0),
+                f"{name}-wind-turns": self._fault_of(axis.motor, "pushed", 0.3, 0.0),
+                f"{name}-stop-early": self._fault_of(
+                    axis.motor,
+                    "stop_high_deg",
+                    axis.spec.pot.high_deg - EARLY_DEG,
+                    axis.spec.motor.stop_high_deg,
                 ),
-                f"{name}-relay-welded-{plus}": self._motor_fault(axis, "welded", 1, 0),
-                f"{name}-relay-welded-{minus}": self._motor_fault(axis, "welded", -1, 0),
+                f"{name}-relay-welded-{plus}": self._fault_of(axis.motor, "welded", 1, 0),
+                f"{name}-relay-welded-{minus}": self._fault_of(axis.motor, "welded", -1, 0),
             }
         return table
 
@@ -212,17 +196,6 @@ class World:
             axis.pot.fault = PotFault.NONE
 
         return SimFault(inject, clear)
-
-    def _motor_fault(self, axis: SimAxis, field: str, bad: object, good: object) -> SimFault:
-        return self._fault_of(axis.motor, field, bad, good)
-
-    def _fault_of(self, part: object, field: str, bad: object, good: object) -> SimFault:
-        def become(value: object) -> None:
-            with self._lock:
-                self._advance()
-                setattr(part, field, value)
-
-        return SimFault(lambda: become(bad), lambda: become(good))
 
     def _jump(self, axis: SimAxis) -> None:
         axis.pot.jump_deg = 90.0

@@ -9,14 +9,15 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
+from firmware_sim.faults import Fallible, SimFault
 from firmware_sim.moteus.bus import SimCan, SimTransport
 from firmware_sim.moteus.controller import SimController
 from firmware_sim.moteus.lines import LineServer
 from firmware_sim.moteus.motor import Settings, SimMotor
 from firmware_sim.moteus.terminal import SimAdapter
-from firmware_sim.world import SimFault
 
 FAULT_CODES = {
     "calibration": 32,
@@ -55,7 +56,7 @@ class AxisSpec:
     settings: Settings = field(default_factory=Settings)
 
 
-class MoteusWorld:
+class MoteusWorld(Fallible):
     """`clock` tells the time: a SimClock with `transport`, a real one with `adapter`."""
 
     def __init__(self, azimuth: AxisSpec, elevation: AxisSpec, clock: Callable[[], float]) -> None:
@@ -99,18 +100,6 @@ class MoteusWorld:
         azimuth_deg, elevation_deg = (self._antenna_deg(name) for name in self._specs)
         return azimuth_deg, elevation_deg
 
-    def inject(self, name: str) -> None:
-        """Let something go wrong, by name. Raises ValueError that lists the names."""
-        self._fault(name).inject()
-
-    def clear(self, name: str) -> None:
-        self._fault(name).clear()
-
-    def _fault(self, name: str) -> SimFault:
-        if name not in self.faults:
-            raise ValueError(f"no fault called {name!r}; there are: {', '.join(sorted(self.faults))}")
-        return self.faults[name]
-
     def _antenna_deg(self, name: str) -> float:
         spec = self._specs[name]
         with self._lock:
@@ -121,24 +110,23 @@ class MoteusWorld:
     def _fault_table(self) -> dict[str, SimFault]:
         mishaps = self.lines.mishaps
         table = {
-            "adapter-deaf": self._switch(mishaps, "deaf", True, False),
-            "lines-dropped": self._switch(mishaps, "dropped", True, False),
-            "lines-garbled": self._switch(mishaps, "garbled", True, False),
-            "lines-late": self._switch(mishaps, "late_s", LATE_S, 0.0),
+            "adapter-deaf": self._fault_of(mishaps, "deaf", True, False),
+            "lines-dropped": self._fault_of(mishaps, "dropped", True, False),
+            "lines-garbled": self._fault_of(mishaps, "garbled", True, False),
+            "lines-late": self._fault_of(mishaps, "late_s", LATE_S, 0.0),
         }
         for axis, spec in self._specs.items():
             motor, can_id = self._controllers[axis].motor, spec.can_id
             table |= {
                 f"{axis}-silent": SimFault(
-                    lambda can_id=can_id: self.can.muted.add(can_id),  # type: ignore[misc]
-                    lambda can_id=can_id: self.can.muted.discard(can_id),  # type: ignore[misc]
+                    partial(self.can.muted.add, can_id), partial(self.can.muted.discard, can_id)
                 ),
-                f"{axis}-jammed": self._switch(motor, "jammed", True, False),
+                f"{axis}-jammed": self._fault_of(motor, "jammed", True, False),
                 f"{axis}-power-cycled": self._once(motor.power_cycle),
                 f"{axis}-factory-bounds": self._bounds(motor),
             }
             for name, code in FAULT_CODES.items():
-                table[f"{axis}-{name}"] = self._once(lambda motor=motor, code=code: motor.fail(code))  # type: ignore[misc]
+                table[f"{axis}-{name}"] = self._once(partial(motor.fail, code))
         return table
 
     def _once(self, happen: Callable[[], None]) -> SimFault:
@@ -148,14 +136,9 @@ class MoteusWorld:
 
         return SimFault(inject, lambda: None)
 
-    def _switch(self, part: object, field: str, bad: object, good: object) -> SimFault:
-        def become(value: object) -> None:
-            with self._lock:
-                for controller in self._controllers.values():
-                    controller.motor.advance()
-                setattr(part, field, value)
-
-        return SimFault(lambda: become(bad), lambda: become(good))
+    def _advance(self) -> None:
+        for controller in self._controllers.values():
+            controller.motor.advance()
 
     def _bounds(self, motor: SimMotor) -> SimFault:
         settings = motor.settings
