@@ -9,7 +9,8 @@ from __future__ import annotations
 import errno
 import glob
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from datetime import timedelta
 from typing import Any
 
@@ -60,15 +61,8 @@ def find_chip(api: Any, label: str = PI_HEADER_LABEL, paths: list[str] | None = 
 
 def holders(api: Any, path: str, offsets: Iterable[int]) -> dict[int, str]:
     """Who holds these lines, by the name he gave; free lines are left out. Takes none. Raises HardwareError."""
-    try:
-        with api.Chip(path) as chip:
-            lines = [chip.get_line_info(offset) for offset in offsets]
-    except PermissionError as fault:
-        raise HardwareError(f"GPIO: no permission for {path}: add the user to the group gpio") from fault
-    except OSError as fault:
-        raise HardwareError(f"GPIO: {path}: {fault.strerror or fault}") from fault
-    except ValueError as fault:
-        raise HardwareError(f"GPIO: {path}: {fault}") from fault
+    with _in_words(path), api.Chip(path) as chip:
+        lines = [chip.get_line_info(offset) for offset in offsets]
     return {line.offset: line.consumer or "the kernel" for line in lines if line.used}
 
 
@@ -167,14 +161,21 @@ def _taken(
     event_buffer_size: int | None = None,
 ) -> Any:
     """A request of these lines. Raises HardwareError that names them."""
-    try:
+    pins = ", ".join(f"{name} on GPIO{offset}" for name, offset in offsets.items())
+    with _in_words(path, f"cannot take {pins}: "):
         return api.request_lines(path, consumer=consumer, config=config, event_buffer_size=event_buffer_size)
+
+
+@contextmanager
+def _in_words(path: str, doing: str = "") -> Iterator[None]:
+    """What goes wrong with a chip, as a HardwareError that a person can act on."""
+    try:
+        yield
     except PermissionError as fault:
         raise HardwareError(f"GPIO: no permission for {path}: add the user to the group gpio") from fault
     except OSError as fault:
-        pins = ", ".join(f"{name} on GPIO{offset}" for name, offset in offsets.items())
         if fault.errno == errno.EBUSY:
-            raise LinesBusyError(f"GPIO: {path}: cannot take {pins}: a line is taken by another program") from fault
-        raise HardwareError(f"GPIO: {path}: cannot take {pins}: {fault.strerror or fault}") from fault
+            raise LinesBusyError(f"GPIO: {path}: {doing}a line is taken by another program") from fault
+        raise HardwareError(f"GPIO: {path}: {doing}{fault.strerror or fault}") from fault
     except ValueError as fault:
         raise HardwareError(f"GPIO: {path}: {fault}") from fault

@@ -35,7 +35,7 @@ from rotator.simulation import SIM_CALIBRATION_RAW
 from rotator.station import Station
 from rotator.status import LearntMotor
 from rotator.store.learnt import LearntFile, Motors
-from rotator.supervisor import Supervisor
+from rotator.supervisor import Supervisor, runtime_folder
 from rotator.switchboard import build_links
 from rotator.views import lcd
 
@@ -138,8 +138,7 @@ RELAY_LINES = "relay-lines.json"
 
 def monitor_path(config: Config, environment: Mapping[str, str]) -> Path:
     """Where the socket for watchers is."""
-    runtime = environment.get("RUNTIME_DIRECTORY", "").split(":")[0]
-    beside = Path(runtime) if runtime else Path(config.state.path).parent
+    beside = runtime_folder(environment) or Path(config.state.path).parent
     return Path(config.monitor.path) if config.monitor.path else beside / "monitor"
 
 

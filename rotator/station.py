@@ -11,12 +11,12 @@ from contextlib import ExitStack
 from hw.ads1115 import Ads1115
 from hw.gpio import PI_HEADER_LABEL, GpioOutputs, find_chip, real_gpiod
 from hw.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780
-from hw.heartbeat import HEARTBEAT, Heartbeat
+from hw.heartbeat import Heartbeat
 from hw.i2c import SmbusI2C, open_bus
 from hw.lines_off import RelayLines
 from hw.ports import AngleSensor, Axis, CharacterDisplay
 from hw.pot import PotSensor, Reference
-from hw.relays import MASTER, RELAYS, RelayBank
+from hw.relays import RelayBank
 from hw.sentinel import Sentinel
 from rotator.config.model import Config
 from rotator.simulation import simulated_world
@@ -24,9 +24,7 @@ from rotator.simulation import simulated_world
 
 def relay_lines(config: Config, chip: str) -> RelayLines:
     """Every line that must be off for the motors to stand still."""
-    names = [*RELAYS.values(), MASTER, HEARTBEAT]
-    pins = {name: pin for name in names if (pin := getattr(config.relays, name)) is not None}
-    return RelayLines(chip, pins, config.relays.active == "low")
+    return RelayLines(chip, config.relays.outputs, config.relays.active == "low")
 
 
 class Station:

@@ -16,6 +16,12 @@ ALIVE_EVERY = 4
 """Signs of life within the time that the service manager allows between two."""
 
 
+def runtime_folder(environment: Mapping[str, str]) -> Path | None:
+    """The folder that the service manager made for as long as the program runs; None where there is no such manager."""
+    folder = environment.get("RUNTIME_DIRECTORY", "").split(":")[0]
+    return Path(folder) if folder else None
+
+
 class Supervisor:
     """`environment` is the process's; `clock` gives seconds. May be used from any thread."""
 
@@ -23,8 +29,7 @@ class Supervisor:
         address = environment.get("NOTIFY_SOCKET", "")
         # A leading @ stands for a name that is in no folder.
         self._address = "\0" + address[1:] if address.startswith("@") else address
-        folder = environment.get("RUNTIME_DIRECTORY", "").split(":")[0]
-        self._folder = Path(folder) if folder else None
+        self._folder = runtime_folder(environment)
         self._clock = clock
         self._every_s = self._asked_for(environment) / ALIVE_EVERY
         self._next_s = clock()

@@ -154,6 +154,17 @@ class Relays(Table):
     dead_time_s: float = Field(0.5, ge=0.05, le=5)
     """How long a motor rests before it is reversed."""
 
+    @property
+    def contacts(self) -> dict[str, int]:
+        """The GPIO of each line that closes a contact, by its key."""
+        keys = ("azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down", "master")
+        return {key: pin for key in keys if (pin := getattr(self, key)) is not None}
+
+    @property
+    def outputs(self) -> dict[str, int]:
+        """The contacts' lines, and the heartbeat's."""
+        return self.contacts | ({} if self.heartbeat is None else {"heartbeat": self.heartbeat})
+
 
 class Adc(Table):
     bus: int = Field(1, ge=0, le=255)
@@ -266,10 +277,8 @@ class Config(Table):
 
     def _pins_twice(self) -> list[str]:
         users: dict[int, list[str]] = {}
-        for key in ("azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down", "master", "heartbeat"):
-            pin = getattr(self.relays, key)
-            if pin is not None:
-                users.setdefault(pin, []).append(f"relays.{key}")
+        for key, pin in self.relays.outputs.items():
+            users.setdefault(pin, []).append(f"relays.{key}")
         if self.lcd.kind == "gpio":
             for key in ("rs", "e", "d4", "d5", "d6", "d7"):
                 users.setdefault(getattr(self.lcd, key), []).append(f"lcd.{key}")

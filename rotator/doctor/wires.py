@@ -52,8 +52,7 @@ def box_is_running(machine: Machine, config: Config) -> bool:
 
 def relay_pins(config: Config) -> dict[int, str]:
     """The lines that close a contact, and the keys that name them."""
-    keys = ("azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down", "master")
-    return {pin: f"relays.{key}" for key in keys if (pin := getattr(config.relays, key)) is not None}
+    return {pin: f"relays.{key}" for key, pin in config.relays.contacts.items()}
 
 
 def gpios(pins: Iterable[int]) -> str:

@@ -70,15 +70,12 @@ def undone(files: Files, root: Path, boot: Path) -> Plan:
 
 def _relays(config: Config) -> dict[int, str]:
     """Each relay's pin and the key that names it."""
-    keys = ("azimuth_cw", "azimuth_ccw", "elevation_up", "elevation_down", "master")
-    pins = config.relays.model_dump(include=set(keys))
-    return {pins[key]: f"relays.{key}" for key in keys if pins[key] is not None}
+    return {pin: f"relays.{key}" for key, pin in config.relays.contacts.items()}
 
 
 def _lines(config: Config) -> Mapping[int, str]:
     """Each output line, the heartbeat's too, and the key that names it."""
-    heartbeat = config.relays.heartbeat
-    return _relays(config) | ({heartbeat: "relays.heartbeat"} if heartbeat is not None else {})
+    return {pin: f"relays.{key}" for key, pin in config.relays.outputs.items()}
 
 
 def _uses_header_i2c(config: Config) -> bool:
