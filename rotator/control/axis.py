@@ -54,6 +54,15 @@ class JogGoal:
     until_s: float | None
 
 
+def jog(direction: Direction, seconds: float | None, now_s: float, *, set_up: bool) -> JogGoal | None:
+    """What an order to jog asks for; None: to stop. An axis that nobody has set up obeys short presses only."""
+    if direction is Direction.OFF:
+        return None
+    if not set_up:
+        seconds = UNCALIBRATED_JOG_S if seconds is None else min(seconds, UNCALIBRATED_JOG_S)
+    return JogGoal(direction, None if seconds is None else now_s + seconds)
+
+
 class AxisControl:
     def __init__(self, settings: AxisSettings, *, lease_s: float, period_s: float) -> None:
         self.settings = settings
@@ -173,12 +182,7 @@ class AxisControl:
         return Run(direction, min(run.until_s, longest_s)) if run.direction is direction else self._law.rest(now_s)
 
     def start_jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
-        if direction is Direction.OFF:
-            self.goal = None
-            return
-        if self._missing:
-            seconds = UNCALIBRATED_JOG_S if seconds is None else min(seconds, UNCALIBRATED_JOG_S)
-        self.goal = JogGoal(direction, None if seconds is None else now_s + seconds)
+        self.goal = jog(direction, seconds, now_s, set_up=not self._missing)
 
     def calibrate_end(self, *, high_end: bool) -> None:
         """The axis stands at an end of its range: take its reading. Raises ValueError where that makes no sense."""

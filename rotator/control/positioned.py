@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
-from rotator.control.axis import UNCALIBRATED_JOG_S, JogGoal
+from rotator.control.axis import JogGoal, jog
 from rotator.control.calibration import Calibration
 from rotator.control.mount import Range
 from rotator.control.plan import Path
@@ -111,12 +111,7 @@ class PositionedAxis:
         return command
 
     def start_jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
-        if direction is Direction.OFF:
-            self.goal = None
-            return
-        if self._missing:
-            seconds = UNCALIBRATED_JOG_S if seconds is None else min(seconds, UNCALIBRATED_JOG_S)
-        self.goal = JogGoal(direction, None if seconds is None else now_s + seconds)
+        self.goal = jog(direction, seconds, now_s, set_up=not self._missing)
 
     def calibrate_end(self, *, high_end: bool) -> None:
         """Its scale is the drive's own. Raises ValueError."""
