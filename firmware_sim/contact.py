@@ -82,6 +82,7 @@ class SimContact:
     def turned(self, from_s: float, seconds: float, shaft_deg: Callable[[float], float]) -> None:
         """The shaft has turned, in one direction, along `shaft_deg`."""
         end_deg = self._follow(shaft_deg(seconds))
+        # Each edge is looked for at once, before the loop goes on to the next: B023 fears that it is not.
         while end_deg >= self._low_deg(self.zone + 1):
             self.zone += 1
             edge_deg = self._low_deg(self.zone)

@@ -87,7 +87,8 @@ class PulseRotor(Fallible):
     def drives(self) -> tuple[int, int]:
         """The relays' coils: -1, 0, 1 for each axis."""
         with self._lock:
-            return tuple(int(plus) - int(minus) for plus, minus in (axis.coils for axis in self._axes))  # type: ignore[return-value]
+            azimuth, elevation = (int(plus) - int(minus) for plus, minus in (axis.coils for axis in self._axes))
+            return azimuth, elevation
 
     def _relays_changed(self, now_s: float, changes: Mapping[int, bool]) -> None:
         with self._lock:

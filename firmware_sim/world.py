@@ -102,7 +102,9 @@ class World(Fallible):
     def drives(self) -> tuple[int, int]:
         """The relays' coils: -1, 0, 1 for each axis."""
         with self._lock:
-            return tuple(int(plus) - int(minus) for plus, minus in (self.azimuth.coils, self.elevation.coils))  # type: ignore[return-value]
+            coils = (self.azimuth.coils, self.elevation.coils)
+            azimuth, elevation = (int(plus) - int(minus) for plus, minus in coils)
+            return azimuth, elevation
 
     def _wire_lcd(self, spec: LcdSpec) -> Hd44780:
         if spec.address is not None:
