@@ -10,8 +10,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from firmware_sim.clock import SimClock
+from firmware_sim.world import World
 from hw.ports import Axis, Direction
-from rotator.app import build_controller
+from rotator.building import build_controller
 from rotator.config.load import parse
 from rotator.loop import ControlLoop
 from rotator.orders import Jog, Order, Source, Stop
@@ -34,13 +35,10 @@ class Mast:
         config = parse(text, "drill")
         self.clock = SimClock()
         self._period_s = 1 / config.control.rate_hz
-        self._station = Station(config, self.clock, self.clock.sleep, start_deg)
-        assert self._station.world is not None
+        self._station = Station(config, self.clock, self.clock.sleep, start_deg, add_alarm=self.clock.add_alarm)
+        assert isinstance(self._station.world, World)
         self.world = self._station.world
-        self.clock.add_alarm(self._station.bank.due_s, self._station.bank.enforce)
-        self._loop = ControlLoop(
-            build_controller(config), self._station.bank, self._station.sensors, self.clock, self._period_s
-        )
+        self._loop = ControlLoop(build_controller(config), self._station.rotor, self.clock, self._period_s)
         self._cycles = 0
         self.blind = False
         """The reading thread hangs on the bus: the loop goes on with what it last read."""

@@ -82,9 +82,9 @@ def step_errors(lag_s: float) -> StepResult:
         for sign in (1, -1):
             start_az, start_el = (0.0, 0.0) if sign > 0 else (180.0, 180.0)
             move(start_az + 90.0, start_el)
-            before = plant.relay_starts()
+            before = plant.relay_starts() or 0
             move(start_az + 90.0 + sign * size_deg, start_el + sign * min(size_deg, 180.0))
-            starts.append(plant.relay_starts() - before)
+            starts.append((plant.relay_starts() or 0) - before)
             boom_az, boom_el = plant.world.antenna()
             errors += [turn_deg(start_az + 90.0 + sign * size_deg, boom_az), boom_el - (start_el + sign * size_deg)]
     rms_deg = math.sqrt(mean([error * error for error in errors]))

@@ -6,14 +6,13 @@ offers lines in the shape of gpiod and a module in the shape of spidev, and the 
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from firmware_sim.faults import Fallible, SimFault
-from firmware_sim.gpio import SimGpio
+from firmware_sim.faults import SimFault
 from firmware_sim.mcp41010 import Mcp41010, SimSpidev
 from firmware_sim.motor import MotorSpec, SimMotor
+from firmware_sim.rotor import SimRotor
 
 BOX_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.15, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=-3.0, stop_high_deg=363.0
@@ -61,8 +60,8 @@ class SimBox:
             self.motor.coils(driven > 0, driven < 0, self._now_s)
 
 
-class DigipotRotor(Fallible):
-    """`clock` tells the time; nothing here lets it pass.
+class DigipotRotor(SimRotor):
+    """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none).
 
     `enable_pin`: the relay that feeds both boxes, on while the line is high; None: they are always fed.
     """
@@ -72,16 +71,15 @@ class DigipotRotor(Fallible):
         azimuth: BoxSpec,
         elevation: BoxSpec,
         clock: Callable[[], float],
+        sleep: Callable[[float], None] | None = None,
         *,
         sck_pin: int = 11,
         si_pin: int = 10,
         enable_pin: int | None = None,
     ) -> None:
-        self._clock = clock
+        super().__init__(clock, sleep)
         self._wires = sck_pin, si_pin
         self._enable_pin = enable_pin
-        self._lock = threading.RLock()
-        self.gpio = SimGpio(clock)
         self.azimuth, self.elevation = SimBox(azimuth, clock()), SimBox(elevation, clock())
         self.spidev = SimSpidev({(0, 0): self.azimuth.chip, (0, 1): self.elevation.chip})
         self._boxes = self.azimuth, self.elevation
@@ -92,10 +90,14 @@ class DigipotRotor(Fallible):
         self.faults = self._fault_table()
 
     def antenna(self) -> tuple[float, float]:
-        """Where the boom really points: azimuth and elevation on the rotor's own scales."""
         with self._lock:
             self._advance()
             return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
+
+    def shafts(self) -> tuple[float, float]:
+        with self._lock:
+            self._advance()
+            return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg
 
     def _lines_changed(self, _now_s: float, changes: Mapping[int, bool]) -> None:
         with self._lock:

@@ -1,19 +1,18 @@
 """A simulated rotor of the Alliance U-100 kind: two motors behind relays, and a cam contact on each shaft.
 
 Knows what is wired where, and its faults by name. Knows no driver: it offers lines in the shape of gpiod, and the rest
-is physics. The contacts come through opto-isolators: a closed one pulls its line low.
+is physics. The contacts come through opto-isolators: a closed one pulls its line low, unless said otherwise.
 """
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from firmware_sim.contact import ContactFault, ContactSpec, SimContact
-from firmware_sim.faults import Fallible, SimFault
-from firmware_sim.gpio import SimGpio
+from firmware_sim.faults import SimFault
 from firmware_sim.motor import MotorSpec, SimMotor
+from firmware_sim.rotor import SimRotor
 
 U100_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.1, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=0.0, stop_high_deg=360.0
@@ -46,46 +45,43 @@ class SimPulseAxis:
         self.coils = (False, False)
 
 
-class PulseRotor(Fallible):
-    """`clock` tells the time; nothing here lets it pass."""
+class PulseRotor(SimRotor):
+    """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none)."""
 
     def __init__(
         self,
         azimuth: PulseAxisSpec,
         elevation: PulseAxisSpec,
         clock: Callable[[], float],
+        sleep: Callable[[float], None] | None = None,
         *,
         relays_active_low: bool = False,
+        contacts_active_low: bool = True,
     ) -> None:
-        self._clock = clock
+        super().__init__(clock, sleep)
         self._active_low = relays_active_low
-        self._lock = threading.RLock()
-        self.gpio = SimGpio(clock)
+        self._closed_level = not contacts_active_low
         self.azimuth = SimPulseAxis(azimuth, clock())
         self.elevation = SimPulseAxis(elevation, clock())
-        self.relay_starts = 0
-        """How often a motor relay has closed."""
+        self.relay_starts: int = 0
         self._axes = (self.azimuth, self.elevation)
         for axis in self._axes:
-            self.gpio.drive_input(axis.spec.contact_pin, not axis.contact.closed)
+            self.gpio.drive_input(axis.spec.contact_pin, axis.contact.closed is self._closed_level)
         self.gpio.on_edges.append(self._relays_changed)
         self.gpio.on_look.append(self._catch_up)
         self.faults = self._fault_table()
 
     def antenna(self) -> tuple[float, float]:
-        """Where the boom really points: azimuth and elevation on the rotor's own scales."""
         with self._lock:
             self._advance()
             return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
 
     def shafts(self) -> tuple[float, float]:
-        """Where the shafts really are, before the play of the gears."""
         with self._lock:
             self._advance()
             return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg
 
     def drives(self) -> tuple[int, int]:
-        """The relays' coils: -1, 0, 1 for each axis."""
         with self._lock:
             azimuth, elevation = (int(plus) - int(minus) for plus, minus in (axis.coils for axis in self._axes))
             return azimuth, elevation
@@ -113,7 +109,7 @@ class PulseRotor(Fallible):
             self._advance()
             changes = [(*change, axis) for axis in self._axes for change in axis.contact.take(now_s)]
         for at_s, closed, axis in sorted(changes, key=lambda change: change[0]):
-            self.gpio.drive_input(axis.spec.contact_pin, not closed, at_s)
+            self.gpio.drive_input(axis.spec.contact_pin, closed is self._closed_level, at_s)
 
     def _fault_table(self) -> dict[str, SimFault]:
         table: dict[str, SimFault] = {}

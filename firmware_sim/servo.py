@@ -14,7 +14,8 @@ from dataclasses import dataclass
 class ServoSpec:
     low_us: float = 500.0
     high_us: float = 2500.0
-    """The pulses that mean 0° and `range_deg`."""
+    """The pulses that mean `low_deg`, and `range_deg` more."""
+    low_deg: float = 0.0
     range_deg: float = 180.0
     slew_dps: float = 60.0
     stop_margin_deg: float = 4.0
@@ -56,7 +57,8 @@ class SimServo:
         past_s, self._now_s = now_s - self._now_s, now_s
         if past_s <= 0 or self.stalled:
             return
-        low_deg, high_deg = -self.spec.stop_margin_deg, self.spec.range_deg + self.spec.stop_margin_deg
+        low_deg = self.spec.low_deg - self.spec.stop_margin_deg
+        high_deg = self.spec.low_deg + self.spec.range_deg + self.spec.stop_margin_deg
         if not self._holds():
             self._shaft_deg = min(max(self._shaft_deg + self.pushed_dps * past_s, low_deg), high_deg)
             return
@@ -72,4 +74,5 @@ class SimServo:
 
     def _wanted_deg(self) -> float:
         width_us = self._pulse_us() or 0.0
-        return (width_us - self.spec.low_us) / (self.spec.high_us - self.spec.low_us) * self.spec.range_deg
+        share = (width_us - self.spec.low_us) / (self.spec.high_us - self.spec.low_us)
+        return self.spec.low_deg + share * self.spec.range_deg

@@ -6,14 +6,12 @@ the shape of gpiod, and the rest is physics.
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from firmware_sim.faults import Fallible, SimFault
-from firmware_sim.gpio import SimGpio
-from firmware_sim.i2c import SimI2CBus
+from firmware_sim.faults import SimFault
 from firmware_sim.pca9685 import Pca9685
+from firmware_sim.rotor import SimRotor
 from firmware_sim.servo import ServoSpec, SimServo
 
 WIND_DPS = 10.0
@@ -28,7 +26,7 @@ class ServoAxisSpec:
     servo: ServoSpec = field(default_factory=ServoSpec)
 
 
-class ServoRotor(Fallible):
+class ServoRotor(SimRotor):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none).
 
     `enable_pin`: the line at the board's OE input, active low, with a pull-up to 3.3 V beside it.
@@ -45,11 +43,9 @@ class ServoRotor(Fallible):
         enable_pin: int | None = None,
         osc_hz: float = 25e6,
     ) -> None:
-        self._lock = threading.RLock()
+        super().__init__(clock, sleep)
         self._enable_pin = enable_pin
         self._enabled = enable_pin is None
-        self.gpio = SimGpio(clock)
-        self.bus = SimI2CBus(sleep)
         self.board = Pca9685(clock, osc_hz=osc_hz)
         self.bus.attach(address, self.board)
         self.azimuth, self.elevation = (
@@ -63,7 +59,6 @@ class ServoRotor(Fallible):
         self.faults = self._fault_table()
 
     def antenna(self) -> tuple[float, float]:
-        """Where the boom really points: azimuth and elevation on the servos' own scales."""
         with self._lock:
             return self.azimuth.angle_deg(), self.elevation.angle_deg()
 

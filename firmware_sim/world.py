@@ -1,4 +1,4 @@
-"""A simulated station: the rotor, and the chips and lines through which a program drives and reads it.
+"""A simulated rotor of relays and pots, and the converter through which a program reads it.
 
 Knows what is wired where, and its faults by name. Knows no driver: it offers a bus in the shape of smbus2 and lines in
 the shape of gpiod, and the rest is physics.
@@ -6,18 +6,14 @@ the shape of gpiod, and the rest is physics.
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from firmware_sim.ads1115 import Ads1115
-from firmware_sim.faults import Fallible, SimFault
-from firmware_sim.gpio import SimGpio
-from firmware_sim.hd44780 import Hd44780
-from firmware_sim.i2c import SimI2CBus
+from firmware_sim.faults import SimFault
 from firmware_sim.motor import MotorSpec, SimMotor
-from firmware_sim.pcf8574 import Backpack
 from firmware_sim.pot import PotFault, PotSpec, SimPot
+from firmware_sim.rotor import SimRotor
 
 EARLY_DEG = 4.0
 """How far inside the range a misplaced end stop stands."""
@@ -36,15 +32,6 @@ class AxisSpec:
 
 
 @dataclass(frozen=True, slots=True)
-class LcdSpec:
-    """A display: on six lines (pins rs, e, d4 to d7), or behind an expander at `address` (bits of the same names)."""
-
-    pins: Mapping[str, int]
-    address: int | None = None
-    backlight_active_high: bool = True
-
-
-@dataclass(frozen=True, slots=True)
 class WorldSpec:
     azimuth: AxisSpec
     elevation: AxisSpec
@@ -53,7 +40,6 @@ class WorldSpec:
     adc_address: int = 0x48
     reference_channel: int | None = None
     pot_supply_v: float = 3.3
-    lcd: LcdSpec | None = None
 
 
 class SimAxis:
@@ -66,61 +52,43 @@ class SimAxis:
         self.coils = (False, False)
 
 
-class World(Fallible):
+class World(SimRotor):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none)."""
 
     def __init__(
         self, spec: WorldSpec, clock: Callable[[], float], sleep: Callable[[float], None] | None = None
     ) -> None:
+        super().__init__(clock, sleep)
         self._spec = spec
-        self._clock = clock
-        self._lock = threading.RLock()
-        self.gpio = SimGpio(clock)
-        self.bus = SimI2CBus(sleep)
         self.azimuth = SimAxis(spec.azimuth, spec.pot_supply_v, clock())
         self.elevation = SimAxis(spec.elevation, spec.pot_supply_v, clock())
-        self.relay_starts = 0
-        """How often a motor relay has closed."""
+        self.relay_starts: int = 0
         adc = Ads1115(clock, vdd_v=max(3.3, spec.pot_supply_v))
         for axis in (self.azimuth, self.elevation):
             adc.inputs[axis.spec.adc_channel] = lambda axis=axis: self._wiper_v(axis)  # type: ignore[misc]
         if spec.reference_channel is not None:
             adc.inputs[spec.reference_channel] = lambda: spec.pot_supply_v
         self.bus.attach(spec.adc_address, adc)
-        self.lcd = self._wire_lcd(spec.lcd) if spec.lcd else None
         self.gpio.on_edges.append(self._relays_changed)
         self.faults = self._fault_table()
         if spec.master_pin is not None:
             self._relays_changed(clock(), {spec.master_pin: self.gpio.level(spec.master_pin)})
 
     def antenna(self) -> tuple[float, float]:
-        """Where the boom really points: azimuth and elevation on the rotor's own scales."""
         with self._lock:
             self._advance()
             return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
 
+    def shafts(self) -> tuple[float, float]:
+        with self._lock:
+            self._advance()
+            return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg
+
     def drives(self) -> tuple[int, int]:
-        """The relays' coils: -1, 0, 1 for each axis."""
         with self._lock:
             coils = (self.azimuth.coils, self.elevation.coils)
             azimuth, elevation = (int(plus) - int(minus) for plus, minus in coils)
             return azimuth, elevation
-
-    def _wire_lcd(self, spec: LcdSpec) -> Hd44780:
-        if spec.address is not None:
-            lcd = Hd44780(self.bus.wire_time(self._clock))
-            self.bus.attach(spec.address, Backpack(lcd, spec.pins, spec.backlight_active_high).expander)
-            return lcd
-        lcd = Hd44780(self._clock)
-        levels = {pin: self.gpio.level(pin) for pin in spec.pins.values()}
-
-        def pins_changed(_now_s: float, changes: Mapping[int, bool]) -> None:
-            if levels.keys() & changes.keys():
-                levels.update((pin, level) for pin, level in changes.items() if pin in levels)
-                lcd.pins(**{name: levels[pin] for name, pin in spec.pins.items()})
-
-        self.gpio.on_edges.append(pins_changed)
-        return lcd
 
     def _relays_changed(self, now_s: float, changes: Mapping[int, bool]) -> None:
         with self._lock:
@@ -154,8 +122,6 @@ class World(Fallible):
             "adc-gone": self._gone(self._spec.adc_address),
             "bus-hung": SimFault(self.bus.hang, self.bus.release),
         }
-        if self._spec.lcd and self._spec.lcd.address is not None:
-            table["lcd-gone"] = self._gone(self._spec.lcd.address)
         for name, axis, plus, minus in (
             ("azimuth", self.azimuth, "cw", "ccw"),
             ("elevation", self.elevation, "up", "down"),
@@ -182,9 +148,6 @@ class World(Fallible):
                 f"{name}-relay-welded-{minus}": self._fault_of(axis.motor, "welded", -1, 0),
             }
         return table
-
-    def _gone(self, address: int) -> SimFault:
-        return SimFault(lambda: self.bus.gone.add(address), lambda: self.bus.gone.discard(address))
 
     def _pot_fault(self, axis: SimAxis, fault: PotFault) -> SimFault:
         def inject() -> None:

@@ -92,6 +92,27 @@ class GpioOutputs:
         self._request.release()
 
 
+class GpioInputs:
+    """Named switches to ground on one chip, through `api`; the Pi's own resistors hold open ones high."""
+
+    def __init__(self, api: Any, path: str, offsets: Mapping[str, int], *, consumer: str) -> None:
+        line = real_gpiod().line
+        self._closed = line.Value.ACTIVE
+        self._offsets = dict(offsets)
+        setting = real_gpiod().LineSettings(direction=line.Direction.INPUT, bias=line.Bias.PULL_UP, active_low=True)
+        self._request = _taken(api, path, self._offsets, {tuple(offsets.values()): setting}, consumer=consumer)
+
+    def read(self) -> dict[str, bool]:
+        try:
+            values = self._request.get_values(list(self._offsets.values()))
+        except OSError as fault:
+            raise HardwareError(f"GPIO: cannot read {', '.join(self._offsets)}: {fault.strerror or fault}") from fault
+        return {name: value is self._closed for name, value in zip(self._offsets, values, strict=True)}
+
+    def close(self) -> None:
+        self._request.release()
+
+
 class GpioContact:
     """One contact on an input line, through `api`; the kernel waits out the bounce and notes the moments.
 

@@ -142,11 +142,10 @@ class PulseCounter:
         """Why the count is not to be relied on until the axis is homed; empty: it is right."""
         return self._count.trouble
 
-    def faults(self) -> dict[Axis, str]:
-        """What is wrong now, for a person; nothing where all is well."""
-        if self._count.quiet:
-            return {self._axis: "no pulses: driven for three periods, and the contact did not change"}
-        return {self._axis: f"count lost: {self.trouble}; home the axis"} if self.trouble else {}
+    @property
+    def quiet(self) -> bool:
+        """Driven for three periods without a pulse."""
+        return self._count.quiet
 
     @staticmethod
     def _take(count: CamCount, event: _Driven | ContactChange) -> None:

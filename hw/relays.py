@@ -38,7 +38,8 @@ class _Motor:
 class RelayBank:
     """Drives two motors through four output lines, and a master where one is wired.
 
-    `clock` gives seconds; `until_s` of a command is on the same clock. `watch` is told of every lease before it counts.
+    `clock` gives seconds; `until_s` of a command is on the same clock. `one_at_a_time`: while one motor is fed the
+    other is not, for a small transformer: ask again. `watch` is told of every lease before it counts.
     """
 
     def __init__(
@@ -48,6 +49,7 @@ class RelayBank:
         *,
         dead_time_s: float,
         master: bool = False,
+        one_at_a_time: bool = False,
         watch: LeaseWatch | None = None,
     ) -> None:
         self._lines = lines
@@ -56,6 +58,7 @@ class RelayBank:
         self._clock = clock
         self._dead_time_s = dead_time_s
         self._master_wired = master
+        self._one_at_a_time = one_at_a_time
         self._master_until_s: float | None = None
         self._motors = {axis: _Motor() for axis in Axis}
         self._cut = False
@@ -149,14 +152,17 @@ class RelayBank:
         if motor.on not in (Direction.OFF, direction):
             self._open(axis, now_s)
         # The lease is known outside before the relay closes: there is no moment at which it would be forgotten.
-        if motor.on is Direction.OFF and self._rested(motor, direction, now_s):
+        if motor.on is Direction.OFF and self._may_start(motor, direction, now_s):
             self._renew()
             self._close(axis, direction, now_s)
         elif motor.on is direction:
             self._renew()
 
-    def _rested(self, motor: _Motor, direction: Direction, now_s: float) -> bool:
+    def _may_start(self, motor: _Motor, direction: Direction, now_s: float) -> bool:
         # A reversal at full speed breaks gears and burns contacts; the same direction may go on at once.
+        others_on = any(other.on is not Direction.OFF for other in self._motors.values() if other is not motor)
+        if self._one_at_a_time and others_on:
+            return False
         return motor.last in (Direction.OFF, direction) or now_s >= motor.stopped_s + self._dead_time_s
 
     def _close(self, axis: Axis, direction: Direction, now_s: float) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from hw.ports import Axis
-from rotator.app import build_controller
+from rotator.building import build_controller
 from rotator.calibrating.answers import Answer
 from rotator.calibrating.asking import Known
 from rotator.calibrating.guide import Commissioned, Guide
@@ -30,8 +30,7 @@ class Bench:
         controller = build_controller(config, commissioning=axis)
         self.loop = ControlLoop(
             controller,
-            station.bank,
-            station.sensors,
+            station.rotor,
             clock,
             1 / config.control.rate_hz,
             after_good_step=station.beat,

@@ -1,4 +1,4 @@
-"""The control loop and the guard, each in its thread, as one thing to start and to stop.
+"""The control loop and the rotor with its guard, each with a thread, as one thing to start and to stop.
 
 Knows in which order they come and go. Knows nothing of what is controlled, and of no link.
 """
@@ -9,12 +9,10 @@ import asyncio
 import logging
 import os
 import threading
-import time
 
-from hw.guard import Guard
 from hw.ports import HardwareError
-from hw.relays import RelayBank
 from rotator.loop import ControlLoop
+from rotator.rotor import Rotor
 
 log = logging.getLogger(__name__)
 
@@ -72,22 +70,22 @@ class ControlThread:
 class Engine:
     """`start` it in an event loop; after `halt` every relay is off, and it tells what went wrong, if something did."""
 
-    def __init__(self, loop: ControlLoop, bank: RelayBank) -> None:
+    def __init__(self, loop: ControlLoop, rotor: Rotor) -> None:
         self.loop = loop
-        self._guard = Guard(bank, time.monotonic)
+        self._rotor = rotor
         self._thread: ControlThread | None = None
 
     def start(self) -> asyncio.Future[Exception | None]:
         """The future that is done when the loop has ended."""
         self._thread = ControlThread(self.loop)
-        self._guard.start()
+        self._rotor.start()
         self._thread.start()
         return self._thread.ended
 
     async def halt(self) -> Exception | None:
-        """Everything off. The guard goes last: until the loop has ended it may still be needed."""
+        """Everything off. The rotor's guard goes last: until the loop has ended it may still be needed."""
         self.loop.stop()
         try:
             return await self._thread.join() if self._thread else None
         finally:
-            self._guard.stop()
+            await asyncio.to_thread(self._rotor.close)

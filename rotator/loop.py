@@ -1,7 +1,7 @@
 """The control loop: reads the sensors, steps the controller, commands the drive. The only reader of the clock.
 
-Knows when to do what. Decides nothing: that is the controller's. Owns the sensors and the drive; nobody else touches
-them, but for the guard, which may open relays at any time. Sensors are read in a thread of their own, so that neither
+Knows when to do what. Decides nothing: that is the controller's. Owns the rotor; nobody else touches it, but
+for the guard, which may open relays at any time. Sensors are read in a thread of their own, so that neither
 a slow bus nor one that hangs keeps an order waiting or a stale reading from being noticed.
 """
 
@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
-from hw.ports import AngleSensor, Axis, Direction, HardwareError, SwitchedDrive
+from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from rotator.control.controller import Controller
 from rotator.control.sensing import Reading
 from rotator.orders import Jog, Order, Source
+from rotator.rotor import Rotor
 from rotator.seldom import Seldom
 from rotator.status import Status
 
@@ -31,8 +32,7 @@ class ControlLoop:
     def __init__(
         self,
         controller: Controller,
-        drive: SwitchedDrive,
-        sensors: Mapping[Axis, AngleSensor],
+        rotor: Rotor,
         clock: Callable[[], float],
         period_s: float,
         *,
@@ -40,8 +40,7 @@ class ControlLoop:
     ) -> None:
         self._controller = controller
         self._after_good_step = after_good_step
-        self._drive = drive
-        self._sensors = sensors
+        self._rotor = rotor
         self._clock = clock
         self._period_s = period_s
         self._inbox: list[tuple[Source, Order, bool]] = []
@@ -90,11 +89,12 @@ class ControlLoop:
         orders = [(source, order) for source, order, _ in posted]
         now_s = self._clock()
         before = self.status
-        runs = self._controller.step(now_s, dict(self._readings), orders)
+        commands = self._controller.step(now_s, dict(self._readings), orders)
         driven = dict.fromkeys(Axis, Direction.OFF)
-        for axis, run in runs.items():
+        self._run_errands()
+        for axis, command in commands.items():
             try:
-                driven[axis] = self._drive.drive(axis, run.direction, run.until_s)
+                driven[axis] = self._rotor.obey(axis, command)
                 self._trouble(f"{axis.value} drive", "")
             except HardwareError as fault:
                 self._trouble(f"{axis.value} drive", str(fault))
@@ -102,6 +102,14 @@ class ControlLoop:
         self._switch_supply()
         self._tell(before)
         self._sign_of_life()
+
+    def _run_errands(self) -> None:
+        for errand in self._controller.errands:
+            try:
+                self._rotor.run(errand)
+            except HardwareError as fault:
+                log.error("%s", fault)
+        self._controller.errands.clear()
 
     def _sign_of_life(self) -> None:
         """Told to whoever would switch the motors off without it. Not where a relay may not have obeyed."""
@@ -119,9 +127,9 @@ class ControlLoop:
             return
         try:
             if self.status.cut:
-                self._drive.cut()
+                self._rotor.cut()
             else:
-                self._drive.restore()
+                self._rotor.restore()
             self._supply_cut = self.status.cut
             self._trouble("supply", "")
         except HardwareError as fault:
@@ -144,7 +152,7 @@ class ControlLoop:
                     raise self._failure
         finally:
             try:
-                self._drive.off()
+                self._rotor.off()
             finally:
                 self.stop()
                 # A bus that hangs holds the thread; it is left behind, for it cannot move anything.
@@ -170,7 +178,7 @@ class ControlLoop:
             self._wake.set()
 
     def _read_all(self) -> None:
-        for axis, sensor in self._sensors.items():
+        for axis, sensor in self._rotor.sensors.items():
             self._readings[axis] = self._read(axis, sensor)
 
     def _read(self, axis: Axis, sensor: AngleSensor) -> Reading:
@@ -178,9 +186,9 @@ class ControlLoop:
             raw = sensor.read()
         except HardwareError as fault:
             self._trouble(axis.value, str(fault))
-            return Reading(self._clock(), None, str(fault))
+            return Reading(self._clock(), None, str(fault), self._rotor.condition(axis))
         self._trouble(axis.value, "")
-        return Reading(self._clock(), raw)
+        return Reading(self._clock(), raw, condition=self._rotor.condition(axis))
 
     def _trouble(self, what: str, text: str) -> None:
         """Log a trouble once when it comes and once when it goes."""

@@ -6,6 +6,7 @@ Knows the orders and nothing of who sends them or what becomes of them.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 
 from hw.ports import Axis, Direction
 
@@ -93,7 +94,58 @@ class Speed:
     level: int
 
 
-Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed
+class Mode(Enum):
+    """Who may move the antenna, as a front panel's switch says."""
+
+    AUTO = "auto"
+    """The links, with the panel's nudges added."""
+    MANUAL = "manual"
+    """The panel's knobs alone."""
+    JOG = "jog"
+    """The panel's jog switches alone."""
+    PARK = "park"
+    """Nobody: the antenna stays where it is."""
+
+
+@dataclass(frozen=True, slots=True)
+class SetMode:
+    """A person at the panel says who may move the antenna from now on; it stops, and the nudges are forgotten."""
+
+    mode: Mode
+
+
+@dataclass(frozen=True, slots=True)
+class Nudge:
+    """Everything asked for on this axis is meant so much further on, until the mode changes."""
+
+    axis: Axis
+    offset_deg: float
+
+
+@dataclass(frozen=True, slots=True)
+class Home:
+    """Find the low end stop of an axis that counts. Only a person asks for it, and watches."""
+
+    axis: Axis
+
+
+@dataclass(frozen=True, slots=True)
+class Confirm:
+    """A person says that the axis stands at this angle, in true degrees as the status reports them."""
+
+    axis: Axis
+    angle_deg: float
+
+
+@dataclass(frozen=True, slots=True)
+class LetGo:
+    """Motors without torque: only a person asks for it, for an antenna that is out of balance turns."""
+
+
+Personal = SetMode | Nudge | Home | Confirm | LetGo
+"""What only somebody at the box may ask for: at its panel, or on its console."""
+
+Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Personal
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,8 @@ from dataclasses import asdict, dataclass
 from typing import Protocol
 
 from firmware_sim.clock import SimClock
-from firmware_sim.world import World
-from rotator.app import build_controller, build_mount, build_offsets
+from firmware_sim.rotor import SimRotor
+from rotator.building import build_controller, build_mount, build_offsets
 from rotator.config.model import Config
 from rotator.control.angles import great_circle_deg
 from rotator.door import Door
@@ -76,7 +76,8 @@ class Plant(Protocol):
     def look(self) -> tuple[float, float, int, int]:
         """Boom azimuth and elevation, azimuth and elevation drive."""
 
-    def relay_starts(self) -> int: ...
+    def relay_starts(self) -> int | None:
+        """None: it has no relays."""
 
 
 class BoxPlant:
@@ -87,12 +88,11 @@ class BoxPlant:
         self._period_s = 1 / config.control.rate_hz
         self._shift = build_offsets(config)
         start_deg = (start_deg[0] - self._shift.azimuth_deg, start_deg[1] - self._shift.elevation_deg)
-        station = Station(config, clock, clock.sleep, start_deg)
+        station = Station(config, clock, clock.sleep, start_deg, add_alarm=clock.add_alarm)
         assert station.world is not None, "a rehearsal is always simulated"
-        self.world: World = station.world
-        self._loop = ControlLoop(build_controller(config), station.bank, station.sensors, clock, self._period_s)
-        clock.add_alarm(station.bank.due_s, station.bank.enforce)
-        door = Door(self._loop, build_mount(config), Source(via))
+        self.world: SimRotor = station.world
+        self._loop = ControlLoop(build_controller(config), station.rotor, clock, self._period_s)
+        door = Door(self._loop, build_mount(config), Source(via), clock=clock)
         self._session: Session = RotctldSession(door) if via == "rotctld" else Gs232Session(door, Dialect.B)
         self._encode = _rotctld_order if via == "rotctld" else _gs232_order
 
@@ -116,9 +116,12 @@ class BoxPlant:
     def look(self) -> tuple[float, float, int, int]:
         # The simulated boom is on the rotor's own scale; mounted askew, it points that much beside.
         azimuth_deg, elevation_deg = self.world.antenna()
-        return azimuth_deg + self._shift.azimuth_deg, elevation_deg + self._shift.elevation_deg, *self.world.drives()
+        drives = self.world.drives()
+        if self.world.relay_starts is None:
+            drives = int(self.status.azimuth.drive), int(self.status.elevation.drive)
+        return azimuth_deg + self._shift.azimuth_deg, elevation_deg + self._shift.elevation_deg, *drives
 
-    def relay_starts(self) -> int:
+    def relay_starts(self) -> int | None:
         return self.world.relay_starts
 
 

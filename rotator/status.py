@@ -17,17 +17,21 @@ class Fault:
     name: str
     axis: Axis | None
     measured: str
-    limit: str
+    limit: str = ""
+    """What it went beyond; empty: it is not that kind of fault."""
     page: str = "docs/troubleshooting.md"
     cut: bool = False
     """Opening the relay does not stop it: the motors' supply has to go."""
     act_now: str = ""
     """What a person must do this moment, in a few loud words; empty: nothing."""
+    passing: bool = False
+    """It goes with its cause, without being acknowledged."""
 
     def __str__(self) -> str:
         where = f"{self.axis.value}: " if self.axis else ""
         loud = f"{self.act_now} " if self.act_now else ""
-        return f"{loud}{where}{self.name}: {self.measured}, limit {self.limit} (see {self.page}#{self.anchor})"
+        limit = f", limit {self.limit}" if self.limit else ""
+        return f"{loud}{where}{self.name}: {self.measured}{limit} (see {self.page}#{self.anchor})"
 
     @property
     def anchor(self) -> str:

@@ -10,7 +10,7 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
-from rotator.app import build_controller, build_mount
+from rotator.building import build_controller, build_mount
 from rotator.config.load import parse
 from rotator.door import MOST_PER_S, Door, Rights
 from rotator.loop import ControlLoop
@@ -40,7 +40,7 @@ class Bench:
     def __init__(self) -> None:
         self.clock = SimClock()
         self.station = Station(CONFIG, self.clock, self.clock.sleep, (235.0, 25.0))
-        self.loop = Inbox(build_controller(CONFIG), self.station.bank, self.station.sensors, self.clock, 0.05)
+        self.loop = Inbox(build_controller(CONFIG), self.station.rotor, self.clock, 0.05)
         self.loop.posted = []
         self.complaints = Seldom(self.clock)
         self.loop.cycle()

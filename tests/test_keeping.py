@@ -9,7 +9,7 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis
-from rotator.app import build_controller, build_learnt, build_offsets
+from rotator.building import build_controller, build_learnt, build_offsets
 from rotator.config.load import load
 from rotator.keeping import Keeper
 from rotator.loop import ControlLoop
@@ -39,11 +39,10 @@ class Running:
     def __init__(self, path: Path, keep_in: Path | None) -> None:
         config = load(path)
         self.clock = SimClock()
-        station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0))
+        station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
         learnt = build_learnt(config)
         controller = build_controller(config, learnt.load())
-        self.loop = ControlLoop(controller, station.bank, station.sensors, self.clock, 0.05)
-        self.clock.add_alarm(station.bank.due_s, station.bank.enforce)
+        self.loop = ControlLoop(controller, station.rotor, self.clock, 0.05)
         self.keeper = Keeper(self.loop, keep_in, build_offsets(config), learnt)
         self.begun_with = self.loop.status.azimuth.learnt
         self.run(0.5)

@@ -17,10 +17,11 @@ import pytest
 from firmware_sim.clock import SimClock
 from firmware_sim.world import World
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
-from rotator.app import build_controller
+from rotator.building import build_controller
 from rotator.config.model import Config
 from rotator.loop import ControlLoop
 from rotator.orders import Aim, Jog, Source, Stop
+from rotator.rotors.relays import RelayRotor
 from rotator.station import Station
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -35,14 +36,14 @@ class Rig:
     def __init__(self) -> None:
         self.clock = SimClock()
         self.config = Config()
-        self.station = Station(self.config, self.clock, self.clock.sleep, (100.0, 20.0))
+        self.station = Station(self.config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
         assert self.station.world is not None
         self.world = self.station.world
-        self.clock.add_alarm(self.station.bank.due_s, self.station.bank.enforce)
-        self.loop = self.loop_with(self.station.sensors)
+        self.loop = self.loop_with(self.station.rotor.sensors)
 
     def loop_with(self, sensors: Mapping[Axis, AngleSensor], period_s: float = PERIOD_S) -> ControlLoop:
-        return ControlLoop(build_controller(self.config), self.station.bank, sensors, self.clock, period_s)
+        rotor = RelayRotor(self.station.rotor.bank, sensors)
+        return ControlLoop(build_controller(self.config), rotor, self.clock, period_s)
 
     def run(self, seconds: float) -> None:
         end_s = self.clock() + seconds
@@ -126,7 +127,7 @@ def test_an_order_acts_before_the_next_cycle(rig: Rig) -> None:
 def test_the_running_loop_wakes_for_an_order(rig: Rig) -> None:
     # Its period is an hour: after the first readings nothing but an order can wake it.
     relays = Relays(rig.world)
-    loop = rig.loop_with(rig.station.sensors, period_s=3600.0)
+    loop = rig.loop_with(rig.station.rotor.sensors, period_s=3600.0)
     with running(loop):
         loop.post(LINK, Aim(235.0, 20.0))
         assert relays.come_to(1, 0)
@@ -136,8 +137,8 @@ def test_the_running_loop_wakes_for_an_order(rig: Rig) -> None:
 
 def test_an_order_does_not_wait_for_a_sensor(rig: Rig) -> None:
     relays = Relays(rig.world)
-    slow = Hangs(rig.station.sensors[EL], times=3)
-    loop = rig.loop_with({AZ: rig.station.sensors[AZ], EL: slow}, period_s=0.01)
+    slow = Hangs(rig.station.rotor.sensors[EL], times=3)
+    loop = rig.loop_with({AZ: rig.station.rotor.sensors[AZ], EL: slow}, period_s=0.01)
     with running(loop):
         loop.post(LINK, Aim(235.0, 20.0))
         assert relays.come_to(1, 0)
@@ -185,7 +186,7 @@ def test_a_bus_that_hangs_stops_the_motors() -> None:
     station = Station(Config(), time.monotonic, time.sleep, (100.0, 20.0))
     assert station.world is not None
     relays = Relays(station.world)
-    loop = ControlLoop(build_controller(Config()), station.bank, station.sensors, time.monotonic, PERIOD_S)
+    loop = ControlLoop(build_controller(Config()), station.rotor, time.monotonic, PERIOD_S)
     with running(loop):
         loop.post(LINK, Aim(235.0, 90.0))
         assert relays.come_to(1, 1)
@@ -211,7 +212,9 @@ class LinesGone:
 
 
 def test_a_drive_that_fails_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
-    rig.loop = ControlLoop(build_controller(rig.config), LinesGone(), rig.station.sensors, rig.clock, PERIOD_S)
+    rig.loop = ControlLoop(
+        build_controller(rig.config), RelayRotor(LinesGone(), rig.station.rotor.sensors), rig.clock, PERIOD_S
+    )
     rig.loop.post(LINK, Aim(300.0, 20.0))
     rig.run(2.0)
     assert len(records(caplog, "No such device")) == 1
@@ -231,7 +234,7 @@ def test_an_order_that_can_wait_makes_room_for_the_next_of_its_kind(rig: Rig) ->
 
 def test_it_waits_for_the_cycle_and_no_longer(rig: Rig) -> None:
     relays = Relays(rig.world)
-    loop = ControlLoop(build_controller(rig.config), rig.station.bank, rig.station.sensors, time.monotonic, PERIOD_S)
+    loop = ControlLoop(build_controller(rig.config), rig.station.rotor, time.monotonic, PERIOD_S)
     with running(loop):
         loop.post(LINK, Jog(AZ, Direction.PLUS), can_wait=True)
         assert relays.come_to(1, 0)
@@ -267,7 +270,9 @@ class Bug:
 
 @pytest.mark.parametrize(("outcome", "error"), [(ZeroDivisionError(), ZeroDivisionError), ("half", TypeError)])
 def test_a_bug_ends_the_loop_with_every_relay_off(rig: Rig, outcome: object, error: type[Exception]) -> None:
-    loop = rig.loop_with({AZ: rig.station.sensors[AZ], EL: Bug(rig.station.sensors[EL], rig.world, outcome)})
+    loop = rig.loop_with(
+        {AZ: rig.station.rotor.sensors[AZ], EL: Bug(rig.station.rotor.sensors[EL], rig.world, outcome)}
+    )
     loop.post(LINK, Aim(300.0, 90.0))
     with pytest.raises(error):
         loop.run()

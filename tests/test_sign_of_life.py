@@ -10,11 +10,12 @@ import pytest
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction, HardwareError
 from hw.relays import RelayBank
-from rotator.app import build_controller
+from rotator.building import build_controller
 from rotator.commissioning import Bench
 from rotator.config.load import parse
 from rotator.loop import ControlLoop
 from rotator.orders import Aim, Source
+from rotator.rotors.relays import RelayRotor
 from rotator.station import Station
 
 
@@ -59,11 +60,10 @@ class Rig:
         self.clock = SimClock()
         config = CONFIG
         self.station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0))
-        self.drive = Fragile(self.station.bank)
+        self.drive = Fragile(self.station.rotor.bank)
+        self.rotor = RelayRotor(self.drive, self.station.rotor.sensors)
         self.signs = 0
-        self.loop = ControlLoop(
-            build_controller(config), self.drive, self.station.sensors, self.clock, 0.05, after_good_step=self.sign
-        )
+        self.loop = ControlLoop(build_controller(config), self.rotor, self.clock, 0.05, after_good_step=self.sign)
 
     def sign(self) -> None:
         self.station.beat()
@@ -125,9 +125,7 @@ def test_a_heartbeat_line_that_fails_is_told_of_and_stops_nothing(rig: Rig, capl
     def fail() -> None:
         raise HardwareError("GPIO: cannot switch heartbeat")
 
-    loop = ControlLoop(
-        build_controller(parse("", "test")), rig.drive, rig.station.sensors, rig.clock, 0.05, after_good_step=fail
-    )
+    loop = ControlLoop(build_controller(parse("", "test")), rig.rotor, rig.clock, 0.05, after_good_step=fail)
     for _ in range(3):
         loop.cycle()
     assert [record.getMessage() for record in caplog.records] == ["heartbeat: GPIO: cannot switch heartbeat"]

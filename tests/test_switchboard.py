@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 from firmware_sim.clock import SimClock
-from rotator.app import build_controller, build_mount
+from rotator.building import build_controller, build_mount
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.config.load import parse
 from rotator.loop import ControlLoop
@@ -110,7 +110,7 @@ def test_each_link_has_a_name_of_its_own() -> None:
     )
     clock = SimClock()
     station = Station(config, clock, clock.sleep)
-    loop = ControlLoop(build_controller(config), station.bank, station.sensors, clock, 0.05)
+    loop = ControlLoop(build_controller(config), station.rotor, clock, 0.05)
     tape = Tape(datetime.now, lambda: loop.status)
     links = build_links(config.link, loop, build_mount(config), tape)
     station.close()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from docs.drawings import backpack, divider, f1efw, g5500, one_shot, ssr
+from docs.drawings import backpack, divider, f1efw, g5500, moteus, one_shot, orbit360, panel, servos, ssr, u100
 from docs.drawings.sheet import Sheet
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
@@ -21,4 +21,10 @@ def sheets() -> list[Sheet]:
         divider.draw(f1efw_box),
         backpack.draw(profile("spid")),
         one_shot.draw(f1efw_box),
+        u100.draw(profile("u100")),
+        moteus.draw(profile("isel")),
+        servos.draw(profile("servos")),
+        orbit360.draw(profile("orbit360")),
+        panel.draw(),
+        panel.draw_limits(),
     ]

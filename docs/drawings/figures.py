@@ -5,6 +5,7 @@ Knows Ohm's law and the data sheet named at each formula. Ohms, farads, volts, s
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 PI_SUPPLY_V = 3.3
@@ -50,3 +51,54 @@ class OneShot:
 
 BASE_OHM = 1_000
 """Between the one-shot's output and the transistor."""
+
+
+@dataclass(frozen=True, slots=True)
+class ContactLoop:
+    """The loop through a cam's contact on the tower: half-wave rectified from the motors' transformer, an opto's LED.
+
+    A transformer of so little load gives more than is written on it; the resistor bears that too.
+    """
+
+    transformer_v: float = 24.0
+    farad: float = 100e-6
+    ohm: float = 3_300
+    diode_v: float = 0.7
+    led_v: float = 1.2
+    mains_hz: float = 50.0
+
+    @property
+    def supply_v(self) -> float:
+        return self.transformer_v * 2**0.5 - self.diode_v
+
+    @property
+    def led_a(self) -> float:
+        return (self.supply_v - self.led_v) / self.ohm
+
+    @property
+    def resistor_w(self) -> float:
+        return self.led_a**2 * self.ohm
+
+    @property
+    def ripple_v(self) -> float:
+        """With both contacts closed."""
+        return 2 * self.led_a / self.mains_hz / self.farad
+
+
+SWITCH_PULL_OHM = 1_000
+"""From the servo board's OE to 3.3 V: stronger than the 10 kΩ that many boards have from OE to ground."""
+
+BUS_FARAD = 4_700e-6
+"""Across the moteus controllers' supply."""
+
+
+def braked_v(supply_v: float, inertia_kgm2: float, speed_dps: float, farad: float) -> float:
+    """The volts on the capacitor after it has taken all of a turning antenna's energy, and no supply took any."""
+    joule = 0.5 * inertia_kgm2 * math.radians(speed_dps) ** 2
+    return math.sqrt(supply_v**2 + 2 * joule / farad)
+
+
+METER_FULL_A, METER_SERIES_OHM, METER_TRIMMER_OHM = 1e-3, 2_200, 2_500
+"""A 0 to 1 mA meter on an output of 3.3 V: the fixed resistor and the trimmer that sets its full scale."""
+
+LAMP_OHM = 330

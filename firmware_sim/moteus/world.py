@@ -6,18 +6,18 @@ transport in the shape of the Python library's, and an adapter on a pseudo-termi
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from firmware_sim.faults import Fallible, SimFault
+from firmware_sim.faults import SimFault
 from firmware_sim.moteus.bus import SimCan, SimTransport
 from firmware_sim.moteus.controller import SimController
 from firmware_sim.moteus.lines import LineServer
 from firmware_sim.moteus.motor import Settings, SimMotor
 from firmware_sim.moteus.terminal import SimAdapter
+from firmware_sim.rotor import SimRotor
 
 FAULT_CODES = {
     "calibration": 32,
@@ -56,12 +56,17 @@ class AxisSpec:
     settings: Settings = field(default_factory=Settings)
 
 
-class MoteusWorld(Fallible):
+class MoteusWorld(SimRotor):
     """`clock` tells the time: a SimClock with `transport`, a real one with `adapter`."""
 
-    def __init__(self, azimuth: AxisSpec, elevation: AxisSpec, clock: Callable[[], float]) -> None:
-        self._clock = clock
-        self._lock = threading.RLock()
+    def __init__(
+        self,
+        azimuth: AxisSpec,
+        elevation: AxisSpec,
+        clock: Callable[[], float],
+        sleep: Callable[[float], None] | None = None,
+    ) -> None:
+        super().__init__(clock, sleep)
         self._specs = {"azimuth": azimuth, "elevation": elevation}
         self._controllers = {
             name: SimController(
@@ -96,7 +101,6 @@ class MoteusWorld(Fallible):
         return self._controllers[axis]
 
     def antenna(self) -> tuple[float, float]:
-        """Where the boom really points: azimuth and elevation on the rotor's own scales."""
         azimuth_deg, elevation_deg = (self._antenna_deg(name) for name in self._specs)
         return azimuth_deg, elevation_deg
 

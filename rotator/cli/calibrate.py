@@ -108,7 +108,7 @@ class Sitting:
 
     async def _set_up(self, axis: Axis, stop: asyncio.Event) -> Commissioned | None:
         bench = Bench(self._config, axis, self._station, time.monotonic)
-        engine = Engine(bench.loop, self._station.bank)
+        engine = Engine(bench.loop, self._station.rotor)
         drawing: asyncio.Task[None] | None = None
         if not self._plain:
             picture = partial(_picture, bench, self._typed)

@@ -1,16 +1,16 @@
 """The option --fault: which named fault of the simulator strikes when.
 
-Knows the option's form. Knows no fault: the simulated world does.
+Knows the option's form. Knows no fault: the simulated rotor does.
 """
 
 from __future__ import annotations
 
 import click
 
-from firmware_sim.world import World
+from firmware_sim.rotor import SimRotor
 
 
-def parse_faults(texts: tuple[str, ...], world: World | None) -> list[tuple[float, str]]:
+def parse_faults(texts: tuple[str, ...], world: SimRotor | None) -> list[tuple[float, str]]:
     """`name@seconds` to (seconds, name); without seconds, at once. Ends the program on a name there is not."""
     if not texts:
         return []

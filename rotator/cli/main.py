@@ -9,13 +9,11 @@ import click
 
 from hw.ports import HardwareError
 from rotator import __version__
+from rotator.cli.person import CONFIG, PERSONAL, YES
 from rotator.config.load import SIMULATED, ConfigError, profiles, shipped
 from rotator.links.wire import LinkError
 from rotator.setup.plan import SetupError
 
-CONFIG = click.option(
-    "--config", "path", type=click.Path(path_type=Path, dir_okay=False), help="Configuration file (TOML)."
-)
 FAULT = click.option(
     "--fault", "faults", multiple=True, metavar="NAME[@SECONDS]", help="Let the simulator misbehave; `list` tells how."
 )
@@ -25,6 +23,10 @@ FAULT = click.option(
 @click.version_option(__version__, message="rotator %(version)s")
 def cli() -> None:
     """A rotator controller that PCs take for a Yaesu GS-232."""
+
+
+for command in PERSONAL:
+    cli.add_command(command)
 
 
 @cli.command()
@@ -134,7 +136,6 @@ def set_up() -> None:
 
 
 UNDO = click.option("--undo", is_flag=True, help="Take out again what was put in, and nothing else.")
-YES = click.option("--yes", is_flag=True, help="Do not ask.")
 ROOT = click.option(
     "--root",
     type=click.Path(path_type=Path, file_okay=False, exists=True),

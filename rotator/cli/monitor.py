@@ -1,11 +1,10 @@
 """`rotator monitor`: every byte on every link of the running box, live or to a file.
 
-Knows where the box's monitor socket may be, and how a recording ends. What the lines say is the transcript's.
+Knows how a recording ends. What the lines say is the transcript's.
 """
 
 from __future__ import annotations
 
-import os
 import signal
 import socket
 from collections.abc import Iterator, Sequence
@@ -13,42 +12,22 @@ from pathlib import Path
 
 import click
 
-from rotator.app import monitor_path
-from rotator.config.load import load
+from rotator.cli.reach import monitor_places, reach
 from rotator.links.wire import LinkError
 from rotator.transcript import LinkNote, Piece, Remark, parse
 
-OF_THE_SERVICE = Path("/run/rotator/monitor")
 BYTES_PER_MB = 1_000_000
 
 
 def watch(path: Path | None, to: Path | None, links: Sequence[str], limit_mb: float) -> None:
     """Until Ctrl-C, until the box ends, or until the file is full. Raises ConfigError, LinkError."""
-    config = load(path)
-    beside = monitor_path(config, os.environ)
-    places = [beside] if config.monitor.path else [beside, OF_THE_SERVICE]
-    with _connected(places) as box:
+    with reach(monitor_places(path), "monitor") as box:
         signal.signal(signal.SIGTERM, signal.default_int_handler)
         lines = _only(links, _lines(box))
         if to is None:
             _show(lines)
         else:
             _record(lines, to, limit_mb)
-
-
-def _connected(places: Sequence[Path]) -> socket.socket:
-    for place in places:
-        box = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-        try:
-            box.connect(str(place))
-            return box
-        except PermissionError:
-            box.close()
-            raise LinkError(f"{place} is not yours to read: use sudo, or join its group") from None
-        except OSError:
-            box.close()
-    tried = " or ".join(map(str, places))
-    raise LinkError(f"no box is running with a monitor at {tried}: start it, or name its file with --config")
 
 
 def _lines(box: socket.socket) -> Iterator[str]:

@@ -16,8 +16,9 @@ import click
 
 from firmware_sim.clock import SimClock
 from rotator.cli.faults import parse_faults
+from rotator.config.axes import AxisTable
 from rotator.config.load import load
-from rotator.config.model import AxisTable, Config
+from rotator.config.model import Config
 from rotator.passes import Pass, PassError, read_pass
 from rotator.rehearsal import BoxPlant, Plant, Sample, Summary, fly, plant_maker
 

@@ -12,7 +12,9 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from rotator.config.model import Config, I2CAddress
+from rotator.config.model import Config
+from rotator.config.rotors import USUAL
+from rotator.config.table import I2CAddress
 
 _KINDS = {
     str: "text",
@@ -22,14 +24,26 @@ _KINDS = {
     list[tuple[float, float]]: "list of [number, number]",
     list[str]: "list of texts",
 }
-_EDGES = {"ge": "from {}", "gt": "above {}", "le": "to {}", "lt": "below {}", "max_length": "up to {}"}
+_EDGES = {"ge": "from {}", "gt": "above {}", "le": "to {}", "lt": "below {}"}
+_LENGTHS = {"min_length": "{} or more", "max_length": "up to {}"}
 """How limits are worded; that a text is not empty goes without saying."""
 _HEADINGS = ("key", "value", "allowed", "default", "meaning")
 
 
 def reference() -> str:
-    """A heading, a sentence and a table of keys for each table of the file."""
-    return "\n\n".join(_tables("", Config)) + "\n"
+    """A heading, a sentence and a table of keys for each table of the file; then what differs by kind of rotor."""
+    return "\n\n".join([*_tables("", Config), _usual()]) + "\n"
+
+
+def _usual() -> str:
+    rows: list[tuple[str, ...]] = [("`rotor.type`", "key", "default"), ("---", "---", "---")]
+    for kind, places in USUAL.items():
+        for place, keys in places.items():
+            rows += [(f"`{kind}`", f"`{place}.{key}`", f"`{_toml(value)}`") for key, value in keys.items()]
+    said = (
+        "Other kinds of rotor than relay-pot have these in place of the defaults above (the limits in simulation only)."
+    )
+    return f"### By kind of rotor\n\n{said}\n\n{_rows(rows)}"
 
 
 def _tables(prefix: str, model: type[BaseModel]) -> Iterator[str]:
@@ -63,9 +77,9 @@ def _row(heading: str, key: str, field: FieldInfo) -> tuple[str, ...]:
     if get_origin(kind) is Literal:
         value, allowed = _KINDS[type(get_args(kind)[0])], ", ".join(_toml(choice) for choice in get_args(kind))
     else:
-        value, allowed = _KINDS[kind], _bounds(limits, kind is str)
+        value, allowed = _KINDS[kind], _bounds(limits, kind)
     if limits == _I2C_LIMITS:
-        allowed, default = "0x08 to 0x77", f"`0x{field.default:02x}`"
+        allowed, default = "0x08 to 0x77", "left out" if field.default is None else f"`0x{field.default:02x}`"
     else:
         default = _default(field)
     return f"`{key}`", value, allowed, default, _described(f"{heading} {key}", field)
@@ -96,11 +110,14 @@ def _bare(kind: Any, limits: list[Any]) -> tuple[Any, list[Any]]:
 _I2C_LIMITS = _bare(I2CAddress, [])[1]
 
 
-def _bounds(limits: list[Any], characters: bool) -> str:
-    edges = {name: getattr(limit, name) for limit in limits for name in _EDGES if hasattr(limit, name)}
-    words = [_EDGES[name].format(edge) for name, edge in edges.items()]
+def _bounds(limits: list[Any], kind: Any) -> str:
+    wording = _LENGTHS if kind in (str, list[tuple[float, float]], list[str]) else _EDGES
+    edges = {name: getattr(limit, name) for limit in limits for name in wording if hasattr(limit, name)}
+    if kind is str:
+        edges.pop("min_length", None)
+    words = [wording[name].format(edge) for name, edge in edges.items()]
     text = " ".join(words).replace("from ", "", 1) if len(words) == 2 else " ".join(words)
-    return f"{text} characters" if text and characters else text
+    return f"{text} {'characters' if kind is str else 'of them'}" if text and wording is _LENGTHS else text
 
 
 def _default(field: FieldInfo) -> str:
@@ -115,5 +132,7 @@ def _toml(value: object) -> str:
             return "true" if value else "false"
         case str():
             return f'"{value}"'
+        case [*points]:
+            return f"[{', '.join(_toml(point) for point in points)}]"
         case _:
             return f"{value}"

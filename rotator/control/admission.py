@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from hw.ports import Axis
 from rotator.control.mount import Mount, Unreachable
-from rotator.orders import Aim, Calibrate, LoadTimed, Order, Park, Refusal
+from rotator.orders import Aim, Calibrate, Home, LoadTimed, Order, Park, Refusal
 from rotator.status import Status
 
 
@@ -24,6 +24,8 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return _uncalibrated(order, status)
         case Calibrate(axis) if status.moving:
             return Refusal(f"{axis.value} cannot be calibrated while the antenna moves")
+        case Home(axis) if status.axis(axis).source != "counted":
+            return Refusal(f"{axis.value} knows where it stands: there is no end stop to be found")
         case _:
             return None
 

@@ -1,11 +1,11 @@
-"""Whose orders move the antenna: latches, and streams that a stop has silenced.
+"""Whose orders move the antenna: latches, a panel's mode switch, and streams that a stop has silenced.
 
 Knows sources and moments. Knows nothing of what the orders say beyond stop, release and the rest.
 """
 
 from __future__ import annotations
 
-from rotator.orders import Source
+from rotator.orders import Mode, Source
 
 PAUSE_S = 10.0
 """A stream stopped from elsewhere counts as ended once it has paused this long."""
@@ -17,7 +17,10 @@ class Authority:
     def __init__(self) -> None:
         self.latched = ""
         """Who pressed a stop that only a person releases; empty: nobody."""
+        self.mode = Mode.AUTO
         self.controlled_by: Source | None = None
+        self._panel: Source | None = None
+        """Who switched to this mode: in MANUAL and JOG the only one who moves the antenna."""
         self._last_heard_s: dict[Source, float] = {}
         self._silenced: set[Source] = set()
 
@@ -40,14 +43,28 @@ class Authority:
         self.latched = ""
         self._silenced.clear()
 
+    def switch(self, panel: Source, mode: Mode) -> None:
+        """A person turns the mode switch."""
+        self.mode, self._panel = mode, panel
+        self.controlled_by = None
+
     def may_move(self, source: Source, now_s: float) -> bool:
         """Whether an order that moves, from `source` at this moment, has effect. Asking counts as being heard."""
         self._forget(now_s)
         self._last_heard_s[source] = now_s
-        if self.latched or source in self._silenced:
+        if self.latched or source in self._silenced or not self._in_mode(source):
             return False
         self.controlled_by = source
         return True
+
+    def _in_mode(self, source: Source) -> bool:
+        match self.mode:
+            case Mode.AUTO:
+                return True
+            case Mode.PARK:
+                return False
+            case Mode.MANUAL | Mode.JOG:
+                return source == self._panel
 
     def _forget(self, now_s: float) -> None:
         quiet = [source for source, heard_s in self._last_heard_s.items() if now_s - heard_s >= PAUSE_S]

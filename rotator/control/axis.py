@@ -9,18 +9,20 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.calibration import Calibration, between_ends
+from rotator.control.commands import Run
 from rotator.control.endurance import Endurance
+from rotator.control.goals import HomeGoal, JogGoal, jog, limit_reached
+from rotator.control.homing import Homing, HomingSettings
 from rotator.control.motion import Motor
 from rotator.control.mount import Range
 from rotator.control.plan import Path
 from rotator.control.pointing import AimGoal
+from rotator.control.run_watch import RunWatch
 from rotator.control.safety import MotionWatch
-from rotator.control.sensing import Reading, Sensing, Window
-from rotator.control.switched import Run, SwitchedLaw
+from rotator.control.sensing import Condition, Reading, Sensing, Window
+from rotator.control.switched import SwitchedLaw
 from rotator.status import AxisStatus, Fault, LearntMotor
 
-UNCALIBRATED_JOG_S = 2.0
-"""One press on an axis that nobody has commissioned yet."""
 JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
 SETTLED_AFTER_S = 1.0
@@ -46,29 +48,19 @@ class AxisSettings:
     """What the motor stands in one go, and how long it then takes to cool; zero: any."""
     master: bool = False
     """Whether an output switches the motors' supply."""
-
-
-@dataclass(frozen=True, slots=True)
-class JogGoal:
-    direction: Direction
-    until_s: float | None
-
-
-def jog(direction: Direction, seconds: float | None, now_s: float, *, set_up: bool) -> JogGoal | None:
-    """What an order to jog asks for; None: to stop. An axis that nobody has set up obeys short presses only."""
-    if direction is Direction.OFF:
-        return None
-    if not set_up:
-        seconds = UNCALIBRATED_JOG_S if seconds is None else min(seconds, UNCALIBRATED_JOG_S)
-    return JogGoal(direction, None if seconds is None else now_s + seconds)
+    homing: HomingSettings | None = None
+    """How to find its end stop, where it counts; None: it needs not."""
 
 
 class AxisControl:
     def __init__(self, settings: AxisSettings, *, lease_s: float, period_s: float) -> None:
         self.settings = settings
-        self.goal: AimGoal | JogGoal | None = None
+        self.goal: AimGoal | JogGoal | HomeGoal | None = None
         self.fault: Fault | None = None
+        self.homed_at_deg: float | None = None
+        """It has found its end stop and stands there; whoever has told the rotor sets it to None."""
         self._missing = settings.missing
+        self._condition: Condition | None = None
         self._lease_s = lease_s
         self._period_s = period_s
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
@@ -99,7 +91,8 @@ class AxisControl:
     @property
     def uncalibrated(self) -> str:
         """What is missing before this axis may be aimed; empty: nothing."""
-        return ", ".join(self._missing)
+        lost = self._condition.lost if self._condition else ""
+        return ", ".join((*self._missing, *((lost,) if lost else ())))
 
     @property
     def calibration(self) -> Calibration | None:
@@ -112,13 +105,30 @@ class AxisControl:
 
     def see(self, reading: Reading, now_s: float) -> None:
         """Take the latest reading; the same one again is no news but may have grown too old."""
+        self._note(reading.condition)
         unbelievable = self._sensing.take(reading, now_s)
+        homing = isinstance(self.goal, HomeGoal)
         if self._sensing.believable and reading.at_s != self._seen_s and self._sensing.angle_deg is not None:
             self._law.see(reading.at_s, self._sensing.angle_deg)
             self._seen_s = reading.at_s
-            self._astray = self._watch.see(reading.at_s, self._sensing.angle_deg)
+            self._astray = None if homing else self._watch.see(reading.at_s, self._sensing.angle_deg)
         self._present = unbelievable or self._astray
+        if reading.condition.fault and not homing:
+            # The rotor's own words say more than what can be seen of it from here.
+            self.fail(reading.condition.fault)
         self.fail(self._present)
+        if self.fault and self.fault.passing and not reading.condition.fault:
+            self.fault = self._present
+
+    def _note(self, condition: Condition) -> None:
+        """What has become of the rotor since the last reading."""
+        before, self._condition = self._condition, condition
+        if before is None:
+            return
+        if condition.scale != before.scale:
+            self._begin_anew()
+        if condition.lost and not before.lost and not isinstance(self.goal, HomeGoal):
+            self.fail(Fault("count lost", self.settings.axis, condition.lost))
 
     def fail(self, fault: Fault | None) -> None:
         """Something is wrong with this axis: it stops until that is acknowledged. The first fault is the one told."""
@@ -139,13 +149,15 @@ class AxisControl:
         if run.direction is Direction.OFF:
             return run
         self.fail(self._watch.accuse(run.direction))
+        if self._condition and run.direction in self._condition.ends:
+            self.fail(limit_reached(self.settings.axis, run.direction))
         if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
             return self._law.rest(now_s)
         return Run(Direction.OFF, now_s) if self._watch.forbids(run.direction) else run
 
     def _beyond(self, direction: Direction) -> bool:
         """Whether the axis stands at its limit that way or past it, whatever the law takes it for."""
-        if self._missing or self._sensing.angle_deg is None:
+        if self.uncalibrated or self._sensing.angle_deg is None or isinstance(self.goal, HomeGoal):
             return False
         limits, angle_deg = self.settings.limits, self._sensing.angle_deg
         return angle_deg >= limits.max_deg if direction > 0 else angle_deg <= limits.min_deg
@@ -156,7 +168,9 @@ class AxisControl:
         if self.goal is None or not self._sensing.believable:
             return self._law.rest(now_s)
         match self.goal:
-            case AimGoal() if self._missing or self._sensing.angle_deg is None:
+            case HomeGoal(homing):
+                return self._home(now_s, homing)
+            case AimGoal() if self.uncalibrated or self._sensing.angle_deg is None:
                 return self._law.rest(now_s)
             case AimGoal(_, tolerance_deg, Path() as path):
                 return self._law.follow(now_s, path, tolerance_deg)
@@ -170,7 +184,7 @@ class AxisControl:
 
     def _jog(self, now_s: float, direction: Direction, until_s: float | None) -> Run:
         longest_s = now_s + self._lease_s if until_s is None else min(now_s + self._lease_s, until_s)
-        if self._missing or self._sensing.angle_deg is None:
+        if self.uncalibrated or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
         limits = self.settings.limits
         limit_deg = limits.max_deg if direction > 0 else limits.min_deg
@@ -182,7 +196,23 @@ class AxisControl:
         return Run(direction, min(run.until_s, longest_s)) if run.direction is direction else self._law.rest(now_s)
 
     def start_jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
-        self.goal = jog(direction, seconds, now_s, set_up=not self._missing)
+        self.goal = jog(direction, seconds, now_s, set_up=not self.uncalibrated)
+
+    def start_homing(self) -> None:
+        """Raises ValueError where there is nothing to be found."""
+        if self.settings.homing is None:
+            raise ValueError("this rotor knows where it stands; there is no end stop to be found")
+        self.goal = HomeGoal(Homing(self.settings.homing))
+
+    def _home(self, now_s: float, homing: Homing) -> Run:
+        assert self._condition is not None
+        direction = homing.step(now_s, self._driven, self._condition.changes)
+        if homing.homed:
+            self.goal, self.homed_at_deg = None, homing.home_deg
+        elif homing.failure:
+            self.goal = None
+            self.fail(Fault("not homed", self.settings.axis, homing.failure))
+        return Run(direction, now_s + self._lease_s) if direction else self._law.rest(now_s)
 
     def calibrate_end(self, *, high_end: bool) -> None:
         """The axis stands at an end of its range: take its reading. Raises ValueError where that makes no sense."""
@@ -199,7 +229,14 @@ class AxisControl:
             limits = self.settings.limits
             self._sensing.calibration = between_ends(low_raw, limits.min_deg, high_raw, limits.max_deg)
             self._missing = tuple(item for item in self._missing if item != "calibration")
+        self._begin_anew()
+
+    def _begin_anew(self) -> None:
+        """Its readings mean other places than before."""
+        motors = self._law.motion.motors
         self._law = SwitchedLaw(self.settings.motor, lease_s=self._lease_s, period_s=self._period_s)
+        if self.settings.homing is not None:
+            self._law.motion.motors.update(motors)
         self._watch = self._new_watch()
 
     def moving(self, now_s: float) -> bool:
@@ -235,15 +272,19 @@ class AxisControl:
     def _notices(self) -> tuple[str, ...]:
         blind = "blind to a broken pot wire: without end resistors it looks like an angle"
         hot = self._endurance.notice
+        said = self._condition.notice if self._condition else ""
         return (
             *self._watch.notices,
+            *((said,) if said else ()),
             *((hot,) if hot else ()),
             *((blind,) if self.settings.window.blind else ()),
         )
 
-    def _new_watch(self) -> MotionWatch:
-        settings = self.settings
-        return MotionWatch(settings.axis, settings.limits, self._law.motion.motors, master=settings.master)
+    def _new_watch(self) -> MotionWatch | RunWatch:
+        settings, motors = self.settings, self._law.motion.motors
+        if settings.source == "counted":
+            return RunWatch(settings.axis, settings.limits, motors)
+        return MotionWatch(settings.axis, settings.limits, motors, master=settings.master)
 
     def _learnt(self) -> tuple[LearntMotor, LearntMotor]:
         motors = self._law.motion.motors

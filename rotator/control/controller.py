@@ -12,35 +12,43 @@ from dataclasses import dataclass, replace
 from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
 from rotator.control.axis import AxisControl, AxisSettings
+from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.mount import Mount, Unreachable
 from rotator.control.pointing import AimGoal, Goals, Pointing
+from rotator.control.positioned import PositionedAxis, PositionedSettings
 from rotator.control.route import Speeds
 from rotator.control.safety import LATE_S, late
 from rotator.control.sensing import Reading
-from rotator.control.switched import Run
 from rotator.control.timed import TimedList
 from rotator.orders import (
     BOTH,
     Aim,
     Calibrate,
     ClearTimed,
+    Confirm,
+    Home,
     Jog,
+    LetGo,
     LoadTimed,
+    Nudge,
     Order,
     Park,
     Release,
     RunTimed,
+    SetMode,
     Source,
     Speed,
     Stop,
 )
 from rotator.status import Status
 
+FULL_TURN_DEG = 360.0
+
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    azimuth: AxisSettings
-    elevation: AxisSettings
+    azimuth: AxisSettings | PositionedSettings
+    elevation: AxisSettings | PositionedSettings
     mount: Mount
     period_s: float = 0.05
     lease_s: float = 0.25
@@ -54,9 +62,12 @@ class Controller:
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
         self._axes = {
-            each.axis: AxisControl(each, lease_s=settings.lease_s, period_s=settings.period_s)
+            each.axis: _controlled(each, lease_s=settings.lease_s, period_s=settings.period_s)
             for each in (settings.azimuth, settings.elevation)
         }
+        self._nudges_deg = dict.fromkeys(Axis, 0.0)
+        self._asked: Aim | None = None
+        """What was last asked for, without the nudges; None: nothing is."""
         self._authority = Authority()
         self._timed = TimedList()
         self._pointing = Pointing(settings.mount, settings.azimuth.tolerance_deg, settings.elevation.tolerance_deg)
@@ -66,10 +77,12 @@ class Controller:
         self._stepped_s: float | None = None
         self.troubles: list[str] = []
         """What went wrong with orders since the last look, for the log."""
+        self.errands: list[Errand] = []
+        """What the rotor is to do, since the last look."""
 
     def step(
         self, now_s: float, readings: Mapping[Axis, Reading], orders: Iterable[tuple[Source, Order]]
-    ) -> dict[Axis, Run]:
+    ) -> dict[Axis, Command]:
         """One cycle: note the readings, take the orders, say what each drive is to do."""
         self._note_lateness(now_s)
         for axis, control in self._axes.items():
@@ -82,7 +95,12 @@ class Controller:
             self._point_at(Aim(*point), now_s)
         self._park_when_idle(now_s)
         self._look_ahead(now_s)
-        return {axis: control.decide(now_s) for axis, control in self._axes.items()}
+        commands: dict[Axis, Command] = {axis: control.decide(now_s) for axis, control in self._axes.items()}
+        for axis, control in self._axes.items():
+            if control.homed_at_deg is not None:
+                self.errands.append(Place(axis, control.homed_at_deg))
+                control.homed_at_deg = None
+        return commands
 
     def status(self, now_s: float, driven: Mapping[Axis, Direction], late_s: float = 0.0) -> Status:
         """Note what the drives really do after this cycle, and tell the status."""
@@ -126,6 +144,17 @@ class Controller:
                 self._park(now_s)
             case Calibrate(axis, high_end):
                 self._calibrate(axis, now_s, high_end=high_end)
+            case SetMode(mode):
+                self._halt(BOTH)
+                self._nudges_deg = dict.fromkeys(Axis, 0.0)
+                self._authority.switch(source, mode)
+            case Nudge(axis, offset_deg):
+                self._nudge(axis, offset_deg, now_s)
+            case Confirm(axis, angle_deg):
+                self._confirm(axis, angle_deg)
+            case LetGo():
+                self._stop(source, BOTH, latch=True, now_s=now_s)
+                self.errands.append(LetGo())
             case _ if self._authority.may_move(source, now_s):
                 self._move(order, now_s)
 
@@ -140,10 +169,30 @@ class Controller:
             case Jog(axis, direction, seconds):
                 self._forget((axis,))
                 self._axes[axis].start_jog(direction, seconds, now_s)
+            case Home(axis):
+                self._home(axis)
             case LoadTimed(interval_s, points):
                 self._point_at(Aim(*self._timed.load(interval_s, points)), now_s)
             case RunTimed():
                 self._timed.run(now_s)
+
+    def _nudge(self, axis: Axis, offset_deg: float, now_s: float) -> None:
+        """From now on; and what is asked for already moves by as much, as long as somebody still wants it."""
+        self._nudges_deg[axis] = offset_deg
+        if self._asked is not None and self._asked.engaged and not self._authority.latched:
+            self._point_at(self._asked, now_s)
+
+    def _home(self, axis: Axis) -> None:
+        self._forget((axis,))
+        try:
+            self._axes[axis].start_homing()
+        except ValueError as reason:
+            self.troubles.append(f"{axis.value} is not homed: {reason}")
+
+    def _confirm(self, axis: Axis, angle_deg: float) -> None:
+        self._axes[axis].goal = None
+        self._forget((axis,))
+        self.errands.append(Place(axis, angle_deg))
 
     def _park(self, now_s: float) -> None:
         self._timed.halt()
@@ -166,27 +215,33 @@ class Controller:
             self._park(now_s)
 
     def _stop(self, source: Source, axes: tuple[Axis, ...], *, latch: bool, now_s: float) -> None:
-        self._timed.halt()
-        for axis in axes:
-            self._axes[axis].goal = None
-        self._forget(axes)
+        self._halt(axes)
         if len(axes) == len(self._axes):
             self._authority.stopped(source, now_s, latch=latch)
             if not latch and not self._authority.latched:
                 self._acknowledge()
 
+    def _halt(self, axes: tuple[Axis, ...]) -> None:
+        self._timed.halt()
+        for axis in axes:
+            self._axes[axis].goal = None
+        self._forget(axes)
+
     def _forget(self, axes: tuple[Axis, ...]) -> None:
         """Nothing is asked of these axes any more; without both there is no path, so the other stays where it is."""
+        self._asked = None
         self._pointing.forget(azimuth=Axis.AZIMUTH in axes, elevation=Axis.ELEVATION in axes)
         for control in self._axes.values():
             if isinstance(control.goal, AimGoal) and control.goal.path is not None:
                 control.goal = replace(control.goal, path=None)
 
     def _acknowledge(self) -> None:
-        for control in self._axes.values():
+        for axis, control in self._axes.items():
             control.acknowledge()
+            self.errands.append(Acknowledge(axis))
 
-    def _point_at(self, aim: Aim, now_s: float) -> None:
+    def _point_at(self, asked: Aim, now_s: float) -> None:
+        aim = self._nudged(asked)
         azimuth, elevation = self._axes[Axis.AZIMUTH], self._axes[Axis.ELEVATION]
         if not aim.engaged:
             azimuth.goal = elevation.goal = None
@@ -196,6 +251,7 @@ class Controller:
             if aim.elevation_deg is not None:
                 self._forget((Axis.ELEVATION,))
                 elevation.goal = self._pointing.raise_to(aim.elevation_deg, azimuth.angle_deg or 0.0)
+                self._asked = asked
             return
         stands_deg = self._settings.mount.azimuth.min_deg if azimuth.angle_deg is None else azimuth.angle_deg
         try:
@@ -203,7 +259,19 @@ class Controller:
         except Unreachable as reason:
             self.troubles.append(str(reason))
             return
+        self._asked = asked
         self._set_goals(goals)
+
+    def _nudged(self, asked: Aim) -> Aim:
+        """What is asked for, moved by the nudges; an azimuth that does not name a turn stays one of the circle."""
+        azimuth_deg, elevation_deg = asked.azimuth_deg, asked.elevation_deg
+        if azimuth_deg is not None and (by_deg := self._nudges_deg[Axis.AZIMUTH]):
+            azimuth_deg = (
+                azimuth_deg + by_deg if azimuth_deg > FULL_TURN_DEG else (azimuth_deg + by_deg) % FULL_TURN_DEG
+            )
+        if elevation_deg is not None:
+            elevation_deg += self._nudges_deg[Axis.ELEVATION]
+        return replace(asked, azimuth_deg=azimuth_deg, elevation_deg=elevation_deg)
 
     def _look_ahead(self, now_s: float) -> None:
         """Keep the goals up with a target that moves, on the axes that still aim at it."""
@@ -235,3 +303,13 @@ class Controller:
             self._axes[axis].calibrate_end(high_end=high_end)
         except ValueError as reason:
             self.troubles.append(f"{axis.value} keeps its calibration: {reason}")
+
+
+def _controlled(
+    settings: AxisSettings | PositionedSettings, *, lease_s: float, period_s: float
+) -> AxisControl | PositionedAxis:
+    match settings:
+        case AxisSettings():
+            return AxisControl(settings, lease_s=lease_s, period_s=period_s)
+        case PositionedSettings():
+            return PositionedAxis(settings, lease_s=lease_s)

@@ -8,6 +8,7 @@ that the antenna hangs in: that is what the person is for.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import Direction
@@ -19,6 +20,20 @@ ALIKE = 1
 """Changes that may be missing on the way back, or too many: the stop may be just at an edge of the contact."""
 
 
+@dataclass(frozen=True, slots=True)
+class HomingSettings:
+    """What homing has to know of an axis."""
+
+    period_s: float
+    """From one pulse to the next at full speed."""
+    travel_s: float
+    """From end to end."""
+    coast_s: float
+    """From the relay's opening until it stands for certain."""
+    home_deg: float
+    """The angle of the low end stop."""
+
+
 class _Phase(Enum):
     DOWN = "down"
     UP = "up"
@@ -27,19 +42,16 @@ class _Phase(Enum):
 
 
 class Homing:
-    """One axis. Ask `step` every cycle for the direction to drive, until it has `homed` or there is a `failure`.
+    """One axis. Ask `step` every cycle for the direction to drive, until it has `homed` or there is a `failure`."""
 
-    `period_s`: from one pulse to the next at full speed. `travel_s`: from end to end. `coast_s`: from the relay's
-    opening until it stands for certain.
-    """
-
-    def __init__(self, *, period_s: float, travel_s: float, coast_s: float) -> None:
+    def __init__(self, settings: HomingSettings) -> None:
+        self.home_deg = settings.home_deg
         self.homed = False
         self.failure = ""
         """Why it has given up, for a person; empty: it has not."""
-        self._quiet_after_s = QUIET_PERIODS * period_s
-        self._longest_s = 1.5 * travel_s + 2.0 * self._quiet_after_s
-        self._coast_s = coast_s
+        self._quiet_after_s = QUIET_PERIODS * settings.period_s
+        self._longest_s = 1.5 * settings.travel_s + 2.0 * self._quiet_after_s
+        self._coast_s = settings.coast_s
         self._phase = _Phase.DOWN
         self._began_s: float | None = None
         self._still_s = 0.0

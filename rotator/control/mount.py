@@ -50,12 +50,15 @@ class Mount:
         """Axis angles for an order, on the turn of azimuth nearest to `near_azimuth_deg`. Raises Unreachable.
 
         Below the horizon azimuth follows and elevation rests at its minimum. Past the zenith an order is axis angles
-        where the range allows, else the direction that it means.
+        where the range allows, else the direction that it means. A direction that azimuth does not reach is looked at
+        over the top, where the antenna may go there.
         """
         if elevation_deg is None:
             return self._turn(azimuth_deg, near_azimuth_deg), None
         if elevation_deg > ZENITH_DEG and not self.elevation.holds(elevation_deg):
             azimuth_deg, elevation_deg = (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
+        if self.flip and not self._turns(azimuth_deg) and self._turns(azimuth_deg + 180.0):
+            azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
         axis_azimuth_deg = self._turn(azimuth_deg, near_azimuth_deg)
         return axis_azimuth_deg, self.clear_deg(axis_azimuth_deg, elevation_deg)
 
@@ -90,10 +93,14 @@ class Mount:
     def _turn(self, azimuth_deg: float, near_deg: float) -> float:
         if azimuth_deg > 360.0 and self.azimuth.holds(azimuth_deg):  # the sender names the overlap
             return azimuth_deg
-        first = math.ceil((self.azimuth.min_deg - azimuth_deg) / 360.0)
-        last = math.floor((self.azimuth.max_deg - azimuth_deg) / 360.0)
-        turns = [azimuth_deg + 360.0 * turn for turn in range(first, last + 1)]
+        turns = self._turns(azimuth_deg)
         if not turns:
             limits = f"{self.azimuth.min_deg:g} to {self.azimuth.max_deg:g}"
             raise Unreachable(f"azimuth {azimuth_deg:g} is outside the rotor's range of {limits} degrees")
         return min(turns, key=lambda turn_deg: abs(turn_deg - near_deg))
+
+    def _turns(self, azimuth_deg: float) -> list[float]:
+        """Every place on the scale that points there."""
+        first = math.ceil((self.azimuth.min_deg - azimuth_deg) / 360.0)
+        last = math.floor((self.azimuth.max_deg - azimuth_deg) / 360.0)
+        return [azimuth_deg + 360.0 * turn for turn in range(first, last + 1)]

@@ -146,8 +146,9 @@ class Pointing:
         assert wanted.azimuth_deg is not None
         if settled and self._mount.azimuth.nearest(self._way.azimuth_deg) != self._way.azimuth_deg:
             near_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
-            axis_deg, _ = self._mount.axis_angles(wanted.azimuth_deg, wanted.elevation_deg, near_deg)
-            self._way = Way(axis_deg, self._way.flipped)
+            axis_deg, raised_deg = self._mount.axis_angles(wanted.azimuth_deg, wanted.elevation_deg, near_deg)
+            flipped = self._way.flipped if raised_deg is None else raised_deg > ZENITH_DEG
+            self._way = Way(axis_deg, flipped)
         way = self._way
         if wanted.elevation_deg is None:
             return AimGoal(self._mount.azimuth.nearest(way.azimuth_deg), self._azimuth_tolerance_deg), None

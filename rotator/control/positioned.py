@@ -7,41 +7,27 @@ whether it does.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
-from rotator.control.axis import JogGoal, jog
 from rotator.control.calibration import Calibration
+from rotator.control.commands import HOLD, Hold, Steer
+from rotator.control.goals import JogGoal, jog, limit_reached
 from rotator.control.mount import Range
 from rotator.control.plan import Path
 from rotator.control.pointing import AimGoal
-from rotator.control.sensing import Reading, Sensing, Window
+from rotator.control.sensing import Condition, Reading, Sensing, Window
 from rotator.status import AxisStatus, Fault
 
 RATE_OVER_S = 0.25
 """The target's rate is looked at over this much of its path, half of it to come."""
 STRAY_DEG = 5.0
-STRAY_S = 1.0
-"""An axis this far from where it was told to be, and not coming nearer for so long, does not follow."""
+STRAY_S = 3.0
+"""An axis this far from where it was told to be, and not coming nearer for so long, does not follow. One that has to
+turn back first, at 20°/s² from 30°/s, takes half of that."""
 COMING_DEG = 0.5
 STILL_DPS = 0.05
-
-
-@dataclass(frozen=True, slots=True)
-class Steer:
-    """Be at that angle now, moving on at that rate, until that moment at the latest."""
-
-    angle_deg: float
-    rate_dps: float
-    until_s: float
-
-
-@dataclass(frozen=True, slots=True)
-class Hold:
-    """Stay where you come to rest."""
-
-
-HOLD = Hold()
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,14 +49,17 @@ class PositionedAxis:
         self.goal: AimGoal | JogGoal | None = None
         self.fault: Fault | None = None
         self.speed_dps = settings.speed_dps
+        self.homed_at_deg: float | None = None
+        """Never: it knows where it stands, or a person tells it."""
         self._missing = settings.missing
+        self._condition = Condition()
         self._lease_s = lease_s
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
         self._present: Fault | None = None
         self._steered: Steer | None = None
         self._steered_s = 0.0
         self._astray: tuple[float, float] | None = None
-        """How far it was from its place when it was last seen to come nearer, and when."""
+        """Where it was when it was last seen to come nearer to its place, and when."""
 
     @property
     def angle_deg(self) -> float | None:
@@ -90,8 +79,12 @@ class PositionedAxis:
         return self._steered is not None and not self._arrived()
 
     def see(self, reading: Reading, now_s: float) -> None:
+        self._condition = reading.condition
         self._present = self._sensing.take(reading, now_s)
-        self.fail(self._present or self._straying(now_s))
+        # The rotor's own words say more than what can be seen of it from here.
+        self.fail(reading.condition.fault or self._present or self._straying(now_s))
+        if self.fault and self.fault.passing and not reading.condition.fault:
+            self.fault = self._present
 
     def fail(self, fault: Fault | None) -> None:
         """Something is wrong with this axis: it holds until that is acknowledged. The first fault is the one told."""
@@ -105,6 +98,9 @@ class PositionedAxis:
     def decide(self, now_s: float) -> Steer | Hold:
         """Where the drive is to be from now on: what the goal asks for, as far as it is safe."""
         command = self._wish(now_s)
+        if isinstance(command, Steer) and (blocked := self._blocked(command)):
+            self.fail(limit_reached(self.settings.axis, blocked))
+            self.goal, command = None, HOLD
         self._steered, self._steered_s = (command, now_s) if isinstance(command, Steer) else (None, now_s)
         if self._steered is None:
             self._astray = None
@@ -112,6 +108,10 @@ class PositionedAxis:
 
     def start_jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
         self.goal = jog(direction, seconds, now_s, set_up=not self._missing)
+
+    def start_homing(self) -> None:
+        """Raises ValueError."""
+        raise ValueError("this rotor knows where it stands; there is no end stop to be found")
 
     def calibrate_end(self, *, high_end: bool) -> None:
         """Its scale is the drive's own. Raises ValueError."""
@@ -133,6 +133,7 @@ class PositionedAxis:
             moving=self.driven,
             uncalibrated=self.uncalibrated,
             fault=self.fault,
+            notices=(self._condition.notice,) if self._condition.notice else (),
         )
 
     def _wish(self, now_s: float) -> Steer | Hold:
@@ -175,6 +176,13 @@ class PositionedAxis:
         outward = kept_deg in (self.settings.limits.min_deg, self.settings.limits.max_deg) and kept_deg != angle_deg
         return Steer(kept_deg, 0.0 if outward else rate_dps, until_s)
 
+    def _blocked(self, command: Steer) -> Direction | None:
+        """The way in which it would turn, where a limit switch lets it go no further."""
+        assert self._sensing.angle_deg is not None
+        ahead_deg = command.angle_deg + command.rate_dps * self._lease_s - self._sensing.angle_deg
+        towards = Direction.PLUS if ahead_deg > 0 else Direction.MINUS
+        return towards if towards in self._condition.ends and abs(ahead_deg) >= COMING_DEG else None
+
     def _arrived(self) -> bool:
         steered, angle_deg = self._steered, self._sensing.angle_deg
         if steered is None or angle_deg is None:
@@ -193,10 +201,13 @@ class PositionedAxis:
         steered, angle_deg = self._steered, self._sensing.angle_deg
         if steered is None or angle_deg is None:
             return None
-        off_deg = abs(steered.angle_deg - angle_deg)
-        if off_deg < STRAY_DEG or self._astray is None or off_deg < self._astray[0] - COMING_DEG:
-            self._astray = (off_deg, now_s)
+        ahead_deg = steered.angle_deg - angle_deg
+        off_deg = abs(ahead_deg)
+        coming = self._astray is None or (angle_deg - self._astray[0]) * math.copysign(1, ahead_deg) >= COMING_DEG
+        if off_deg < STRAY_DEG or coming or self._condition.settling:
+            self._astray = (angle_deg, now_s)
             return None
+        assert self._astray is not None
         if now_s - self._astray[1] < STRAY_S:
             return None
         measured = f"stands at {angle_deg:.1f}°, {off_deg:.1f}° from where it was told to be"

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from hw.ports import Axis, Direction
 from rotator.control.motion import Motor
 from rotator.control.mount import Range
+from rotator.control.run_watch import WAYS, endless
 from rotator.control.trend import Slope, Trend
 from rotator.status import Fault
 
@@ -36,18 +37,10 @@ NOTICED_FOR_S = 3.0
 """A notice stays this long after its cause, so that it can be read."""
 NEAR_END_DEG = 5.0
 """Standing still this near to a limit, driven towards it, is an end stop."""
-TRAVEL_SHARE, TRAVEL_MORE_S = 1.3, 5.0
-"""How much longer than from end to end a motor may run in one go."""
 CUT_IN_S = 3.0
 """What still turns so long after the supply was to be cut is beyond this box."""
 
 CUT_BY_HAND = "CUT MOTOR POWER!"
-_WAYS = {
-    (Axis.AZIMUTH, Direction.PLUS): "clockwise",
-    (Axis.AZIMUTH, Direction.MINUS): "counter-clockwise",
-    (Axis.ELEVATION, Direction.PLUS): "up",
-    (Axis.ELEVATION, Direction.MINUS): "down",
-}
 
 
 def late(axis: Axis, gap_s: float, period_s: float) -> Fault:
@@ -176,12 +169,7 @@ class MotionWatch:
         return Fault("motor runs and pot stands still", self._axis, measured, f"{limit_dps:.2g}°/s within 2 s")
 
     def _endless(self, at_s: float) -> Fault | None:
-        travel_s = (self._limits.max_deg - self._limits.min_deg) / self._reference_dps()
-        longest_s = TRAVEL_SHARE * travel_s + TRAVEL_MORE_S
-        if at_s - self._since_s <= longest_s:
-            return None
-        measured = f"{at_s - self._since_s:.0f} s {self._way(self._direction)} in one go"
-        return Fault("motor on longer than the travel takes", self._axis, measured, f"{longest_s:.0f} s")
+        return endless(self._axis, self._direction, at_s - self._since_s, self._limits, self._reference_dps())
 
     def _undriven(self, at_s: float) -> Fault | None:
         motor_dps = min(motor.speed_dps for motor in self._motors.values())
@@ -229,4 +217,4 @@ class MotionWatch:
         return Fault(name, self._axis, measured, limit, cut=True, act_now=CUT_BY_HAND)
 
     def _way(self, direction: Direction) -> str:
-        return _WAYS[self._axis, direction]
+        return WAYS[self._axis, direction]

@@ -10,7 +10,7 @@ import math
 from collections import deque
 from dataclasses import dataclass
 
-from hw.ports import Axis
+from hw.ports import Axis, Direction
 from rotator.control.calibration import Calibration
 from rotator.status import Fault
 
@@ -27,12 +27,33 @@ UNCALIBRATED_SPAN_DEG = 360.0
 
 
 @dataclass(frozen=True, slots=True)
+class Condition:
+    """What a rotor says of one of its axes beside the angle."""
+
+    fault: Fault | None = None
+    """What is wrong with it now, as the rotor itself knows."""
+    notice: str = ""
+    """What a person should know though it stops nothing."""
+    lost: str = ""
+    """Why nobody knows where it stands, beginning with what a person is to do; empty: the angle is right."""
+    scale: int = 0
+    """Another number: from now on the same reading means another place."""
+    settling: bool = False
+    """It does not follow yet, for a reason that passes by itself."""
+    changes: int = 0
+    """How often its contact has changed."""
+    ends: frozenset[Direction] = frozenset()
+    """The ways in which a limit switch lets it go no further."""
+
+
+@dataclass(frozen=True, slots=True)
 class Reading:
-    """What a sensor said: its raw value, or why it has none."""
+    """What a sensor said: its raw value, or why it has none; and how the axis is."""
 
     at_s: float
     raw: float | None
     problem: str = ""
+    condition: Condition = Condition()
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +65,12 @@ class Window:
 
     @property
     def blind(self) -> bool:
-        """Whether a wire may break without a reading that shows it: there are no end resistors."""
-        return self.low_raw <= 0.0 or self.high_raw >= 1.0
+        """Whether a pot's wire may break without a reading that shows it: there are no end resistors."""
+        return -math.inf < self.low_raw <= 0.0 or 1.0 <= self.high_raw < math.inf
+
+
+ANYTHING = Window(-math.inf, math.inf)
+"""A sensor in degrees that says itself when it is not to be believed."""
 
 
 class Sensing:

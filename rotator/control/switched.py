@@ -8,23 +8,15 @@ as learnt, coasts onto its goal. Knows one axis. Knows nothing of the sky, of li
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from hw.ports import Direction
+from rotator.control.commands import Run
 from rotator.control.motion import Motion, Motor
 from rotator.control.plan import Path, next_place_deg
 
 FLOOR = 0.55
 """Below this share of the tolerance no error starts a motor, however slow the target: whole degrees are no better."""
 LEAST_MOVE_DEG = 0.3
-
-
-@dataclass(frozen=True, slots=True)
-class Run:
-    """Drive that way until that moment at the latest."""
-
-    direction: Direction
-    until_s: float
 
 
 class SwitchedLaw:

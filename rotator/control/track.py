@@ -1,9 +1,11 @@
-"""Where the target is going: its path over the next minute, from the whole degrees that arrive once a second.
+"""Where the target is going: its path over the next minute, from the degrees that arrive once a second.
 
 Knows directions ordered and when. A satellite flies past in nearly a straight line, and a straight line in space,
 projected onto the plane that touches the sky at the target (gnomonic), is x(s) = (a + b s) / (1 + g s) for both
 coordinates with one g: five numbers, fitted to the last minute's orders by least squares. That tells the direction now
-to 0.2 degrees and in 40 seconds to 1.2 (real passes, whole degrees). Knows nothing of axes, motors or tolerances.
+to 0.2 degrees and in 40 seconds to 1.2 (real passes, whole degrees). Orders with decimals need less averaging: then a
+few seconds tell, and the rest of the line, which the earth's turning bends a little, is left out. Knows nothing of
+axes, motors or tolerances.
 """
 
 from __future__ import annotations
@@ -14,17 +16,18 @@ from collections.abc import Sequence
 
 from rotator.control.angles import great_circle_deg
 
-MEMORY_S = 25.0
-"""An order's weight falls by e in this time: longer averages the rounding better, shorter bends more easily."""
-KEPT_S = 4 * MEMORY_S
+MEMORY_S = {1.0: 25.0, 0.1: 8.0, 0.01: 4.0}
+"""By what orders are rounded to: their weight falls by e in this time. Longer averages the rounding better, shorter
+bends more easily."""
+KEPT_S = 4 * max(MEMORY_S.values())
 THIN_S = 0.4
 """Orders that come faster tell no more: of those within this time the latest counts."""
 REFIT_S = 0.2
 LEAST_ORDERS = 4
 LONGEST_GAP_S = 5.0
 """Orders further apart are no stream: each is a place of its own."""
-LEAST_TRAVEL_DEG = 1.0
-"""Whole degrees that differ by less may be one standing target, rounded two ways."""
+LEAST_TRAVEL = 1.0
+"""Orders that differ by less than this share of their rounding may be one standing target, rounded two ways."""
 LARGEST_SURPRISE_DEG = 4.0
 """An order further than this from where the path led is a new target."""
 COASTING_S = 3.0
@@ -32,7 +35,7 @@ COASTING_S = 3.0
 
 _SIDEWAYS_PRIOR = 1e-3
 _APPROACH_PRIOR = 0.3
-"""How strongly, in orders, the fit holds to `not coming nearer` while there is little to go by."""
+"""How strongly, in orders of whole degrees, the fit holds to `not coming nearer` while there is little to go by."""
 _LEAST_FACING = 0.3
 """Cosine beyond which the touching plane says nothing."""
 
@@ -63,7 +66,7 @@ class Track:
         if not self._is_stream():
             self._fit = None
         elif self._fit is None or now_s - self._fit.at_s >= REFIT_S:
-            self._fit = _Fit(self._orders)
+            self._fit = _Fit(self._orders, _grain_deg(self._orders))
 
     def moving(self, now_s: float) -> bool:
         """Whether there is a path; else the last order is where the target stands."""
@@ -84,13 +87,14 @@ class Track:
         if len(self._orders) < LEAST_ORDERS:
             return False
         first, last = self._orders[0], self._orders[-1]
-        return great_circle_deg(*first[1:], *last[1:]) >= LEAST_TRAVEL_DEG
+        return great_circle_deg(*first[1:], *last[1:]) >= LEAST_TRAVEL * max(_grain_deg(self._orders), 0.1)
 
 
 class _Fit:
-    """The line through space that fits the orders, seen from the last one."""
+    """The line through space that fits the orders, seen from the last one; they are rounded to `grain_deg`."""
 
-    def __init__(self, orders: Sequence[tuple[float, float, float]]) -> None:
+    def __init__(self, orders: Sequence[tuple[float, float, float]], grain_deg: float) -> None:
+        memory_s = MEMORY_S[grain_deg]
         last_s, azimuth_deg, elevation_deg = orders[-1]
         self.at_s = last_s
         az, el = math.radians(azimuth_deg), math.radians(elevation_deg)
@@ -106,7 +110,7 @@ class _Fit:
             if facing < _LEAST_FACING:
                 continue
             s = at_s - last_s
-            weight = math.exp(s / MEMORY_S) * facing * facing
+            weight = math.exp(s / memory_s) * facing * facing
             x, y = _dot(seen, self._right) / facing, _dot(seen, self._up) / facing
             # x (1 + g s) = a + b s, and the same for y: linear in the five unknowns a, b, c, d, g.
             for row, value in (((1.0, s, 0.0, 0.0, -s * x), x), ((0.0, 0.0, 1.0, s, -s * y), y)):
@@ -116,7 +120,8 @@ class _Fit:
                         for j in range(5):
                             matrix[i][j] += weight * row[i] * row[j]
         for i, prior in ((1, _SIDEWAYS_PRIOR), (3, _SIDEWAYS_PRIOR), (4, _APPROACH_PRIOR)):
-            matrix[i][i] += prior
+            # The finer the orders, the less is believed in advance: as errors do, it goes with the square.
+            matrix[i][i] += prior * grain_deg * grain_deg
         self._a, self._b, self._c, self._d, self._g = _solve(matrix, side)
 
     def direction(self, at_s: float) -> tuple[float, float]:
@@ -127,6 +132,15 @@ class _Fit:
             for right, upward, ahead in zip(self._right, self._up, self._ahead, strict=True)
         )
         return math.degrees(math.atan2(east, north)) % 360.0, math.degrees(math.atan2(up, math.hypot(east, north)))
+
+
+def _grain_deg(orders: Sequence[tuple[float, float, float]]) -> float:
+    """What the latest orders are rounded to: whole degrees, tenths or finer."""
+    angles_deg = [angle for order in list(orders)[-LEAST_ORDERS:] for angle in order[1:]]
+    for grain_deg in (1.0, 0.1):
+        if all(abs(angle / grain_deg - round(angle / grain_deg)) < 1e-6 for angle in angles_deg):
+            return grain_deg
+    return 0.01
 
 
 def _unit(azimuth_deg: float, elevation_deg: float) -> Vector:

@@ -9,8 +9,9 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
+from rotator.config.axes import AxisTable
 from rotator.config.load import ConfigError, load
-from rotator.config.model import AxisTable, Config
+from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, wrong
 
 NO_FILE = "Give --config a file that is there and yours to read; rotator config NAME prints one to start from."

@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from statistics import fmean
 
 from hw.ports import HardwareError
-from rotator.config.model import AxisTable, Config
+from rotator.config.axes import AxisTable
+from rotator.config.model import Config
 from rotator.doctor.chips import Bus, Chips
 from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import Machine

@@ -17,7 +17,7 @@ from hw.gpio import find_chip, holders, real_gpiod
 from hw.i2c import SmbusI2C, open_bus
 from hw.pot import Reference
 from rotator.config.model import Config
-from rotator.simulation import simulated_world
+from rotator.simulation import simulated_rotor
 
 Bus = SmbusI2C
 
@@ -69,7 +69,7 @@ def real_chips() -> Chips:
 
 def simulated_chips(config: Config) -> Chips:
     """Those of a station that was never switched on."""
-    world = partial(simulated_world, config, time.monotonic, None, (0.0, 0.0))
+    world = partial(simulated_rotor, config, time.monotonic, None, (0.0, 0.0))
     gpio = world().gpio
     return Chips(
         lambda: gpio,

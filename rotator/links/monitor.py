@@ -6,13 +6,12 @@ Knows Unix sockets and watchers that read too slowly. Knows nothing of what the 
 from __future__ import annotations
 
 import asyncio
-import fcntl
 import logging
-import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import cast
 
+from rotator.links.unix import claimed
 from rotator.links.wire import reason
 
 log = logging.getLogger(__name__)
@@ -20,7 +19,6 @@ log = logging.getLogger(__name__)
 MOST_WATCHERS = 8
 UNREAD_LIMIT = 262_144
 """Bytes that may wait for a watcher; what does not fit is left out, and it is told how much."""
-MODE = 0o660
 
 
 class MonitorSocket:
@@ -36,33 +34,19 @@ class MonitorSocket:
         self._watchers: set[_Watcher] = set()
 
     async def run(self) -> None:
-        locked = -1
         try:
-            try:
-                self._path.parent.mkdir(parents=True, exist_ok=True)
-                # What a program left that died may be replaced; what a living one has may not.
-                locked = os.open(self._path.with_name(f".{self._path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600)
-                fcntl.flock(locked, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                if self._path.is_socket():
-                    self._path.unlink()
-                server = await asyncio.get_running_loop().create_unix_server(self._watcher, str(self._path))
-            except BlockingIOError:
-                log.warning("%s: another box has it; this one cannot be monitored", self._path)
-                return
-            except OSError as fault:
-                log.warning("%s: cannot be monitored there: %s", self._path, reason(fault))
-                return
-            self._path.chmod(MODE)
-            try:
-                await asyncio.Event().wait()
-            finally:
-                server.close()
-                for watcher in list(self._watchers):
-                    watcher.drop()
-                self._path.unlink(missing_ok=True)
-        finally:
-            if locked >= 0:
-                os.close(locked)
+            with claimed(self._path) as place:
+                server = await asyncio.get_running_loop().create_unix_server(self._watcher, sock=place)
+                try:
+                    await asyncio.Event().wait()
+                finally:
+                    server.close()
+                    for watcher in list(self._watchers):
+                        watcher.drop()
+        except BlockingIOError:
+            log.warning("%s: another box has it; this one cannot be monitored", self._path)
+        except OSError as fault:
+            log.warning("%s: cannot be monitored there: %s", self._path, reason(fault))
 
     def _watcher(self) -> _Watcher:
         return _Watcher(self._listeners, self._greeting, self._watchers)

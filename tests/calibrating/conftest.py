@@ -24,13 +24,12 @@ QUIET = "[sim]\nbus_takes_time = false\n"
 class Sitting:
     def __init__(self, config: Config, axis: Axis = Axis.AZIMUTH) -> None:
         self.clock = SimClock()
-        station = Station(config, self.clock, self.clock.sleep, (200.0, 60.0))
+        station = Station(config, self.clock, self.clock.sleep, (200.0, 60.0), add_alarm=self.clock.add_alarm)
         assert station.world is not None
         self.world: World = station.world
-        self.bank = station.bank
+        self.bank = station.rotor.bank
         self.axis = axis
         self.bench = Bench(config, axis, station, self.clock)
-        self.clock.add_alarm(self.bank.due_s, self.bank.enforce)
         self.said: list[str] = []
         self.wait(0.5)
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Direction
-from rotator.control.homing import Homing
+from rotator.control.homing import Homing, HomingSettings
 from tests.hw.pulse_rig import AZ, CYCLE_S, PulseRig
 
 PERIOD_S, TRAVEL_S, COAST_S = 5.0 / 6.0, 60.0, 0.5
 
 
 def ordered() -> Homing:
-    return Homing(period_s=PERIOD_S, travel_s=TRAVEL_S, coast_s=COAST_S)
+    return Homing(HomingSettings(PERIOD_S, TRAVEL_S, COAST_S, home_deg=0.0))
 
 
 def fly(rig: PulseRig, homing: Homing, longest_s: float = 200.0) -> float:
@@ -71,7 +71,7 @@ def test_a_contact_that_dies_on_the_way_back_is_no_end_stop() -> None:
 
 def test_pulses_without_end_are_no_axis_of_this_travel() -> None:
     rig = PulseRig(300.0)
-    homing = Homing(period_s=PERIOD_S, travel_s=20.0, coast_s=COAST_S)
+    homing = Homing(HomingSettings(PERIOD_S, 20.0, COAST_S, home_deg=0.0))
     assert fly(rig, homing) == pytest.approx(35.0, abs=0.2)
     assert "longer than its whole travel" in homing.failure
 

@@ -6,10 +6,11 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.calibration import Calibration
+from rotator.control.commands import HOLD, Steer
 from rotator.control.mount import Range
 from rotator.control.plan import OFFSETS_S, Path
 from rotator.control.pointing import AimGoal
-from rotator.control.positioned import HOLD, STRAY_S, PositionedAxis, PositionedSettings, Steer
+from rotator.control.positioned import STRAY_S, PositionedAxis, PositionedSettings
 from rotator.control.sensing import Reading, Window
 
 LEASE_S = 0.25

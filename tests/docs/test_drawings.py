@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from docs.drawings import one_shot
+from docs.drawings import one_shot, panel
 from docs.drawings.album import profile, sheets
 from docs.drawings.header import GPIO_PINS
 from docs.drawings.inspect import complaints
@@ -69,12 +69,13 @@ def relay_gpios(config: Config) -> list[int]:
         ("wiring-f1efw", [f"relays.IN{n}" for n in (1, 2, 3, 4)]),
         ("wiring-g5500", [f"relays.IN{n}" for n in (1, 2, 3, 4)]),
         ("wiring-ssr", [f"uln.{n} IN{n}" for n in (1, 2, 3, 4)]),
+        ("wiring-u100", [f"uln.{n} IN{n}" for n in (1, 2, 3, 4)]),
     ],
 )
 def test_relays_hang_on_the_pins_of_the_profile(
     name: str, inputs: list[str], drawn: dict[str, tuple[Sheet, list[Routed]]]
 ) -> None:
-    config = profile("g5500" if name == "wiring-g5500" else "f1efw")
+    config = profile({"wiring-g5500": "g5500", "wiring-u100": "u100"}.get(name, "f1efw"))
     sheet, _ = drawn[name]
     assert [gpio_at(sheet, pin) for pin in inputs] == relay_gpios(config) == relay_gpios(Config())
 
@@ -113,11 +114,99 @@ def test_the_g_5500s_socket_is_wired_as_yaesus_manual_has_it(drawn: dict[str, tu
     assert ("din.1 elevation volts", "upper 1.a") in joined(sheet)
 
 
-@pytest.mark.parametrize("name", ["f1efw", "g5500", "spid"])
+@pytest.mark.parametrize("name", ["f1efw", "g5500", "spid", "u100"])
 def test_the_heartbeats_pin_is_free_in_every_profile(name: str) -> None:
     values = profile(name).model_dump()
     values["relays"]["heartbeat"] = one_shot.HEARTBEAT_GPIO
     assert Config.model_validate(values).relays.heartbeat == one_shot.HEARTBEAT_GPIO
+
+
+@pytest.mark.parametrize(
+    ("number", "relay"), [(1, "azimuth.CW"), (2, "azimuth.CCW"), (3, "elevation.up"), (4, "elevation.down")]
+)
+def test_each_ssr_of_the_u_100_feeds_the_wire_of_its_relay(
+    number: int, relay: str, drawn: dict[str, tuple[Sheet, list[Routed]]]
+) -> None:
+    sheet, _ = drawn["wiring-u100"]
+    output = {1: "18 OUT1", 2: "17 OUT2", 3: "16 OUT3", 4: "15 OUT4"}[number]
+    assert (f"uln.{output}", f"ssrs.− {number}") in joined(sheet)
+    assert (f"ssrs.~ {number}", relay) in joined(sheet)
+
+
+@pytest.mark.parametrize("axis", ["azimuth", "elevation"])
+def test_a_cams_contact_reaches_its_gpio_through_an_opto_only(
+    axis: str, drawn: dict[str, tuple[Sheet, list[Routed]]]
+) -> None:
+    sheet, pulses = drawn["wiring-u100"][0], profile("u100").pulses
+    assert gpio_at(sheet, f"{axis} opto.4 C") == getattr(pulses, axis).contact
+    assert (f"{axis} opto.2 K", f"{axis}.contact a") in joined(sheet)
+    tower = {net for net in sheet.nets if any(pin.startswith((f"{axis}.", "transformer.")) for pin in net.pins)}
+    assert not [pin for net in tower for pin in net.pins if pin.startswith("pi.")]
+
+
+def test_the_contacts_have_their_supply_before_the_last_relay(drawn: dict[str, tuple[Sheet, list[Routed]]]) -> None:
+    """A motor that coasts after its supply was cut is still counted."""
+    pairs = set(joined(drawn["wiring-u100"][0]))
+    assert ("fuse.a", "rectifier.b") in pairs
+    assert ("last.b", "fuse.a") in pairs
+    assert ("ssrs.~ supply", "last.a") in pairs
+
+
+def test_a_digital_pot_is_reached_through_the_buffer_at_the_profiles_pins(
+    drawn: dict[str, tuple[Sheet, list[Routed]]],
+) -> None:
+    sheet, digipot = drawn["wiring-orbit360"][0], profile("orbit360").digipot
+    assert digipot.enable is not None
+    ins = ("2 1A", "5 2A", "9 3A", "12 4A")
+    lines = [digipot.azimuth.select, digipot.elevation.select, digipot.sck, digipot.si]
+    assert [gpio_at(sheet, f"buffer.{pin}") for pin in ins] == lines
+    pairs = set(joined(sheet))
+    assert {("buffer.3 1Y", "azimuth.1 CS"), ("buffer.6 2Y", "elevation.1 CS")} <= pairs
+    for axis in ("azimuth", "elevation"):
+        assert {("buffer.8 3Y", f"{axis}.2 SCK"), ("buffer.11 4Y", f"{axis}.3 SI")} <= pairs
+        assert {(f"{axis}.5 PA0", f"{axis} box.knob +"), (f"{axis}.6 PW0", f"{axis} box.knob wiper")} <= pairs
+    assert gpio_at(sheet, "base.a") == digipot.enable
+    assert digipot.enable >= 9, "pulled down while the Pi starts: the boxes have no supply"
+
+
+def test_the_servo_boards_wires(drawn: dict[str, tuple[Sheet, list[Routed]]]) -> None:
+    sheet, servo = drawn["wiring-servos"][0], profile("servos").servo
+    assert servo.enable is not None
+    assert gpio_at(sheet, "board.OE") == servo.enable
+    assert servo.enable < 9, "pulled up while the Pi starts: no pulses"
+    assert (gpio_at(sheet, "board.SDA"), gpio_at(sheet, "board.SCL")) == (2, 3)
+    assert ("azimuth.signal", f"board.{servo.azimuth.channel} PWM") in joined(sheet)
+    assert ("elevation.signal", f"board.{servo.elevation.channel} PWM") in joined(sheet)
+    assert ("pi.1", "board.VCC") in joined(sheet)
+    assert not [pair for pair in joined(sheet) if pair[0] == "board.V+" and pair[1].startswith("pi.")]
+
+
+def test_the_can_bus_is_a_chain_with_an_end(drawn: dict[str, tuple[Sheet, list[Routed]]]) -> None:
+    sheet = drawn["wiring-moteus"][0]
+    for wire, end in (("CAN H", "a"), ("CAN L", "b")):
+        assert (f"adapter.{wire}", f"azimuth.{wire}") in joined(sheet)
+        assert (f"azimuth.{wire} 2", f"elevation.{wire}") in joined(sheet)
+        assert (f"elevation.{wire}", f"end.{end}") in joined(sheet)
+        assert (f"adapter.{wire}", f"elevation.{wire}") not in joined(sheet)
+
+
+def test_the_panel_is_drawn_as_its_tables_say(drawn: dict[str, tuple[Sheet, list[Routed]]]) -> None:
+    sheet, wired = drawn["wiring-panel"][0], panel.PANEL
+    switches = {"mode 2": wired.mode_msb, "mode 1": wired.mode_lsb, "calibrate": wired.calibrate}
+    assert {name: gpio_at(sheet, f"switches.{name}") for name in switches} == switches
+    pairs = set(joined(sheet))
+    assert ("azimuth knob.wiper", f"adc.A{wired.azimuth_knob}") in pairs
+    assert ("elevation knob.wiper", f"adc.A{wired.elevation_knob}") in pairs
+    assert {("azimuth arm.b", f"adc.A{wired.jog}"), ("elevation arm.b", f"adc.A{wired.jog}")} <= pairs
+    assert (f"outputs.{wired.azimuth_meter}", "azimuth series.b") in pairs
+    assert (f"outputs.{wired.lamp_manual}", "lamp series.b") in pairs
+
+
+def test_stop_and_limits_are_drawn_as_their_tables_say(drawn: dict[str, tuple[Sheet, list[Routed]]]) -> None:
+    sheet = drawn["wiring-limits"][0]
+    assert gpio_at(sheet, "button.a") == panel.PANEL.stop
+    assert {key: gpio_at(sheet, f"{key} opto.4 C") for key in panel.LIMITS.switches} == panel.LIMITS.switches
+    assert {("source.after the fuse", "cuts.a"), ("cuts.b", "relays.supply")} <= set(joined(sheet))
 
 
 def test_the_header_is_the_one_in_the_table_of_the_wiring_page() -> None:

@@ -11,11 +11,20 @@ from docs.drawings.album import profile
 from docs.drawings.figures import (
     ADC_LIMIT_V,
     BASE_OHM,
+    BUS_FARAD,
     DIVIDER_LOWER_OHM,
     DIVIDER_UPPER_OHM,
+    LAMP_OHM,
+    METER_FULL_A,
+    METER_SERIES_OHM,
+    METER_TRIMMER_OHM,
+    PI_SUPPLY_V,
     POT_END_OHM,
     POT_OHM,
+    SWITCH_PULL_OHM,
+    ContactLoop,
     OneShot,
+    braked_v,
     divided_v,
 )
 
@@ -109,3 +118,80 @@ def test_the_fuse_is_the_next_standard_size_above_both_motors(motor_a: float, fu
     sizes_a = (0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3)
     assert next(size_a for size_a in sizes_a if size_a >= 2 * motor_a) == fuse_a
     assert f"of {motor_a:g} A, {fuse_a:g} A" in page("wiring.md")
+
+
+def test_a_contacts_loop_lights_its_opto_well_and_burns_no_resistor() -> None:
+    loop, page_ = ContactLoop(), page("wiring-u100.md")
+    assert loop.supply_v == pytest.approx(24 * math.sqrt(2) - 0.7) == pytest.approx(33.2, abs=0.1)
+    assert loop.led_a == pytest.approx(0.010, abs=0.0005)
+    assert loop.resistor_w == pytest.approx(0.31, abs=0.01)
+    assert loop.ripple_v < 0.15 * loop.supply_v
+    assert "3.3 kΩ, 1 W | 10 mA through the opto, 0.3 W each" in page_
+    assert "33 V DC of the 24 V AC" in page_
+
+
+def test_the_loops_parts_bear_a_transformer_without_load() -> None:
+    """A small transformer gives up to a fifth more than is written on it, and the mains a tenth more."""
+    loop = ContactLoop(transformer_v=24 * 1.2 * 1.1)
+    assert loop.supply_v < 63
+    assert loop.resistor_w < 1
+    assert loop.led_a < 0.050
+
+
+def test_oe_is_held_high_against_the_boards_own_resistor() -> None:
+    """A PCA9685 takes 0.7 of its supply for high (NXP, table 13)."""
+    high_v = PI_SUPPLY_V * 10_000 / (10_000 + SWITCH_PULL_OHM)
+    assert high_v > 0.7 * PI_SUPPLY_V + 0.5
+    assert PI_SUPPLY_V / SWITCH_PULL_OHM < 0.008
+
+
+def test_what_braking_does_to_the_capacitor() -> None:
+    page_ = page("wiring-moteus.md")
+    assert 0.5 * math.radians(30) ** 2 == pytest.approx(0.14, abs=0.005)
+    for speed_dps, volts in ((30, 25.2), (90, 33), (300, 80)):
+        assert braked_v(24, 1.0, speed_dps, BUS_FARAD) == pytest.approx(volts, rel=0.01)
+        assert f"{volts} V" in page_
+
+
+def test_a_meters_trimmer_reaches_full_scale_from_both_sides() -> None:
+    least_ohm = PI_SUPPLY_V / METER_FULL_A - 200
+    assert least_ohm > METER_SERIES_OHM
+    assert METER_SERIES_OHM + METER_TRIMMER_OHM > PI_SUPPLY_V / METER_FULL_A
+    assert "3.3 V ÷ 3.3 kΩ is full scale" in page("wiring-panel.md")
+
+
+def test_a_lamp_takes_what_an_output_gives() -> None:
+    """A PCA9685 gives 10 mA at high; a red LED takes 2 V of the 3.3."""
+    lamp_a = (PI_SUPPLY_V - 2.0) / LAMP_OHM
+    assert lamp_a == pytest.approx(0.004, abs=0.0005)
+    assert "330 Ω each | 4 mA" in page("wiring-panel.md")
+
+
+def test_a_step_of_the_servos_chip() -> None:
+    tick_us = 1e6 / 25e6 * 122
+    low_us, high_us = (us for _, us in profile("servos").servo.azimuth.pulses_us)
+    assert tick_us == pytest.approx(4.88)
+    assert 180 / (high_us - low_us) * tick_us == pytest.approx(0.49, abs=0.01)
+    assert "4.88 µs, with 600 to 2400 µs for 180° half a degree" in page("wiring-servos.md")
+
+
+def test_a_step_of_the_digital_pot() -> None:
+    points = profile("orbit360").digipot
+    (low_deg, low), (high_deg, high) = points.azimuth.steps
+    assert (high_deg - low_deg) / (high - low) == pytest.approx(1.41, abs=0.005)
+    (low_deg, low), (high_deg, high) = points.elevation.steps
+    assert (high_deg - low_deg) / (high - low) == pytest.approx(1.41, abs=0.005)
+    assert "1.41° each" in page("wiring-orbit360.md")
+
+
+def test_an_upside_down_elevation_shows_what_the_moteus_page_says() -> None:
+    elevation = profile("isel").moteus.elevation
+    shown = [elevation.zero_rev + degrees / 360 * elevation.rev_per_turn for degrees in (0, 90)]
+    assert shown == [-0.25, -0.5]
+    assert "0° is -0.25 turns, 90° is -0.5" in page("wiring-moteus.md")
+
+
+def test_three_periods_of_a_u_100() -> None:
+    box = profile("u100")
+    assert 3 * box.pulses.azimuth.spacing_deg / box.azimuth.speed_dps == 2.5
+    assert "2.5 s at 5° and 6°/s" in page("wiring-u100.md")

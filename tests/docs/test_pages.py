@@ -3,14 +3,44 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from docs.drawings.album import profile, sheets
+from docs.drawings.header import GPIO_PINS
+from docs.drawings.panel import LIMITS, PANEL
+from hw.cam import Cam
+from hw.cam_count import CamCount
+from hw.moteus_faults import FAULTS
+from hw.ports import Direction
+from rotator.config.load import shipped
+from rotator.config.model import Config
+from rotator.config.panel import LimitsTable, PanelTable
+from rotator.panel_ladder import LEVELS
+from rotator.status import Fault
 
 DOCS = Path(__file__).parents[2] / "docs"
-PAGES = ["wiring.md", "wiring-g5500.md", "wiring-ssr.md", "wiring-heartbeat.md", "parts.md", "commissioning.md"]
+PAGES = [
+    "README.md",
+    "wiring.md",
+    "wiring-g5500.md",
+    "wiring-ssr.md",
+    "wiring-u100.md",
+    "wiring-moteus.md",
+    "wiring-servos.md",
+    "wiring-orbit360.md",
+    "wiring-panel.md",
+    "wiring-heartbeat.md",
+    "sensors.md",
+    "parts.md",
+    "commissioning.md",
+    "troubleshooting.md",
+]
+BUILDS = {"u100": "wiring-u100", "isel": "wiring-moteus", "servos": "wiring-servos", "orbit360": "wiring-orbit360"}
+"""The page of each shipped configuration that is not a rotor with relays and pots."""
 
 
 def text(name: str) -> str:
@@ -57,3 +87,127 @@ def test_the_g_5500s_table_names_the_gpios_of_its_profile() -> None:
         "elevation_up": relays.elevation_up,
         "elevation_down": relays.elevation_down,
     }
+
+
+def settings(name: str) -> dict[str, Any]:
+    """All TOML on the page, as one file."""
+    return tomllib.loads("\n".join(re.findall(r"```toml\n(.*?)```", text(name), flags=re.DOTALL)))
+
+
+@pytest.mark.parametrize(("build", "page"), BUILDS.items())
+def test_page_and_configuration_name_each_other(build: str, page: str) -> None:
+    assert f"`rotator config {build} > station.toml`" in text(f"{page}.md")
+    assert f"docs/{page}.md" in shipped(build)
+    assert f"]({page}.md)" in text("wiring.md")
+    assert f"]({page}.md)" in text("README.md")
+    assert f"]({page}.md)" in text("parts.md")
+
+
+@pytest.mark.parametrize("build", ["u100", "orbit360"])
+def test_each_gpio_on_the_page_is_the_profiles_and_at_that_pin_of_the_header(build: str) -> None:
+    """Tables: what, GPIO, header pin, perhaps more, key."""
+    rows = re.findall(
+        r"^\|[^|]+\| (\d+) \| (\d+) \|(?:[^|]+\|)? `([\w.]+)` \|$", text(f"{BUILDS[build]}.md"), re.MULTILINE
+    )
+    used = {key: pin for pin, key in profile(build).pins() if not key.startswith("lcd.")}
+    assert {key: int(gpio) for gpio, _, key in rows} == used
+    assert all(GPIO_PINS[int(gpio)] == int(pin) for gpio, pin, _ in rows)
+
+
+def test_the_servos_table_names_what_the_profile_has() -> None:
+    page, servo = text("wiring-servos.md"), profile("servos").servo
+    assert servo.enable is not None
+    assert f"| OE | GPIO {servo.enable}, and 1 kΩ to 3.3 V | {GPIO_PINS[servo.enable]} | `servo.enable` |" in page
+    assert f"| output {servo.azimuth.channel} | azimuth servo |" in page
+    assert f"| output {servo.elevation.channel} | elevation servo |" in page
+    assert f"at 0x{servo.address:02x}" in page
+
+
+def test_the_moteus_page_sets_the_ids_of_the_profile() -> None:
+    moteus = profile("isel").moteus
+    assert f"| `id.id` | {moteus.azimuth.id} | {moteus.elevation.id} |" in text("wiring-moteus.md")
+
+
+def test_the_panel_on_the_page_is_the_one_on_the_drawing() -> None:
+    said = settings("wiring-panel.md")
+    assert PanelTable.model_validate(said["panel"]) == PANEL
+    assert LimitsTable.model_validate(said["limits"]) == LIMITS
+
+
+def test_the_panels_table_names_its_gpios() -> None:
+    rows = re.findall(r"\| GPIO (\d+), header pin (\d+) \| `(\w+)\.(\w+)` \|", text("wiring-panel.md"))
+    assert {key: int(gpio) for gpio, _, _, key in rows} == PANEL.switches | LIMITS.switches
+    assert all(GPIO_PINS[int(gpio)] == int(pin) for gpio, pin, _, _ in rows)
+
+
+@pytest.mark.parametrize("build", ["f1efw", "g5500", "spid", "u100", "isel", "servos"])
+def test_the_panels_gpios_are_free_beside_every_profile_but_that_of_the_digital_pots(build: str) -> None:
+    used = {pin for pin, _ in profile(build).pins()}
+    assert not used & {*PANEL.switches.values(), *LIMITS.switches.values()}
+
+
+def test_the_jog_switches_read_what_the_page_says() -> None:
+    page = text("wiring-panel.md")
+    words = {
+        (1, 0): "CW", (-1, 0): "CCW", (0, 1): "up", (0, -1): "down",
+        (1, 1): "CW and up", (-1, -1): "CCW and down", (1, -1): "CW and down", (-1, 1): "CCW and up",
+    }  # fmt: skip
+    for (azimuth, elevation), share in words.items():
+        assert f"| {share} | {LEVELS[Direction(azimuth), Direction(elevation)]:.3f} |" in page
+    assert f"| neither | {LEVELS[Direction.OFF, Direction.OFF]:.3f} |" in page
+
+
+def test_the_sensors_page_has_tables_that_the_file_accepts() -> None:
+    said = settings("sensors.md")
+    config = Config.model_validate({key: said[key] for key in ("azimuth", "elevation", "compass", "mount")})
+    assert config.azimuth.sensor.kind == "as5600"
+    assert config.elevation.sensor.kind == "mpu6050"
+    assert config.compass.kind == "bno055"
+
+
+def test_the_digital_pots_points_are_ones_that_the_file_accepts() -> None:
+    values = tomllib.loads(shipped("orbit360"))
+    values["digipot"]["azimuth"] |= settings("wiring-orbit360.md")["digipot"]["azimuth"]
+    assert len(Config.model_validate(values).digipot.azimuth.steps) == 5
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        "no pulses",
+        "count lost",
+        "count not kept",
+        "not homed",
+        "position unknown",
+        "controller fault",
+        "controller silent",
+        "servo board",
+        "axis does not follow",
+        "limit switch reached",
+    ],
+)
+def test_a_faults_page_is_there(fault: str) -> None:
+    assert f"\n### {fault}\n" in text("troubleshooting.md")
+    assert Fault(fault, None, "").anchor in anchors("troubleshooting.md")
+
+
+def test_the_moteus_numbers_on_the_page_are_the_controllers() -> None:
+    table = text("troubleshooting.md").split("### controller fault\n")[1].split("\n### ")[0]
+    rows = re.findall(r"^\| ([\d, ]+) \|", table, re.MULTILINE)
+    numbers = {int(number) for row in rows for number in row.split(",")}
+    assert len(numbers) > 8
+    assert numbers <= set(FAULTS)
+    fault = FAULTS[34]
+    assert f"{fault.name} (34): {fault.remedy}, then acknowledge it" in " ".join(table.split())
+
+
+def test_the_troubles_of_a_count_are_those_that_it_tells() -> None:
+    """A counter is told what no rotor does."""
+    told = text("troubleshooting.md").split("### count lost\n")[1].split("\n### ")[0]
+    count = CamCount(Cam(spacing_deg=5, closed_deg=1, closes_at_deg=0, speed_dps=6))
+    assert not count.place(0.0, 123.0, closed=True)
+    assert count.trouble == "the contact is closed, which it is not at 123.0°"
+    assert "which it is not at 120.0°" in told
+    count.place(0.0, 100.5, closed=True)
+    count.change(60.0, closed=True, lost=3)
+    assert count.trouble in told

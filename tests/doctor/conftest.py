@@ -20,7 +20,7 @@ from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION
 from rotator.doctor.chips import Chips
 from rotator.doctor.finding import Finding
 from rotator.doctor.machine import Machine
-from rotator.simulation import simulated_world
+from rotator.simulation import simulated_rotor
 
 PI_4 = "Raspberry Pi 4 Model B Rev 1.4"
 STATION = """
@@ -86,7 +86,7 @@ class Pi:
         """Another configuration, and the chips that fit it."""
         self.config = parse(f"{base}\n{more}", "test")
         clock = SimClock()
-        world = self.world = simulated_world(self.config, clock, None, (90.0, 45.0))
+        world = self.world = simulated_rotor(self.config, clock, None, (90.0, 45.0))
         chips = Chips(
             lambda: world.gpio,
             world.gpio.paths(),

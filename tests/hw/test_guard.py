@@ -83,7 +83,7 @@ def bench() -> Bench:
 
 @pytest.fixture
 def guard(bench: Bench) -> Iterator[Guard]:
-    guard = Guard(bench.bank, time.monotonic)
+    guard = Guard(bench.bank, time.monotonic, alarm="CUT THE MOTOR POWER")
     guard.start()
     yield guard
     bench.lines.broken = False

@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from firmware_sim.clock import SimClock
-from rotator.app import build_controller, build_mount
+from rotator.building import build_controller, build_mount
 from rotator.config.model import Config
 from rotator.door import Door
 from rotator.links.wire import Wire
@@ -37,7 +37,7 @@ class Bench:
         clock = SimClock()
         config = Config()
         self.station = Station(config, clock, clock.sleep, (235.0, 25.0))
-        self.loop = ControlLoop(build_controller(config), self.station.bank, self.station.sensors, clock, 0.05)
+        self.loop = ControlLoop(build_controller(config), self.station.rotor, clock, 0.05)
         self.mount = build_mount(config)
         self.loop.cycle()
 

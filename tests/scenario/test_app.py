@@ -289,7 +289,8 @@ def test_a_bug_in_the_control_thread_switches_off_and_is_told(config: Config, tm
     app = App(config)
     world = app.station.world
     assert world is not None
-    app.station.sensors[Axis.AZIMUTH] = FailsInMotion(app.station.sensors[Axis.AZIMUTH], world)
+    sensors = app.station.rotor.sensors
+    sensors[Axis.AZIMUTH] = FailsInMotion(sensors[Axis.AZIMUTH], world)
     with pytest.raises(ZeroDivisionError, match="a bug in a driver"):
         asyncio.run(talk(app))
     assert world.relay_starts == 1, "the motor did run"

@@ -15,6 +15,7 @@ from hw.ports import Axis, Direction
 from hw.relays import RelayBank
 from rotator.app import App
 from rotator.config.load import load
+from rotator.rotors.relays import RelayRotor
 from rotator.station import Station
 
 
@@ -37,6 +38,7 @@ def main() -> None:
     path = Path(sys.argv[-1])
     config = load(path)
     station = Station(config, time.monotonic, time.sleep)
-    station.bank = BuggyDrive(station.bank, path.with_name("bug"))  # type: ignore[assignment] - of its shape
+    bank = BuggyDrive(station.rotor.bank, path.with_name("bug"))
+    station.rotor = RelayRotor(bank, station.rotor.sensors)
     app = App(config, path, station)
     asyncio.run(app.run(asyncio.Event()))

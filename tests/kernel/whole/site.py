@@ -19,7 +19,7 @@ from typing import Self
 
 from firmware_sim.world import World
 from rotator.config.load import parse
-from rotator.simulation import SIM_CALIBRATION_RAW, simulated_world
+from rotator.simulation import SIM_CALIBRATION_RAW, simulated_rotor
 from tests.kernel.bench.edges import EdgeRecorder
 from tests.kernel.bench.gpio import GpioChip, persisting
 from tests.kernel.bench.i2c import I2CAdapter
@@ -110,7 +110,7 @@ class Site:
         with ExitStack() as stack:
             stack.enter_context(persisting(True))
             self.chip = stack.enter_context(GpioChip())
-            self.world: World = simulated_world(parse(ROTOR, "rotor"), time.monotonic, None, (100.0, 20.0))
+            self.world: World = simulated_rotor(parse(ROTOR, "rotor"), time.monotonic, None, (100.0, 20.0))
             self.adapter = stack.enter_context(I2CAdapter(self.world.bus))
             stack.enter_context(Plant(self.chip, self.world, (*RELAYS, MASTER)))
             self.edges = stack.enter_context(EdgeRecorder(self.chip))

@@ -1,0 +1,196 @@
+"""A simulated front panel: a mode switch, jog switches, knobs, a stop button, lamps and meters, and whoever uses them.
+
+Knows what is wired where, its resistors, and its faults by name. Knows no driver: it hangs on lines in the shape of
+gpiod and a bus in the shape of smbus2, and the rest is Ohm's law.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from firmware_sim.ads1115 import Ads1115
+from firmware_sim.faults import Fallible, SimFault
+from firmware_sim.gpio import SimGpio
+from firmware_sim.i2c import SimI2CBus
+from firmware_sim.pca9685 import Pca9685
+
+BOUNCES_HZ = 7.3
+"""How often a worn mode switch changes while it bounces: out of step with whoever looks 20 times a second."""
+
+
+@dataclass(frozen=True, slots=True)
+class PanelSpec:
+    """Pins and inputs that are None are not fitted. Lamps and meters: the output of each, by name."""
+
+    mode_msb: int | None = None
+    mode_lsb: int | None = None
+    calibrate: int | None = None
+    stop: int | None = None
+    azimuth_knob: int | None = None
+    elevation_knob: int | None = None
+    jog: int | None = None
+    lamps: Mapping[str, int] = field(default_factory=dict)
+    meters: Mapping[str, int] = field(default_factory=dict)
+    adc_address: int = 0x49
+    outputs_address: int = 0x41
+    supply_v: float = 3.3
+    meter_full_share: float = 1.0
+    """The share of the time for which its output must be on to bring a needle to its end: the trimmer."""
+    bias_ohm: tuple[float, float] = (10e3, 10e3)
+    """From the jog input to the supply, and to ground."""
+    azimuth_ohm: float = 6.8e3
+    elevation_ohm: float = 12e3
+    knob_end: float = 1.0
+    """What share of the supply a knob has at its maximum."""
+
+
+class SimPanel(Fallible):
+    """Hangs itself on `gpio`, and on `bus` what of its two chips is needed."""
+
+    def __init__(self, spec: PanelSpec, gpio: SimGpio, bus: SimI2CBus, clock: Callable[[], float]) -> None:
+        self.spec = spec
+        self.supply_v = spec.supply_v
+        self._lock = threading.RLock()
+        self._gpio = gpio
+        self._clock = clock
+        self._position = 0
+        self._stop_closed = True
+        self._calibrate_closed = False
+        self._thrown = {"azimuth": 0, "elevation": 0}
+        self._knobs = {"azimuth": 0.0, "elevation": 0.0}
+        self._broken: set[str] = set()
+        self.adc = Ads1115(clock, vdd_v=5.0)
+        self.board = Pca9685(clock)
+        inputs = (
+            (spec.azimuth_knob, self._azimuth_v),
+            (spec.elevation_knob, self._elevation_v),
+            (spec.jog, self.jog_v),
+        )
+        for channel, volts in inputs:
+            if channel is not None:
+                self.adc.inputs[channel] = volts
+        if any(channel is not None for channel, _ in inputs):
+            bus.attach(spec.adc_address, self.adc)
+        if spec.lamps or spec.meters:
+            bus.attach(spec.outputs_address, self.board)
+        gpio.on_look.append(self._catch_up)
+        self._wire_up()
+        self.faults = self._fault_table(bus)
+
+    # --- a person's hands
+
+    def turn_mode(self, position: int) -> None:
+        """0 MANUAL, 1 PARK, 2 AUTO, 3 JOG."""
+        self._position = position
+        self._wire_up()
+
+    def throw(self, axis: str, way: int) -> None:
+        """A jog switch: +1 CW or up, -1 CCW or down, 0 let go."""
+        self._thrown[axis] = way
+
+    def turn_knob(self, axis: str, share: float) -> None:
+        """0 is its minimum, 1 its maximum."""
+        self._knobs[axis] = share
+
+    def press_stop(self) -> None:
+        self._stop_closed = False
+        self._wire_up()
+
+    def pull_stop(self) -> None:
+        """The button stays in until it is pulled out again."""
+        self._stop_closed = True
+        self._wire_up()
+
+    def set_calibrate(self, *, closed: bool) -> None:
+        self._calibrate_closed = closed
+        self._wire_up()
+
+    # --- and eyes
+
+    def lamp(self, name: str) -> bool:
+        return self.board.high_share(self.spec.lamps[name]) > 0.5
+
+    def lit(self) -> set[str]:
+        return {name for name in self.spec.lamps if self.lamp(name)}
+
+    def needle(self, axis: str) -> float:
+        """How far a meter's needle stands along its scale; it cannot go beyond its end."""
+        return min(self.board.high_share(self.spec.meters[axis]) / self.spec.meter_full_share, 1.0)
+
+    # --- the wires
+
+    def jog_v(self) -> float:
+        """Millman's theorem: the input is where all its resistors' currents add up to nothing."""
+        if "jog-shorted" in self._broken:
+            return 0.0
+        up_ohm, down_ohm = self.spec.bias_ohm
+        branches = [(self.supply_v, up_ohm), (0.0, down_ohm)]
+        if "jog-wire-broken" not in self._broken:
+            for axis, ohm in (("azimuth", self.spec.azimuth_ohm), ("elevation", self.spec.elevation_ohm)):
+                if self._thrown[axis]:
+                    branches.append((self.supply_v if self._thrown[axis] > 0 else 0.0, ohm))
+        return sum(volts / ohm for volts, ohm in branches) / sum(1.0 / ohm for _, ohm in branches)
+
+    def _azimuth_v(self) -> float:
+        return self._wiper_v("azimuth")
+
+    def _elevation_v(self) -> float:
+        return self._wiper_v("elevation")
+
+    def _wiper_v(self, axis: str) -> float:
+        """A resistor to ground holds the input where the wire to the wiper is broken."""
+        if f"{axis}-knob-wire-broken" in self._broken:
+            return 0.0
+        return self._knobs[axis] * self.spec.knob_end * self.supply_v
+
+    def _wire_up(self) -> None:
+        """Every switch is between its line and ground; an open one leaves the line to the Pi's own resistor."""
+        spec, position = self.spec, self._position
+        if "mode-switch-bouncing" in self._broken:
+            position ^= int(self._clock() * BOUNCES_HZ) % 2
+        contacts = (
+            (spec.mode_msb, bool(position & 2) and "mode-wire-broken" not in self._broken),
+            (spec.mode_lsb, bool(position & 1)),
+            (spec.calibrate, self._calibrate_closed),
+            (spec.stop, self._stop_closed and "stop-wire-broken" not in self._broken),
+        )
+        for pin, closed in contacts:
+            if pin is not None:
+                self._gpio.drive_input(pin, False if closed else None)
+
+    def _catch_up(self, _now_s: float) -> None:
+        if "mode-switch-bouncing" in self._broken:
+            self._wire_up()
+
+    def _advance(self) -> None:
+        """Nothing here goes on by itself."""
+
+    def _fault_table(self, bus: SimI2CBus) -> dict[str, SimFault]:
+        spec = self.spec
+        wires = (
+            "stop-wire-broken", "mode-wire-broken", "mode-switch-bouncing", "jog-wire-broken", "jog-shorted",
+            "azimuth-knob-wire-broken", "elevation-knob-wire-broken",
+        )  # fmt: skip
+        return {name: self._wire_fault(name) for name in wires} | {
+            "adc-gone": SimFault(lambda: bus.gone.add(spec.adc_address), lambda: bus.gone.discard(spec.adc_address)),
+            "outputs-gone": SimFault(
+                lambda: bus.gone.add(spec.outputs_address), lambda: bus.gone.discard(spec.outputs_address)
+            ),
+            "outputs-dip": SimFault(self._dip, lambda: None),
+            "supply-sags": self._fault_of(self, "supply_v", 0.9 * spec.supply_v, spec.supply_v),
+            "bus-hung": SimFault(bus.hang, bus.release),
+        }
+
+    def _wire_fault(self, name: str) -> SimFault:
+        def become(*, broken: bool) -> None:
+            (self._broken.add if broken else self._broken.discard)(name)
+            self._wire_up()
+
+        return SimFault(lambda: become(broken=True), lambda: become(broken=False))
+
+    def _dip(self) -> None:
+        """The board's supply goes for an instant, which resets the chip."""
+        self.board.supply = False
+        self.board.supply = True

@@ -1,0 +1,165 @@
+"""From a configuration to what decides: mount, calibrations, controller, and what earlier runs have learnt.
+
+Part of the composition root. Knows which key of the file is which setting. Knows no hardware.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from hw.ports import Axis
+from rotator.config.axes import AxisTable
+from rotator.config.model import Config
+from rotator.config.sim import SimAxisTable
+from rotator.control.axis import AxisSettings
+from rotator.control.calibration import Calibration
+from rotator.control.controller import Controller, Settings
+from rotator.control.homing import HomingSettings
+from rotator.control.motion import Motor
+from rotator.control.mount import Mount, Range
+from rotator.control.offsets import Offsets, Points, offsets
+from rotator.control.positioned import PositionedSettings
+from rotator.control.sensing import ANYTHING, Window
+from rotator.simulation import SIM_CALIBRATION_RAW
+from rotator.status import LearntMotor
+from rotator.store.learnt import LearntFile, Motors
+
+
+def build_offsets(config: Config) -> Offsets:
+    declination_deg = config.mount.declination_deg if config.mount.north == "magnetic" else None
+    return offsets(config.azimuth.offset_deg, config.elevation.offset_deg, declination_deg)
+
+
+def build_mount(config: Config) -> Mount:
+    shift, azimuth, elevation = build_offsets(config), config.azimuth, config.elevation
+    return Mount(
+        azimuth=Range(azimuth.min_deg + shift.azimuth_deg, azimuth.max_deg + shift.azimuth_deg),
+        elevation=Range(elevation.min_deg + shift.elevation_deg, elevation.max_deg + shift.elevation_deg),
+        park_azimuth_deg=config.mount.park_azimuth_deg,
+        park_elevation_deg=config.mount.park_elevation_deg,
+        flip=config.mount.flip == "over-top",
+        horizon=tuple(config.mount.horizon),
+    )
+
+
+def build_learnt(config: Config) -> LearntFile:
+    """The file of what the motors taught; figures learnt under another description of the motor do not count."""
+
+    def begun(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
+        said: dict[str, object] = {"hardware": config.rotor.hardware}
+        said |= {"speed_dps": table.speed_dps, "coast_s": table.coast_s}
+        if config.rotor.hardware == "sim":
+            said["sim"] = sim.model_dump(include={"speed_dps", "lag_s", "relay_delay_s"})
+        return said
+
+    return LearntFile(
+        Path(config.state.path),
+        {
+            Axis.AZIMUTH: begun(config.azimuth, config.sim.azimuth),
+            Axis.ELEVATION: begun(config.elevation, config.sim.elevation),
+        },
+    )
+
+
+def build_controller(
+    config: Config, learnt: Mapping[Axis, Motors] | None = None, commissioning: Axis | None = None
+) -> Controller:
+    """`learnt`: what earlier runs know of the motors. `commissioning`: an axis to be taken for one never set up."""
+    simulated = config.rotor.hardware == "sim"
+    mount = build_mount(config)
+    shift = build_offsets(config)
+
+    def motor(found: LearntMotor) -> Motor:
+        return Motor(found.speed_dps, found.coast_deg)
+
+    def axis(which: Axis, limits: Range) -> AxisSettings | PositionedSettings:
+        table = config.axis(which)
+        points = None if which is commissioning else own_points(config, which)
+        calibration = None if points is None else Calibration(shift.reported(which, points))
+        in_degrees = config.in_degrees(which)
+        window = ANYTHING if in_degrees else Window(table.lowest_reading, table.highest_reading)
+        undone = () if simulated else missing(table, calibrated=points is not None)
+        if which is commissioning:
+            undone = EVERYTHING
+        if not config.rotor.switched:
+            return PositionedSettings(
+                which,
+                limits,
+                table.tolerance_deg,
+                table.speed_dps,
+                window,
+                calibration,
+                undone,
+                source(config, which),
+            )
+        known = (learnt or {}).get(which)
+        return AxisSettings(
+            axis=which,
+            limits=limits,
+            tolerance_deg=table.tolerance_deg,
+            motor=Motor(table.speed_dps, table.speed_dps * table.coast_s),
+            window=window,
+            calibration=calibration,
+            missing=undone,
+            source=source(config, which),
+            longest_run_s=table.longest_run_s,
+            rest_s=table.rest_s,
+            master=config.relays.master is not None,
+            learnt=known and (motor(known[0]), motor(known[1])),
+            homing=homing(config, which, shift) if config.counts(which) else None,
+        )
+
+    return Controller(
+        Settings(
+            azimuth=axis(Axis.AZIMUTH, mount.azimuth),
+            elevation=axis(Axis.ELEVATION, mount.elevation),
+            mount=mount,
+            period_s=1 / config.control.rate_hz,
+            simulated=simulated,
+            park_after_s=config.mount.park_after_s,
+        )
+    )
+
+
+EVERYTHING = ("calibration", "limits", "direction check")
+"""What is missing on an axis that nobody has set up."""
+
+
+def missing(table: AxisTable, *, calibrated: bool) -> tuple[str, ...]:
+    """What a person has still to do before an axis of real hardware may be aimed."""
+    said = table.model_fields_set
+    done = (calibrated, {"min_deg", "max_deg"} <= said, table.direction_checked)
+    return tuple(name for name, is_done in zip(EVERYTHING, done, strict=True) if not is_done)
+
+
+def own_points(config: Config, axis: Axis) -> Points | None:
+    """The axis's calibration on the rotor's own scale; None: nobody has made one, and it needs one."""
+    table = config.axis(axis)
+    if config.in_degrees(axis):
+        return (table.min_deg, table.min_deg), (table.max_deg, table.max_deg)
+    if table.calibration is not None:
+        return tuple(table.calibration)
+    if config.rotor.hardware == "sim":
+        low_raw, high_raw = SIM_CALIBRATION_RAW
+        return (low_raw, table.min_deg), (high_raw, table.max_deg)
+    return None
+
+
+def source(config: Config, axis: Axis) -> str:
+    """How the axis's angle is known: measured, counted or modelled."""
+    if config.counts(axis):
+        return "counted"
+    own = config.axis(axis).sensor.kind == "own"
+    return "modelled" if own and config.rotor.type in ("servo", "digipot") else "measured"
+
+
+def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings:
+    """How to find the end stop of an axis that counts."""
+    table, cam = config.axis(axis), getattr(config.pulses, axis.value)
+    return HomingSettings(
+        period_s=cam.spacing_deg / table.speed_dps,
+        travel_s=(table.max_deg - table.min_deg) / table.speed_dps,
+        coast_s=cam.coast_s,
+        home_deg=cam.home_deg + shift.of(axis),
+    )

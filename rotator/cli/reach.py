@@ -1,0 +1,40 @@
+"""From a configuration to a socket of the running box: beside what the file says, or where the service has it.
+
+Knows places and permissions. Knows nothing of what is said there.
+"""
+
+from __future__ import annotations
+
+import os
+import socket
+from collections.abc import Sequence
+from pathlib import Path
+
+from rotator.app import monitor_path
+from rotator.config.load import load
+from rotator.links.wire import LinkError
+
+MONITOR_OF_THE_SERVICE = Path("/run/rotator/monitor")
+
+
+def monitor_places(path: Path | None) -> list[Path]:
+    """Where the monitor of the box with this configuration may be. Raises ConfigError."""
+    config = load(path)
+    beside = monitor_path(config, os.environ)
+    return [beside] if config.monitor.path else [beside, MONITOR_OF_THE_SERVICE]
+
+
+def reach(places: Sequence[Path], what: str) -> socket.socket:
+    """Connected to the first of `places` where a box listens; `what` it has there. Raises LinkError."""
+    for place in places:
+        box = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        try:
+            box.connect(str(place))
+            return box
+        except PermissionError:
+            box.close()
+            raise LinkError(f"{place} is not yours to use: use sudo, or join its group") from None
+        except OSError:
+            box.close()
+    tried = " or ".join(map(str, places))
+    raise LinkError(f"no box is running with a {what} at {tried}: start it, or name its file with --config")

@@ -1,0 +1,164 @@
+"""The tables of a front panel, and of limit switches on the rotor: what is fitted, and where it is wired to.
+
+Knows the file's words for pins, inputs and outputs. Knows no driver. Whatever is left out is not fitted.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus, Table
+
+Output = Annotated[int, Field(ge=0, le=15)]
+
+KNOBS = ("azimuth_knob", "elevation_knob")
+INPUTS = (*KNOBS, "jog", "reference")
+SWITCHES = ("mode_msb", "mode_lsb", "calibrate", "stop")
+METERS = ("azimuth_meter", "elevation_meter")
+LAMPS = (
+    "lamp_manual", "lamp_park", "lamp_auto", "lamp_jog", "lamp_data", "lamp_motor", "lamp_stop",
+    "lamp_azimuth_pulse", "lamp_elevation_pulse", "lamp_switch",
+)  # fmt: skip
+
+
+class PanelTable(Table):
+    adc_bus: I2CBus = 1
+    """The N of /dev/i2c-N with the ADS1115 that reads the knobs and the jog switches."""
+    adc_address: I2CAddress = 0x49
+    """That ADS1115's: 0x49 with its ADDR pin at its supply."""
+    azimuth_knob: Channel | None = None
+    """The input (A0 to A3) with the wiper of the azimuth knob; the knobs need the mode switch."""
+    elevation_knob: Channel | None = None
+    """The input with the wiper of the elevation knob."""
+    jog: Channel | None = None
+    """The input with both jog switches, over the resistors of the wiring page."""
+    reference: Channel | None = None
+    """Where the supply of knobs and jog switches is wired to, if it is: readings then no longer depend on it."""
+    supply_v: float = Field(3.3, gt=0.5, le=5.5)
+    """Their supply where it is not measured."""
+    mode_msb: Gpio | None = None
+    """The mode switch's contact that counts 2, to ground: MANUAL 0, PARK 1, AUTO 2, JOG 3; a closed contact counts."""
+    mode_lsb: Gpio | None = None
+    """The mode switch's contact that counts 1, to ground."""
+    calibrate: Gpio | None = None
+    """The calibrate switch, to ground; closed at power-up it calibrates. It needs the mode switch."""
+    stop: Gpio | None = None
+    """The stop button, normally closed, to ground: a broken wire is a pressed button."""
+    azimuth_nudge_deg: float = Field(5.0, gt=0, le=45)
+    """How far one press of the azimuth's jog switch shifts an order in AUTO; a rotor that counts: its pulse spacing."""
+    elevation_nudge_deg: float = Field(5.0, gt=0, le=45)
+    """The same for the elevation's."""
+    outputs_bus: I2CBus = 1
+    """The N of /dev/i2c-N with the PCA9685 that drives meters and lamps; the servos need one of their own."""
+    outputs_address: I2CAddress = 0x41
+    """That PCA9685's: 0x41 with its bridge A0 closed."""
+    azimuth_meter: Output | None = None
+    """The output (0 to 15) with the azimuth meter, over its trimmer."""
+    elevation_meter: Output | None = None
+    """The output with the elevation meter."""
+    meter_full_scale: float = Field(1.0, gt=0, le=1)
+    """The share of the time for which the output is on at full scale."""
+    lamp_manual: Output | None = None
+    """The output with the lamp of MANUAL."""
+    lamp_park: Output | None = None
+    """PARK."""
+    lamp_auto: Output | None = None
+    """AUTO."""
+    lamp_jog: Output | None = None
+    """JOG."""
+    lamp_data: Output | None = None
+    """Lit while programs send something."""
+    lamp_motor: Output | None = None
+    """Lit while a motor runs."""
+    lamp_stop: Output | None = None
+    """Lit while the stop button is pressed, and until the box is released."""
+    lamp_azimuth_pulse: Output | None = None
+    """Lit while the azimuth's index contact is closed."""
+    lamp_elevation_pulse: Output | None = None
+    """Lit while the elevation's index contact is closed."""
+    lamp_switch: Output | None = None
+    """Lit when a jog switch has been noticed, and while the mode switch has not yet been still for a second."""
+
+    @model_validator(mode="after")
+    def _fits_together(self) -> PanelTable:
+        faults = []
+        has_mode = self.mode_msb is not None
+        if has_mode is not (self.mode_lsb is not None):
+            faults.append("mode_msb and mode_lsb are the two contacts of one switch: give both or neither")
+        orphans = [key for key in (*KNOBS, "calibrate") if getattr(self, key) is not None and not has_mode]
+        if orphans:
+            faults.append(f"without the mode switch (mode_msb, mode_lsb) {' and '.join(orphans)} would do nothing")
+        if self.reference is not None and not self.inputs:
+            faults.append("reference: neither a knob nor jog is fitted")
+        # Pins and addresses that are used twice are for the whole file to see.
+        faults += [*self._twice("input", INPUTS), *self._twice("output", (*METERS, *LAMPS))]
+        if faults:
+            raise ValueError("; ".join(faults))
+        return self
+
+    @property
+    def inputs(self) -> dict[str, int]:
+        """The converter's input of each knob and of the jog switches, by its key."""
+        return self._fitted((*KNOBS, "jog"))
+
+    @property
+    def switches(self) -> dict[str, int]:
+        """The GPIO of each switch, by its key."""
+        return self._fitted(SWITCHES)
+
+    @property
+    def meters(self) -> dict[str, int]:
+        """The output of each meter, by its axis."""
+        return {key.removesuffix("_meter"): output for key, output in self._fitted(METERS).items()}
+
+    @property
+    def lamps(self) -> dict[str, int]:
+        """The output of each lamp, by what it says."""
+        return {key.removeprefix("lamp_"): output for key, output in self._fitted(LAMPS).items()}
+
+    @property
+    def has_mode_switch(self) -> bool:
+        return self.mode_msb is not None
+
+    @property
+    def uses_adc(self) -> bool:
+        return bool(self.inputs)
+
+    @property
+    def uses_outputs(self) -> bool:
+        return bool(self.meters or self.lamps)
+
+    @property
+    def fitted(self) -> bool:
+        """Whether there is a panel at all."""
+        return bool(self.switches or self.uses_adc or self.uses_outputs)
+
+    def _fitted(self, keys: tuple[str, ...]) -> dict[str, int]:
+        return {key: place for key in keys if (place := getattr(self, key)) is not None}
+
+    def _twice(self, what: str, keys: tuple[str, ...]) -> list[str]:
+        users: dict[int, list[str]] = {}
+        for key, place in self._fitted(keys).items():
+            users.setdefault(place, []).append(key)
+        return [f"{what} {place} is used by {' and '.join(names)}" for place, names in users.items() if len(names) > 1]
+
+
+class LimitsTable(Table):
+    """Normally closed, to ground: a broken wire is a limit reached."""
+
+    azimuth_low: Gpio | None = None
+    """Opens where the azimuth must turn no further counter-clockwise."""
+    azimuth_high: Gpio | None = None
+    """Opens where the azimuth must turn no further clockwise."""
+    elevation_low: Gpio | None = None
+    """Opens where the elevation must go no further down."""
+    elevation_high: Gpio | None = None
+    """Opens where the elevation must go no further up."""
+
+    @property
+    def switches(self) -> dict[str, int]:
+        """The GPIO of each switch, by its key."""
+        keys = ("azimuth_low", "azimuth_high", "elevation_low", "elevation_high")
+        return {key: pin for key in keys if (pin := getattr(self, key)) is not None}

@@ -1,0 +1,239 @@
+"""A front panel's switches and knobs in, orders, lamps and meters out: the panel of the KO6TH controller.
+
+Knows what each part means in each mode. Pure: no I/O, no clock, no thread. Every part is optional: what is None in a
+look is not there, or cannot be read just now, and orders nothing.
+
+Only what a person does while it may move the antenna does so: a switch held, or a knob turned, before the mode was
+told, while the stop button is open or while a latch holds must be let go, or turned again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, Jog, Mode, Nudge, Order, Release, SetMode, Stop
+from rotator.panel_calibration import BEGINNING, PanelCalibration, Stage
+from rotator.panel_inputs import Contact, JogSwitches, Knob, ModeSwitch, StopButton
+from rotator.status import AxisStatus, Status
+
+LEAST_INDEX, MOST_INDEX = -7, 8
+"""How far the jog switches may shift an order."""
+UNCALIBRATED_PRESS_S = 2.0
+"""One press on an axis that nobody has commissioned yet, however long it is held."""
+DATA_LIT_S = 0.1
+LAMPS = ("manual", "park", "auto", "jog", "data", "motor", "stop", "azimuth_pulse", "elevation_pulse", "switch")
+
+
+@dataclass(frozen=True, slots=True)
+class PanelSettings:
+    mode_switch: bool = True
+    """Without one the panel is as one in AUTO, tells no mode, and cannot be calibrated."""
+    nudge_deg: Mapping[Axis, float] = field(default_factory=lambda: dict.fromkeys(Axis, 5.0))
+    """The size of an index: the pulse spacing, where the rotor counts."""
+    jog_s: float = 0.3
+    """How long a jog goes on that is not renewed; every look renews it while the switch is held."""
+
+
+@dataclass(frozen=True, slots=True)
+class PanelLook:
+    """What the panel's parts read at one moment."""
+
+    mode_bits: tuple[bool, bool] | None = None
+    """MSB and LSB; a closed contact is True."""
+    jog: float | None = None
+    """The jog switches' input, as a share of its supply (`rotator.panel_ladder`)."""
+    azimuth_knob: float | None = None
+    """The wiper's share of its supply."""
+    elevation_knob: float | None = None
+    calibrate: bool = False
+    """The calibrate switch is closed. Only the first look counts."""
+    stop_open: bool = False
+    """The stop button is pressed, its wire is broken, or it cannot be read."""
+    pulses: frozenset[Axis] = frozenset()
+    """The axes whose index contact is closed."""
+    data: bool = False
+    """Something has come from a program since the last look."""
+
+
+@dataclass(frozen=True, slots=True)
+class PanelAct:
+    """What follows from a look. `meters` are shares of their full scale, 0 to 1."""
+
+    orders: tuple[Order, ...]
+    lamps: Mapping[str, bool]
+    meters: Mapping[Axis, float]
+    full_scales: Mapping[Axis, float] | None = None
+    """What the knobs read at their maximum, to be kept; None: nothing new."""
+    notes: tuple[str, ...] = ()
+    """For the log."""
+
+
+class Panel:
+    """`step` it at every look, some 20 times a second. `full_scales` are those that an earlier calibration found."""
+
+    def __init__(self, settings: PanelSettings, full_scales: Mapping[Axis, float] | None = None) -> None:
+        self._settings = settings
+        self._button = StopButton()
+        self._switch = ModeSwitch()
+        self._jog = JogSwitches()
+        self._knobs = {axis: Knob((full_scales or {}).get(axis, 1.0)) for axis in Axis}
+        self._started = False
+        self._calibration: PanelCalibration | None = None
+        self._mode: Mode | None = None if settings.mode_switch else Mode.AUTO
+        """The mode last told."""
+        self._indices = dict.fromkeys(Axis, 0)
+        self._turned: set[Axis] = set()
+        """The knobs that have been turned, and have not sent the antenna anywhere yet."""
+        self._jogging: Contact | None = None
+        self._jogged_s = 0.0
+        self._nudged = False
+        """The press that is held has shifted something."""
+        self._data_until_s = 0.0
+
+    def step(self, now_s: float, look: PanelLook, status: Status) -> PanelAct:
+        """`status` is the latest one: what is latched, what moves, and where the axes stand."""
+        opened = self._button.see(now_s, is_open=look.stop_open)
+        turned = self._switch.see(now_s, look.mode_bits)
+        readings = {Axis.AZIMUTH: look.azimuth_knob, Axis.ELEVATION: look.elevation_knob}
+        full_scales, notes = self._calibrate(look, readings)
+        knobs_turned = {axis for axis, knob in self._knobs.items() if knob.see(now_s, readings[axis])}
+        orders: list[Order] = []
+        if not self._button.open:
+            orders = self._mode_orders(turned=turned)
+        elif opened or not status.latched or _driven(status):
+            orders = [Stop(latch=True)]  # released elsewhere while this button is open, it is stopped again
+        at_rest = self._switch.still or not self._settings.mode_switch
+        free = at_rest and not (orders or self._button.open or status.latched or self._calibration)
+        orders = [
+            *orders,
+            *self._jog_orders(now_s, look.jog, status, free=free),
+            *self._knob_orders(now_s, knobs_turned, status, free=free),
+        ]
+        if look.data:
+            self._data_until_s = now_s + DATA_LIT_S
+        lamps = self._lamps(look, status) | {"data": now_s < self._data_until_s}
+        return PanelAct(tuple(orders), lamps, self._meters(status), full_scales, notes)
+
+    # --- the mode switch, and the calibration at power-up
+
+    def _mode_orders(self, *, turned: bool) -> list[Order]:
+        """With the stop button closed."""
+        # A turn lets the box move again; not one that was made, or begun, with the button open.
+        release: list[Order] = [Release()] if turned and self._button.closed_s <= self._switch.since_s else []
+        if self._calibration is not None:
+            if self._mode is None:
+                self._mode = Mode.MANUAL  # while the rotor is homed it obeys the panel alone
+                return [SetMode(Mode.MANUAL)]
+            if not release:
+                return []
+            home = self._calibration.step()
+            if home is not None:
+                return [*release, home]
+            self._calibration = None
+        if self._switch.mode is None or self._switch.mode is self._mode:
+            return release
+        self._mode = self._switch.mode
+        self._indices = dict.fromkeys(Axis, 0)
+        return [*release, SetMode(self._mode)]
+
+    def _calibrate(
+        self, look: PanelLook, readings: Mapping[Axis, float | None]
+    ) -> tuple[dict[Axis, float] | None, tuple[str, ...]]:
+        """The knobs' full scales where there are new ones, and what the person should know."""
+        notes: tuple[str, ...] = ()
+        if not self._started and look.calibrate and self._settings.mode_switch:
+            self._calibration, notes = PanelCalibration(), (BEGINNING,)
+        self._started = True
+        if self._calibration is None:
+            return None, ()
+        found, more = self._calibration.full_scales(readings)
+        for axis, full_scale in found.items():
+            self._knobs[axis] = Knob(full_scale)
+        return ({axis: knob.full_scale for axis, knob in self._knobs.items()} if found else None), notes + more
+
+    # --- the jog switches
+
+    def _jog_orders(self, now_s: float, share: float | None, status: Status, *, free: bool) -> list[Order]:
+        began = self._jog.see(
+            share, may_begin=free and self._mode in (Mode.AUTO, Mode.JOG) and not self._spent(now_s, status)
+        )
+        orders: list[Order] = []
+        if self._jogging is not None and self._jog.held != self._jogging:
+            orders = [] if self._button.open else [Stop((self._jogging[0],))]
+            self._jogging = None
+        self._nudged = self._nudged and self._jog.held is not None
+        if self._jog.held is None:
+            return orders
+        axis, direction = self._jog.held
+        if self._mode is Mode.AUTO:
+            return orders + (self._nudge(axis, direction) if began else [])
+        if began:
+            self._jogging, self._jogged_s = self._jog.held, now_s
+        return [*orders, Jog(axis, direction, self._settings.jog_s)]
+
+    def _spent(self, now_s: float, status: Status) -> bool:
+        """The press has had its time, on an axis that is allowed no more."""
+        if self._jogging is None or not status.axis(self._jogging[0]).uncalibrated:
+            return False
+        return now_s - self._jogged_s >= UNCALIBRATED_PRESS_S
+
+    def _nudge(self, axis: Axis, direction: Direction) -> list[Order]:
+        index = min(max(self._indices[axis] + direction, LEAST_INDEX), MOST_INDEX)
+        self._nudged = index != self._indices[axis]
+        self._indices[axis] = index
+        return [Nudge(axis, index * self._settings.nudge_deg[axis])] if self._nudged else []
+
+    # --- the knobs
+
+    def _knob_orders(self, now_s: float, turned: set[Axis], status: Status, *, free: bool) -> list[Order]:
+        """Where the knobs that were turned point to, when all of them have come to rest; the other axis stays."""
+        if not free or self._mode is not Mode.MANUAL:
+            self._turned = set()
+            return []
+        self._turned = {axis for axis in self._turned | turned if self._knobs[axis].share is not None}
+        if not self._turned or not all(self._knobs[axis].still(now_s) for axis in self._turned):
+            return []
+        angles_deg = {axis: _angle_deg(status.axis(axis), self._knobs[axis].share or 0.0) for axis in self._turned}
+        self._turned = set()
+        return [Aim(angles_deg.get(Axis.AZIMUTH), angles_deg.get(Axis.ELEVATION))]
+
+    # --- what it shows
+
+    def _lamps(self, look: PanelLook, status: Status) -> dict[str, bool]:
+        # The position that the switch stands at is lit before its mode is told: that takes a second.
+        lit = {self._switch.position} if self._calibration else {self._switch.position, self._mode}
+        modes = {mode.value: self._settings.mode_switch and mode in lit for mode in Mode}
+        settling = self._switch.position is not None and not self._switch.still
+        return modes | {
+            "motor": status.moving or _driven(status),
+            "stop": self._button.open or bool(status.latched),
+            "azimuth_pulse": Axis.AZIMUTH in look.pulses,
+            "elevation_pulse": Axis.ELEVATION in look.pulses,
+            "switch": settling or self._nudged or self._jogging is not None,
+        }
+
+    def _meters(self, status: Status) -> dict[Axis, float]:
+        """The knob while it is looked at, else where the axis stands."""
+        meters: dict[Axis, float] = {}
+        for axis, knob in self._knobs.items():
+            setting = self._calibration is not None and self._calibration.stage is Stage.KNOBS
+            shown = setting or self._mode is Mode.PARK or axis in self._turned
+            meters[axis] = knob.share if shown and knob.share is not None else _share(status.axis(axis))
+        return meters
+
+
+def _driven(status: Status) -> bool:
+    return any(axis.drive is not Direction.OFF for axis in (status.azimuth, status.elevation))
+
+
+def _angle_deg(axis: AxisStatus, share: float) -> float:
+    return axis.min_deg + share * (axis.max_deg - axis.min_deg)
+
+
+def _share(axis: AxisStatus) -> float:
+    """How far along its range the axis stands; 0 where nobody knows."""
+    if axis.angle_deg is None:
+        return 0.0
+    return min(max((axis.angle_deg - axis.min_deg) / (axis.max_deg - axis.min_deg), 0.0), 1.0)

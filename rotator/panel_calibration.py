@@ -1,0 +1,56 @@
+"""What a person does who switches the box on with the panel's calibrate switch closed, step by step.
+
+The knobs, at their maximum, are read for what is full scale. Then each step of the mode switch leads on: the first
+homes the azimuth, the next the elevation, and with the third the panel is a panel. Knows the steps. Knows no switch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import Enum
+
+from hw.ports import Axis
+from rotator.orders import Home
+
+LEAST_FULL_SCALE = 0.25
+"""A knob that reads less than this share of its supply is not at its maximum."""
+BEGINNING = (
+    "calibrating: step the mode switch to home the azimuth, once more for the elevation, once more to end it; "
+    "then open the calibrate switch"
+)
+
+
+class Stage(Enum):
+    KNOBS = "knobs"
+    AZIMUTH = "azimuth"
+    ELEVATION = "elevation"
+    DONE = "done"
+
+
+_NEXT = {Stage.KNOBS: Stage.AZIMUTH, Stage.AZIMUTH: Stage.ELEVATION}
+
+
+class PanelCalibration:
+    def __init__(self) -> None:
+        self.stage = Stage.KNOBS
+        self._read: set[Axis] = set()
+
+    def full_scales(self, readings: Mapping[Axis, float | None]) -> tuple[dict[Axis, float], tuple[str, ...]]:
+        """What each knob reads at its maximum, told once, as soon as it can be read; and what to tell the person."""
+        found: dict[Axis, float] = {}
+        notes: list[str] = []
+        for axis, reading in readings.items():
+            if self.stage is not Stage.KNOBS or reading is None or axis in self._read:
+                continue
+            self._read.add(axis)
+            if reading < LEAST_FULL_SCALE:
+                notes.append(f"calibrating: the {axis.value} knob reads {reading:.3f}: not its maximum, ignored")
+            else:
+                found[axis] = reading
+                notes.append(f"calibrating: the {axis.value} knob's full scale is {reading:.3f}")
+        return found, tuple(notes)
+
+    def step(self) -> Home | None:
+        """The mode switch has been stepped: which axis is to be homed; None: it is done."""
+        self.stage = _NEXT.get(self.stage, Stage.DONE)
+        return None if self.stage is Stage.DONE else Home(Axis(self.stage.value))

@@ -1,0 +1,53 @@
+"""The two jog switches on one input of a converter: which resistors, which readings, which bands.
+
+Knows the resistors and what they divide. Knows no converter and nothing of what a jog does.
+
+Two resistors of 10 kΩ beside the converter hold its input at half the supply. Each switch is a centre-off toggle whose
+common goes to that input through a resistor of its own: azimuth 6.8 kΩ, elevation 12 kΩ. Thrown one way it is on the
+supply, CW or UP; thrown the other way on ground, CCW or DOWN. All of 1 %. As shares of the supply:
+
+    CCW and DOWN  0.232    CCW  0.288    DOWN  0.353    CCW and UP  0.426
+    neither       0.500
+    CW and DOWN   0.574    UP   0.647    CW    0.712    CW and UP   0.768
+
+A band reaches 0.026 to either side: what the resistors and a supply that is 3 % off can make of a level, and no two
+bands meet. A reading between bands is nothing, and so are both ends: a wire shorted to ground or to the supply. A
+broken wire of a switch reads as that switch let go. With a supply further off the centre itself is in no band, and no
+press begins; an input that measures the supply makes all of this independent of it.
+"""
+
+from __future__ import annotations
+
+from hw.ports import Axis, Direction
+
+BIAS_OHM = 10_000.0
+"""Each of the two that hold the input at half the supply."""
+SWITCH_OHM = {Axis.AZIMUTH: 6_800.0, Axis.ELEVATION: 12_000.0}
+HALF_BAND = 0.026
+
+Throw = tuple[Direction, Direction]
+"""How the azimuth switch is thrown, and the elevation switch."""
+
+CENTRE: Throw = (Direction.OFF, Direction.OFF)
+
+
+def level(throw: Throw) -> float:
+    """The share of the supply, 0 to 1, at the converter's input."""
+    to_supply = to_ground = 1.0 / BIAS_OHM
+    for axis, direction in zip(SWITCH_OHM, throw, strict=True):
+        if direction is Direction.PLUS:
+            to_supply += 1.0 / SWITCH_OHM[axis]
+        elif direction is Direction.MINUS:
+            to_ground += 1.0 / SWITCH_OHM[axis]
+    return to_supply / (to_supply + to_ground)
+
+
+LEVELS: dict[Throw, float] = {
+    (azimuth, elevation): level((azimuth, elevation)) for azimuth in Direction for elevation in Direction
+}
+
+
+def thrown(share: float) -> Throw | None:
+    """How the switches are thrown when the input reads this share of the supply; None: it is in no band."""
+    nearest = min(LEVELS, key=lambda throw: abs(LEVELS[throw] - share))
+    return nearest if abs(LEVELS[nearest] - share) <= HALF_BAND else None

@@ -1,0 +1,150 @@
+"""The console's words: what a person at the box says to it, a line each, and only a person may say.
+
+Knows the table of the words and their codec. Does not know what they make the box do.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from dataclasses import dataclass
+from enum import Enum
+
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Release, Stop
+from rotator.protocols.aiming import AZIMUTHS_DEG, ELEVATIONS_DEG, aim, degrees
+
+LONGEST_JOG_S = 5.0
+
+
+class Ask(Enum):
+    """What is no order."""
+
+    STATUS = "status"
+    HELP = "help"
+
+
+Said = Order | Ask
+
+
+@dataclass(frozen=True, slots=True)
+class Verb:
+    """One row of the command list."""
+
+    text: str
+    operands: str
+    help: str
+
+    @property
+    def usage(self) -> str:
+        return f"{self.text} {self.operands}".rstrip()
+
+
+VERBS = (
+    Verb("status", "", "Where it stands and is to go, who moves it, what is wrong or missing"),
+    Verb("stop", "", "Stop everything, whatever else the line says; nothing moves until `resume`"),
+    Verb("resume", "", "Let it move again, and acknowledge faults"),
+    Verb("home", "azimuth|elevation", "Find the low end stop of an axis that counts pulses: watch the antenna"),
+    Verb("confirm", "azimuth|elevation DEGREES", "Say where the axis stands, where it cannot know"),
+    Verb("let-go", "", "Motors without torque: an antenna out of balance turns; nothing moves until `resume`"),
+    Verb("park", "", "Go to the park position, whoever else is at work, and stay there until `resume`"),
+    Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for so long, {LONGEST_JOG_S:g} s at most"),
+    Verb("point", "AZIMUTH ELEVATION", "Point there"),
+    Verb("help", "", "This list"),
+)
+_BY_TEXT = {verb.text: verb for verb in VERBS}
+_TURNS = {
+    "cw": (Axis.AZIMUTH, Direction.PLUS),
+    "ccw": (Axis.AZIMUTH, Direction.MINUS),
+    "up": (Axis.ELEVATION, Direction.PLUS),
+    "down": (Axis.ELEVATION, Direction.MINUS),
+}
+TURN_WORDS = {turn: word for word, turn in _TURNS.items()}
+_BOUNDS_DEG = {Axis.AZIMUTH: AZIMUTHS_DEG, Axis.ELEVATION: ELEVATIONS_DEG}
+_SECONDS = re.compile(r"[0-9]{1,3}(?:[.,][0-9]{1,3})?")
+
+
+def parse(line: bytes) -> Said:
+    """What one line says, without its end; capitals are as good. Raises ValueError, with a sentence for a person."""
+    words = [word for word in line.lower().replace(b"\t", b" ").decode("latin-1").split(" ") if word]
+    match words:
+        case ["status"] | ["help"]:
+            return Ask(words[0])
+        case ["stop", *_]:
+            # Whoever says more than that means it all the same.
+            return Stop(latch=True)
+        case ["resume"]:
+            return Release()
+        case ["home", "azimuth" | "elevation" as axis]:
+            return Home(Axis(axis))
+        case ["confirm", "azimuth" | "elevation" as axis, angle]:
+            return Confirm(Axis(axis), _degrees(Axis(axis), angle))
+        case ["let-go"]:
+            return LetGo()
+        case ["park"]:
+            return Park(storm=True)
+        case ["jog", turn, seconds] if turn in _TURNS:
+            return Jog(*_TURNS[turn], _seconds(seconds))
+        case ["point", azimuth, elevation]:
+            order = aim(_degrees(Axis.AZIMUTH, azimuth), _degrees(Axis.ELEVATION, elevation))
+            assert order is not None, "both are within their bounds"
+            return order
+        case [verb, *_] if verb in _BY_TEXT:
+            raise ValueError(f"say it like this: {_BY_TEXT[verb].usage}")
+        case _:
+            raise ValueError(_unknown(words[0] if words else ""))
+
+
+def encode(said: Said) -> bytes:
+    """The line for it, with its end. Raises ValueError where the console has no words for an order."""
+    match said:
+        case Ask(value=word):
+            text = word
+        case Stop(latch=True):
+            text = "stop"
+        case Release():
+            text = "resume"
+        case Home(axis):
+            text = f"home {axis.value}"
+        case Confirm(axis, angle_deg):
+            text = f"confirm {axis.value} {_number(angle_deg)}"
+        case LetGo():
+            text = "let-go"
+        case Park(storm=True):
+            text = "park"
+        case Jog(axis, direction, float() as seconds) if direction:
+            text = f"jog {TURN_WORDS[axis, direction]} {_number(seconds)}"
+        case Aim(float() as azimuth_deg, float() as elevation_deg, engaged=True):
+            text = f"point {_number(azimuth_deg)} {_number(elevation_deg)}"
+        case _:
+            raise ValueError(f"the console has no words for {said}")
+    return text.encode() + b"\n"
+
+
+def _degrees(axis: Axis, text: str) -> float:
+    low_deg, high_deg = _BOUNDS_DEG[axis]
+    angle_deg = degrees(text)
+    if angle_deg is None or not low_deg <= angle_deg <= high_deg:
+        raise ValueError(f"{_quoted(text)} is no {axis.value}: degrees from {low_deg:g} to {high_deg:g}")
+    return angle_deg
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text.replace(",", ".")) if _SECONDS.fullmatch(text) else 0.0
+    if not 0 < seconds <= LONGEST_JOG_S:
+        raise ValueError(f"{_quoted(text)} is no time to jog: seconds, {LONGEST_JOG_S:g} at most")
+    return seconds
+
+
+def _unknown(word: str) -> str:
+    meant = difflib.get_close_matches(word, _BY_TEXT, n=1)
+    hint = f"; did you mean {meant[0]}?" if meant else "."
+    return f"there is no command {_quoted(word)}{hint} There are: {', '.join(_BY_TEXT)}"
+
+
+def _number(value: float) -> str:
+    return f"{value:.6f}".rstrip("0").rstrip(".")
+
+
+def _quoted(text: str) -> str:
+    return f"{text[:20]!a}"

@@ -1,0 +1,115 @@
+"""The console on one connection: a line of words in, an answer out: `ok` after all else, or one line `error: ` and why.
+
+Knows what each word makes the box do, and how the status is told. Does not know how the box does it.
+"""
+
+from __future__ import annotations
+
+import re
+
+from hw.ports import Axis
+from rotator.orders import Aim, Home, Jog, Order, Release
+from rotator.protocols.console import TURN_WORDS, VERBS, Ask, parse
+from rotator.protocols.lines import LineReader
+from rotator.protocols.session import Box
+from rotator.status import Status
+
+MAX_LINE = 200
+OK, ERROR = "ok", "error: "
+
+
+class ConsoleSession:
+    """One person's connection. What moves is refused while a stop holds: here a person is to be told."""
+
+    idle_s = None
+    closed = False
+
+    def __init__(self, box: Box) -> None:
+        self._box = box
+        self._lines = LineReader(MAX_LINE)
+        self._resumed = False
+        """A `resume` is on its way; the status may not show it yet."""
+
+    def receive(self, data: bytes) -> list[bytes]:
+        return [self._answer(line) for line in self._lines.feed(data) if line is None or line.strip(b" \t")]
+
+    def idle(self) -> list[bytes]:
+        return []
+
+    def _answer(self, line: bytes | None) -> bytes:
+        if line is None:
+            return _error(f"no line has more than {MAX_LINE} characters")
+        try:
+            said = parse(line)
+        except ValueError as mistake:
+            return _error(str(mistake))
+        match said:
+            case Ask.STATUS:
+                return _reply(*report(self._box.status()), OK)
+            case Ask.HELP:
+                width = max(len(verb.usage) for verb in VERBS)
+                return _reply(*(f"{verb.usage:<{width}}  {verb.help}" for verb in VERBS), OK)
+            case _:
+                return self._obey(said)
+
+    def _obey(self, order: Order) -> bytes:
+        match order:
+            case Aim() | Jog() | Home():
+                if holder := self._held_by():
+                    return _error(f"stopped by {holder}: nothing moves until resume")
+            case _:
+                self._resumed = isinstance(order, Release)
+        refused = self._box.order(order)
+        return _error(refused.reason) if refused else _reply(OK)
+
+    def _held_by(self) -> str:
+        latched = self._box.status().latched
+        if not latched:
+            self._resumed = False
+        return "" if self._resumed else latched
+
+
+def report(status: Status) -> list[str]:
+    """The status as lines `what: how`. `moving` names the axes that turn; what there is nothing of has no line."""
+    lines = [f"{axis.value}: {_stands(status, axis)}" for axis in Axis]
+    wanted_deg = (status.wanted_azimuth_deg, status.wanted_elevation_deg)
+    if wanted_deg != (None, None):
+        lines.append("wanted: " + " ".join("---" if each is None else _shown(each) for each in wanted_deg))
+    if status.moving:
+        lines.append("moving: " + " ".join(axis.value for axis in Axis if status.axis(axis).moving))
+    lines.append(f"moved by: {status.controlled_by or 'nobody'}")
+    if status.latched:
+        lines.append(f"stopped by: {status.latched}; nothing moves until resume")
+    lines += [f"fault: {fault}" for fault in status.faults]
+    lines += [f"missing: {axis.value} needs {what}" for axis in Axis if (what := status.axis(axis).uncalibrated)]
+    lines += [f"note: {axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
+    if status.simulated:
+        lines.append("simulated: nothing real turns")
+    return lines
+
+
+def _stands(status: Status, axis: Axis) -> str:
+    each = status.axis(axis)
+    words = ["not known" if each.angle_deg is None else f"{_shown(each.angle_deg)} {each.source}"]
+    if each.target_deg is not None:
+        words.append(f"to {_shown(each.target_deg)}")
+    if each.drive:
+        words.append(f"turns {TURN_WORDS[axis, each.drive]}")
+    return ", ".join(words)
+
+
+def _shown(angle_deg: float) -> str:
+    # Adding zero makes the minus zero of a noisy pot at its stop a zero.
+    return f"{round(angle_deg, 1) + 0.0:.1f}°"
+
+
+def _error(why: str) -> bytes:
+    return _reply(ERROR + why)
+
+
+def _reply(*lines: str) -> bytes:
+    return "".join(f"{_on_one_line(line)}\n" for line in lines).encode("utf-8", "replace")
+
+
+def _on_one_line(text: str) -> str:
+    return re.sub(r"[\r\n]+", " ", text)

@@ -1,0 +1,72 @@
+"""What all kinds of rotor share: where limit switches stand, and how a drive is guarded.
+
+Knows threads and alarms. Knows no kind of rotor.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Mapping
+
+from hw.guard import Expiring, Guard
+from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from rotator.control.commands import Errand
+from rotator.control.sensing import Condition
+from rotator.rotor import AddAlarm
+
+log = logging.getLogger(__name__)
+
+Ends = Callable[[Axis], frozenset[Direction]]
+"""The ways in which the limit switches let an axis go no further."""
+
+
+def no_switches(_axis: Axis) -> frozenset[Direction]:
+    return frozenset()
+
+
+class GuardedRotor:
+    """A drive whose commands expire, with whoever sees to that: a thread, or the alarms of a simulated clock."""
+
+    def __init__(
+        self, drive: Expiring, sensors: Mapping[Axis, AngleSensor], ends: Ends = no_switches, *, alarm: str = ""
+    ) -> None:
+        self.sensors = sensors
+        self._drive = drive
+        self._ends = ends
+        self._guard = Guard(drive, time.monotonic, alarm=alarm)
+        self._failed = ""
+
+    def condition(self, axis: Axis) -> Condition:
+        return Condition(ends=self._ends(axis))
+
+    def run(self, errand: Errand) -> None:
+        """Nothing here has to be told; a kind that has says so."""
+
+    def off(self) -> None:
+        self._drive.off()
+
+    def cut(self) -> bool:
+        return False
+
+    def restore(self) -> None:
+        pass
+
+    def start(self) -> None:
+        self._guard.start()
+
+    def begin(self, add_alarm: AddAlarm) -> None:
+        add_alarm(self._drive.due_s, self._enforce)
+
+    def close(self) -> None:
+        self._guard.stop()
+
+    def _enforce(self, now_s: float) -> None:
+        """As the guard does it; what fails is tried again when it is due again."""
+        try:
+            self._drive.enforce(now_s)
+            self._failed = ""
+        except HardwareError as fault:
+            if str(fault) != self._failed:
+                log.error("%s", fault)
+            self._failed = str(fault)

@@ -1,0 +1,152 @@
+"""Motors on relays, each with a contact that is counted: rotors of the Alliance U-100 kind.
+
+Knows when a count is kept, when it is lost, and that a motor starts only once the file says so. The counting itself is
+`hw.pulses`.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+
+from hw.ports import AngleSensor, Axis, Direction
+from hw.pulses import PulseCounter
+from hw.relays import RelayBank
+from rotator.control.commands import Command, Errand, Place, Run
+from rotator.control.offsets import Offsets
+from rotator.control.sensing import Condition
+from rotator.rotors.common import Ends, no_switches
+from rotator.rotors.keeper import Keeper
+from rotator.rotors.relays import RelayRotor
+from rotator.status import Fault
+from rotator.store import counts
+
+KEEP_EVERY_S = 0.5
+"""How often a resting axis is told to the file, which knows when that is worth a write."""
+
+
+class CountedAxis:
+    """A counter that two threads use, one to read and one to place; as a sensor it tells degrees."""
+
+    source = "counted"
+
+    def __init__(self, axis: Axis, counter: PulseCounter, keeper: Keeper | None, clock: Callable[[], float]) -> None:
+        self._axis = axis
+        self._counter = counter
+        self._keeper = keeper
+        self._clock = clock
+        self._lock = threading.Lock()
+        self._scale = 0
+        self._doubt = ""
+        """Why what was kept is not believed; the counter's own trouble comes on top."""
+        self._told_s = 0.0
+        self._lost = False
+
+    def begin(self, kept: counts.Place) -> None:
+        """What is known from the last run."""
+        match kept.standing:
+            case counts.Standing.KNOWN:
+                self._place(kept.angle_deg)
+            case counts.Standing.NEVER:
+                self._doubt = "nobody has yet"
+            case _:
+                self._doubt = "the program ended in mid-move, or its count was in doubt"
+
+    def read(self) -> float:
+        with self._lock:
+            angle_deg = self._counter.read()
+            self._keep(angle_deg)
+            return angle_deg
+
+    def condition(self, ends: frozenset[Direction]) -> Condition:
+        with self._lock:
+            why = self._doubt or self._counter.trouble
+            return Condition(
+                fault=self._fault(),
+                lost=f"homing ({why})" if why else "",
+                scale=self._scale,
+                changes=self._counter.changes,
+                ends=ends,
+            )
+
+    def may_start(self) -> bool:
+        """Whether its motor may be switched on now."""
+        return self._keeper is None or self._keeper.may_start(self._axis)
+
+    def place(self, angle_deg: float) -> None:
+        """It stands there, on the rotor's own scale, says its end stop or a person. Raises HardwareError."""
+        with self._lock:
+            self._place(angle_deg)
+            if self._keeper and not self._counter.trouble:
+                self._keeper.homed(self._axis, angle_deg)
+
+    def _place(self, angle_deg: float) -> None:
+        self._counter.place(angle_deg)
+        self._doubt, self._lost = "", False
+        self._scale += 1
+
+    def _fault(self) -> Fault | None:
+        unkept = self._keeper.trouble(self._axis) if self._keeper else ""
+        if unkept:
+            return Fault("count not kept", self._axis, f"it does not move: {unkept}", passing=True)
+        if self._counter.quiet:
+            return Fault("no pulses", self._axis, "driven for three periods, and its contact did not change")
+        return None
+
+    def _keep(self, angle_deg: float) -> None:
+        if self._keeper is None or self._doubt:
+            return
+        if self._counter.trouble:
+            if not self._lost:
+                self._keeper.lost(self._axis)
+            self._lost = True
+            return
+        now_s = self._clock()
+        if self._counter.at_rest and now_s - self._told_s >= KEEP_EVERY_S:
+            self._told_s = now_s
+            self._keeper.rests(now_s, self._axis, angle_deg)
+
+
+class CountedRotor(RelayRotor):
+    """`axes`: those that count; another may have a sensor that knows its angle."""
+
+    def __init__(
+        self,
+        bank: RelayBank,
+        sensors: Mapping[Axis, AngleSensor],
+        axes: Mapping[Axis, CountedAxis],
+        shift: Offsets,
+        *,
+        ends: Ends = no_switches,
+        keeper: Keeper | None = None,
+    ) -> None:
+        super().__init__(bank, sensors, ends)
+        self._axes = axes
+        self._shift = shift
+        self._keeper = keeper
+
+    def condition(self, axis: Axis) -> Condition:
+        if axis not in self._axes:
+            return super().condition(axis)
+        return self._axes[axis].condition(self._ends(axis))
+
+    def obey(self, axis: Axis, command: Command) -> Direction:
+        assert isinstance(command, Run), "relays know directions only"
+        starts = command.direction is not Direction.OFF and self.bank.driven()[axis] is Direction.OFF
+        if starts and axis in self._axes and not self._axes[axis].may_start():
+            return Direction.OFF
+        return super().obey(axis, command)
+
+    def run(self, errand: Errand) -> None:
+        match errand:
+            case Place(axis, angle_deg) if axis in self._axes:
+                self._axes[axis].place(angle_deg - self._shift.of(axis))
+            case _:
+                super().run(errand)
+
+    def close(self) -> None:
+        try:
+            super().close()
+        finally:
+            if self._keeper:
+                self._keeper.close()

@@ -1,0 +1,96 @@
+"""Two moteus controllers as the control loop sees them.
+
+Knows what they say is wrong, when nobody knows where an axis points, and what only a person may tell them. How they are
+talked to is `hw.moteus_bus`, or in simulated time `hw.moteus_library`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from hw.moteus_bus import MoteusBus
+from hw.moteus_drive import MoteusDrive
+from hw.moteus_library import MoteusInStep
+from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from rotator.control.commands import Acknowledge, Command, Errand, Place, Steer
+from rotator.control.offsets import Offsets
+from rotator.control.sensing import Condition
+from rotator.orders import LetGo
+from rotator.rotor import AddAlarm
+from rotator.rotors.common import Ends, no_switches
+from rotator.status import Fault
+
+
+class MoteusRotor:
+    """`serve`: the bus, in real time, or what stands in for it in simulated time."""
+
+    def __init__(
+        self,
+        drive: MoteusDrive,
+        serve: MoteusBus | MoteusInStep,
+        sensors: Mapping[Axis, AngleSensor],
+        shift: Offsets,
+        ends: Ends = no_switches,
+    ) -> None:
+        self.sensors = sensors
+        self._drive = drive
+        self._serve = serve
+        self._shift = shift
+        self._ends = ends
+
+    def condition(self, axis: Axis) -> Condition:
+        return Condition(fault=self._fault(axis), notice=self._drive.limits().get(axis, ""), ends=self._ends(axis))
+
+    def obey(self, axis: Axis, command: Command) -> Direction:
+        if isinstance(command, Steer):
+            own_deg = command.angle_deg - self._shift.of(axis)
+            self._drive.aim(axis, own_deg, command.rate_dps, command.until_s)
+        else:
+            self._drive.hold(axis)
+        return Direction.OFF
+
+    def run(self, errand: Errand) -> None:
+        match errand:
+            case Acknowledge(axis) if axis in self._drive.faults():
+                self._drive.acknowledge(axis)
+            case Place(axis, angle_deg):
+                self._drive.confirm(axis, angle_deg - self._shift.of(axis))
+            case LetGo():
+                self._drive.release()
+
+    def off(self) -> None:
+        self._drive.off()
+
+    def cut(self) -> bool:
+        return False
+
+    def restore(self) -> None:
+        pass
+
+    def start(self) -> None:
+        if isinstance(self._serve, MoteusBus):
+            self._serve.start()
+
+    def begin(self, add_alarm: AddAlarm) -> None:
+        if isinstance(self._serve, MoteusInStep):
+            add_alarm(self._serve.due_s, self._serve.serve)
+
+    def close(self) -> None:
+        if isinstance(self._serve, MoteusBus):
+            self._serve.close()
+        else:
+            self._drive.off()
+
+    def _fault(self, axis: Axis) -> Fault | None:
+        said = self._drive.faults().get(axis)
+        if said:
+            return Fault("controller fault", axis, said)
+        try:
+            self._drive.angle_deg(axis)
+        except HardwareError as reason:
+            if self._drive.answer(axis) is None:
+                return Fault("controller silent", axis, str(reason), passing=True)
+            if self._drive.position_known(axis):
+                return Fault("controller silent", axis, str(reason))
+            return Fault("position unknown", axis, str(reason), passing=True)
+        return None

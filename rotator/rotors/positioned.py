@@ -1,0 +1,41 @@
+"""Motors that go to an angle by themselves: servos, and control boxes that follow a digital pot.
+
+Knows that a drive's angles are on the rotor's own scale. What the drive makes of them is its own business.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+from hw.guard import Expiring
+from hw.ports import AngleSensor, Axis, Direction, PositionedDrive
+from rotator.control.commands import Command, Errand, Steer
+from rotator.control.offsets import Offsets
+from rotator.orders import LetGo
+from rotator.rotors.common import Ends, GuardedRotor, no_switches
+
+
+class GuardedDrive(PositionedDrive, Expiring, Protocol):
+    """A positioned drive that a guard looks after."""
+
+
+class PositionedRotor(GuardedRotor):
+    def __init__(
+        self, drive: GuardedDrive, sensors: Mapping[Axis, AngleSensor], shift: Offsets, ends: Ends = no_switches
+    ) -> None:
+        super().__init__(drive, sensors, ends)
+        self._motors = drive
+        self._shift = shift
+
+    def obey(self, axis: Axis, command: Command) -> Direction:
+        if isinstance(command, Steer):
+            own_deg = command.angle_deg - self._shift.of(axis)
+            self._motors.aim(axis, own_deg, command.rate_dps, command.until_s)
+        else:
+            self._motors.hold(axis)
+        return Direction.OFF
+
+    def run(self, errand: Errand) -> None:
+        if isinstance(errand, LetGo):
+            self._motors.release()

@@ -1,0 +1,30 @@
+"""Two hobby servos as the control loop sees them.
+
+Knows what their board says is wrong. A servo itself says nothing.
+"""
+
+from __future__ import annotations
+
+from hw.ports import AngleSensor, Axis
+from hw.servo_drive import ServoDrive
+from rotator.control.offsets import Offsets
+from rotator.control.sensing import Condition
+from rotator.rotors.common import Ends, no_switches
+from rotator.rotors.positioned import PositionedRotor
+from rotator.status import Fault
+
+
+class ServoRotor(PositionedRotor):
+    def __init__(
+        self, drive: ServoDrive, sensors: dict[Axis, AngleSensor], shift: Offsets, ends: Ends = no_switches
+    ) -> None:
+        super().__init__(drive, sensors, shift, ends)
+        self._servos = drive
+
+    def condition(self, axis: Axis) -> Condition:
+        said = self._servos.faults().get(axis)
+        return Condition(
+            fault=Fault("servo board", axis, said) if said else None,
+            settling=not self._servos.position_known(axis),
+            ends=self._ends(axis),
+        )

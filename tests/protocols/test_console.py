@@ -1,0 +1,272 @@
+"""The console's words, both ways, and what a person at the box is told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Refusal, Release, Source, Stop
+from rotator.protocols.console import VERBS, Ask, Said, encode, parse
+from rotator.protocols.console_session import MAX_LINE, ConsoleSession
+from rotator.protocols.gs232 import Dialect
+from rotator.protocols.gs232_session import Gs232Session
+from rotator.protocols.session import Session
+from rotator.status import AxisStatus, Status
+
+if TYPE_CHECKING:
+    from tests.protocols.conftest import BenchBox
+
+Feed = Callable[[Session, bytes], list[bytes]]
+
+CANONICAL: list[tuple[bytes, Said]] = [
+    (b"status", Ask.STATUS),
+    (b"stop", Stop(latch=True)),
+    (b"resume", Release()),
+    (b"home azimuth", Home(Axis.AZIMUTH)),
+    (b"home elevation", Home(Axis.ELEVATION)),
+    (b"confirm azimuth 123.4", Confirm(Axis.AZIMUTH, 123.4)),
+    (b"confirm elevation -3", Confirm(Axis.ELEVATION, -3.0)),
+    (b"let-go", LetGo()),
+    (b"park", Park(storm=True)),
+    (b"jog cw 0.5", Jog(Axis.AZIMUTH, Direction.PLUS, 0.5)),
+    (b"jog ccw 1", Jog(Axis.AZIMUTH, Direction.MINUS, 1.0)),
+    (b"jog up 2", Jog(Axis.ELEVATION, Direction.PLUS, 2.0)),
+    (b"jog down 5", Jog(Axis.ELEVATION, Direction.MINUS, 5.0)),
+    (b"point 235 25.5", Aim(235.0, 25.5)),
+    (b"help", Ask.HELP),
+]
+ALSO: list[tuple[bytes, Said]] = [
+    (b"STOP", Stop(latch=True)),
+    (b"stop at once", Stop(latch=True)),
+    (b" \tPoint\t235   25 ", Aim(235.0, 25.0)),
+    (b"point 235,5 25", Aim(235.5, 25.0)),
+    (b"point -90 10", Aim(270.0, 10.0)),
+    (b"confirm azimuth -90", Confirm(Axis.AZIMUTH, -90.0)),
+    (b"jog cw 1,5", Jog(Axis.AZIMUTH, Direction.PLUS, 1.5)),
+]
+COMMANDS = "status, stop, resume, home, confirm, let-go, park, jog, point, help"
+MISTAKES = [
+    (b"parc", f"there is no command 'parc'; did you mean park? There are: {COMMANDS}"),
+    (b"letgo", f"there is no command 'letgo'; did you mean let-go? There are: {COMMANDS}"),
+    (b"W235 025", f"there is no command 'w235'. There are: {COMMANDS}"),
+    (b"stop!", f"there is no command 'stop!'; did you mean stop? There are: {COMMANDS}"),
+    (b"\xffpark", f"there is no command '\\xffpark'; did you mean park? There are: {COMMANDS}"),
+    (b"home", "say it like this: home azimuth|elevation"),
+    (b"home polarisation", "say it like this: home azimuth|elevation"),
+    (b"park now", "say it like this: park"),
+    (b"resume azimuth", "say it like this: resume"),
+    (b"jog cw", "say it like this: jog cw|ccw|up|down SECONDS"),
+    (b"jog left 1", "say it like this: jog cw|ccw|up|down SECONDS"),
+    (b"jog cw 5.1", "'5.1' is no time to jog: seconds, 5 at most"),
+    (b"jog cw 0", "'0' is no time to jog: seconds, 5 at most"),
+    (b"jog cw -1", "'-1' is no time to jog: seconds, 5 at most"),
+    (b"jog cw nan", "'nan' is no time to jog: seconds, 5 at most"),
+    (b"point 235", "say it like this: point AZIMUTH ELEVATION"),
+    (b"point 541 25", "'541' is no azimuth: degrees from -180 to 540"),
+    (b"point 235 181", "'181' is no elevation: degrees from -90 to 180"),
+    (b"point 2x5 25", "'2x5' is no azimuth: degrees from -180 to 540"),
+    (b"point 1e2 25", "'1e2' is no azimuth: degrees from -180 to 540"),
+    (b"point \xb2 25", "'\\xb2' is no azimuth: degrees from -180 to 540"),
+    (b"confirm azimuth", "say it like this: confirm azimuth|elevation DEGREES"),
+    (b"confirm azimuth here", "'here' is no azimuth: degrees from -180 to 540"),
+    (b"confirm elevation inf", "'inf' is no elevation: degrees from -90 to 180"),
+]
+
+
+class Notebook:
+    """A box that takes every order; not every rotor does."""
+
+    def __init__(self) -> None:
+        self.orders: list[Order] = []
+
+    def status(self) -> Status:
+        return Status(0.0, AxisStatus(0.0, 450.0), AxisStatus(0.0, 180.0))
+
+    def order(self, order: Order) -> None:
+        self.orders.append(order)
+
+
+@pytest.mark.parametrize(("line", "said"), CANONICAL)
+def test_reads_what_it_writes_and_writes_what_it_reads(line: bytes, said: Said) -> None:
+    assert parse(line) == said
+    assert encode(said) == line + b"\n"
+
+
+def test_every_row_of_the_table_is_written_and_read_above() -> None:
+    assert {line.split()[0].decode() for line, _ in CANONICAL} == {verb.text for verb in VERBS}
+
+
+@pytest.mark.parametrize(("line", "said"), ALSO)
+def test_reads_as_well(line: bytes, said: Said) -> None:
+    assert parse(line) == said
+
+
+@pytest.mark.parametrize("order", [Stop(), Park(), Aim(235.0, None), Jog(Axis.AZIMUTH, Direction.PLUS)])
+def test_has_no_words_for_what_links_say(order: Order) -> None:
+    with pytest.raises(ValueError, match="the console has no words for"):
+        encode(order)
+
+
+@pytest.mark.parametrize(("line", "order"), [each for each in CANONICAL if not isinstance(each[1], Ask)])
+def test_an_order_is_handed_on_and_answered(feed: Feed, line: bytes, order: Order) -> None:
+    box = Notebook()
+    assert feed(ConsoleSession(box), line + b"\n") == [b"ok\n"]
+    assert box.orders == [order]
+
+
+@pytest.mark.parametrize(("line", "why"), MISTAKES)
+def test_a_mistake_is_explained_and_moves_nothing(box: BenchBox, feed: Feed, line: bytes, why: str) -> None:
+    assert feed(ConsoleSession(box), line + b"\r\n") == [f"error: {why}\n".encode()]
+    assert box.orders == []
+
+
+def test_silence_answers_silence(box: BenchBox) -> None:
+    assert ConsoleSession(box).receive(b"\n\r\n \t \n") == []
+
+
+def test_a_line_without_its_end_is_none(box: BenchBox) -> None:
+    session = ConsoleSession(box)
+    assert session.receive(b"point 235 2") == []
+    assert session.idle() == []
+    assert box.orders == []
+
+
+def test_a_line_too_long_is_none(box: BenchBox) -> None:
+    session = ConsoleSession(box)
+    assert session.receive(b"stop " + b"x" * MAX_LINE + b"\n") == [b"error: no line has more than 200 characters\n"]
+    assert session.receive(b"stop\n") == [b"ok\n"]
+    assert box.orders == [Stop(latch=True)]
+
+
+def test_what_the_box_refuses_it_says_why(new_box: type[BenchBox]) -> None:
+    box = new_box(azimuth=(90, 180))
+    why = b"error: azimuth 300 is outside the rotor's range of 90 to 180 degrees\n"
+    assert ConsoleSession(box).receive(b"point 300 25\n") == [why]
+    assert box.orders == []
+
+
+def test_help_is_the_table(box: BenchBox) -> None:
+    *rows, ok = ConsoleSession(box).receive(b"help\n")[0].decode().splitlines()
+    assert ok == "ok"
+    assert [row.split("  ")[0] for row in rows] == [verb.usage for verb in VERBS]
+
+
+# --- status
+
+
+def told(session: Session) -> list[str]:
+    (answer,) = session.receive(b"status\n")
+    *lines, ok = answer.decode().splitlines()
+    assert ok == "ok"
+    return lines
+
+
+def test_status_at_rest(box: BenchBox) -> None:
+    assert told(ConsoleSession(box)) == ["azimuth: 235.0° measured", "elevation: 25.0° measured", "moved by: nobody"]
+
+
+def test_status_on_the_way(box: BenchBox) -> None:
+    session = ConsoleSession(box)
+    session.receive(b"point 300 25\n")
+    box.wait(0.5)
+    assert told(session) == [
+        "azimuth: 235.0° measured, to 300.0°, turns cw",
+        "elevation: 25.0° measured, to 25.0°",
+        "wanted: 300.0° 25.0°",
+        "moving: azimuth",
+        "moved by: link#1",
+    ]
+
+
+def test_status_when_stopped_and_faulty(new_box: type[BenchBox]) -> None:
+    box = new_box(missing=("limits",), blind=True)
+    session = ConsoleSession(box)
+    session.receive(b"stop\n")
+    assert told(session) == [
+        "azimuth: not known",
+        "elevation: not known",
+        "moved by: nobody",
+        "stopped by: link#1; nothing moves until resume",
+        *(f"fault: {fault}" for fault in box.status().faults),
+        "missing: azimuth needs limits",
+        "missing: elevation needs limits",
+    ]
+    assert len(box.status().faults) == 2
+
+
+# --- the stop that only a person takes back
+
+
+class AtTheBox:
+    """The box as the console's connection sees it; the bench's own `order` is a link's."""
+
+    def __init__(self, box: BenchBox) -> None:
+        self._box = box
+
+    def status(self) -> Status:
+        return self._box.status()
+
+    def order(self, order: Order) -> Refusal | None:
+        return self._box.order(order, Source("console", 1))
+
+
+def test_transcript_of_a_stop_at_the_box(box: BenchBox) -> None:
+    person, link = ConsoleSession(AtTheBox(box)), Gs232Session(box, Dialect.B)
+
+    def turns_within(seconds: float) -> bool:
+        box.turned.clear()
+        box.wait(seconds)
+        return bool(box.turned)
+
+    assert person.receive(b"stop\n") == [b"ok\n"]
+    assert link.receive(b"W300 025\r") == []  # admitted, as ever
+    assert link.receive(b"S\r") == []
+    assert link.receive(b"W300 025\r") == []
+    assert link.receive(b"C2\r") == [b"AZ=235  EL=025\r\n"]
+    assert not turns_within(20)
+    assert person.receive(b"point 300 25\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
+    assert person.receive(b"jog cw 1\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
+    assert person.receive(b"home azimuth\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
+    assert not turns_within(20)
+    assert person.receive(b"resume\n") == [b"ok\n"]
+    assert not turns_within(20)
+    assert link.receive(b"W300 025\r") == []
+    assert turns_within(1)
+    assert "moved by: link#1" in told(person)
+
+
+def test_what_follows_resume_need_not_wait_for_the_status(new_box: type[BenchBox]) -> None:
+    box = new_box(at_once=False)
+    session = ConsoleSession(AtTheBox(box))
+    session.receive(b"stop\n")
+    box.wait(0.5)
+    assert session.receive(b"resume\npoint 100 20\n") == [b"ok\n", b"ok\n"]
+    box.wait(1)
+    assert box.turned == set(Axis)
+
+
+def test_a_later_stop_is_told_again(box: BenchBox) -> None:
+    session = ConsoleSession(AtTheBox(box))
+    assert session.receive(b"stop\nresume\npoint 300 25\nstop\n") == [b"ok\n"] * 4
+    assert session.receive(b"point 300 25\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
+
+
+def test_a_storm_park_holds_like_a_stop(box: BenchBox) -> None:
+    session = ConsoleSession(AtTheBox(box))
+    assert session.receive(b"park\n") == [b"ok\n"]
+    why = b"error: stopped by console#1: storm park: nothing moves until resume\n"
+    assert session.receive(b"point 300 25\n") == [why]
+
+
+# --- docs/protocols.md
+
+
+def test_the_page_holds_the_table() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "protocols.md").read_text(encoding="utf-8")
+    rows = page.split("<!-- console: begin -->\n")[1].split("<!-- console: end -->\n")[0].strip().splitlines()[2:]
+    escaped = [verb.usage.replace("|", "\\|") for verb in VERBS]
+    assert rows == [f"| `{usage}` | {verb.help} |" for usage, verb in zip(escaped, VERBS, strict=True)]

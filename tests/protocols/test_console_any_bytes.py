@@ -1,0 +1,165 @@
+"""Any bytes at all, in any pieces, on the console: no crash, one answer to a line, and no order but what a second
+reading of the same bytes finds there.
+
+The second reading is written from docs/protocols.md, by hand and without the program's own parser.
+"""
+
+from __future__ import annotations
+
+import re
+import tracemalloc
+from dataclasses import replace
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Release, Stop
+from rotator.protocols.console_session import ConsoleSession
+from rotator.status import AxisStatus, Status
+
+WELL_FORMED = re.compile(rb"(?:(?!ok\n|error: )[^\r\n]+\n)*ok\n|error: [^\r\n]+\n")
+
+WORDS = st.sampled_from(
+    b"status stop resume home confirm let-go park jog point help azimuth elevation cw ccw up down Stop stops".split()
+)
+NUMBERS = st.one_of(
+    st.integers(-200, 600).map(lambda n: b"%d" % n),
+    st.decimals(-10, 10, places=2).map(lambda n: str(n).encode()),
+    st.sampled_from([b"12,5", b".5", b"5.", b"+5", b"1234", b"nan", b"inf", b"1e2", b"1_0", b"\xb2", b"--5"]),
+)
+BLANKS = st.sampled_from([b" ", b" ", b" ", b"\t", b"  ", b"\xa0", b"\0", b"\x0b"])
+ENDS = st.sampled_from([b"\n", b"\n", b"\r\n", b"\r"])
+LINES = st.one_of(
+    st.builds(lambda *words: b" ".join(words[:-1]) + words[-1], WORDS, WORDS, NUMBERS, ENDS),
+    st.builds(lambda az, el, end: b"point " + az + b" " + el + end, NUMBERS, NUMBERS, ENDS),
+    st.builds(bytes.__add__, WORDS, ENDS),
+)
+PIECES = st.lists(st.one_of(st.binary(max_size=6), WORDS, NUMBERS, BLANKS, ENDS, LINES, LINES), max_size=30)
+
+ANGLE = rb"[+-]?\d{1,3}(?:[.,]\d{0,9})?"
+READINGS = {
+    re.compile(rb"stop(?: .*)?", re.DOTALL): lambda: Stop(latch=True),
+    re.compile(rb"resume"): Release,
+    re.compile(rb"let-go"): LetGo,
+    re.compile(rb"park"): lambda: Park(storm=True),
+    re.compile(rb"home (azimuth|elevation)"): lambda axis: Home(Axis(axis.decode())),
+    re.compile(rb"confirm (azimuth|elevation) (" + ANGLE + rb")"): lambda axis, angle: confirm(axis, number(angle)),
+    re.compile(rb"jog (cw|ccw|up|down) (\d{1,3}(?:[.,]\d{1,3})?)"): lambda way, text: jog(way, number(text)),
+    re.compile(rb"point (" + ANGLE + rb") (" + ANGLE + rb")"): lambda az, el: point(number(az), number(el)),
+}
+WAYS = {
+    b"cw": (Axis.AZIMUTH, Direction.PLUS),
+    b"ccw": (Axis.AZIMUTH, Direction.MINUS),
+    b"up": (Axis.ELEVATION, Direction.PLUS),
+    b"down": (Axis.ELEVATION, Direction.MINUS),
+}
+
+
+class Notebook:
+    """A box that takes every order; not every rotor does. A stop, a park and letting go hold until somebody resumes."""
+
+    def __init__(self) -> None:
+        self.orders: list[Order] = []
+        self._status = Status(0.0, AxisStatus(0.0, 450.0), AxisStatus(0.0, 180.0))
+
+    def status(self) -> Status:
+        return self._status
+
+    def order(self, order: Order) -> None:
+        self.orders.append(order)
+        match order:
+            case Stop() | Park() | LetGo():
+                self._status = replace(self._status, latched="console")
+            case Release():
+                self._status = replace(self._status, latched="")
+
+
+def number(text: bytes) -> float:
+    return float(text.replace(b",", b"."))
+
+
+def jog(way: bytes, seconds: float) -> Order | None:
+    return Jog(*WAYS[way], seconds) if 0 < seconds <= 5 else None
+
+
+def confirm(axis: bytes, angle: float) -> Order | None:
+    low, high = (-180, 540) if axis == b"azimuth" else (-90, 180)
+    return Confirm(Axis(axis.decode()), angle) if low <= angle <= high else None
+
+
+def point(azimuth: float, elevation: float) -> Order | None:
+    if not (-180 <= azimuth <= 540 and -90 <= elevation <= 180):
+        return None
+    return Aim(azimuth + 360 if azimuth < 0 else azimuth, elevation)
+
+
+def orders_in(heard: bytes) -> list[Order]:
+    """Everything that the lines order, whether a stop holds or not."""
+    orders: list[Order] = []
+    for raw in re.split(rb"[\r\n]", heard)[:-1]:
+        line = re.sub(rb"[ \t]+", b" ", raw).strip(b" ").lower()
+        for form, order in READINGS.items():
+            if len(raw) <= 200 and (found := form.fullmatch(line)) and (said := order(*found.groups())) is not None:
+                orders.append(said)
+    return orders
+
+
+def held(orders: list[Order]) -> list[Order]:
+    """What is left of them where a stop, a park or letting go holds until somebody resumes."""
+    left: list[Order] = []
+    holds = False
+    for order in orders:
+        match order:
+            case Stop() | Park() | LetGo():
+                holds = True
+            case Release():
+                holds = False
+            case Aim() | Jog() | Home() if holds:
+                continue
+        left.append(order)
+    return left
+
+
+@settings(max_examples=300, deadline=None)
+@given(pieces=PIECES)
+def test_every_line_has_one_answer_and_orders_are_what_was_said(pieces: list[bytes]) -> None:
+    box, heard = Notebook(), b"".join(pieces)
+    session = ConsoleSession(box)
+    answers = [answer for piece in pieces for answer in session.receive(piece)]
+    lines = [line for line in re.split(rb"[\r\n]", heard)[:-1] if line.strip(b" \t")]
+    assert len(answers) == len(lines)
+    assert all(WELL_FORMED.fullmatch(answer) for answer in answers)
+    assert box.orders == held(orders_in(heard))
+
+
+@settings(max_examples=100, deadline=None)
+@given(pieces=PIECES)
+def test_pieces_make_no_difference(pieces: list[bytes]) -> None:
+    torn, whole = Notebook(), Notebook()
+    in_pieces, at_once = ConsoleSession(torn), ConsoleSession(whole)
+    replies = [reply for piece in pieces for reply in in_pieces.receive(piece)]
+    assert at_once.receive(b"".join(pieces)) == replies
+    assert whole.orders == torn.orders
+
+
+@settings(max_examples=100, deadline=None)
+@given(junk=st.binary(max_size=300))
+def test_a_stop_is_heard_whatever_came_before(junk: bytes) -> None:
+    box = Notebook()
+    session = ConsoleSession(box)
+    session.receive(junk + b"\n")
+    assert session.receive(b"stop\n") == [b"ok\n"]
+    assert box.orders[-1] == Stop(latch=True)
+
+
+def test_what_never_ends_is_not_kept() -> None:
+    session = ConsoleSession(Notebook())
+    packet = b"stop " * 800
+    tracemalloc.start()
+    for _ in range(32):
+        assert session.receive(packet) == []
+    kept, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert kept < 20_000
+    assert peak < 100_000

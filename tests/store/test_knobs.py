@@ -1,0 +1,84 @@
+"""The knobs' full scales survive a restart; a damaged file is as good as none."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from hw.ports import Axis
+from rotator.store.knobs import KnobsFile, decode, encode
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+FULL_SCALES = {AZ: 0.9712, EL: 0.9384}
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "run" / "knobs.json"
+
+
+def test_there_and_back(path: Path) -> None:
+    assert decode(encode(FULL_SCALES)) == FULL_SCALES
+    KnobsFile(path).save(FULL_SCALES)
+    assert KnobsFile(path).load() == FULL_SCALES
+
+
+def test_no_file_nothing_known(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    assert KnobsFile(path).load() == {}
+    assert not caplog.records
+
+
+def shares(value: object) -> str:
+    return json.dumps({"format": "rotator knobs 1", "full_scales": {"azimuth": value}})
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "\x00" * 100,
+        "[]",
+        "{}",
+        '{"format": "rotator knobs 1"}',
+        '{"format": "rotator knobs 1", "full_scales": 5}',
+        '{"format": "rotator knobs 1", "full_scales": {"polarisation": 0.9}}',
+        shares("0.9"),
+        shares(True),
+        shares(0.0),
+        shares(-1),
+        shares(7),
+        '{"format": "rotator knobs 1", "full_scales": {"azimuth": NaN}}',
+        encode(FULL_SCALES)[:-20],
+        encode(FULL_SCALES).replace("knobs", "counts"),
+        "[" * 100_000,
+    ],
+    ids=lambda text: text[:60].replace("\n", " ") or "empty",
+)
+def test_a_file_that_cannot_be_believed(path: Path, text: str, caplog: pytest.LogCaptureFixture) -> None:
+    path.parent.mkdir()
+    path.write_text(text)
+    assert KnobsFile(path).load() == {}
+    assert "ignored, the panel's knobs count as uncalibrated" in caplog.text
+
+
+def test_what_is_there_is_not_written_again(path: Path) -> None:
+    KnobsFile(path).save(FULL_SCALES)
+    again = KnobsFile(path)
+    again.load()
+    path.unlink()
+    again.save(FULL_SCALES)
+    assert not path.exists()
+    again.save(FULL_SCALES | {AZ: 0.5})
+    assert KnobsFile(path).load() == {AZ: 0.5, EL: 0.9384}
+
+
+def test_where_it_cannot_be_written_it_is_told_and_tried_again(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    path.parent.write_text("")  # a file where its folder should be: not even root writes there
+    file = KnobsFile(path)
+    file.save(FULL_SCALES)
+    assert "cannot be kept" in caplog.text
+    path.parent.unlink()
+    file.save(FULL_SCALES)
+    assert KnobsFile(path).load() == FULL_SCALES
