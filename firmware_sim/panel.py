@@ -31,6 +31,7 @@ class PanelSpec:
     azimuth_knob: int | None = None
     elevation_knob: int | None = None
     jog: int | None = None
+    reference: int | None = None
     lamps: Mapping[str, int] = field(default_factory=dict)
     meters: Mapping[str, int] = field(default_factory=dict)
     adc_address: int = 0x49
@@ -67,6 +68,7 @@ class SimPanel(Fallible):
             (spec.azimuth_knob, self._azimuth_v),
             (spec.elevation_knob, self._elevation_v),
             (spec.jog, self.jog_v),
+            (spec.reference, lambda: self.supply_v),
         )
         for channel, volts in inputs:
             if channel is not None:

@@ -10,6 +10,7 @@ import math
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 from firmware_sim.ads1115 import Ads1115
 from firmware_sim.as5600 import As5600, MagnetFault
@@ -19,6 +20,7 @@ from firmware_sim.gpio import SimGpio
 from firmware_sim.hd44780 import Hd44780
 from firmware_sim.i2c import SimI2CBus
 from firmware_sim.mpu6050 import Mpu6050
+from firmware_sim.panel import PanelSpec, SimPanel
 from firmware_sim.pcf8574 import Backpack
 from firmware_sim.pot import PotFault, PotSpec, SimPot
 
@@ -44,6 +46,7 @@ class SimRotor(Fallible):
         self.gpio = SimGpio(clock)
         self.bus = SimI2CBus(sleep)
         self.lcd: Hd44780 | None = None
+        self.panel: SimPanel | None = None
 
     def antenna(self) -> tuple[float, float]:
         """Where the boom really points: azimuth and elevation on the rotor's own scales."""
@@ -110,6 +113,25 @@ class SimRotor(Fallible):
         self.faults["steel-near"] = self._fault_of(chip, "hard_iron_deg", 40.0, 0.0)
         self.faults["compass-gone"] = self._gone(address)
         return chip
+
+    def wire_panel(self, spec: PanelSpec) -> SimPanel:
+        """A front panel on the same lines and the same bus; its faults are `panel-...`."""
+        panel = self.panel = SimPanel(spec, self.gpio, self.bus, self._clock)
+        self.faults |= {f"panel-{name}": fault for name, fault in panel.faults.items() if name != "bus-hung"}
+        return panel
+
+    def wire_limit(self, key: str, pin: int, name: str, at_deg: float, *, high: bool) -> None:
+        """A switch to ground that opens where the shaft of this axis comes to `at_deg`."""
+        wire = SimpleNamespace(broken=False)
+
+        def look(_now_s: float) -> None:
+            shaft_deg = self._shaft_deg(name)
+            reached = shaft_deg >= at_deg if high else shaft_deg <= at_deg
+            self.gpio.drive_input(pin, None if reached or wire.broken else False)
+
+        self.gpio.drive_input(pin, False)
+        self.gpio.on_look.append(look)
+        self.faults[f"{key.replace('_', '-')}-switch-open"] = self._fault_of(wire, "broken", True, False)
 
     def _shaft_deg(self, name: str) -> float:
         return self.shafts()[0 if name == "azimuth" else 1]

@@ -143,6 +143,11 @@ class PulseCounter:
         return self._count.trouble
 
     @property
+    def closed(self) -> bool:
+        """Whether the contact is closed now, from any thread. Raises HardwareError."""
+        return self._contact.closed()
+
+    @property
     def quiet(self) -> bool:
         """Driven for three periods without a pulse."""
         return self._count.quiet

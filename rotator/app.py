@@ -20,12 +20,14 @@ from rotator.config.model import Config
 from rotator.display import DisplayThread
 from rotator.door import Door
 from rotator.engine import Engine, process_end
+from rotator.fitting import panel_thread
 from rotator.keeping import Keeper
 from rotator.links.console import ConsoleSocket, console_path
 from rotator.links.monitor import MonitorSocket
 from rotator.loop import ControlLoop
 from rotator.orders import Source
 from rotator.overhearing import Tape
+from rotator.panel_thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
 from rotator.station import Station
 from rotator.supervisor import Supervisor, runtime_folder
@@ -34,6 +36,8 @@ from rotator.views import lcd
 
 COUNTS = "counts.json"
 """Beside the state file: where the axes stand that have nothing but a count."""
+KNOBS = "knobs.json"
+"""Beside it too: the full scales of a front panel's knobs."""
 RELAY_LINES = "relay-lines.json"
 """What the unit's ExecStopPost reads to open the relays of a program that has died."""
 
@@ -74,6 +78,7 @@ class App:
         )
         self._tape = Tape(datetime.now, lambda: self.loop.status)
         self.links = build_links(config.link, self.loop, mount, self._tape)
+        self._panel = self._fit_panel()
         self._engine = Engine(self.loop, self.station.rotor)
         self._keeper = Keeper(self.loop, path, build_offsets(config), learnt)
 
@@ -97,6 +102,8 @@ class App:
                 await asyncio.sleep(0)
             if display:
                 display.start()
+            if self._panel:
+                self._panel.start()
             watching = MonitorSocket(monitor_path(self.config, os.environ), self._tape.listeners, self._tape.greeting)
             beside.append(asyncio.create_task(watching.run(), name="monitor"))
             beside.append(asyncio.create_task(self._people.run(), name="console"))
@@ -107,6 +114,8 @@ class App:
             await asyncio.wait(ending, return_when=asyncio.FIRST_COMPLETED)
         finally:
             self._supervisor.stopping()
+            if self._panel:
+                await asyncio.to_thread(self._panel.stop)
             outcomes: list[object] = [await self._engine.halt()]
             # Whatever becomes of these, the box goes on: they are not among those whose end is the end.
             tasks += beside
@@ -121,6 +130,23 @@ class App:
         for outcome in outcomes:
             if isinstance(outcome, Exception):
                 raise outcome
+
+    def _fit_panel(self) -> PanelThread | None:
+        parts, source = self.station.panel, Source("panel")
+        if parts is None:
+            return None
+        simulated = self.config.rotor.hardware == "sim"
+        panel = panel_thread(
+            self.config,
+            parts,
+            lambda: self.loop.status,
+            lambda order: self.loop.post(source, order),
+            time.monotonic,
+            knobs=None if simulated else Path(self.config.state.path).with_name(KNOBS),
+            pulses=self.station.rotor.closed_contacts,
+        )
+        self._tape.on_data = panel.heard
+        return panel
 
     def _sign_of_life(self) -> None:
         self._supervisor.alive()

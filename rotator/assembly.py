@@ -35,6 +35,7 @@ from rotator.board import Board
 from rotator.building import build_offsets, own_points
 from rotator.config.model import Config
 from rotator.control.calibration import Calibration
+from rotator.fitting import limit_switches
 from rotator.rotor import Rotor
 from rotator.rotors.boxes import FollowedBox
 from rotator.rotors.counted import CountedAxis, CountedRotor
@@ -70,6 +71,7 @@ class Assembly:
         self._counts = counts
         self._in_step = in_step
         self._shift = build_offsets(config)
+        self._ends = limit_switches(config, board)
         self._adc: tuple[Ads1115, float | Reference] | None = None
 
     def build(self, relays: OutputLines | None) -> Rotor:
@@ -86,7 +88,7 @@ class Assembly:
                 return self._relay_pulse(relays)
             case "relay-pot":
                 assert relays is not None
-                return RelayRotor(self._bank(relays), self._sensors({}))
+                return RelayRotor(self._bank(relays), self._sensors({}), self._ends)
 
     # --- relays
 
@@ -114,7 +116,9 @@ class Assembly:
         for axis in counting:
             axes[axis] = CountedAxis(axis, self._counter(axis, overheard), keeper, clock)
             axes[axis].begin(kept.get(axis, Place(Standing.KNOWN, self._start_deg(axis))))
-        return CountedRotor(self._bank(overheard), self._sensors(dict(axes)), axes, self._shift, keeper=keeper)
+        return CountedRotor(
+            self._bank(overheard), self._sensors(dict(axes)), axes, self._shift, ends=self._ends, keeper=keeper
+        )
 
     def _counter(self, axis: Axis, overheard: OverheardLines) -> PulseCounter:
         config, limits = self._config, self._config.axis(axis)
@@ -157,7 +161,7 @@ class Assembly:
 
         drive = MoteusDrive(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), self._board.clock)
         sensors = self._sensors({axis: drive.sensor(axis) for axis in Axis})
-        return MoteusRotor(drive, self._served(drive), sensors, self._shift)
+        return MoteusRotor(drive, self._served(drive), sensors, self._shift, self._ends)
 
     def _served(self, drive: MoteusDrive) -> MoteusBus | MoteusInStep:
         world, tables = self._board.world, self._config.moteus
@@ -190,7 +194,8 @@ class Assembly:
             enable=enable,
             idle_off_s=tables.idle_off_s or None,
         )
-        return ServoRotor(drive, self._sensors({axis: drive.sensor(axis) for axis in Axis}), self._shift)
+        sensors = self._sensors({axis: drive.sensor(axis) for axis in Axis})
+        return ServoRotor(drive, sensors, self._shift, self._ends)
 
     def _digipot(self) -> PositionedRotor:
         config, board = self._config, self._board
@@ -211,7 +216,7 @@ class Assembly:
             else:
                 points = own_points(config, axis)
                 sensors[axis] = sensor if points is None else FollowedBox(drive, axis, sensor, Calibration(points))
-        return PositionedRotor(drive, sensors, self._shift)
+        return PositionedRotor(drive, sensors, self._shift, self._ends)
 
     def _spi(self) -> SpiBus:
         tables, board = self._config.digipot, self._board

@@ -21,6 +21,7 @@ from rotator.control.mount import Mount, Range
 from rotator.control.offsets import Offsets, Points, offsets
 from rotator.control.positioned import PositionedSettings
 from rotator.control.sensing import ANYTHING, Window
+from rotator.orders import Mode
 from rotator.simulation import SIM_CALIBRATION_RAW
 from rotator.status import LearntMotor
 from rotator.store.learnt import LearntFile, Motors
@@ -75,10 +76,10 @@ def build_controller(
 
     def axis(which: Axis, limits: Range) -> AxisSettings | PositionedSettings:
         table = config.axis(which)
-        points = None if which is commissioning else own_points(config, which)
-        calibration = None if points is None else Calibration(shift.reported(which, points))
         in_degrees = config.in_degrees(which)
-        window = ANYTHING if in_degrees else Window(table.lowest_reading, table.highest_reading)
+        points = None if which is commissioning and not in_degrees else own_points(config, which)
+        calibration = None if points is None else Calibration(shift.reported(which, points))
+        share = Window(table.lowest_reading, table.highest_reading, pot=config.has_pot(which))
         undone = () if simulated else missing(table, calibrated=points is not None)
         if which is commissioning:
             undone = EVERYTHING
@@ -88,7 +89,7 @@ def build_controller(
                 limits,
                 table.tolerance_deg,
                 table.speed_dps,
-                window,
+                ANYTHING if in_degrees else share,
                 calibration,
                 undone,
                 source(config, which),
@@ -99,7 +100,7 @@ def build_controller(
             limits=limits,
             tolerance_deg=table.tolerance_deg,
             motor=Motor(table.speed_dps, table.speed_dps * table.coast_s),
-            window=window,
+            window=ANYTHING if in_degrees else share,
             calibration=calibration,
             missing=undone,
             source=source(config, which),
@@ -118,6 +119,7 @@ def build_controller(
             period_s=1 / config.control.rate_hz,
             simulated=simulated,
             park_after_s=config.mount.park_after_s,
+            mode=Mode.PARK if config.panel.has_mode_switch else Mode.AUTO,
         )
     )
 

@@ -27,6 +27,8 @@ class Tape:
 
     def __init__(self, clock: Callable[[], datetime], status: Callable[[], Status]) -> None:
         self.listeners: list[Callable[[str], None]] = []
+        self.on_data: Callable[[], None] = lambda: None
+        """Called when something has come over a link."""
         self._clock = clock
         self._status = status
         self._links: list[LinkNote] = []
@@ -47,6 +49,8 @@ class Tape:
         return [*lines, encode_at(at)] if at else lines
 
     def note(self, source: Source, way: Way, data: bytes, *, text: bool) -> None:
+        if data and way is Way.IN:
+            self.on_data()
         if not self.listeners or not data:
             return
         moment = self._clock()

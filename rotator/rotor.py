@@ -31,6 +31,9 @@ class Rotor(Protocol):
     def run(self, errand: Errand) -> None:
         """Something that is to be done once. Raises HardwareError."""
 
+    def closed_contacts(self) -> frozenset[Axis]:
+        """The axes whose index contact is closed now, for a lamp; from any thread. Raises HardwareError."""
+
     def off(self) -> None:
         """The safe state, from any thread: relays open; a motor that holds its place decelerates and holds."""
 

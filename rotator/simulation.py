@@ -6,6 +6,7 @@ Knows which key of the file is which property of the simulated rotor. Knows no d
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from firmware_sim.arduino.station import ArduinoStation
 from firmware_sim.contact import ContactSpec
@@ -13,6 +14,7 @@ from firmware_sim.digipot_rotor import BoxSpec, DigipotRotor
 from firmware_sim.moteus.world import AxisSpec as MoteusAxisSpec
 from firmware_sim.moteus.world import MoteusWorld
 from firmware_sim.motor import MotorSpec
+from firmware_sim.panel import PanelSpec
 from firmware_sim.pot import PotSpec
 from firmware_sim.pulse_rotor import PulseAxisSpec, PulseRotor
 from firmware_sim.rotor import LcdSpec, SimRotor
@@ -29,7 +31,11 @@ SIM_CALIBRATION_RAW = (0.05, 0.95)
 """Where the simulated pot's wiper stands at the ends of the range: end resistors keep it off the rails."""
 STOP_BEYOND_DEG = 2.0
 """The end stops stand a little beyond the range, as on a G-5500."""
+LIMIT_BEYOND_DEG = 1.0
+"""A limit switch opens between the end of the range and the stop."""
 SIM_BOUNCE_S = 0.005
+AUTO = 2
+"""The simulated panel's mode switch, as it counts its bits."""
 
 
 class Plan:
@@ -63,6 +69,7 @@ class Plan:
         if (lcd := _lcd(config)) is not None:
             rotor.wire_lcd(lcd)
         self._wire_sensors(rotor)
+        self._wire_person(rotor)
         return rotor
 
     def start_deg(self, axis: Axis) -> float:
@@ -193,6 +200,28 @@ class Plan:
             if config.mount.north == "true":
                 turned_deg -= config.mount.declination_deg or 0.0
             rotor.wire_bno055(config.compass.address, lambda azimuth_deg: azimuth_deg + turned_deg)
+
+    def _wire_person(self, rotor: SimRotor) -> None:
+        """What a person has at hand: the panel, with its switch on AUTO; and the switches at the ends of the travel."""
+        config, table = self._config, self._config.panel
+        if table.fitted:
+            wires: dict[str, Any] = {**table.switches, **table.inputs}
+            spec = PanelSpec(
+                **wires,
+                lamps=table.lamps,
+                meters=table.meters,
+                adc_address=table.adc_address,
+                outputs_address=table.outputs_address,
+                supply_v=table.supply_v,
+                meter_full_share=table.meter_full_scale,
+                reference=table.reference,
+            )
+            rotor.wire_panel(spec).turn_mode(AUTO)
+        for key, pin in config.limits.switches.items():
+            name, end = key.split("_")
+            limits = config.axis(Axis(name))
+            at_deg = limits.min_deg - LIMIT_BEYOND_DEG if end == "low" else limits.max_deg + LIMIT_BEYOND_DEG
+            rotor.wire_limit(key, pin, name, at_deg, high=end == "high")
 
 
 def simulated_rotor(

@@ -20,6 +20,8 @@ from hw.sentinel import Sentinel
 from rotator.assembly import Assembly
 from rotator.board import Board
 from rotator.config.model import Config
+from rotator.fitting import panel_parts
+from rotator.panel_thread import PanelParts
 from rotator.rotor import AddAlarm, Rotor
 from rotator.simulation import Plan
 
@@ -42,6 +44,7 @@ class Station:
     sentinel: Sentinel | None
     """None in a simulation, and where no line must be switched off for the motors to stand."""
     lines: RelayLines | None
+    panel: PanelParts | None
 
     def __init__(
         self,
@@ -73,7 +76,8 @@ class Station:
                 counts=counts,
                 in_step=add_alarm is not None,
             ).build(outputs)
-            self.display = self._open_display(opened)
+            self.panel = panel_parts(config, self._board) if config.panel.fitted else None
+            self.display = self._open_display()
             self._opened = opened.pop_all()
         if add_alarm:
             self.rotor.begin(add_alarm)
@@ -110,7 +114,7 @@ class Station:
         opened.callback(outputs.close)
         return outputs
 
-    def _open_display(self, opened: ExitStack) -> CharacterDisplay | None:
+    def _open_display(self) -> CharacterDisplay | None:
         table = self._config.lcd
         match table.kind:
             case "gpio":

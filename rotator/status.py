@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
+from rotator.orders import Mode
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +67,8 @@ class AxisStatus:
     calibration: tuple[tuple[float, float], ...] | None = None
     """The table in force, (raw, degrees), for whoever keeps it."""
     fault: Fault | None = None
+    homing: bool = False
+    """It looks for its end stop."""
     notices: tuple[str, ...] = ()
     """What a person should know of this axis though it stops nothing."""
     learnt: tuple[LearntMotor, LearntMotor] | None = None
@@ -87,6 +90,8 @@ class Status:
     timed_points: int = 0
     simulated: bool = False
     speed_level: int = 4
+    mode: Mode = Mode.AUTO
+    """What a front panel's switch says; without one, AUTO."""
     cycle_late_s: float = 0.0
     """How late the last control cycle was."""
 

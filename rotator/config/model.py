@@ -14,6 +14,7 @@ from hw.ports import Axis
 from rotator.config.axes import AxisTable, Azimuth, Elevation
 from rotator.config.devices import Adc, Lcd, Relays
 from rotator.config.links import Link, is_same_place
+from rotator.config.panel import LimitsTable, PanelTable
 from rotator.config.rotors import Digipot, Moteus, Pulses, Rotor, Servo, with_usual
 from rotator.config.sensors import CompassTable
 from rotator.config.sim import Sim
@@ -99,6 +100,10 @@ class Config(Table):
     """The motor relays. Numbers are GPIO (BCM), not pins of the header."""
     adc: Adc = Adc()
     """The ADS1115 that reads the pots."""
+    panel: PanelTable = PanelTable()
+    """A front panel. What is left out is not fitted."""
+    limits: LimitsTable = LimitsTable()
+    """Limit switches on the rotor: normally closed, to ground, so that a broken wire is a limit reached."""
     lcd: Lcd = Lcd()
     """The 16×2 display."""
     sim: Sim = Sim()
@@ -170,6 +175,8 @@ class Config(Table):
                 used += [(getattr(digipot, each.value).select, f"digipot.{each.value}.select") for each in Axis]
                 used += [(digipot.sck, "digipot.sck"), (digipot.si, "digipot.si")]
                 used += [] if digipot.enable is None else [(digipot.enable, "digipot.enable")]
+        used += [(pin, f"panel.{key}") for key, pin in self.panel.switches.items()]
+        used += [(pin, f"limits.{key}") for key, pin in self.limits.switches.items()]
         if self.lcd.kind == "gpio":
             used += [(getattr(self.lcd, key), f"lcd.{key}") for key in ("rs", "e", "d4", "d5", "d6", "d7")]
         return used
@@ -182,6 +189,10 @@ class Config(Table):
         ]
         if self.rotor.type == "servo":
             used.append((self.servo.bus, self.servo.address, "servo.address"))
+        if self.panel.uses_adc:
+            used.append((self.panel.adc_bus, self.panel.adc_address, "panel.adc_address"))
+        if self.panel.uses_outputs:
+            used.append((self.panel.outputs_bus, self.panel.outputs_address, "panel.outputs_address"))
         if self.compass.kind != "none":
             used.append((self.compass.bus, self.compass.address, "compass.address"))
         if self.lcd.kind == "pcf8574":

@@ -20,8 +20,8 @@ LONG_TABLE = 4
 """A calibration with more points than this has a line for each."""
 
 
-def save_axis(path: Path, axis: str, *, calibration: Points, **values: float | bool) -> None:
-    """Replace keys of the table `[axis]`, `calibration` among them, all or none.
+def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **values: float | bool) -> None:
+    """Replace keys of the table `[axis]`, `calibration` too where there is a new one, all or none.
 
     The file before the change stays beside it as `.bak`. Raises OSError or ConfigError; then the file is as it was.
     """
@@ -36,7 +36,7 @@ def save_axis(path: Path, axis: str, *, calibration: Points, **values: float | b
     write_whole(path, text)
 
 
-def changed(text: str, axis: str, *, calibration: Points, **values: float | bool) -> str:
+def changed(text: str, axis: str, *, calibration: Points | None = None, **values: float | bool) -> str:
     """The file's text with these keys in the table `[axis]`; everything else as it was."""
     document = tomlkit.parse(text)
     if axis not in document and text and not text.endswith("\n\n"):
@@ -44,7 +44,8 @@ def changed(text: str, axis: str, *, calibration: Points, **values: float | bool
     table = document.setdefault(axis, tomlkit.table())
     for key, value in values.items():
         table[key] = value if isinstance(value, bool) else _short(value, 3)
-    table["calibration"] = _rows(calibration)
+    if calibration is not None:
+        table["calibration"] = _rows(calibration)
     return tomlkit.dumps(document)
 
 

@@ -14,10 +14,10 @@ PAUSE_S = 10.0
 class Authority:
     """Every order that would move something is asked about here first."""
 
-    def __init__(self) -> None:
+    def __init__(self, mode: Mode = Mode.AUTO) -> None:
         self.latched = ""
         """Who pressed a stop that only a person releases; empty: nobody."""
-        self.mode = Mode.AUTO
+        self.mode = mode
         self.controlled_by: Source | None = None
         self._panel: Source | None = None
         """Who switched to this mode: in MANUAL and JOG the only one who moves the antenna."""
@@ -52,7 +52,7 @@ class Authority:
         """Whether an order that moves, from `source` at this moment, has effect. Asking counts as being heard."""
         self._forget(now_s)
         self._last_heard_s[source] = now_s
-        if self.latched or source in self._silenced or not self._in_mode(source):
+        if self.latched or not self._in_mode(source):
             return False
         self.controlled_by = source
         return True
@@ -60,10 +60,11 @@ class Authority:
     def _in_mode(self, source: Source) -> bool:
         match self.mode:
             case Mode.AUTO:
-                return True
+                return source not in self._silenced
             case Mode.PARK:
                 return False
             case Mode.MANUAL | Mode.JOG:
+                # Whoever stands at the panel is never silenced by a stop that comes over a link.
                 return source == self._panel
 
     def _forget(self, now_s: float) -> None:

@@ -264,6 +264,7 @@ class AxisControl:
             moving=self.moving(now_s),
             uncalibrated=self.uncalibrated,
             fault=self.fault,
+            homing=isinstance(self.goal, HomeGoal),
             notices=self._notices(),
             calibration=self.calibration.points if self.calibration else None,
             learnt=self._learnt(),

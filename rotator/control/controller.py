@@ -6,6 +6,7 @@ the same outputs, so an hour at the mast is a second in a test.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
@@ -13,6 +14,7 @@ from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
 from rotator.control.axis import AxisControl, AxisSettings
 from rotator.control.commands import Acknowledge, Command, Errand, Place
+from rotator.control.goals import HomeGoal
 from rotator.control.mount import Mount, Unreachable
 from rotator.control.pointing import AimGoal, Goals, Pointing
 from rotator.control.positioned import PositionedAxis, PositionedSettings
@@ -30,6 +32,7 @@ from rotator.orders import (
     Jog,
     LetGo,
     LoadTimed,
+    Mode,
     Nudge,
     Order,
     Park,
@@ -56,6 +59,8 @@ class Settings:
     simulated: bool = False
     park_after_s: float = 0.0
     """Park when nobody has moved the antenna for so long; 0: never."""
+    mode: Mode = Mode.AUTO
+    """Until a front panel says otherwise; with a mode switch whose position is not known yet, nobody moves anything."""
 
 
 class Controller:
@@ -65,10 +70,14 @@ class Controller:
             each.axis: _controlled(each, lease_s=settings.lease_s, period_s=settings.period_s)
             for each in (settings.azimuth, settings.elevation)
         }
+        self._to_home: deque[Axis] = deque()
+        """Axes that wait until another has been homed."""
+        self._homed_by: Source | None = None
+        """Who has asked for the homing that is going on: nobody else may move anything meanwhile."""
         self._nudges_deg = dict.fromkeys(Axis, 0.0)
         self._asked: Aim | None = None
         """What was last asked for, without the nudges; None: nothing is."""
-        self._authority = Authority()
+        self._authority = Authority(settings.mode)
         self._timed = TimedList()
         self._pointing = Pointing(settings.mount, settings.azimuth.tolerance_deg, settings.elevation.tolerance_deg)
         self._speed_level = 4
@@ -94,6 +103,7 @@ class Controller:
         if point is not None:
             self._point_at(Aim(*point), now_s)
         self._park_when_idle(now_s)
+        self._home_next()
         self._look_ahead(now_s)
         commands: dict[Axis, Command] = {axis: control.decide(now_s) for axis, control in self._axes.items()}
         for axis, control in self._axes.items():
@@ -117,6 +127,7 @@ class Controller:
             timed_points=len(self._timed.points),
             simulated=self._settings.simulated,
             speed_level=self._speed_level,
+            mode=self._authority.mode,
             cycle_late_s=late_s,
         )
 
@@ -145,6 +156,7 @@ class Controller:
             case Calibrate(axis, high_end):
                 self._calibrate(axis, now_s, high_end=high_end)
             case SetMode(mode):
+                self._to_home.clear()
                 self._halt(BOTH)
                 self._nudges_deg = dict.fromkeys(Axis, 0.0)
                 self._authority.switch(source, mode)
@@ -155,10 +167,16 @@ class Controller:
             case LetGo():
                 self._stop(source, BOTH, latch=True, now_s=now_s)
                 self.errands.append(LetGo())
+            case _ if self._homing and source != self._homed_by:
+                pass
             case _ if self._authority.may_move(source, now_s):
-                self._move(order, now_s)
+                self._move(order, source, now_s)
 
-    def _move(self, order: Order, now_s: float) -> None:
+    @property
+    def _homing(self) -> bool:
+        return bool(self._to_home) or any(isinstance(control.goal, HomeGoal) for control in self._axes.values())
+
+    def _move(self, order: Order, source: Source, now_s: float) -> None:
         self._timed.halt()
         self._moved_s = now_s
         match order:
@@ -170,7 +188,8 @@ class Controller:
                 self._forget((axis,))
                 self._axes[axis].start_jog(direction, seconds, now_s)
             case Home(axis):
-                self._home(axis)
+                self._homed_by = source
+                self._to_home.append(axis)
             case LoadTimed(interval_s, points):
                 self._point_at(Aim(*self._timed.load(interval_s, points)), now_s)
             case RunTimed():
@@ -182,8 +201,12 @@ class Controller:
         if self._asked is not None and self._asked.engaged and not self._authority.latched:
             self._point_at(self._asked, now_s)
 
-    def _home(self, axis: Axis) -> None:
-        self._forget((axis,))
+    def _home_next(self) -> None:
+        """One axis after another, so that a person can watch."""
+        if not self._to_home or any(isinstance(control.goal, HomeGoal) for control in self._axes.values()):
+            return
+        axis = self._to_home.popleft()
+        self._halt(BOTH)
         try:
             self._axes[axis].start_homing()
         except ValueError as reason:
@@ -215,6 +238,7 @@ class Controller:
             self._park(now_s)
 
     def _stop(self, source: Source, axes: tuple[Axis, ...], *, latch: bool, now_s: float) -> None:
+        self._to_home.clear()
         self._halt(axes)
         if len(axes) == len(self._axes):
             self._authority.stopped(source, now_s, latch=latch)

@@ -21,6 +21,8 @@ SPREAD_DEG = 3.0
 """A compass that swings more than this while the antenna stands feels a motor, or a cable."""
 COMPASS_DEG = 2.5
 """What the compass itself is off by; averaging does not take that away."""
+LEVEL_WITHIN_DEG = 30.0
+"""Lifted further, the boom points up more than anywhere, and a heading says less and less."""
 PLACES_APART_DEG = 20.0
 """Steel that bends the needle differently by more than this from place to place is too near."""
 
@@ -37,6 +39,40 @@ class Look:
     azimuth_deg: float
     magnetometer: int
     """The compass's calibration, 0 to 3."""
+    tilt_deg: float = 0.0
+    """How far the compass is from level."""
+
+
+@dataclass(frozen=True, slots=True)
+class Learnt:
+    """How far the compass knows its own errors, each part 0 (not at all) to 3."""
+
+    system: int = 0
+    gyroscope: int = 0
+    accelerometer: int = 0
+    magnetometer: int = 0
+
+    @property
+    def complete(self) -> bool:
+        return min(self.system, self.gyroscope, self.accelerometer, self.magnetometer) == 3
+
+    def __str__(self) -> str:
+        return (
+            f"system {self.system}, gyroscope {self.gyroscope}, accelerometer {self.accelerometer}, "
+            f"magnetometer {self.magnetometer} of 3"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Sighting:
+    """What the compass said at one moment; with a `problem`, why it said nothing."""
+
+    at_s: float
+    heading_deg: float = math.nan
+    """From magnetic north, where the compass's own forward points."""
+    tilt_deg: float = 0.0
+    learnt: Learnt = Learnt()
+    problem: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +100,12 @@ def find_north(looks: Sequence[Look], declination_deg: float, compass_offset_deg
     azimuths = [look.azimuth_deg for look in looks]
     if max(azimuths) - min(azimuths) > STOOD_WITHIN_DEG:
         raise NorthRefused("the antenna turned while the compass was read; let it stand, and try again")
+    tilt_deg = max(look.tilt_deg for look in looks)
+    if tilt_deg > LEVEL_WITHIN_DEG:
+        raise NorthRefused(
+            f"the compass is {tilt_deg:.0f} degrees from level, {LEVEL_WITHIN_DEG:g} are allowed; lower the boom, or "
+            "look at how it is mounted"
+        )
     heading_deg, spread_deg = _mean_and_spread_deg([look.heading_deg for look in looks])
     if spread_deg > SPREAD_DEG:
         raise NorthRefused(

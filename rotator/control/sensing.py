@@ -62,14 +62,16 @@ class Window:
 
     low_raw: float
     high_raw: float
+    pot: bool = True
+    """It is a pot's; a chip with a broken wire says nothing, rather than something that looks like a reading."""
 
     @property
     def blind(self) -> bool:
         """Whether a pot's wire may break without a reading that shows it: there are no end resistors."""
-        return -math.inf < self.low_raw <= 0.0 or 1.0 <= self.high_raw < math.inf
+        return self.pot and (self.low_raw <= 0.0 or self.high_raw >= 1.0)
 
 
-ANYTHING = Window(-math.inf, math.inf)
+ANYTHING = Window(-math.inf, math.inf, pot=False)
 """A sensor in degrees that says itself when it is not to be believed."""
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from hw.ports import Axis
-from rotator.orders import Aim, Home, Jog, Order, Release
+from rotator.orders import Aim, Home, Jog, Mode, Order, Release
 from rotator.protocols.console import TURN_WORDS, VERBS, Ask, parse
 from rotator.protocols.lines import LineReader
 from rotator.protocols.session import Box
@@ -56,17 +56,19 @@ class ConsoleSession:
         match order:
             case Aim() | Jog() | Home():
                 if holder := self._held_by():
-                    return _error(f"stopped by {holder}: nothing moves until resume")
+                    return _error(holder)
             case _:
                 self._resumed = isinstance(order, Release)
         refused = self._box.order(order)
         return _error(refused.reason) if refused else _reply(OK)
 
     def _held_by(self) -> str:
-        latched = self._box.status().latched
-        if not latched:
+        status = self._box.status()
+        if not status.latched:
             self._resumed = False
-        return "" if self._resumed else latched
+        if status.latched and not self._resumed:
+            return f"stopped by {status.latched}: nothing moves until resume"
+        return f"the panel's switch is at {status.mode.name}" if status.mode is not Mode.AUTO else ""
 
 
 def report(status: Status) -> list[str]:
@@ -78,6 +80,8 @@ def report(status: Status) -> list[str]:
     if status.moving:
         lines.append("moving: " + " ".join(axis.value for axis in Axis if status.axis(axis).moving))
     lines.append(f"moved by: {status.controlled_by or 'nobody'}")
+    if status.mode is not Mode.AUTO:
+        lines.append(f"panel: {status.mode.name}")
     if status.latched:
         lines.append(f"stopped by: {status.latched}; nothing moves until resume")
     lines += [f"fault: {fault}" for fault in status.faults]
@@ -93,6 +97,8 @@ def _stands(status: Status, axis: Axis) -> str:
     words = ["not known" if each.angle_deg is None else f"{_shown(each.angle_deg)} {each.source}"]
     if each.target_deg is not None:
         words.append(f"to {_shown(each.target_deg)}")
+    if each.homing:
+        words.append("looks for its end stop")
     if each.drive:
         words.append(f"turns {TURN_WORDS[axis, each.drive]}")
     return ", ".join(words)

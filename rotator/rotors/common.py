@@ -43,6 +43,9 @@ class GuardedRotor:
     def run(self, errand: Errand) -> None:
         """Nothing here has to be told; a kind that has says so."""
 
+    def closed_contacts(self) -> frozenset[Axis]:
+        return frozenset()
+
     def off(self) -> None:
         self._drive.off()
 

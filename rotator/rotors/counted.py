@@ -69,6 +69,11 @@ class CountedAxis:
                 ends=ends,
             )
 
+    @property
+    def closed(self) -> bool:
+        """Whether its contact is closed now. Raises HardwareError."""
+        return self._counter.closed
+
     def may_start(self) -> bool:
         """Whether its motor may be switched on now."""
         return self._keeper is None or self._keeper.may_start(self._axis)
@@ -143,6 +148,9 @@ class CountedRotor(RelayRotor):
                 self._axes[axis].place(angle_deg - self._shift.of(axis))
             case _:
                 super().run(errand)
+
+    def closed_contacts(self) -> frozenset[Axis]:
+        return frozenset(axis for axis, each in self._axes.items() if each.closed)
 
     def close(self) -> None:
         try:

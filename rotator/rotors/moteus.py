@@ -58,6 +58,9 @@ class MoteusRotor:
             case LetGo():
                 self._drive.release()
 
+    def closed_contacts(self) -> frozenset[Axis]:
+        return frozenset()
+
     def off(self) -> None:
         self._drive.off()
 

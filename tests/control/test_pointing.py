@@ -54,8 +54,8 @@ def test_a_target_that_rests_in_the_overlap_stays_there(pointing: Pointing) -> N
 
 def test_fifty_orders_a_second_are_followed_like_one(pointing: Pointing) -> None:
     slow = Pointing(Mount(azimuth=Range(0.0, 450.0), elevation=Range(0.0, 180.0)), 4.0, 4.0)
-    ended_s = stream(pointing, 100.0, 200.0, rate_dps=1.0, every_s=0.02)
-    stream(slow, 100.0, 200.0, rate_dps=1.0, every_s=1.0)
+    ended_s = stream(pointing, 100.25, 200.25, rate_dps=1.0, every_s=0.02)
+    stream(slow, 100.25, 200.25, rate_dps=1.0, every_s=1.0)
     fast_goals = pointing.look_ahead(ended_s, SPEEDS, had_path=True)
     slow_goals = slow.look_ahead(ended_s, SPEEDS, had_path=True)
     assert fast_goals is not None

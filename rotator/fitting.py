@@ -1,0 +1,96 @@
+"""A front panel and limit switches, from their tables of the file to drivers: their share of the composition root.
+
+Knows what is wired where. Decides nothing: what a switch means is the panel's, what a limit forbids the axis's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from hw.ads1115 import Ads1115
+from hw.gpio import GpioInputs
+from hw.pca9685 import Pca9685
+from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from hw.pot import PotSensor, Reference
+from hw.switches import LimitSwitches
+from rotator.board import Board
+from rotator.config.model import Config
+from rotator.orders import Order
+from rotator.panel import Panel, PanelSettings
+from rotator.panel_thread import PanelParts, PanelThread
+from rotator.rotors.common import Ends, no_switches
+from rotator.status import Status
+from rotator.store.knobs import KnobsFile
+
+METER_HZ = 1000.0
+"""Fast enough for a needle to stand still."""
+
+
+def limit_switches(config: Config, board: Board) -> Ends:
+    """What the limit switches forbid; those that cannot be read forbid all they could."""
+    if not config.limits.switches:
+        return no_switches
+    inputs = GpioInputs(board.gpio, board.chip(), config.limits.switches, consumer="rotator-limits")
+    board.opened.callback(inputs.close)
+    switches = LimitSwitches(inputs, config.limits.switches)
+
+    def ends(axis: Axis) -> frozenset[Direction]:
+        try:
+            return switches.blocked()[axis]
+        except HardwareError:
+            return switches.guarded()[axis]
+
+    return ends
+
+
+def panel_parts(config: Config, board: Board) -> PanelParts:
+    """The panel's own chips and lines. Raises HardwareError where a line cannot be taken."""
+    table = config.panel
+    switches = None
+    if table.switches:
+        switches = GpioInputs(board.gpio, board.chip(), table.switches, consumer="rotator-panel")
+        board.opened.callback(switches.close)
+    outputs = None
+    if table.uses_outputs:
+        bus = board.bus(table.outputs_bus)
+        outputs = Pca9685(bus, table.outputs_address, board.sleep, frequency_hz=METER_HZ)
+    return PanelParts(
+        switches=switches,
+        has_stop=table.stop is not None,
+        sensors=_inputs(config, board),
+        outputs=outputs,
+        lamps=table.lamps,
+        meters={Axis(name): output for name, output in table.meters.items()},
+        meter_full_scale=table.meter_full_scale,
+    )
+
+
+def _inputs(config: Config, board: Board) -> dict[str, AngleSensor]:
+    table = config.panel
+    if not table.uses_adc:
+        return {}
+    # A converter of the panel's own: two threads on one would read each other's channel.
+    adc = Ads1115(board.bus(table.adc_bus), table.adc_address, board.sleep)
+    supply = table.supply_v if table.reference is None else Reference(adc, table.reference, board.clock)
+    return {name: PotSensor(adc, channel, supply) for name, channel in table.inputs.items()}
+
+
+def panel_thread(
+    config: Config,
+    parts: PanelParts,
+    status: Callable[[], Status],
+    post: Callable[[Order], None],
+    clock: Callable[[], float],
+    *,
+    knobs: Path | None = None,
+    pulses: Callable[[], Iterable[Axis]] = lambda: (),
+) -> PanelThread:
+    """The panel, ready to be started. `knobs`: the file with their full scales; None: they are not kept."""
+    table = config.panel
+    nudge_deg = {Axis.AZIMUTH: table.azimuth_nudge_deg, Axis.ELEVATION: table.elevation_nudge_deg}
+    kept = KnobsFile(knobs) if knobs else None
+    panel = Panel(PanelSettings(table.has_mode_switch, nudge_deg), kept.load() if kept else {})
+    if kept is None:
+        return PanelThread(panel, parts, status, post, clock, pulses=pulses)
+    return PanelThread(panel, parts, status, post, clock, keep=kept.save, pulses=pulses)

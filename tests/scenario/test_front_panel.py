@@ -1,0 +1,268 @@
+"""A U-100 controller with its front panel, as its builder uses it: hands on the switches, eyes on lamps and meters.
+
+The whole box but its links' sockets, on simulated chips, in simulated time. Positions of the mode switch are as he
+numbers them: 0 MANUAL, 1 PARK, 2 AUTO, 3 JOG.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from firmware_sim.panel import SimPanel
+from hw.ports import Axis
+from rotator.building import build_controller, build_mount
+from rotator.config.load import parse
+from rotator.door import Door
+from rotator.fitting import panel_thread
+from rotator.loop import ControlLoop
+from rotator.orders import Mode, Source
+from rotator.protocols.gs232 import Dialect
+from rotator.protocols.gs232_session import Gs232Session
+from rotator.station import Station
+
+MANUAL, PARK, AUTO, JOG = range(4)
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+BOX = """
+[rotor]
+type = "relay-pulse"
+[azimuth]
+max_deg = 360
+[relays]
+one_at_a_time = true
+[panel]
+mode_msb = 10
+mode_lsb = 9
+calibrate = 11
+stop = 19
+azimuth_knob = 0
+elevation_knob = 1
+jog = 2
+reference = 3
+azimuth_meter = 0
+elevation_meter = 1
+lamp_manual = 2
+lamp_park = 3
+lamp_auto = 4
+lamp_jog = 5
+lamp_motor = 6
+lamp_stop = 7
+[limits]
+azimuth_high = 8
+elevation_low = 7
+"""
+STEP_S = 0.05
+
+
+class Shack:
+    def __init__(self, start_deg: tuple[float, float] = (90.0, 30.0), *, calibrate: bool = False) -> None:
+        config = parse(BOX, "box")
+        self.clock = SimClock()
+        self.station = Station(config, self.clock, self.clock.sleep, start_deg, add_alarm=self.clock.add_alarm)
+        assert self.station.world is not None
+        assert self.station.panel is not None
+        self.world: Any = self.station.world
+        assert self.world.panel is not None
+        self.hands: SimPanel = self.world.panel
+        self.hands.set_calibrate(closed=calibrate)
+        self.loop = ControlLoop(build_controller(config), self.station.rotor, self.clock, STEP_S)
+        self.panel = panel_thread(
+            config,
+            self.station.panel,
+            lambda: self.loop.status,
+            lambda order: self.loop.post(Source("panel"), order),
+            self.clock,
+            pulses=self.station.rotor.closed_contacts,
+        )
+        self._pc = Gs232Session(Door(self.loop, build_mount(config), Source("gs232", 1), clock=self.clock), Dialect.B)
+        if not calibrate:
+            self.turn_mode(AUTO)
+
+    def pc(self, line: str) -> None:
+        self._pc.receive(line.encode() + b"\r")
+
+    def wait(self, seconds: float, until: Callable[[], bool] = lambda: False) -> bool:
+        """Let time pass, no longer than until that is so."""
+        for _ in range(round(seconds / STEP_S)):
+            if until():
+                return True
+            self.clock.sleep(STEP_S)
+            self.loop.cycle()
+            self.panel.cycle(self.clock())
+        return until()
+
+    def turn_mode(self, position: int) -> None:
+        """Turn the switch and wait until the box believes it."""
+        self.hands.turn_mode(position)
+        self.wait(1.5)
+
+    def press(self, axis: str, way: int) -> None:
+        """Throw a jog switch for a moment."""
+        self.hands.throw(axis, way)
+        self.wait(0.3)
+        self.hands.throw(axis, 0)
+        self.wait(0.3)
+
+    def comes_to(self, azimuth_deg: float, elevation_deg: float) -> bool:
+        self.wait(120.0, lambda: self.loop.status.moving)
+        self.wait(120.0, lambda: not self.loop.status.moving)
+        return self.shafts == pytest.approx((azimuth_deg, elevation_deg), abs=2.0)
+
+    @property
+    def shafts(self) -> tuple[float, float]:
+        shafts: tuple[float, float] = self.world.shafts()
+        return shafts
+
+    @property
+    def stands(self) -> bool:
+        return not self.loop.status.moving
+
+
+@pytest.fixture
+def shack() -> Shack:
+    return Shack()
+
+
+def test_auto_obeys_the_pc_one_motor_at_a_time(shack: Shack) -> None:
+    assert shack.hands.lit() == {"auto"}
+    together = []
+    shack.world.gpio.on_edges.append(lambda _now_s, _changes: together.append(all(shack.world.drives())))
+    shack.pc("W120 045")
+    assert shack.comes_to(120.0, 45.0)
+    assert not any(together)
+
+
+def test_a_press_in_auto_is_added_to_the_order_until_the_mode_changes(shack: Shack) -> None:
+    shack.pc("W120 045")
+    assert shack.comes_to(120.0, 45.0)
+    for _ in range(2):
+        shack.press("azimuth", +1)
+    assert shack.comes_to(130.0, 45.0)
+    assert shack.loop.status.wanted_azimuth_deg is not None
+    shack.turn_mode(PARK)
+    shack.turn_mode(AUTO)
+    shack.pc("W120 045")
+    assert shack.comes_to(120.0, 45.0)
+
+
+def test_manual_goes_where_the_knobs_were_left_and_not_where_the_pc_wants(shack: Shack) -> None:
+    shack.turn_mode(MANUAL)
+    shack.pc("W300 010")
+    shack.wait(3.0)
+    assert shack.stands
+    shack.hands.turn_knob("azimuth", 0.5)
+    shack.wait(0.5)
+    assert shack.hands.needle("azimuth") == pytest.approx(0.5, abs=0.02), "the meter shows the knob"
+    assert shack.stands, "it may still be turned on"
+    assert shack.comes_to(180.0, 30.0)
+    assert shack.hands.needle("elevation") == pytest.approx(30.0 / 180.0, abs=0.02), "and then where the rotor is"
+
+
+def test_park_obeys_nobody(shack: Shack) -> None:
+    shack.pc("W200 045")
+    shack.wait(3.0)
+    shack.turn_mode(PARK)
+    assert shack.loop.status.mode is Mode.PARK
+    stood = shack.shafts
+    shack.pc("W300 010")
+    shack.hands.turn_knob("azimuth", 0.9)
+    shack.press("azimuth", -1)
+    shack.wait(5.0)
+    assert shack.shafts == pytest.approx(stood, abs=0.5)
+
+
+def test_jog_drives_while_a_switch_is_held(shack: Shack) -> None:
+    shack.turn_mode(JOG)
+    shack.hands.throw("elevation", +1)
+    shack.wait(3.0)
+    assert shack.world.drives() == (0, 1)
+    assert "motor" in shack.hands.lit()
+    shack.hands.throw("elevation", 0)
+    shack.wait(1.5)
+    assert shack.stands
+    assert shack.shafts[1] == pytest.approx(30.0 + 6.0 * 3.0, abs=3.0)
+
+
+def test_two_jog_switches_at_once_stop(shack: Shack) -> None:
+    shack.turn_mode(JOG)
+    shack.hands.throw("azimuth", +1)
+    shack.wait(1.0)
+    shack.hands.throw("elevation", -1)
+    shack.wait(1.0)
+    assert shack.world.drives() == (0, 0)
+
+
+def test_the_stop_button_stops_and_only_a_person_at_the_panel_ends_it(shack: Shack) -> None:
+    shack.pc("W300 045")
+    shack.wait(3.0)
+    assert shack.world.drives() != (0, 0)
+    shack.hands.press_stop()
+    shack.wait(0.15)
+    assert shack.world.drives() == (0, 0)
+    shack.hands.pull_stop()
+    shack.pc("W300 045")
+    shack.wait(3.0)
+    assert shack.stands, "latched"
+    assert "stop" in shack.hands.lit()
+    shack.turn_mode(PARK)
+    shack.turn_mode(AUTO)
+    shack.pc("W300 045")
+    assert shack.comes_to(300.0, 45.0)
+
+
+def test_a_broken_wire_to_the_stop_button_is_a_pressed_button(shack: Shack) -> None:
+    shack.pc("W300 045")
+    shack.wait(3.0)
+    shack.world.inject("panel-stop-wire-broken")
+    shack.wait(0.15)
+    assert shack.world.drives() == (0, 0)
+    assert shack.loop.status.latched
+
+
+def test_a_dead_panel_bus_ends_a_jog(shack: Shack) -> None:
+    shack.turn_mode(JOG)
+    shack.hands.throw("azimuth", +1)
+    shack.wait(1.0)
+    assert shack.world.drives() == (1, 0)
+    shack.world.inject("panel-adc-gone")
+    shack.wait(1.0)
+    assert shack.world.drives() == (0, 0)
+
+
+def test_a_limit_switch_lets_the_axis_go_back_only() -> None:
+    shack = Shack((350.0, 30.0))
+    shack.turn_mode(JOG)
+    shack.world.inject("azimuth-high-switch-open")
+    shack.hands.throw("azimuth", +1)
+    shack.wait(1.0)
+    assert shack.world.drives() == (0, 0)
+    assert shack.loop.status.azimuth.fault is not None
+    assert shack.loop.status.azimuth.fault.name == "limit switch reached"
+    shack.hands.throw("azimuth", 0)
+    shack.pc("S")
+    shack.wait(0.5)
+    shack.hands.throw("azimuth", -1)
+    shack.wait(2.0)
+    assert shack.world.drives() == (-1, 0)
+
+
+def test_the_calibrate_switch_leads_through_homing() -> None:
+    # Switched on with the calibrate switch closed and both knobs at their ends; each step of the mode switch goes on.
+    shack = Shack((40.0, 25.0), calibrate=True)
+    for axis in ("azimuth", "elevation"):
+        shack.hands.turn_knob(axis, 0.97)
+    shack.wait(2.0)
+    shack.turn_mode(PARK)
+    assert shack.wait(60.0, lambda: shack.loop.status.azimuth.homing)
+    assert shack.wait(180.0, lambda: not shack.loop.status.azimuth.homing and shack.stands)
+    shack.turn_mode(AUTO)
+    assert shack.wait(60.0, lambda: shack.loop.status.elevation.homing)
+    assert shack.wait(180.0, lambda: not shack.loop.status.elevation.homing and shack.stands)
+    assert shack.shafts == pytest.approx((0.0, 0.0), abs=0.5)
+    shack.turn_mode(JOG)
+    shack.turn_mode(AUTO)
+    shack.pc("W120 045")
+    assert shack.comes_to(120.0, 45.0)
