@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: run test check tests test-kernel test-install test-gpredict bench fuzz picture picture-gpredict drawings clean
+.PHONY: run test check tests test-kernel test-install test-gpredict test-flights bench fuzz picture picture-gpredict drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -21,6 +21,10 @@ check: $(VENV)/.dev
 tests: $(VENV)/.dev
 	$(BIN)/pytest -n 3 --dist loadfile $(TESTS)
 
+# Twelve real passes on every kind of rotor, in simulated time: some minutes.
+test-flights: $(VENV)/.dev
+	$(BIN)/pytest tests/flights
+
 # install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in build/roots.
 test-install: $(VENV)/.dev
 	$(BIN)/pytest tests/install
@@ -36,6 +40,7 @@ test-gpredict: $(VENV)/.dev
 # The figures of the README: pointing first, the same on every machine; then latency and load, on this one.
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.passes --svg docs/img/passes.svg
+	$(BIN)/python -m benchmarks.kinds
 	$(BIN)/python -m benchmarks.rotors
 	$(BIN)/python -m benchmarks.mount
 	$(BIN)/python -m benchmarks.faults

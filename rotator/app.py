@@ -27,7 +27,7 @@ from rotator.links.monitor import MonitorSocket
 from rotator.loop import ControlLoop
 from rotator.orders import Source
 from rotator.overhearing import Tape
-from rotator.panel_thread import PanelThread
+from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
 from rotator.station import Station
 from rotator.supervisor import Supervisor, runtime_folder

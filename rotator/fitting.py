@@ -17,8 +17,8 @@ from hw.switches import LimitSwitches
 from rotator.board import Board
 from rotator.config.model import Config
 from rotator.orders import Order
-from rotator.panel import Panel, PanelSettings
-from rotator.panel_thread import PanelParts, PanelThread
+from rotator.panel.panel import Panel, PanelSettings
+from rotator.panel.thread import PanelParts, PanelThread
 from rotator.rotors.common import Ends, no_switches
 from rotator.status import Status
 from rotator.store.knobs import KnobsFile

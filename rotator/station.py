@@ -21,7 +21,7 @@ from rotator.assembly import Assembly
 from rotator.board import Board
 from rotator.config.model import Config
 from rotator.fitting import panel_parts
-from rotator.panel_thread import PanelParts
+from rotator.panel.thread import PanelParts
 from rotator.rotor import AddAlarm, Rotor
 from rotator.simulation import Plan
 

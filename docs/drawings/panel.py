@@ -11,7 +11,7 @@ from docs.drawings.parts import chip, contact, diode, earth, header_labels, pi_h
 from docs.drawings.sheet import BLACK, BLUE, BROWN, GREEN, ORANGE, PINK, PURPLE, RED, TEAL, Sheet
 from hw.ports import Axis
 from rotator.config.panel import LimitsTable, PanelTable
-from rotator.panel_ladder import BIAS_OHM, SWITCH_OHM
+from rotator.panel.ladder import BIAS_OHM, SWITCH_OHM
 
 PANEL = PanelTable(
     azimuth_knob=0,

@@ -19,7 +19,7 @@ from hw.ports import Direction
 from rotator.config.load import shipped
 from rotator.config.model import Config
 from rotator.config.panel import LimitsTable, PanelTable
-from rotator.panel_ladder import LEVELS
+from rotator.panel.ladder import LEVELS
 from rotator.status import Fault
 
 DOCS = Path(__file__).parents[2] / "docs"

@@ -19,7 +19,7 @@ from typing import Protocol
 from hw.ports import AngleSensor, Axis, HardwareError
 from hw.switches import SwitchInputs
 from rotator.orders import Order, Stop
-from rotator.panel import Panel, PanelAct, PanelLook
+from rotator.panel.panel import Panel, PanelAct, PanelLook
 from rotator.status import Status
 
 log = logging.getLogger(__name__)

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
-from rotator.panel import LAMPS, Panel, PanelAct, PanelLook, PanelSettings
-from rotator.panel_ladder import HALF_BAND, LEVELS, level, thrown
+from rotator.panel.ladder import HALF_BAND, LEVELS, level, thrown
+from rotator.panel.panel import LAMPS, Panel, PanelAct, PanelLook, PanelSettings
 from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

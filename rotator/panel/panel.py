@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Jog, Mode, Nudge, Order, Release, SetMode, Stop
-from rotator.panel_calibration import BEGINNING, PanelCalibration, Stage
-from rotator.panel_inputs import Contact, JogSwitches, Knob, ModeSwitch, StopButton
+from rotator.panel.calibration import BEGINNING, PanelCalibration, Stage
+from rotator.panel.inputs import Contact, JogSwitches, Knob, ModeSwitch, StopButton
 from rotator.status import AxisStatus, Status
 
 LEAST_INDEX, MOST_INDEX = -7, 8
@@ -43,7 +43,7 @@ class PanelLook:
     mode_bits: tuple[bool, bool] | None = None
     """MSB and LSB; a closed contact is True."""
     jog: float | None = None
-    """The jog switches' input, as a share of its supply (`rotator.panel_ladder`)."""
+    """The jog switches' input, as a share of its supply (`rotator.panel.ladder`)."""
     azimuth_knob: float | None = None
     """The wiper's share of its supply."""
     elevation_knob: float | None = None

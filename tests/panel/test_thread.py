@@ -27,8 +27,8 @@ from hw.pca9685 import Pca9685
 from hw.ports import Axis, Direction
 from hw.pot import PotSensor, Reference
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
-from rotator.panel import LAMPS, Panel, PanelSettings
-from rotator.panel_thread import PanelParts, PanelThread
+from rotator.panel.panel import LAMPS, Panel, PanelSettings
+from rotator.panel.thread import PanelParts, PanelThread
 from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -321,7 +321,7 @@ def test_lamps_of_pulses_and_data() -> None:
 def test_a_chip_that_fails_is_told_once_and_tried_again(
     fault: str, what: str, caplog: pytest.LogCaptureFixture
 ) -> None:
-    caplog.set_level(logging.INFO, "rotator.panel_thread")
+    caplog.set_level(logging.INFO, "rotator.panel.thread")
     desk = in_mode(AUTO)
     desk.sim.inject(fault)
     desk.status = replace(desk.status, azimuth=replace(desk.status.azimuth, angle_deg=180.0))

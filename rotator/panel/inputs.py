@@ -9,7 +9,7 @@ import math
 
 from hw.ports import Axis, Direction
 from rotator.orders import Mode
-from rotator.panel_ladder import CENTRE, Throw, thrown
+from rotator.panel.ladder import CENTRE, Throw, thrown
 
 CLOSED_S = 0.05
 """A stop button's contact must have been closed for so long; that it opens is believed at once."""

@@ -1,0 +1,66 @@
+"""What the README promises of each kind of rotor on twelve real passes, and that its table is what comes out.
+
+`make test-flights` flies them all; every figure is the same on every machine.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from benchmarks.kinds import KINDS, PASS_NAMES, Flight, fly_all, markdown
+
+README = Path(__file__).parents[2] / "README.md"
+MOTEUS_W, MOTEUS_P = "moteus (isel), `W` in whole degrees", "moteus (isel), `P %.2f`"
+SERVOS, POT = "hobby servos (servos)", "digital pot (orbit360)"
+U100, U100_OVERLAP = "U-100, counting (u100)", "the same with 450° of azimuth"
+NOT_NORTH = [name for name in PASS_NAMES if not name.startswith("north")]
+
+
+@pytest.fixture(scope="session")
+def flights() -> list[Flight]:
+    return fly_all(KINDS, PASS_NAMES)
+
+
+@pytest.fixture(scope="session")
+def flown(flights: list[Flight]) -> dict[tuple[str, str], Flight]:
+    return {(flight.kind.name, flight.pass_name): flight for flight in flights}
+
+
+def test_the_readme_has_this_table(flights: list[Flight]) -> None:
+    """If this fails, paste what `python -m benchmarks.kinds` prints."""
+    assert markdown(flights) in README.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("name", PASS_NAMES)
+def test_moteus_from_whole_degrees(flown: dict[tuple[str, str], Flight], name: str) -> None:
+    assert flown[MOTEUS_W, name].summary.rms_deg <= 0.25
+
+
+@pytest.mark.parametrize("name", PASS_NAMES)
+def test_moteus_from_hundredths(flown: dict[tuple[str, str], Flight], name: str) -> None:
+    assert flown[MOTEUS_P, name].summary.rms_deg <= 0.05
+
+
+@pytest.mark.parametrize("name", PASS_NAMES)
+def test_servos_reach_the_whole_sky(flown: dict[tuple[str, str], Flight], name: str) -> None:
+    flight = flown[SERVOS, name]
+    assert flight.summary.p95_deg <= 1.5
+    assert flight.swings <= 1
+    assert flight.away_s <= 4.0
+
+
+@pytest.mark.parametrize("name", PASS_NAMES)
+def test_u100_with_overlap(flown: dict[tuple[str, str], Flight], name: str) -> None:
+    assert flown[U100_OVERLAP, name].summary.rms_deg <= 4.0
+
+
+@pytest.mark.parametrize("name", NOT_NORTH)
+def test_u100_without(flown: dict[tuple[str, str], Flight], name: str) -> None:
+    assert flown[U100, name].summary.rms_deg <= 4.0
+
+
+@pytest.mark.parametrize("name", NOT_NORTH)
+def test_digital_pot(flown: dict[tuple[str, str], Flight], name: str) -> None:
+    assert flown[POT, name].summary.rms_deg <= 3.0

@@ -1,0 +1,81 @@
+"""Twelve real passes flown in simulated time, through the protocol, the drivers and the simulated chips.
+
+What the README promises of them: few relay starts, close to the best that any relay controller could do with as many,
+and far better than the sketch that the box replaces. Every figure is the same on every machine.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+import pytest
+
+from benchmarks.passes import Flight, fly_one, mean, optimum_deg, optimum_points
+
+PASSES = sorted(path.stem for path in (Path(__file__).parents[1] / "passes").glob("*.csv"))
+COMPARED = ("low-1-iss", "north-1-iss")
+"""A pass low in the south, and one through the rotor's stop in the north, where the sketch turns all the way back."""
+TOLERANCE_DEG = 4.0
+
+
+@pytest.fixture(scope="session")
+def flights() -> dict[tuple[str, float | None], Flight]:
+    """By pass and tolerance; without a tolerance it is the emulated sketch."""
+    jobs: list[tuple[str, float | None, str]] = [(name, None, "") for name in COMPARED]
+    jobs += [(name, TOLERANCE_DEG, "") for name in PASSES]
+    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+        return {(flight.pass_name, flight.tolerance_deg): flight for flight in pool.map(fly_one, jobs)}
+
+
+@pytest.fixture(scope="session")
+def box(flights: dict[tuple[str, float | None], Flight]) -> dict[str, Flight]:
+    return {name: flight for (name, tolerance_deg), flight in flights.items() if tolerance_deg is not None}
+
+
+def test_every_pass_is_flown(box: dict[str, Flight]) -> None:
+    assert len(box) == 12
+    assert all(flight.summary.motor_s > 0 for flight in box.values())
+
+
+def test_relay_starts_are_few(box: dict[str, Flight]) -> None:
+    assert mean([flight.starts for flight in box.values()]) <= 36
+
+
+@pytest.mark.parametrize("name", PASSES)
+def test_the_error_stays_within_the_tolerance(box: dict[str, Flight], name: str) -> None:
+    assert box[name].summary.p95_deg <= TOLERANCE_DEG
+
+
+def test_the_error_is_close_to_the_least_possible(box: dict[str, Flight]) -> None:
+    assert mean([flight.ratio for flight in box.values()]) <= 1.15
+
+
+@pytest.mark.parametrize("name", COMPARED)
+def test_it_beats_the_sketch_it_replaces(flights: dict[tuple[str, float | None], Flight], name: str) -> None:
+    box, sketch = flights[name, TOLERANCE_DEG], flights[name, None]
+    assert box.starts < sketch.starts / 3
+    assert box.summary.rms_deg < 0.6 * sketch.summary.rms_deg
+
+
+# --- the yardstick
+
+
+def test_every_pass_has_its_optimum() -> None:
+    points = optimum_points()
+    assert sorted(points) == PASSES
+    for each in points.values():
+        starts, errors_deg = zip(*each, strict=True)
+        assert list(starts) == sorted(starts)
+        assert list(errors_deg) == sorted(errors_deg, reverse=True), "more starts, less error"
+
+
+@pytest.mark.parametrize("name", PASSES)
+def test_between_its_points_the_optimum_is_between_their_errors(name: str) -> None:
+    points = optimum_points()[name]
+    for starts, error_deg in points:
+        assert optimum_deg(name, starts) == pytest.approx(error_deg)
+    (few, more_deg), (many, less_deg) = points[:2]
+    assert less_deg < optimum_deg(name, (few + many) / 2) < more_deg
+    assert optimum_deg(name, 1) == pytest.approx(more_deg), "fewer starts than the first point count as that point"
