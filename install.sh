@@ -19,6 +19,7 @@ usage: sudo ./install.sh [--profile NAME] [--wheels DIR]    install, or update t
   --arch ARCH       for --fetch-wheels: arm64, armhf or amd64; this machine's unless given
   --yes             do not ask before configuration and state are lost
 
+A configuration of moteus controllers, or of digital pots on the kernel's SPI, brings the packages that these need.
 Another Python than python3: sudo PYTHON=python3.12 ./install.sh
 END
 }
@@ -41,7 +42,7 @@ ROOM_MB=150
 PYTHON=${PYTHON:-python3}
 export PYTHONDONTWRITEBYTECODE=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INPUT=1 PIP_ROOT_USER_ACTION=ignore
 task=install_it profile=simulated wheels='' fetch='' arch='' dry=no keep=no sure=no
-changes=0 renewed=' ' half_built='' scratch=''
+changes=0 renewed=' ' extras='' half_built='' scratch=''
 
 # --- Saying and doing -------------------------------------------------------------------------------------------------
 
@@ -101,7 +102,7 @@ install_it() {
         try_out "$version_at" || die "version $version, which is here already, does not accept that; nothing has been changed"
     else
         refuse_a_full_disk
-        act "builds version $version in $version_at (minutes on a small Pi)" build_version
+        act "builds version $version${extras:+ with $extras} in $version_at (minutes on a small Pi)" build_version
     fi
     make_user
     if [ ! -e $CONFIG ]; then act "writes $CONFIG, profile $profile" write_config; fi
@@ -124,7 +125,9 @@ refuse_a_full_disk() {
 }
 
 try_out() { # FOLDER: it starts, has the profile, and accepts the configuration that is there, or else the profile
+    local package
     "$1/bin/rotator" --version >/dev/null && "$1/bin/rotator" config "$profile" >"$scratch/profile.toml" || return 1
+    for package in $extras; do "$1/bin/python" -c "import $package" || return 1; done
     if [ -e $CONFIG ]; then open_ports "$1" $CONFIG >/dev/null; else open_ports "$1" "$scratch/profile.toml" >/dev/null; fi
 }
 
@@ -234,6 +237,7 @@ start() { systemctl restart rotator.service || die "the service does not start: 
 roll_back() {
     local before
     before=$(readlink $APP/previous) || die "there is no version before this one"
+    source_at=$HERE find_extras
     try_out "$before" || die "the version before does not accept $CONFIG; nothing has been changed"
     switch_to "$before" "$before/install"
     finish "$(basename "$before") is back; --rollback again returns to the newer one."

@@ -67,7 +67,8 @@ class SimI2CBus:
         self._sleep = sleep
         self._byte_s = byte_s
         self._chips: dict[int, I2CChip] = {}
-        self._transfer_lock = threading.Lock()
+        # In simulated time all is one thread: what an alarm sends while another transfer sleeps goes before that one.
+        self._transfer_lock = threading.RLock()
         self._flowing = threading.Event()
         self._flowing.set()
         self._hang_timeout_s: float | None = None

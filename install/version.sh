@@ -8,6 +8,34 @@ check_python() {
         die "$PYTHON is not Python 3.11, 3.12 or 3.13; Raspberry Pi OS has one from Bookworm on, or name another: PYTHON=python3.12"
 }
 
+# moteus goes in without what it declares, which is scipy for a tool of its own, 200 MB of it; and these beside it.
+MOTEUS='moteus>=1.1,<2'
+MOTEUS_NEEDS=(importlib-metadata packaging 'python-can>=4.3')
+SPIDEV='spidev>=3.6'
+
+find_extras() { # sets extras: what the configuration that is there, or else the profile, needs beside the rest
+    extras=$("$PYTHON" - "$CONFIG" "$source_at" "rotator/config/profiles/$profile.toml" <<'END'
+import sys, tomllib, zipfile
+from pathlib import Path
+config, source, profile = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
+try:
+    if config.exists():
+        text = config.read_text(encoding="utf-8")
+    elif source.is_dir():
+        text = (source / profile).read_text(encoding="utf-8")
+    else:
+        text = zipfile.ZipFile(source).read(profile).decode("utf-8")
+    file = tomllib.loads(text)
+    rotor = file["rotor"]
+    kind, is_pi = rotor.get("type"), rotor.get("hardware") == "pi"
+    on_spi = kind == "digipot" and is_pi and file.get("digipot", {}).get("spi") == "kernel"
+except (OSError, KeyError, ValueError, AttributeError, TypeError, zipfile.BadZipFile):
+    sys.exit()  # a profile there is not, or a file that is wrong: the program itself says so, in a moment
+print(*["moteus"] * (kind == "moteus"), *["spidev"] * on_spi)
+END
+    )
+}
+
 find_source() { # sets source_at, what pip is given; version; and print: which sources, for which Python
     local sums
     if [ -n "$wheels" ]; then
@@ -26,6 +54,9 @@ find_source() { # sets source_at, what pip is given; version; and print: which s
     fi
     # An upgrade of the system changes its Python, and an environment made for another one is dead.
     print="$("$PYTHON" -c 'import sys; print("python%d.%d" % sys.version_info[:2])') $(sha256sum <<<"$sums" | cut -c1-16)"
+    find_extras
+    # With another set of packages it is another version, built beside: going back to the one before stays possible.
+    print+=${extras:+ $extras}
 }
 
 find_version() { # sets version_at: the folder that has these sources already, or the one to build
@@ -39,19 +70,25 @@ find_version() { # sets version_at: the folder that has these sources already, o
 }
 
 build_version() { # The print goes in last and says that the folder is whole.
-    local from=() log=$scratch/log
+    local from=() more=() log=$scratch/log
     half_built=$version_at
     rm -rf "$version_at"
     mkdir -p "$version_at"
     if [ -n "$wheels" ]; then from=(--no-index --find-links "$wheels"); fi
+    case $extras in *moteus*) more+=("${MOTEUS_NEEDS[@]}") ;; esac
+    case $extras in *spidev*) more+=("$SPIDEV") ;; esac
     {
-        make_environment "$version_at" &&
-            "$version_at/bin/pip" install --quiet --no-cache-dir --retries 1 --timeout 20 "${from[@]}" "$source_at" &&
+        make_environment "$version_at" && put_in "${from[@]}" "$source_at" "${more[@]}" &&
+            case $extras in *moteus*) put_in "${from[@]}" --no-deps "$MOTEUS" ;; esac &&
             cp -r "$HERE/install" "$version_at/install"
     } >"$log" 2>&1 || die "$(what_went_wrong "$log"); nothing has been changed"
     try_out "$version_at" || die "version $version does not work here, it says why above; nothing has been changed"
     echo "$print" >"$version_at/print"
     half_built=''
+}
+
+put_in() { # into $version_at, by pip
+    "$version_at/bin/pip" install --quiet --no-cache-dir --retries 1 --timeout 20 "$@"
 }
 
 make_environment() { # FOLDER. In two steps: in one, venv would keep to itself why pip cannot be put in.
@@ -79,14 +116,19 @@ fetch_wheels() { # into $fetch, for $arch and each Python that will do
             "$scratch/venv/bin/pip" wheel --quiet --retries 1 --timeout 20 --no-deps --wheel-dir "$scratch/wheels" "$HERE"
     } >"$log" 2>&1 || die "$(what_went_wrong "$log")"
     for minor in 11 12 13; do
-        "$scratch/venv/bin/pip" download --quiet --retries 1 --timeout 20 --dest "$scratch/wheels" --only-binary=:all: --implementation cp \
-            --python-version "3.$minor" --abi "cp3$minor" --abi abi3 --abi none "${platforms[@]}" \
-            "$scratch"/wheels/gs232_rotator-*.whl >"$log" 2>&1 || die "$(what_went_wrong "$log")"
+        fetch_for "$minor" "$scratch"/wheels/gs232_rotator-*.whl "${MOTEUS_NEEDS[@]}"
+        fetch_for "$minor" --no-deps "$MOTEUS"
     done
     mkdir -p "$fetch"
     rm -f "$fetch"/*.whl
     cp -r "$scratch"/wheels/*.whl "$HERE/install.sh" "$HERE/install" "$fetch/"
     echo "All is in $fetch. Carry it over; there: sudo ./install.sh --wheels ."
+}
+
+fetch_for() { # MINOR WHAT...: for Python 3.MINOR on $platforms
+    "$scratch/venv/bin/pip" download --quiet --retries 1 --timeout 20 --dest "$scratch/wheels" --only-binary=:all: --implementation cp \
+        --python-version "3.$1" --abi "cp3$1" --abi abi3 --abi none "${platforms[@]}" "${@:2}" >"$log" 2>&1 ||
+        die "$(what_went_wrong "$log")"
 }
 
 what_went_wrong() { # LOG

@@ -30,14 +30,11 @@ from rotator.overhearing import Tape
 from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
 from rotator.station import Station
+from rotator.store import counts, knobs
 from rotator.supervisor import Supervisor, runtime_folder
 from rotator.switchboard import build_links
 from rotator.views import lcd
 
-COUNTS = "counts.json"
-"""Beside the state file: where the axes stand that have nothing but a count."""
-KNOBS = "knobs.json"
-"""Beside it too: the full scales of a front panel's knobs."""
 RELAY_LINES = "relay-lines.json"
 """What the unit's ExecStopPost reads to open the relays of a program that has died."""
 
@@ -50,7 +47,7 @@ def monitor_path(config: Config, environment: Mapping[str, str]) -> Path:
 
 def open_station(config: Config) -> Station:
     """The hardware, in real time; what counts goes on from where it was when the program ended."""
-    kept = None if config.rotor.hardware == "sim" else Path(config.state.path).with_name(COUNTS)
+    kept = None if config.rotor.hardware == "sim" else Path(config.state.path).with_name(counts.FILE_NAME)
     return Station(config, time.monotonic, time.sleep, counts=kept)
 
 
@@ -142,7 +139,7 @@ class App:
             lambda: self.loop.status,
             lambda order: self.loop.post(source, order),
             time.monotonic,
-            knobs=None if simulated else Path(self.config.state.path).with_name(KNOBS),
+            knobs=None if simulated else Path(self.config.state.path).with_name(knobs.FILE_NAME),
             pulses=self.station.rotor.closed_contacts,
         )
         self._tape.on_data = panel.heard

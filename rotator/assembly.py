@@ -16,7 +16,7 @@ from hw import servo_drive
 from hw.ads1115 import Ads1115
 from hw.as5600 import As5600
 from hw.cam import Cam
-from hw.digipot_drive import ENABLE, BoxSpec, DigipotDrive, DigipotSensor
+from hw.digipot_drive import BoxSpec, DigipotDrive, DigipotSensor
 from hw.mcp41010 import Mcp41010
 from hw.moteus_bus import MoteusBus
 from hw.moteus_drive import MoteusDrive
@@ -74,21 +74,21 @@ class Assembly:
         self._ends = limit_switches(config, board)
         self._adc: tuple[Ads1115, float | Reference] | None = None
 
-    def build(self, relays: OutputLines | None) -> Rotor:
-        """The rotor; `relays` are its lines, where it has any."""
+    def build(self, lines: OutputLines | None) -> Rotor:
+        """The rotor; `lines` are those that must be off for it to stand still, where there are any."""
         match self._config.rotor.type:
             case "moteus":
                 return self._moteus()
             case "servo":
                 return self._servo()
             case "digipot":
-                return self._digipot()
+                return self._digipot(lines)
             case "relay-pulse":
-                assert relays is not None
-                return self._relay_pulse(relays)
+                assert lines is not None
+                return self._relay_pulse(lines)
             case "relay-pot":
-                assert relays is not None
-                return RelayRotor(self._bank(relays), self._sensors({}), self._ends)
+                assert lines is not None
+                return RelayRotor(self._bank(lines), self._sensors({}), self._ends)
 
     # --- relays
 
@@ -197,7 +197,7 @@ class Assembly:
         sensors = self._sensors({axis: drive.sensor(axis) for axis in Axis})
         return ServoRotor(drive, sensors, self._shift, self._ends)
 
-    def _digipot(self) -> PositionedRotor:
+    def _digipot(self, enable: OutputLines | None) -> PositionedRotor:
         config, board = self._config, self._board
         tables, spi = config.digipot, self._spi()
 
@@ -207,7 +207,6 @@ class Assembly:
             spec = BoxSpec(tuple(table.steps), self._first_deg(axis, table.start_deg), speed_dps, table.dead_band_deg)
             return Mcp41010(spi, SELECTS[axis]), spec
 
-        enable = board.outputs("rotator-boxes", {ENABLE: tables.enable}) if tables.enable is not None else None
         drive = DigipotDrive(box(Axis.AZIMUTH), box(Axis.ELEVATION), board.clock, enable=enable)
         sensors: dict[Axis, AngleSensor] = {}
         for axis, sensor in self._sensors({axis: drive.sensor(axis) for axis in Axis}).items():

@@ -15,7 +15,7 @@ from hw.i2c import SmbusI2C, open_bus
 
 
 class Board:
-    """`opened` closes everything in the end. Raises HardwareError where something is missing."""
+    """`opened` closes everything in the end. `chip`: its path, where the file says it. Raises HardwareError."""
 
     def __init__(
         self,
@@ -23,20 +23,21 @@ class Board:
         opened: ExitStack,
         clock: Callable[[], float],
         sleep: Callable[[float], None],
+        *,
+        chip: str | None = None,
     ) -> None:
         self.world = world
         self.clock = clock
         self.sleep = sleep
         self.opened = opened
         self.gpio: Any = world.gpio if world else real_gpiod()
-        self._chip: str | None = None
+        self._chip = chip
         self._buses: dict[int, SmbusI2C] = {}
 
-    def chip(self, said: str | None = None) -> str:
-        """The path of the chip with the header; `said` by the file, or found. The first call settles it."""
+    def chip(self) -> str:
+        """The path of the chip with the header's lines: what the file says, or found by its label."""
         if self._chip is None:
-            paths = self.world.gpio.paths() if self.world else None
-            self._chip = said or find_chip(self.gpio, PI_HEADER_LABEL, paths)
+            self._chip = find_chip(self.gpio, PI_HEADER_LABEL, self.world.gpio.paths() if self.world else None)
         return self._chip
 
     def outputs(self, consumer: str, pins: Mapping[str, int], *, active_low: bool = False) -> GpioOutputs:

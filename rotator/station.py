@@ -11,6 +11,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from firmware_sim.rotor import SimRotor
+from hw.digipot_drive import ENABLE
 from hw.gpio import GpioOutputs
 from hw.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780
 from hw.heartbeat import Heartbeat
@@ -26,9 +27,16 @@ from rotator.rotor import AddAlarm, Rotor
 from rotator.simulation import Plan
 
 
-def relay_lines(config: Config, chip: str) -> RelayLines:
-    """Every line that must be off for the motors to stand still."""
-    return RelayLines(chip, config.relays.outputs, config.relays.active == "low")
+def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:
+    """Every line that must be off for the motors to stand still; None: there is none.
+
+    `chip` tells the path of the chip they are on, and is asked only where there are any.
+    """
+    if config.rotor.switched:
+        return RelayLines(chip(), config.relays.outputs, config.relays.active == "low")
+    if config.rotor.type == "digipot" and config.digipot.enable is not None:
+        return RelayLines(chip(), {ENABLE: config.digipot.enable}, active_low=False)
+    return None
 
 
 class Station:
@@ -62,12 +70,14 @@ class Station:
         plan = Plan(config, clock, sleep if config.sim.bus_takes_time else None, start_deg)
         if config.rotor.hardware == "sim":
             self.world = plan.build()
-        self.sentinel = self.lines = None
+        self.sentinel = None
         # What has been opened is let go of again, in the opposite order, should something further on be missing.
         with ExitStack() as opened:
-            self._board = Board(self.world, opened, clock, sleep)
-            outputs = self._open_relays(opened) if config.rotor.switched else None
-            self.heartbeat = Heartbeat(outputs) if outputs and config.relays.heartbeat is not None else None
+            self._board = Board(self.world, opened, clock, sleep, chip=config.relays.chip)
+            self.lines = off_lines(config, self._board.chip)
+            outputs = self._open_lines(opened, self.lines) if self.lines else None
+            beats = config.rotor.switched and config.relays.heartbeat is not None
+            self.heartbeat = Heartbeat(outputs) if outputs and beats else None
             self.rotor = Assembly(
                 config,
                 self._board,
@@ -95,18 +105,17 @@ class Station:
         finally:
             self._opened.close()
 
-    def _open_relays(self, opened: ExitStack) -> GpioOutputs:
-        self.lines = relay_lines(self._config, self._board.chip(self._config.relays.chip))
+    def _open_lines(self, opened: ExitStack, lines: RelayLines) -> GpioOutputs:
         outputs = GpioOutputs(
             self._board.gpio,
-            self.lines.chip,
-            self.lines.offsets,
+            lines.chip,
+            lines.offsets,
             consumer="rotator-relays",
-            active_low=self.lines.active_low,
+            active_low=lines.active_low,
         )
         with ExitStack() as taken:
             taken.callback(outputs.close)
-            self.sentinel = None if self.world else Sentinel(self.lines)
+            self.sentinel = None if self.world else Sentinel(lines)
             taken.pop_all()
         # The lines go first: a sentinel that was not dismissed takes them when they are free.
         if self.sentinel:

@@ -14,8 +14,14 @@ from hw.gpio import LinesBusyError, find_chip, real_gpiod
 from hw.lines_off import switch_off
 from hw.ports import HardwareError
 from rotator.config.load import load
-from rotator.station import relay_lines
+from rotator.station import off_lines
 
+HOLDS = {
+    "moteus": "the controllers stop and hold by their own watchdog, half a second after the program's last word",
+    "servo": "the board goes on with its last pulses, and the servos hold",
+    "digipot": "the control boxes go on to where their chips point; a relay in their supply would end that",
+}
+"""What becomes of a rotor without relays when the program ends."""
 PATIENCE_S = 1.0
 """A program that is just dying lets go of its lines within this."""
 
@@ -25,10 +31,12 @@ def relays_off(path: Path | None) -> None:
     if config.rotor.hardware == "sim":
         click.echo("simulated: there is no relay to open")
         return
-    gpio = real_gpiod()
-    lines = relay_lines(config, config.relays.chip or find_chip(gpio))
+    lines = off_lines(config, lambda: config.relays.chip or find_chip(real_gpiod()))
+    if lines is None:
+        click.echo(f"{config.rotor.type}: there is no relay to open; {HOLDS[config.rotor.type]}")
+        return
     try:
-        switch_off(gpio, lines, time.monotonic, time.sleep, PATIENCE_S)
+        switch_off(real_gpiod(), lines, time.monotonic, time.sleep, PATIENCE_S)
     except LinesBusyError as fault:
         raise HardwareError(
             f"{fault}. A box that runs opens its own relays: press stop there, or end it (sudo systemctl stop rotator)"

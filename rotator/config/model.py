@@ -222,15 +222,22 @@ class Config(Table):
             limits = self.axis(axis)
             match self.rotor.type:
                 case "servo":
-                    key, points = f"servo.{axis.value}.pulses_us", getattr(self.servo, axis.value).pulses_us
+                    key, table = f"servo.{axis.value}", getattr(self.servo, axis.value)
+                    points, name = table.pulses_us, "pulses_us"
                 case "digipot":
-                    key, points = f"digipot.{axis.value}.steps", getattr(self.digipot, axis.value).steps
+                    key, table = f"digipot.{axis.value}", getattr(self.digipot, axis.value)
+                    points, name = table.steps, "steps"
                 case _:
                     continue
+            if not limits.min_deg <= table.start_deg <= limits.max_deg:
+                faults.append(
+                    f"{key}.start_deg = {table.start_deg:g} is outside {axis.value}'s range, "
+                    f"{limits.min_deg:g} to {limits.max_deg:g}"
+                )
             low_deg, high_deg = min(angle for angle, _ in points), max(angle for angle, _ in points)
             if not low_deg <= limits.min_deg < limits.max_deg <= high_deg:
                 faults.append(
-                    f"{axis.value}: min_deg {limits.min_deg:g} to max_deg {limits.max_deg:g} goes beyond {key}, "
+                    f"{axis.value}: min_deg {limits.min_deg:g} to max_deg {limits.max_deg:g} goes beyond {key}.{name}, "
                     f"which reaches from {low_deg:g} to {high_deg:g}"
                 )
         return faults

@@ -16,6 +16,7 @@ from rotator.control.axis import AxisControl, AxisSettings
 from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.goals import HomeGoal
 from rotator.control.mount import Mount, Unreachable
+from rotator.control.nudges import Nudges
 from rotator.control.pointing import AimGoal, Goals, Pointing
 from rotator.control.positioned import PositionedAxis, PositionedSettings
 from rotator.control.route import Speeds
@@ -45,8 +46,6 @@ from rotator.orders import (
 )
 from rotator.status import Status
 
-FULL_TURN_DEG = 360.0
-
 
 @dataclass(frozen=True, slots=True)
 class Settings:
@@ -74,7 +73,7 @@ class Controller:
         """Axes that wait until another has been homed."""
         self._homed_by: Source | None = None
         """Who has asked for the homing that is going on: nobody else may move anything meanwhile."""
-        self._nudges_deg = dict.fromkeys(Axis, 0.0)
+        self._nudges = Nudges()
         self._asked: Aim | None = None
         """What was last asked for, without the nudges; None: nothing is."""
         self._authority = Authority(settings.mode)
@@ -158,7 +157,7 @@ class Controller:
             case SetMode(mode):
                 self._to_home.clear()
                 self._halt(BOTH)
-                self._nudges_deg = dict.fromkeys(Axis, 0.0)
+                self._nudges.clear()
                 self._authority.switch(source, mode)
             case Nudge(axis, offset_deg):
                 self._nudge(axis, offset_deg, now_s)
@@ -197,7 +196,7 @@ class Controller:
 
     def _nudge(self, axis: Axis, offset_deg: float, now_s: float) -> None:
         """From now on; and what is asked for already moves by as much, as long as somebody still wants it."""
-        self._nudges_deg[axis] = offset_deg
+        self._nudges.set(axis, offset_deg)
         if self._asked is not None and self._asked.engaged and not self._authority.latched:
             self._point_at(self._asked, now_s)
 
@@ -265,7 +264,7 @@ class Controller:
             self.errands.append(Acknowledge(axis))
 
     def _point_at(self, asked: Aim, now_s: float) -> None:
-        aim = self._nudged(asked)
+        aim = self._nudges.applied(asked)
         azimuth, elevation = self._axes[Axis.AZIMUTH], self._axes[Axis.ELEVATION]
         if not aim.engaged:
             azimuth.goal = elevation.goal = None
@@ -285,17 +284,6 @@ class Controller:
             return
         self._asked = asked
         self._set_goals(goals)
-
-    def _nudged(self, asked: Aim) -> Aim:
-        """What is asked for, moved by the nudges; an azimuth that does not name a turn stays one of the circle."""
-        azimuth_deg, elevation_deg = asked.azimuth_deg, asked.elevation_deg
-        if azimuth_deg is not None and (by_deg := self._nudges_deg[Axis.AZIMUTH]):
-            azimuth_deg = (
-                azimuth_deg + by_deg if azimuth_deg > FULL_TURN_DEG else (azimuth_deg + by_deg) % FULL_TURN_DEG
-            )
-        if elevation_deg is not None:
-            elevation_deg += self._nudges_deg[Axis.ELEVATION]
-        return replace(asked, azimuth_deg=azimuth_deg, elevation_deg=elevation_deg)
 
     def _look_ahead(self, now_s: float) -> None:
         """Keep the goals up with a target that moves, on the axes that still aim at it."""

@@ -19,7 +19,7 @@ SCARCE_BYTES, TOO_FEW_BYTES = 500_000_000, 50_000_000
 def groups(machine: Machine, config: Config) -> Iterator[Finding]:
     needed = _needed(config)
     if not needed:
-        yield skipped("a simulated rotor without serial ports needs none")
+        yield skipped("this configuration needs none")
         return
     unit = machine.unit
     if unit is not None:
@@ -35,8 +35,15 @@ def groups(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def _needed(config: Config) -> set[str]:
-    needed = {"gpio", "i2c"} if config.rotor.hardware == "pi" else set()
-    return needed | ({"dialout"} if any(link.serial and "://" not in link.serial for link in config.link) else set())
+    on_a_pi = config.rotor.hardware == "pi"
+    serial = any(link.serial and "://" not in link.serial for link in config.link)
+    needs = {
+        "gpio": on_a_pi and bool(config.pins()),
+        "i2c": on_a_pi and bool(config.chips()),
+        "spi": on_a_pi and config.rotor.type == "digipot" and config.digipot.spi == "kernel",
+        "dialout": serial or (on_a_pi and config.rotor.type == "moteus" and not config.moteus.can),
+    }
+    return {group for group, needed in needs.items() if needed}
 
 
 def _membership(machine: Machine, user: str, needed: set[str]) -> Finding:

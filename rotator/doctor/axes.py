@@ -9,7 +9,7 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 
-from rotator.config.axes import AxisTable
+from hw.ports import Axis
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, wrong
@@ -33,22 +33,38 @@ def axes(config: Config) -> Iterator[Finding]:
     if config.rotor.hardware == "sim":
         yield fine("a simulated rotor needs no calibration")
         return
-    yield _set_up("azimuth", config.azimuth)
-    yield _set_up("elevation", config.elevation)
+    yield from (_set_up(config, axis) for axis in Axis)
 
 
-def _set_up(axis: str, table: AxisTable) -> Finding:
+def _set_up(config: Config, axis: Axis) -> Finding:
+    name, table, told = axis.value, config.axis(axis), told_by(config, axis)
     lacks = []
-    if table.calibration is None:
+    if not told and table.calibration is None:
         lacks.append("calibration")
     if not {"min_deg", "max_deg"} <= table.model_fields_set:
         lacks.append("limits")
     if not table.direction_checked:
         lacks.append("direction check")
     if lacks:
+        keys = [f"{name}.{key}" for key in ("min_deg", "max_deg", *(() if told else ("calibration",)))]
         return wrong(
-            f"{axis} is not set up, and obeys short presses only: it lacks {', '.join(lacks)}",
-            f"rotator calibrate {axis} --config FILE leads you through it, or write {axis}.min_deg, {axis}.max_deg, "
-            f"{axis}.calibration and {axis}.direction_checked yourself.",
+            f"{name} is not set up, and obeys short presses only: it lacks {', '.join(lacks)}",
+            f"rotator calibrate {name} --config FILE leads you through it, or write {', '.join(keys)} and "
+            f"{name}.direction_checked yourself.",
         )
-    return fine(f"{axis}: {table.min_deg:g}° to {table.max_deg:g}°, calibrated, direction checked")
+    return fine(f"{name}: {table.min_deg:g}° to {table.max_deg:g}°, {told or 'calibrated'}, direction checked")
+
+
+def told_by(config: Config, axis: Axis) -> str:
+    """How the axis's angle comes, where it comes in degrees; empty: by a calibration."""
+    if not config.in_degrees(axis):
+        return ""
+    if config.axis(axis).sensor.kind != "own":
+        return "told by gravity"
+    match config.rotor.type:
+        case "relay-pulse":
+            return "counted"
+        case "moteus":
+            return "told by its controller"
+        case _:
+            return "modelled"

@@ -1,7 +1,7 @@
-"""The checks of what the Pi does with the relay lines when nobody holds them: at its start, and after a crash.
+"""The checks of what the Pi does with lines that must be off when nobody holds them: at its start, and after a crash.
 
-Knows what config.txt means for the relays, the pins' pulls, and the kernel's habit of leaving outputs as they were.
-Writes nothing: `rotator setup pins` does.
+Knows what config.txt means for relays and enable lines, the pins' pulls, and the kernel's habit of leaving outputs as
+they were. Writes nothing: `rotator setup pins` does.
 """
 
 from __future__ import annotations
@@ -11,14 +11,22 @@ from collections.abc import Iterator
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
-from rotator.doctor.wires import gpios, relay_pins
+from rotator.doctor.wires import gpios
 from rotator.setup.boot_config import Setting, parameters, pins, settings
 from rotator.setup.pi import known
-from rotator.setup.pins import PULLED_UP
+from rotator.setup.pins import PULLED_UP, OffLine, closing, off_lines
 
 CONFIG_TXT = ("/boot/firmware/config.txt", "/boot/config.txt")
 """Where it is since Debian 12, and where it was before."""
 SETUP = "sudo rotator setup pins, then reboot."
+
+
+def has_relays(config: Config) -> bool:
+    return bool(closing(config))
+
+
+def has_lines(config: Config) -> bool:
+    return bool(off_lines(config))
 
 
 def released_lines(machine: Machine, config: Config) -> Iterator[Finding]:
@@ -47,19 +55,28 @@ def boot_pins(machine: Machine, config: Config) -> Iterator[Finding]:
         yield skipped(_why_not(config))
         return
     levels = driven_at_boot(machine)
-    closes = config.relays.active == "high"
-    relays = relay_pins(config)
-    driven_on = {pin: key for pin, key in relays.items() if levels.get(pin) is closes}
-    not_driven = [pin for pin in relays if pin not in levels]
-    for pin, key in driven_on.items():
-        yield wrong(f"config.txt drives {gpios([pin])} {_level(closes)} at the start, which closes {key}", SETUP)
-    if risky := [pin for pin in not_driven if (pin in PULLED_UP) == closes]:
-        yield wrong(f"{gpios(risky)}: pulled {_level(closes)} at the start, which closes the relay", SETUP)
-    if quiet := [pin for pin in not_driven if (pin in PULLED_UP) != closes]:
+    # A heartbeat that stands still is off, at either level.
+    lines = {pin: line for pin, line in off_lines(config).items() if line.key != "relays.heartbeat"}
+    driven_on = {pin: line for pin, line in lines.items() if levels.get(pin) is _on(line)}
+    not_driven = {pin: line for pin, line in lines.items() if pin not in levels}
+    for pin, line in driven_on.items():
+        yield wrong(
+            f"config.txt drives {gpios([pin])} {_level(_on(line))} at the start, which switches {line.key} on", SETUP
+        )
+    risky = {pin: line for pin, line in not_driven.items() if line.switches and (pin in PULLED_UP) is _on(line)}
+    for level in (True, False):
+        if pins := [pin for pin, line in risky.items() if _on(line) is level]:
+            yield wrong(f"{gpios(pins)}: pulled {_level(level)} at the start, which closes the relay", SETUP)
+    if quiet := [pin for pin in not_driven if pin not in risky]:
         yield warn(f"{gpios(quiet)}: off at the start by a weak pull only", SETUP)
-    if len(driven_on) + len(not_driven) < len(relays):
-        off = [pin for pin in relays if pin in levels and pin not in driven_on]
-        yield fine(f"{gpios(off)} driven {_level(not closes)}, off, a few seconds after power-on")
+    for level in (True, False):
+        if pins := [pin for pin in lines if pin in levels and pin not in driven_on and levels[pin] is level]:
+            yield fine(f"{gpios(pins)} driven {_level(level)}, off, a few seconds after power-on")
+
+
+def _on(line: OffLine) -> bool:
+    """Whether it is on at the high level."""
+    return line.off == "dl"
 
 
 def in_effect(machine: Machine) -> list[Setting]:

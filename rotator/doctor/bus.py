@@ -9,17 +9,20 @@ from __future__ import annotations
 from collections.abc import Iterator
 from statistics import fmean
 
-from hw.ports import HardwareError
+from hw.ports import Axis, HardwareError
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.doctor.chips import Bus, Chips
 from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import Machine
-from rotator.doctor.wires import box_is_running
+from rotator.doctor.wires import running
 
 CONVERTERS = range(0x48, 0x4C)
+OUTPUT_BOARDS = range(0x40, 0x48)
 BACKPACKS = (*range(0x20, 0x28), *range(0x38, 0x40))
 """The PCF8574 and the PCF8574A."""
+SENSORS = {"as5600": (0x36, 0x40), "mpu6050": (0x68, 0x69)}
+COMPASSES = (0x28, 0x29)
 SAMPLES = 20
 UNSTEADY = 0.02
 """Of the supply, from the least to the most of the samples: an antenna at rest, or turning, gives far less."""
@@ -28,8 +31,12 @@ AT_RAIL = 0.01
 WIRING = "Check its power, SDA and SCL, and that the two are not swapped."
 
 
+def has_chips(config: Config) -> bool:
+    return bool(config.chips())
+
+
 def i2c_bus(machine: Machine, config: Config) -> Iterator[Finding]:
-    for number in sorted({bus for bus, _ in _devices(config).values()}):
+    for number in sorted({bus for bus, _, _ in config.chips()}):
         try:
             with machine.chips.bus(number):
                 yield fine(f"/dev/i2c-{number}")
@@ -41,36 +48,54 @@ def i2c_bus(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def i2c_devices(machine: Machine, config: Config) -> Iterator[Finding]:
-    for table, (number, address) in _devices(config).items():
+    for number, address, key in config.chips():
+        taken = {there for on, there, _ in config.chips() if on == number}
         try:
             with machine.chips.bus(number) as bus:
-                taken = {there for on, there in _devices(config).values() if on == number}
-                yield _device(bus, table, address, taken)
+                yield _device(bus, key, address, set(usual_addresses(config, key)) - taken)
         except HardwareError:
-            yield skipped(f"{table}: the bus cannot be opened")
+            yield skipped(f"{chip_name(key)}: the bus cannot be opened")
 
 
-def _device(bus: Bus, table: str, address: int, taken: set[int]) -> Finding:
-    usual = CONVERTERS if table == "adc" else BACKPACKS
+def chip_name(key: str) -> str:
+    """`adc` for adc.address, `panel.adc` for panel.adc_address."""
+    return key.removesuffix("address").rstrip("._")
+
+
+def usual_addresses(config: Config, key: str) -> tuple[int, ...]:
+    """Those that such a chip can be given."""
+    match key.partition(".")[0]:
+        case "azimuth" | "elevation" as axis:
+            return SENSORS[config.axis(Axis(axis)).sensor.kind]
+        case "lcd":
+            return BACKPACKS
+        case "compass":
+            return COMPASSES
+        case _:
+            return tuple(CONVERTERS if "adc" in key else OUTPUT_BOARDS)
+
+
+def _device(bus: Bus, key: str, address: int, elsewhere: set[int]) -> Finding:
+    name = chip_name(key)
     try:
         if bus.answers(address):
-            return fine(f"{table}: 0x{address:02x} answers")
-        others = [other for other in usual if other not in taken and bus.answers(other)]
+            return fine(f"{name}: 0x{address:02x} answers")
+        others = [other for other in sorted(elsewhere) if bus.answers(other)]
     except HardwareError as fault:
-        return wrong(f"{table}: {fault}", "Unplug one device after the other; switch the 5 V off and on.")
+        return wrong(f"{name}: {fault}", "Unplug one device after the other; switch the 5 V off and on.")
     if others:
         seen = " and ".join(f"0x{other:02x}" for other in others)
-        return wrong(f"{table}: 0x{address:02x} does not answer, {seen} does", f"{table}.address = 0x{others[0]:02x}")
-    return wrong(f"{table}: 0x{address:02x} does not answer, nor does any other usual address", WIRING)
+        return wrong(f"{name}: 0x{address:02x} does not answer, {seen} does", f"{key} = 0x{others[0]:02x}")
+    return wrong(f"{name}: 0x{address:02x} does not answer, nor does any other usual address", WIRING)
+
+
+def has_pots(config: Config) -> bool:
+    return config.uses_adc
 
 
 def pots(machine: Machine, config: Config) -> Iterator[Finding]:
-    try:
-        if box_is_running(machine, config):
-            yield skipped("the box is running and reads them itself; its terminal or log tells")
-            return
-    except HardwareError:
-        yield skipped("not read: the box may be running, and the GPIO chip cannot be asked")
+    if left_alone := running(machine, config):
+        yield left_alone
         return
     try:
         with machine.chips.bus(config.adc.bus) as bus:
@@ -85,9 +110,10 @@ def pots(machine: Machine, config: Config) -> Iterator[Finding]:
 def _readings(chips: Chips, bus: Bus, config: Config) -> Iterator[Finding]:
     adc = config.adc
     converter = chips.converter(bus, config)
-    axes = (("azimuth", config.azimuth, adc.azimuth_channel), ("elevation", config.elevation, adc.elevation_channel))
+    channels = {Axis.AZIMUTH: adc.azimuth_channel, Axis.ELEVATION: adc.elevation_channel}
+    pots = {axis: channel for axis, channel in channels.items() if config.has_pot(axis)}
     try:
-        volts = {channel: [converter.volts(channel) for _ in range(SAMPLES)] for _, _, channel in axes}
+        volts = {channel: [converter.volts(channel) for _ in range(SAMPLES)] for channel in pots.values()}
     except HardwareError as fault:
         yield wrong(str(fault), "A sick chip, or not an ADS1115 at adc.address.")
         return
@@ -96,8 +122,8 @@ def _readings(chips: Chips, bus: Bus, config: Config) -> Iterator[Finding]:
     except HardwareError as fault:
         yield wrong(str(fault), f"Wire the pots' supply to A{adc.reference_channel}, or remove adc.reference_channel.")
         return
-    for axis, table, channel in axes:
-        yield _reading(axis, table, channel, supply_v, volts[channel])
+    for axis, channel in pots.items():
+        yield _reading(axis.value, config.axis(axis), channel, supply_v, volts[channel])
 
 
 def _reading(axis: str, table: AxisTable, channel: int, supply_v: float, volts: list[float]) -> Finding:
@@ -125,11 +151,3 @@ def _reading(axis: str, table: AxisTable, channel: int, supply_v: float, volts: 
         f"If the antenna stands at an end: fit end resistors (docs/wiring.md), or widen {axis}.lowest_reading "
         f"and {axis}.highest_reading.",
     )
-
-
-def _devices(config: Config) -> dict[str, tuple[int, int]]:
-    """Which table of the file describes what on which bus, at which address."""
-    devices = {"adc": (config.adc.bus, config.adc.address)}
-    if config.lcd.kind == "pcf8574":
-        devices["lcd"] = (config.lcd.bus, config.lcd.address)
-    return devices

@@ -12,7 +12,21 @@ from typing import Any
 
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
-from rotator.doctor import account, axes, boot, bus, health, links, software, wires
+from rotator.doctor import (
+    account,
+    axes,
+    boot,
+    bus,
+    counts,
+    health,
+    links,
+    moteus,
+    outputs,
+    sensors,
+    software,
+    switches,
+    wires,
+)
 from rotator.doctor.chips import simulated_chips
 from rotator.doctor.finding import Check, Finding, skipped, wrong
 from rotator.doctor.machine import Machine
@@ -33,21 +47,67 @@ OF_THE_MACHINE: tuple[Check[[Machine]], ...] = (
 )
 
 OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
-    Check("axes", "calibration, limits and direction check of both", lambda _machine, config: axes.axes(config)),
-    Check("GPIO chip", "the one with the 40-pin header is there, and yours to open", wires.gpio_chip, on_chips=True),
-    Check("GPIO lines", "nobody but the box holds a line of relays or display", wires.gpio_lines, on_chips=True),
-    Check("I2C bus", "it is there, and yours to open", bus.i2c_bus, on_chips=True),
-    Check("I2C devices", "converter and display answer; if not, which address does", bus.i2c_devices, on_chips=True),
-    Check("pots", "both read within their window, and steadily; not while the box is running", bus.pots, on_chips=True),
-    Check("released lines", "`strict_gpiod`: relays drop when the program dies", boot.released_lines),
-    Check("boot pins", "`gpio=` in config.txt: relays are off while the Pi starts", boot.boot_pins),
+    Check(
+        "axes", "what each needs before it may be aimed: limits, direction check, a calibration where it has a pot",
+        lambda _machine, config: axes.axes(config),
+    ),
+    Check(
+        "counts", "the file with the counts can be believed; which axis was never homed, or has lost its count",
+        counts.counts, concerns=counts.keeps_counts,
+    ),
+    Check(
+        "GPIO chip", "the one with the 40-pin header is there, and yours to open",
+        wires.gpio_chip, on_chips=True, concerns=wires.has_lines,
+    ),
+    Check(
+        "GPIO lines", "nobody but the box holds a line that it uses, outputs and inputs",
+        wires.gpio_lines, on_chips=True, concerns=wires.has_lines,
+    ),
+    Check("I2C bus", "it is there, and yours to open", bus.i2c_bus, on_chips=True, concerns=bus.has_chips),
+    Check(
+        "I2C devices", "every chip that the file names answers; if not, which address does",
+        bus.i2c_devices, on_chips=True, concerns=bus.has_chips,
+    ),
+    Check(
+        "pots", "they read within their window, and steadily; not while the box is running",
+        bus.pots, on_chips=True, concerns=bus.has_pots,
+    ),
+    Check(
+        "sensors", "AS5600 and its magnet, MPU6050 and its 1 g, BNO055 and its heading; not while the box is running",
+        sensors.sensors, on_chips=True, concerns=sensors.has_sensors,
+    ),
+    Check(
+        "PCA9685", "those of servos and panel are what they should be, and have not been reset under a running box",
+        outputs.output_boards, on_chips=True, concerns=outputs.has_boards,
+    ),
+    Check(
+        "moteus", "library and adapter; both controllers: volts, what stopped them, whether they know where they point",
+        moteus.controllers, on_chips=True, concerns=moteus.is_moteus,
+    ),
+    Check(
+        "SPI", "the kernel's, where digital pots hang on it: the package spidev, and both devices",
+        outputs.spi, on_chips=True, concerns=outputs.uses_spi,
+    ),
+    Check(
+        "switches", "stop button and limit switches closed; where the mode switch stands; not while the box is running",
+        switches.switches, on_chips=True, concerns=switches.has_switches,
+    ),
+    Check(
+        "released lines", "`strict_gpiod`: relays drop when the program dies",
+        boot.released_lines, concerns=boot.has_relays,
+    ),
+    Check(
+        "boot pins", "`gpio=` in config.txt: relays and enable lines are off while the Pi starts",
+        boot.boot_pins, concerns=boot.has_lines,
+    ),
     Check("serial ports", "those of the links are there, yours to open, and no console", links.serial_ports),
     Check("pseudo-terminals", "those of the links can be made", links.pseudo_terminals),
     Check("TCP ports", "those of the links are free, or the box's; which are open to the network", links.tcp_ports),
     Check("UDP ports", "the same of those that hear datagrams", links.udp_ports),
-    Check("groups", "gpio, i2c and dialout of you and of the service's user", account.groups),
+    Check("groups", "gpio, i2c, spi, dialout: those needed, of you and of the service's user", account.groups),
     Check("state folder", "it can be written to, and the card is not full", account.state_folder),
-)
+)  # fmt: skip
+"""A check of something that the configuration has not is left out."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +136,8 @@ def examine(machine: Machine, path: Path | None) -> Examination:
         findings += [(check.name, finding) for finding in _safely(check.look, machine)]
     simulated = config is not None and config.rotor.hardware == "sim"
     for station_check in OF_THE_STATION:
+        if config is not None and not station_check.concerns(config):
+            continue
         findings += [
             (station_check.name, finding) for finding in _of_station(station_check, machine, config, simulated)
         ]

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Generic, ParamSpec
+from typing import Any, Generic, ParamSpec
+
+from hw.ports import HardwareError
 
 P = ParamSpec("P")
 
@@ -43,8 +45,19 @@ def wrong(found: str, advice: str) -> Finding:
     return Finding(False, found, advice)
 
 
-def skipped(found: str) -> Finding:
-    return Finding(None, found)
+def skipped(found: str, advice: str = "") -> Finding:
+    """`advice`: where a person has to look, because the program cannot."""
+    return Finding(None, found, advice)
+
+
+def refused(about: str, fault: HardwareError) -> Finding:
+    """What a driver says is wrong; after its semicolon it says what to do."""
+    problem, _, cure = str(fault).partition("; ")
+    return wrong(f"{about}: {problem}", f"{cure[:1].upper()}{cure[1:]}." if cure else "See docs/troubleshooting.md.")
+
+
+def always(_config: Any) -> bool:
+    return True
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,3 +69,5 @@ class Check(Generic[P]):
     look: Callable[P, Iterator[Finding]]
     on_chips: bool = False
     """It looks at chips, which a simulated station has as well."""
+    concerns: Callable[[Any], bool] = always
+    """Whether the configuration that it is given has anything of the kind; the check is left out where it has not."""

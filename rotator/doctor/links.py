@@ -34,20 +34,23 @@ def serial_ports(machine: Machine, config: Config) -> Iterator[Finding]:
     if not names:
         yield skipped("no link has one")
     for name in names:
-        path = machine.at(name)
-        if "://" in name:
-            yield skipped(f"{name}: opened when the box runs")
-        elif not path.exists():
-            yield wrong(f"{name} is not there", _absent(machine, name))
-        elif not os.access(path, os.R_OK | os.W_OK):
-            yield wrong(f"{name}: not yours", f"sudo usermod -aG dialout {machine.user}, then log in again.")
-        elif path.resolve().name in _consoles(machine):
-            yield wrong(
-                f"{name}: the kernel's console is on it, and its messages would be orders",
-                "sudo raspi-config, Interface, Serial Port: no login shell; then reboot.",
-            )
-        else:
-            yield fine(f"{name} is there and may be opened")
+        yield serial_port(machine, name)
+
+
+def serial_port(machine: Machine, name: str) -> Finding:
+    path = machine.at(name)
+    if "://" in name:
+        return skipped(f"{name}: opened when the box runs")
+    if not path.exists():
+        return wrong(f"{name} is not there", _absent(machine, name))
+    if not os.access(path, os.R_OK | os.W_OK):
+        return wrong(f"{name}: not yours", f"sudo usermod -aG dialout {machine.user}, then log in again.")
+    if path.resolve().name in _consoles(machine):
+        return wrong(
+            f"{name}: the kernel's console is on it, and its messages would be orders",
+            "sudo raspi-config, Interface, Serial Port: no login shell; then reboot.",
+        )
+    return fine(f"{name} is there and may be opened")
 
 
 def _absent(machine: Machine, name: str) -> str:
@@ -152,11 +155,4 @@ def _listener(machine: Machine, port: int, kind: socket.SocketKind) -> list[str]
             fields = row.split()
             if fields[3] == listening and int(fields[1].rpartition(":")[2], 16) == port:
                 sockets.add(f"socket:[{fields[9]}]")
-    for descriptor in machine.glob("/proc/[0-9]*/fd/*"):
-        try:
-            target = os.readlink(machine.at(descriptor))
-        except OSError:
-            continue
-        if target in sockets:
-            return (machine.text(descriptor.parents[1] / "cmdline") or "a process without a name").split("\0")
-    return None
+    return machine.holder(sockets)

@@ -78,6 +78,26 @@ class Machine:
         return asked.stdout.decode("utf-8", "replace").strip()
 
     @property
+    def listening(self) -> set[str]:
+        """The files at which programs listen on this machine, as they named them."""
+        rows = [line.split(maxsplit=7) for line in (self.text("/proc/net/unix") or "").splitlines()[1:]]
+        return {row[7] for row in rows if len(row) == 8}
+
+    def holder(self, opened: set[str]) -> list[str] | None:
+        """The command line of a program that has one of these open, by what its descriptors lead to.
+
+        None where there is none, or that is not ours to know.
+        """
+        for descriptor in self.glob("/proc/[0-9]*/fd/*"):
+            try:
+                target = os.readlink(self.at(descriptor))
+            except OSError:
+                continue
+            if target in opened:
+                return (self.text(descriptor.parents[1] / "cmdline") or "a process without a name").split("\0")
+        return None
+
+    @property
     def model(self) -> str:
         """What the board calls itself, such as `Raspberry Pi 4 Model B Rev 1.4`; empty on a PC."""
         return self.text("/proc/device-tree/model") or ""

@@ -1,19 +1,33 @@
 """The checks of the GPIO lines: is the chip there, and is each line free.
 
-Knows what every line is for. Takes none of them, so it may look while the box is running.
+Knows what every line is for, and how a box that is running is told. Takes no line, so it may look while one is.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
 from hw.ports import HardwareError
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, wrong
-from rotator.doctor.machine import Machine
+from rotator.doctor.machine import SERVICE_FOLDERS, Machine
 
 OURS = "rotator-"
 """What the names begin with under which our programs hold their lines."""
+MONITOR = "monitor"
+"""The socket of a running box, in systemd's folder or beside the state file."""
+
+
+def lines(config: Config) -> dict[int, str]:
+    """The GPIOs that the box takes, with their keys: not those of the kernel's own SPI."""
+    is_spi = config.rotor.type == "digipot" and config.digipot.spi == "kernel"
+    kernels = ("digipot.azimuth.select", "digipot.elevation.select", "digipot.sck", "digipot.si") if is_spi else ()
+    return {pin: key for pin, key in config.pins() if key not in kernels}
+
+
+def has_lines(config: Config) -> bool:
+    return bool(lines(config))
 
 
 def gpio_chip(machine: Machine, config: Config) -> Iterator[Finding]:
@@ -27,7 +41,7 @@ def gpio_chip(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def gpio_lines(machine: Machine, config: Config) -> Iterator[Finding]:
-    pins = {**relay_pins(config), **_other_pins(config)}
+    pins = lines(config)
     try:
         held = machine.chips.holders(config, pins)
     except HardwareError:
@@ -46,24 +60,31 @@ def gpio_lines(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def box_is_running(machine: Machine, config: Config) -> bool:
-    """Whether a program of ours holds a relay line. Raises HardwareError where that cannot be told."""
-    return any(owner.startswith(OURS) for owner in machine.chips.holders(config, relay_pins(config)).values())
+    """Whether a program of ours has this station: its socket is there, or it holds a line.
+
+    Raises HardwareError where that cannot be told. The chips of a simulated rotor are each program's own.
+    """
+    if config.rotor.hardware == "sim":
+        return False
+    places = [str(folder / MONITOR) for folder in (*SERVICE_FOLDERS[:1], Path(config.state.path).parent)]
+    if machine.listening.intersection([config.monitor.path or "", *places]):
+        return True
+    pins = lines(config)
+    return bool(pins) and any(owner.startswith(OURS) for owner in machine.chips.holders(config, pins).values())
 
 
-def relay_pins(config: Config) -> dict[int, str]:
-    """The lines that close a contact, and the keys that name them."""
-    return {pin: f"relays.{key}" for key, pin in config.relays.contacts.items()}
+def running(machine: Machine, config: Config) -> Finding | None:
+    """Why a chip is better left alone now; None: it may be read."""
+    try:
+        if box_is_running(machine, config):
+            return skipped("the box is running and reads them itself; its terminal, or rotator where, tells")
+    except HardwareError:
+        return skipped("not read: the box may be running, and the GPIO chip cannot be asked")
+    return None
 
 
 def gpios(pins: Iterable[int]) -> str:
     return "GPIO " + ", ".join(str(pin) for pin in pins)
-
-
-def _other_pins(config: Config) -> dict[int, str]:
-    pins = {} if config.relays.heartbeat is None else {config.relays.heartbeat: "relays.heartbeat"}
-    if config.lcd.kind == "gpio":
-        pins |= {getattr(config.lcd, key): f"lcd.{key}" for key in ("rs", "e", "d4", "d5", "d6", "d7")}
-    return pins
 
 
 def _chip_advice(machine: Machine, fault: HardwareError) -> str:

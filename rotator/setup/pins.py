@@ -1,13 +1,15 @@
-"""The relay lines from power-on to the program's first second, and after its last: what config.txt has to say of them.
+"""The lines that must be off from power-on to the program's first second: what config.txt has to say of them.
 
-Knows the pins of the 40-pin header, their pulls and their other trades. Touches no file.
+Relays, the supply of control boxes, the enable input of a servo board. Knows the pins of the 40-pin header, their pulls
+and their other trades. Touches no file.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from rotator.config.model import Config
 from rotator.setup import boot_config
@@ -16,14 +18,14 @@ from rotator.setup.boot_config import Setting
 from rotator.setup.pi import Pi
 from rotator.setup.plan import Change, Files, Plan, SetupError, changes
 
-STRICT, I2C = "dtparam=strict_gpiod", "dtparam=i2c_arm=on"
+STRICT, I2C, SPI = "dtparam=strict_gpiod", "dtparam=i2c_arm=on", "dtparam=spi=on"
 BLOCK = Block(
     "rotator setup pins",
-    re.compile(r"\[all\]|gpio=[0-9,]+=op,d[lh]|" + "|".join(map(re.escape, (STRICT, I2C)))),
+    re.compile(r"\[all\]|gpio=[0-9,]+=op,d[lh]|" + "|".join(map(re.escape, (STRICT, I2C, SPI)))),
 )
 
 I2C_MODULE = Path("etc/modules-load.d/rotator-pins.conf")
-_I2C_DEV = "# /dev/i2c-1 for the box's converter. Removed by `rotator setup pins --undo`.\ni2c-dev\n"
+_I2C_DEV = "# /dev/i2c-1 for the box's chips. Removed by `rotator setup pins --undo`.\ni2c-dev\n"
 
 HEADER_BUS = 1
 I2C_NAMES = ("i2c_arm", "i2c", "i2c1")
@@ -32,13 +34,40 @@ PULLED_UP = range(9)
 """GPIO 0 to 8 have a pull-up while the Pi starts, 9 to 27 a pull-down (BCM2835 ARM Peripherals, GPIO pull table)."""
 
 
+@dataclass(frozen=True, slots=True)
+class OffLine:
+    """An output at which something happens while nobody drives it as it should be."""
+
+    key: str
+    off: Literal["dl", "dh"]
+    """Its level while nothing runs, low or high, in config.txt's words."""
+    switches: bool = True
+    """On, it closes a contact; else it does nothing by itself (the heartbeat), or has a resistor of its own (OE)."""
+
+
+def off_lines(config: Config) -> dict[int, OffLine]:
+    """Each line that has to be off while the Pi starts, by its GPIO."""
+    lines: dict[int, OffLine] = {}
+    if config.rotor.switched:
+        off: Literal["dl", "dh"] = "dl" if config.relays.active == "high" else "dh"
+        lines |= {pin: OffLine(f"relays.{key}", off) for key, pin in config.relays.contacts.items()}
+        if config.relays.heartbeat is not None:
+            lines[config.relays.heartbeat] = OffLine("relays.heartbeat", "dl", switches=False)
+    if config.rotor.type == "digipot" and config.digipot.enable is not None:
+        lines[config.digipot.enable] = OffLine("digipot.enable", "dl")
+    if config.rotor.type == "servo" and config.servo.enable is not None:
+        lines[config.servo.enable] = OffLine("servo.enable", "dh", switches=False)
+    return lines
+
+
 def off_levels(config: Config) -> dict[int, str]:
     """Each line and the level at which nothing runs: `dl` low, `dh` high."""
-    off = "dl" if config.relays.active == "high" else "dh"
-    levels = dict.fromkeys(_relays(config), off)
-    if config.relays.heartbeat is not None:
-        levels[config.relays.heartbeat] = "dl"
-    return levels
+    return {pin: line.off for pin, line in off_lines(config).items()}
+
+
+def closing(config: Config) -> dict[int, OffLine]:
+    """Those that close a contact, and must open again when the program dies."""
+    return {pin: line for pin, line in off_lines(config).items() if line.switches}
 
 
 def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) -> Plan:
@@ -68,18 +97,12 @@ def undone(files: Files, root: Path, boot: Path) -> Plan:
     )
 
 
-def _relays(config: Config) -> dict[int, str]:
-    """Each relay's pin and the key that names it."""
-    return {pin: f"relays.{key}" for key, pin in config.relays.contacts.items()}
-
-
-def _lines(config: Config) -> Mapping[int, str]:
-    """Each output line, the heartbeat's too, and the key that names it."""
-    return {pin: f"relays.{key}" for key, pin in config.relays.outputs.items()}
-
-
 def _uses_header_i2c(config: Config) -> bool:
-    return config.adc.bus == HEADER_BUS or (config.lcd.kind == "pcf8574" and config.lcd.bus == HEADER_BUS)
+    return any(bus == HEADER_BUS for bus, _, _ in config.chips())
+
+
+def _uses_spi(config: Config) -> bool:
+    return config.rotor.type == "digipot" and config.digipot.spi == "kernel"
 
 
 def _refuse(config: Config) -> None:
@@ -88,17 +111,21 @@ def _refuse(config: Config) -> None:
             'the configuration is of a simulated rotor (hardware = "sim"): '
             'put your pins in, say hardware = "pi" under [rotor], then run this again'
         )
-    for pin, key in _lines(config).items():
+    for pin, line in off_lines(config).items():
         if pin > 27:
-            raise SetupError(f"{key} = {pin} is not on the 40-pin header: take one from 4 to 27")
+            raise SetupError(f"{line.key} = {pin} is not on the 40-pin header: take one from 4 to 27")
         if pin < 2:
-            raise SetupError(f"{key} = {pin} is where the Pi looks for an ID EEPROM as it starts: take another pin")
+            raise SetupError(
+                f"{line.key} = {pin} is where the Pi looks for an ID EEPROM as it starts: take another pin"
+            )
 
 
 def _keep_off_the_buses(config: Config, others: list[Setting]) -> None:
     trades: list[tuple[range, str, Setting | None]] = []
     if _uses_header_i2c(config):
-        trades.append((range(2, 4), "the I2C bus of the converter or the display", None))
+        trades.append((range(2, 4), "the I2C bus of the box's own chips", None))
+    if _uses_spi(config):
+        trades.append((range(7, 12), "the SPI bus of the digital pots", None))
     for pins, bus, names in (
         (range(2, 4), "the I2C bus", I2C_NAMES),
         (range(7, 12), "the SPI bus", ("spi",)),
@@ -111,11 +138,13 @@ def _keep_off_the_buses(config: Config, others: list[Setting]) -> None:
         if (setting.key == "enable_uart" and setting.value not in boot_config.NO)
         or (setting.key == "dtoverlay" and setting.words[0] in {"uart0", "uart0-pi5", "disable-bt", "miniuart-bt"})
     ]
-    for pin, key in _lines(config).items():
+    for pin, line in off_lines(config).items():
         for pins, bus, setting in trades:
             if pin in pins:
                 switched_on = f" (config.txt, {setting})" if setting else ""
-                raise SetupError(f"{key} = {pin} is a pin of {bus}{switched_on}: take another pin, or switch that off")
+                raise SetupError(
+                    f"{line.key} = {pin} is a pin of {bus}{switched_on}: take another pin, or switch that off"
+                )
 
 
 def _missing(config: Config, others: list[Setting]) -> list[str]:
@@ -132,9 +161,13 @@ def _missing(config: Config, others: list[Setting]) -> list[str]:
     for level in ("dl", "dh"):
         if pins_left := [pin for pin in levels if levels[pin] == level and pin not in done]:
             missing.append(f"gpio={','.join(map(str, pins_left))}=op,{level}")
-    switches = {STRICT: ["strict_gpiod"]}
+    switches: dict[str, tuple[str, ...]] = {}
+    if closing(config):
+        switches[STRICT] = ("strict_gpiod",)
     if _uses_header_i2c(config):
-        switches[I2C] = list(I2C_NAMES)
+        switches[I2C] = I2C_NAMES
+    if _uses_spi(config):
+        switches[SPI] = ("spi",)
     for line, names in switches.items():
         found = list(boot_config.parameters(others, *names))
         for setting, on in found:
@@ -151,14 +184,15 @@ def _contradicts(setting: Setting, needed: str) -> SetupError:
 
 def _pulls(config: Config) -> list[str]:
     """A sentence on the relays whose pin is pulled towards on whenever nobody drives it."""
-    pulled_up_is_on = config.relays.active == "high"
-    wrong = [pin for pin in _relays(config) if (pin in PULLED_UP) == pulled_up_is_on]
-    if not wrong:
-        return []
-    pins = ", ".join(map(str, wrong))
-    way, good = ("up", "12, 13, 16, 17, 22 to 27") if pulled_up_is_on else ("down", "4, 5, 6, and 7, 8 without SPI")
-    return [
-        f"WARNING: GPIO {pins}: pulled {way} at power-on and after the program's death, which switches the relay ON "
-        f'(active = "{config.relays.active}"). Take pins from {good}, '
-        "or fit 10 kΩ from each relay input to its off level."
-    ]
+    lines = closing(config)
+    notes = []
+    for off, way, good in (("dl", "up", "12, 13, 16, 17, 22 to 27"), ("dh", "down", "4, 5, 6, and 7, 8 without SPI")):
+        wrong = [pin for pin, line in lines.items() if line.off == off and (pin in PULLED_UP) == (off == "dl")]
+        if wrong:
+            pins = ", ".join(map(str, wrong))
+            level = "high" if off == "dl" else "low"
+            notes.append(
+                f"WARNING: GPIO {pins}: pulled {way} at power-on and after the program's death, which switches the "
+                f"relay ON (on at {level}). Take pins from {good}, or fit 10 kΩ from each relay input to its off level."
+            )
+    return notes

@@ -36,20 +36,21 @@ def decode(text: str) -> bytes:
 
 
 class CompassFile:
-    """The file. `load` it, `save` what is new; neither ever raises."""
+    """The file. `load` it, `save` what is new; neither ever raises. `trouble` says why it could not be written."""
 
     def __init__(self, path: Path) -> None:
-        self._path = path
+        self.path = path
+        self.trouble = ""
         self._kept: bytes | None = None
 
     def load(self) -> bytes | None:
         """What the compass knew; None where there is no file, or none that can be believed."""
         try:
-            self._kept = decode(self._path.read_text(encoding="utf-8"))
+            self._kept = decode(self.path.read_text(encoding="utf-8"))
         except FileNotFoundError:
             return None
         except (OSError, ValueError) as fault:
-            log.warning("%s: ignored, the compass learns its errors anew: %s", self._path, fault)
+            log.warning("%s: ignored, the compass learns its errors anew: %s", self.path, fault)
             return None
         return self._kept
 
@@ -58,9 +59,10 @@ class CompassFile:
         if offsets == self._kept:
             return
         try:
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(self._path, encode(offsets))
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(self.path, encode(offsets))
         except OSError as fault:
-            log.error("%s: what the compass learnt cannot be kept: %s", self._path, fault)
+            self.trouble = f"{self.path}: what the compass learnt cannot be kept: {fault}"
+            log.error("%s", self.trouble)
             return
-        self._kept = offsets
+        self._kept, self.trouble = offsets, ""

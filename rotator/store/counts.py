@@ -26,6 +26,8 @@ from rotator.store.whole import write_whole
 
 log = logging.getLogger(__name__)
 
+FILE_NAME = "counts.json"
+"""Beside the state file."""
 FORMAT = "rotator counts 1"
 REST_S = 2.0
 """A rest is written this long after the axis came to stand, if none has been for SELDOM_S; else after LONG_REST_S."""

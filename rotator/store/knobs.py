@@ -15,6 +15,8 @@ from rotator.store.whole import write_whole
 
 log = logging.getLogger(__name__)
 
+FILE_NAME = "knobs.json"
+"""Beside the state file."""
 FORMAT = "rotator knobs 1"
 LEAST, MOST = 0.1, 1.1
 """A full scale outside of these is no knob's, in shares of its supply."""

@@ -21,12 +21,28 @@ _SHORT_FAULTS = {
     "motor on longer than the travel takes": "RUN TOO LONG",
     "end stop reached": "END STOP",
     "control thread late": "CONTROL LATE",
+    "limit switch reached": "LIMIT SWITCH",
+    "count not kept": "COUNT UNKEPT",
+    "axis does not follow": "NOT FOLLOWING",
+    "controller fault": "CTRL FAULT",
+    "controller silent": "CTRL SILENT",
+    "position unknown": "POS UNKNOWN",
 }
 """Where a fault's own name is longer than the thirteen characters beside the axis."""
 _SHORT_NOTICES = {
     "turning with no relay on": "TURNS BY SELF",
     "still turning with the master open": "STILL TURNS",
     "motor hot": "MOTOR HOT",
+    "its velocity limit": "SPEED LIMIT",
+    "its power limit": "POWER LIMIT",
+    "the supply voltage": "SUPPLY VOLTS",
+    "its current limit": "CURRENT LIMIT",
+    "its own temperature": "DRIVER WARM",
+    "the motor's temperature": "MOTOR WARM",
+    "its torque limit": "TORQUE LIMIT",
+    "its position bounds (servopos.position_min, position_max)": "SERVOPOS",
+    "braking that feeds the supply": "BRAKING",
+    "field weakening": "FIELD WEAK",
 }
 """What a notice says before its colon. One that is not here would hide the satellite for good: the log has it."""
 
@@ -51,7 +67,9 @@ def _notices(status: Status) -> list[str]:
     ]
     if status.latched:
         notices.append("STOP: " + status.latched.upper())
-    notices += [f"{_SHORT[axis]} UNCALIBRATED" for axis in Axis if status.axis(axis).uncalibrated]
+    for axis in Axis:
+        if missing := status.axis(axis).uncalibrated:
+            notices.append(f"{_SHORT[axis]} {'NOT HOMED' if missing.startswith('homing') else 'UNCALIBRATED'}")
     for axis in Axis:
         heads = [notice.partition(":")[0] for notice in status.axis(axis).notices]
         notices += [f"{_SHORT[axis]} {_SHORT_NOTICES[head]}" for head in heads if head in _SHORT_NOTICES]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -12,9 +13,10 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.calibrating.guide import Commissioned
+from rotator.calibrating.asking import Commissioned
 from rotator.commissioning import as_toml
 from rotator.config.load import load, parse
+from rotator.links.console import console_path
 
 LIMIT_S = 60.0
 STATION = """# A fast one.
@@ -113,7 +115,7 @@ def test_ctrl_c_while_it_turns(start: Start, station: Path, signum: int) -> None
     process.send_signal(signum)
     text, _ = process.communicate(timeout=LIMIT_S)
     assert process.returncode == 1
-    assert "every relay is off, nothing of the azimuth is saved" in text
+    assert "the motors stand, nothing of the azimuth is saved" in text
     assert "Traceback" not in text
     assert [path.name for path in station.parent.iterdir()] == ["station.toml"]
 
@@ -144,3 +146,28 @@ def test_a_fault_of_the_simulator(start: Start, station: Path) -> None:
     text, code = finish(process, "u", "", "q")
     assert code == 1
     assert "FAULT elevation: pot open or shorted" in text
+
+
+def test_one_axis_after_the_other_each_saved_for_itself(start: Start, tmp_path: Path) -> None:
+    path = tmp_path / "servos.toml"
+    path.write_text('[rotor]\ntype = "servo"   # two of them\n[servo.azimuth]\nstart_deg = 90\nslew_dps = 180\n')
+    text, code = finish(start("--config", str(path)), "r 1", "r 0.5", "y", "l 0.5", "5", "175", "y", "q")
+    assert code == 1, text
+    assert "Setting up the elevation." in text
+    azimuth = load(path).azimuth
+    assert (azimuth.min_deg, azimuth.max_deg, azimuth.direction_checked) == (5.0, 175.0, True)
+    assert azimuth.calibration is None
+    assert "# two of them" in path.read_text()
+
+
+def test_not_beside_a_box_that_runs(start: Start, tmp_path: Path) -> None:
+    monitor = tmp_path / "monitor"
+    path = tmp_path / "station.toml"
+    path.write_text(f'[rotor]\ntype = "moteus"\nhardware = "pi"\n[monitor]\npath = "{monitor}"\n')
+    with socket.socket(socket.AF_UNIX) as box:
+        box.bind(str(console_path(monitor)))
+        box.listen()
+        text, code = finish(start("--config", str(path)))
+    assert code == 1
+    assert "the box is running" in text
+    assert "Traceback" not in text

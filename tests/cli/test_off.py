@@ -23,3 +23,16 @@ def test_without_a_gpio_chip_it_says_so(tmp_path: Path) -> None:
     result = CliRunner().invoke(cli, ["off", "--config", str(config)])
     assert result.exit_code == 1
     assert "GPIO: no chip labelled" in str(result.exception)
+
+
+@pytest.mark.parametrize(
+    ("kind", "what"), [("moteus", "their own watchdog"), ("servo", "servos hold"), ("digipot", "where their chips point")]
+)
+def test_a_rotor_without_relays_has_no_line_touched(tmp_path: Path, kind: str, what: str) -> None:
+    # The relays' pins may be anything there.
+    config = tmp_path / "rotator.toml"
+    limits = "[azimuth]\nmax_deg = 90\n[elevation]\nmax_deg = 90\n"
+    config.write_text(f'[rotor]\nhardware = "pi"\ntype = "{kind}"\n{limits}')
+    result = CliRunner().invoke(cli, ["off", "--config", str(config)])
+    assert result.exit_code == 0
+    assert what in result.output

@@ -7,7 +7,7 @@ from pydantic import ValidationError
 
 from hw.switches import LIMITS
 from rotator.config.panel import LAMPS, LimitsTable, PanelTable
-from rotator.panel import LAMPS as PANEL_LAMPS
+from rotator.panel.panel import LAMPS as PANEL_LAMPS
 
 
 def test_an_empty_table_is_no_panel() -> None:

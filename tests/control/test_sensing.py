@@ -8,7 +8,7 @@ import pytest
 
 from hw.ports import Axis
 from rotator.control.calibration import Calibration
-from rotator.control.sensing import BAD_FOR_S, STALE_S, Reading, Sensing, Window
+from rotator.control.sensing import ANYTHING, BAD_FOR_S, STALE_S, Reading, Sensing, Window
 from rotator.status import Fault
 
 HALF_CIRCLE = Calibration(((0.05, 0.0), (0.95, 180.0)))
@@ -119,3 +119,23 @@ def test_a_silent_sensor_says_why(bench: Bench) -> None:
         fault = bench.read(None, "I2C bus 1: the device does not answer (address 0x48)")
     assert fault is not None
     assert (fault.name, fault.measured) == ("sensor silent", "I2C bus 1: the device does not answer (address 0x48)")
+
+
+# --- a pot's wires
+
+
+@pytest.mark.parametrize(
+    ("window", "blind"),
+    [
+        (Window(0.02, 0.98), False),
+        (Window(0.0, 0.98), True),
+        (Window(0.02, 1.0), True),
+        (Window(-0.01, 1.01), True),
+        # A magnet over its chip: all the way round, and a broken wire is silence.
+        (Window(-0.01, 1.01, pot=False), False),
+        (Window(0.0, 1.0, pot=False), False),
+        (ANYTHING, False),
+    ],
+)
+def test_only_a_pot_can_be_blind_to_its_wires(window: Window, blind: bool) -> None:
+    assert window.blind is blind

@@ -17,7 +17,7 @@ from hw.i2c import SmbusI2C
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION
-from rotator.doctor.chips import Chips
+from rotator.doctor.chips import Chips, ask_in_step
 from rotator.doctor.finding import Finding
 from rotator.doctor.machine import Machine
 from rotator.simulation import simulated_rotor
@@ -38,6 +38,23 @@ calibration = [[0.05, 0], [0.95, 180]]
 direction_checked = true
 [state]
 path = "/var/lib/rotator/state.json"
+"""
+STATION_OF = """
+[rotor]
+type = "{}"
+hardware = "pi"
+[azimuth]
+min_deg = 0
+max_deg = 180
+direction_checked = true
+[elevation]
+min_deg = 0
+max_deg = 90
+direction_checked = true
+[state]
+path = "/var/lib/rotator/state.json"
+[lcd]
+kind = "none"
 """
 
 
@@ -87,20 +104,31 @@ class Pi:
         self.config = parse(f"{base}\n{more}", "test")
         clock = SimClock()
         world = self.world = simulated_rotor(self.config, clock, None, (90.0, 45.0))
+        clock.sleep(1.0)  # a compass has to boot
         chips = Chips(
             lambda: world.gpio,
             world.gpio.paths(),
             lambda number: SmbusI2C(StaysOpen(world.bus), f"/dev/i2c-{number}"),
             clock,
             clock.sleep,
+            lambda config: ask_in_step(config, world.transport(), clock),
+            lambda: None,
         )
         self.machine = replace(self.machine, chips=chips)
+
+    def kind(self, name: str, more: str = "") -> None:
+        """Another kind of rotor on real hardware, set up; a few more tables."""
+        self.station(more, base=STATION_OF.format(name))
 
     def found(self, name: str) -> list[Finding]:
         for check in OF_THE_MACHINE:
             if check.name == name:
                 return list(check.look(self.machine))
         return next(list(check.look(self.machine, self.config)) for check in OF_THE_STATION if check.name == name)
+
+    def looks_at(self, name: str) -> bool:
+        """Whether this configuration has anything of the kind."""
+        return next(check.concerns(self.config) for check in OF_THE_STATION if check.name == name)
 
     def only(self, name: str) -> Finding:
         """The check's only finding."""
@@ -116,6 +144,14 @@ class Forbidden:
 
     def Chip(self, path: str) -> NoReturn:  # noqa: N802 - gpiod's own name
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), path)
+
+
+MONITOR = "Num       RefCount Protocol Flags    Type St Inode Path\n0000: 00000002 00000000 00010000 0001 01 17 {}\n"
+
+
+def runs(pi: Pi, monitor: str = "/run/rotator/monitor") -> None:
+    """A box is running that has no line: its socket tells, in /proc/net/unix."""
+    pi.write("/proc/net/unix", MONITOR.format(monitor))
 
 
 def hold(pi: Pi, consumer: str, pin: int) -> GpioOutputs:

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from rotator.config.load import shipped
+from rotator.config.model import Config
 from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION, Examination, examine
 from rotator.doctor.reference import checks_table
 from rotator.views.examination import as_object, verdict
@@ -14,6 +16,12 @@ from tests.doctor.conftest import STATION, Pi
 
 PAGE = Path(__file__).parents[2] / "docs" / "troubleshooting.md"
 NAMES = ["configuration", *(check.name for check in OF_THE_MACHINE), *(check.name for check in OF_THE_STATION)]
+
+
+def names(config: Config) -> list[str]:
+    """The checks of what this configuration has, in order."""
+    foreign = {check.name for check in OF_THE_STATION if not check.concerns(config)}
+    return [name for name in NAMES if name not in foreign]
 
 
 def marks(examination: Examination) -> dict[str, str]:
@@ -35,7 +43,17 @@ def test_a_healthy_pi_is_well(pi: Pi, file: Path) -> None:
 
 
 def test_every_check_is_told_in_order(pi: Pi, file: Path) -> None:
-    assert list(marks(examine(pi.machine, file))) == NAMES
+    assert list(marks(examine(pi.machine, file))) == names(pi.config)
+
+
+def test_what_the_configuration_has_not_is_left_out(pi: Pi, file: Path) -> None:
+    told = set(marks(examine(pi.machine, file)))
+    assert {"pots", "GPIO lines", "released lines"} <= told
+    assert not {"counts", "sensors", "PCA9685", "moteus", "SPI", "switches"} & told
+    file.write_text(shipped("isel"))
+    told = set(marks(examine(pi.machine, file)))
+    assert "moteus" in told
+    assert not {"pots", "GPIO lines", "I2C bus", "released lines", "boot pins"} & told
 
 
 def test_one_fault_makes_it_1(pi: Pi, file: Path) -> None:
@@ -75,7 +93,7 @@ def test_a_check_that_fails_keeps_none_from_its_look(pi: Pi, file: Path) -> None
 
     machine = replace(pi.machine, chips=replace(pi.machine.chips, gpio=explode))
     examination = examine(machine, file)
-    assert list(marks(examination)) == NAMES
+    assert list(marks(examination)) == names(pi.config)
     chip = next(finding for name, finding in examination.findings if name == "GPIO chip")
     assert (chip.ok, chip.found) == (False, "the check itself failed: RuntimeError: boom")
     assert marks(examination)["I2C devices"] == "✓"
@@ -86,8 +104,18 @@ def test_a_simulated_rotor_has_chips_too(pi: Pi) -> None:
     assert examination.exit_code == 0
     said = dict(examination.findings)
     assert said["pots"].found.startswith("simulated: elevation: 0.05")
-    assert all(said[check.name].found.startswith("simulated: ") for check in OF_THE_STATION if check.on_chips)
+    chips = [check.name for check in OF_THE_STATION if check.on_chips and check.name in said]
+    assert len(chips) == 5
+    assert all(said[name].found.startswith("simulated: ") for name in chips)
     assert said["boot pins"].found == "the rotor is simulated"
+
+
+@pytest.mark.parametrize("kind", ["relay-pulse", "moteus", "servo", "digipot"])
+def test_so_has_every_other_kind(pi: Pi, file: Path, kind: str) -> None:
+    file.write_text(f'[rotor]\ntype = "{kind}"\n')
+    examination = examine(pi.machine, file)
+    assert examination.exit_code == 0
+    assert not any("check itself failed" in finding.found for _, finding in examination.findings)
 
 
 def test_the_object_for_programs(pi: Pi, file: Path) -> None:

@@ -115,7 +115,7 @@ def test_active_low_relays_on_pins_that_are_pulled_down(pi: Pi) -> None:
     pi.station('[relays]\nactive = "low"\n')
     driven = pi.found("boot pins")
     assert [finding.ok for finding in driven] == [False] * 4
-    assert driven[0].found == "config.txt drives GPIO 22 low at the start, which closes relays.azimuth_cw"
+    assert driven[0].found == "config.txt drives GPIO 22 low at the start, which switches relays.azimuth_cw on"
     pi.write(CONFIG_TXT, "gpio=22,23,24,25=op,dh\n")
     assert pi.only("boot pins").mark == "✓"
 

@@ -30,13 +30,15 @@ EACH_AXIS = pytest.mark.parametrize("axis", list(Axis), ids=lambda axis: axis.va
 class Bench:
     """A bank with its four relays (and a master), and an alarm that stands in for the guard's thread."""
 
-    def __init__(self, *, active_low: bool = False, master: bool = False, guarded: bool = True) -> None:
+    def __init__(
+        self, *, active_low: bool = False, master: bool = False, guarded: bool = True, one_at_a_time: bool = False
+    ) -> None:
         self.clock = SimClock(100.0)
         self.gpio = SimGpio(self.clock)
         self.pins = PINS | ({"master": MASTER_PIN} if master else {})
         self.active_low = active_low
         lines = GpioOutputs(self.gpio, CHIP, self.pins, consumer="test", active_low=active_low)
-        self.bank = RelayBank(lines, self.clock, dead_time_s=DEAD_TIME_S, master=master)
+        self.bank = RelayBank(lines, self.clock, dead_time_s=DEAD_TIME_S, master=master, one_at_a_time=one_at_a_time)
         if guarded:
             self.clock.add_alarm(self.bank.due_s, self.bank.enforce)
 
@@ -230,6 +232,55 @@ def test_a_correction_within_the_linger_does_not_click_the_master() -> None:
         bench.run(AZ, PLUS, 0.2)
         bench.clock.sleep(MASTER_LINGER_S - 0.1)
     assert [edge.level for edge in bench.gpio.edges if edge.offset == MASTER_PIN] == [True]
+
+
+# --- one motor at a time, for a small transformer
+
+
+def test_while_one_motor_is_fed_the_other_is_not() -> None:
+    bench = Bench(one_at_a_time=True)
+    assert bench.drive(AZ, PLUS) is PLUS
+    assert bench.drive(EL, MINUS) is OFF
+    assert bench.on() == {"azimuth_cw"}
+    assert bench.drive(AZ, PLUS) is PLUS, "the one that runs is not disturbed by the one that asks"
+    bench.drive(AZ, OFF)
+    assert bench.drive(EL, MINUS) is MINUS
+    assert bench.drive(AZ, PLUS) is OFF, "who came first goes on, whichever axis it is"
+    assert bench.on() == {"elevation_down"}
+
+
+def test_a_command_that_waits_is_not_remembered() -> None:
+    bench = Bench(one_at_a_time=True)
+    bench.drive(AZ, PLUS, 0.2)
+    bench.drive(EL, MINUS, 0.5)
+    bench.clock.sleep(0.3)
+    assert bench.on() == set(), "nothing starts by itself"
+
+
+def test_asked_for_in_turn_the_second_starts_when_the_first_has_expired() -> None:
+    bench = Bench(one_at_a_time=True)
+    bench.drive(AZ, PLUS, 0.2)
+    for _ in range(10):
+        bench.drive(EL, PLUS)
+        bench.clock.sleep(0.05)
+    assert bench.on() == {"elevation_up"}
+
+
+def test_a_reversal_waits_for_the_dead_time_and_for_the_other_motor() -> None:
+    bench = Bench(one_at_a_time=True)
+    bench.run(AZ, PLUS, 1.0)
+    bench.drive(EL, PLUS, 0.5)
+    assert bench.drive(AZ, MINUS) is OFF
+    bench.clock.sleep(DEAD_TIME_S)
+    assert bench.on() == set()
+    assert bench.drive(AZ, MINUS) is MINUS
+
+
+def test_otherwise_both_run_together() -> None:
+    bench = Bench()
+    bench.drive(AZ, PLUS)
+    assert bench.drive(EL, MINUS) is MINUS
+    assert bench.on() == {"azimuth_cw", "elevation_down"}
 
 
 # --- everything off

@@ -1,6 +1,7 @@
 """Any sequence of commands at all: what the relays do is read off the pins, edge by edge.
 
-Opposite relays never together, no relay closed longer than its command allows, no reversal before its dead time.
+Opposite relays never together, no relay closed longer than its command allows, no reversal before its dead time; and
+where the transformer is small, never both motors.
 """
 
 from __future__ import annotations
@@ -27,14 +28,19 @@ ROUNDING_S = 1e-9
 
 
 class AnySequence(RuleBasedStateMachine):
-    @initialize(active_low=st.booleans(), master=st.booleans(), dead_time_s=st.sampled_from([0.05, 0.5, 1.3]))
-    def wire(self, active_low: bool, master: bool, dead_time_s: float) -> None:
+    @initialize(
+        active_low=st.booleans(),
+        master=st.booleans(),
+        one_at_a_time=st.booleans(),
+        dead_time_s=st.sampled_from([0.05, 0.5, 1.3]),
+    )
+    def wire(self, active_low: bool, master: bool, one_at_a_time: bool, dead_time_s: float) -> None:
         self.clock = SimClock(1000.0)
         self.gpio = SimGpio(self.clock)
-        self.active_low, self.dead_time_s = active_low, dead_time_s
+        self.active_low, self.dead_time_s, self.one_at_a_time = active_low, dead_time_s, one_at_a_time
         pins = {name: pin for name, pin in PINS.items() if master or name != "master"}
         lines = GpioOutputs(self.gpio, "/dev/gpiochip0", pins, consumer="test", active_low=active_low)
-        self.bank = RelayBank(lines, self.clock, dead_time_s=dead_time_s, master=master)
+        self.bank = RelayBank(lines, self.clock, dead_time_s=dead_time_s, master=master, one_at_a_time=one_at_a_time)
         self.gpio.edges.clear()
         self.clock.add_alarm(self.bank.due_s, self.bank.enforce)
         self.allowed_until_s: dict[int, float] = {}
@@ -86,6 +92,7 @@ class AnySequence(RuleBasedStateMachine):
             self.on.add(edge.offset)
             (opposite,) = {a if b == edge.offset else b for a, b in OPPOSITES if edge.offset in (a, b)}
             assert opposite not in self.on, "opposite relays were on together"
+            assert not self.one_at_a_time or len(self.on) == 1, "two motors were fed together"
             rested_s = edge.at_s - self.opened_s.get(opposite, float("-inf"))
             if self.opened_s.get(opposite, 0.0) >= self.opened_s.get(edge.offset, 0.0):
                 assert rested_s >= self.dead_time_s - ROUNDING_S, "reversed before the dead time was over"

@@ -189,6 +189,27 @@ def test_offline_from_wheels(bare: Root, wheels: Path) -> None:
     assert bare.run("unshare", "--net", "/wheels/install.sh", "--wheels", "/wheels").text.startswith("Nothing to do")
 
 
+def test_a_moteus_rotor_brings_its_library_and_can_go_again(installed: Root) -> None:
+    python = "/opt/rotator/current/bin/python"
+    assert installed.run(python, "-c", "import moteus").code != 0
+    installed.run("sed", "-i", '/^\\[rotor\\]/,/^$/s/^type = .*/type = "moteus"/', CONFIG).check()
+    assert "with moteus in" in installed.run("/src/install.sh").check().text
+    installed.run(python, "-c", "import moteus, can, importlib_metadata, packaging").check()
+    assert installed.run(python, "-c", "import scipy").code != 0
+    assert installed.run("/src/install.sh").check().text.startswith("Nothing to do")
+    said = installed.run("/src/install.sh", "--rollback")
+    assert said.code == 1
+    assert said.lines[-1].endswith(
+        "the version before does not accept /etc/rotator/rotator.toml; nothing has been changed"
+    )
+
+
+def test_a_moteus_rotor_without_network(bare: Root, wheels: Path) -> None:
+    bare.receive(wheels, "/wheels")
+    bare.run("unshare", "--net", "/wheels/install.sh", "--wheels", "/wheels", "--profile", "isel").check()
+    bare.run("/opt/rotator/current/bin/python", "-c", "import moteus, can").check()
+
+
 @pytest.fixture(scope="session")
 def wheels(
     amd64: Path,

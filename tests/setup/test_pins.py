@@ -176,7 +176,7 @@ def test_a_line_that_does_not(card: Card, line: str) -> None:
 @pytest.mark.parametrize(
     ("keys", "config_line", "said"),
     [
-        ("azimuth_cw = 2", "", "relays.azimuth_cw = 2 is a pin of the I2C bus of the converter"),
+        ("azimuth_cw = 2", "", "relays.azimuth_cw = 2 is a pin of the I2C bus of the box's own chips"),
         ("azimuth_cw = 9", "dtparam=spi=on", "is a pin of the SPI bus (config.txt, line 24, dtparam=spi=on)"),
         ("azimuth_cw = 15", "enable_uart=1", "is a pin of the serial port (config.txt, line 24, enable_uart=1)"),
         ("heartbeat = 14", "dtparam=uart0=on", "relays.heartbeat = 14 is a pin of the serial port"),
@@ -236,3 +236,58 @@ def test_a_configuration_elsewhere(card: Card) -> None:
 def test_off_is_the_opposite_of_active_but_for_the_heartbeat() -> None:
     config = parse(relays('active = "low"', "heartbeat = 26"), "test")
     assert off_levels(config) == {22: "dh", 23: "dh", 24: "dh", 25: "dh", 26: "dl"}
+
+
+# --- rotors without relays
+
+
+def of(kind: str, *lines: str) -> str:
+    limits = "[azimuth]\nmin_deg = 0\nmax_deg = 180\n[elevation]\nmin_deg = 0\nmax_deg = 90"
+    return "\n".join(['[rotor]\nhardware = "pi"', f'type = "{kind}"', limits, '[lcd]\nkind = "none"', *lines, ""])
+
+
+def test_the_supply_of_control_boxes_is_off_at_low(card: Card) -> None:
+    card.rotator.write_text(of("digipot", "[digipot]\nenable = 16"))
+    said = card.setup("pins", "--yes")
+    assert "WARNING" not in said.text
+    assert card.boot.read_text() == block("gpio=16=op,dl", "dtparam=strict_gpiod") + BOOKWORM
+
+
+def test_the_supply_of_control_boxes_on_a_pin_that_is_pulled_up(card: Card) -> None:
+    card.rotator.write_text(of("digipot", "[digipot]\nenable = 4"))
+    assert "WARNING: GPIO 4: pulled up at power-on" in card.setup("pins", "--yes").text
+
+
+def test_digital_pots_on_the_kernels_spi_have_it_switched_on(card: Card) -> None:
+    before = card.files()
+    card.rotator.write_text(of("digipot", '[digipot]\nspi = "kernel"\nenable = 16'))
+    card.setup("pins", "--yes")
+    wanted = block("gpio=16=op,dl", "dtparam=strict_gpiod", "dtparam=spi=on")
+    assert card.boot.read_text() == wanted + BOOKWORM
+    card.setup("pins", "--undo", "--yes")
+    assert card.files()["boot/firmware/config.txt"] == before["boot/firmware/config.txt"]
+
+
+def test_that_spi_has_its_pins(card: Card) -> None:
+    card.rotator.write_text(of("digipot", '[digipot]\nspi = "kernel"\nenable = 9'))
+    assert "digipot.enable = 9 is a pin of the SPI bus of the digital pots" in card.setup("pins", "--yes").text
+
+
+def test_the_enable_input_of_a_servo_board_is_off_at_high(card: Card) -> None:
+    # OE is active low. A program's death need not make the servos limp: no strict_gpiod
+    card.rotator.write_text(of("servo", "[servo]\nenable = 26"))
+    said = card.setup("pins", "--yes")
+    assert "WARNING" not in said.text
+    assert card.boot.read_text() == block("gpio=26=op,dh", "dtparam=i2c_arm=on") + BOOKWORM
+
+
+def test_two_moteus_have_no_pin_to_be_off(card: Card) -> None:
+    card.rotator.write_text(of("moteus", "[relays]\nazimuth_cw = 2"))
+    said = card.setup("pins", "--yes")
+    assert (said.code, "Nothing to change" in said.text) == (0, True)
+
+
+def test_counting_rotors_have_the_relays_of_all_others(card: Card) -> None:
+    card.rotator.write_text(of("relay-pulse"))
+    card.setup("pins", "--yes")
+    assert card.boot.read_text() == block("gpio=22,23,24,25=op,dl", "dtparam=strict_gpiod") + BOOKWORM

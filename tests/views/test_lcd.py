@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import ast
+from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hw.moteus_faults import LIMITS
 from hw.ports import Axis, Direction
 from rotator.status import AxisStatus, Fault, Status
-from rotator.views.lcd import rows
+from rotator.views.lcd import _SHORT_FAULTS, _SHORT_NOTICES, rows
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 POT_OPEN = Fault("pot open or shorted", AZ, "0.001", "0.02 to 0.98")
@@ -133,6 +137,58 @@ def test_a_fault_of_no_axis() -> None:
 
 def test_without_a_notice_the_satellite_keeps_its_row() -> None:
     assert set(uppers(status())) == {"SAT A:235 E:025"}
+
+
+# --- every fault and every notice there is
+
+ROTATOR = Path(__file__).parents[2] / "rotator"
+
+
+def calls(*names: str) -> Iterator[ast.expr]:
+    """What the code gives these functions first, wherever it calls them."""
+    for file in sorted(ROTATOR.rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Call) and node.args:
+                called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+                if called in names:
+                    yield node.args[0]
+
+
+def fault_names() -> set[str]:
+    """Those in the code, and the headings of the page that explains them: a few are told apart in a variable."""
+    said = {each.value for each in calls("Fault", "_closed") if isinstance(each, ast.Constant)}
+    page = (ROTATOR.parent / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
+    faults = page.split("\n## Faults of an axis\n")[1].split("\n## ")[0]
+    notices = {"motor hot", "blind to a broken pot wire"}
+    explained = {line.removeprefix("### ") for line in faults.splitlines() if line.startswith("### ")}
+    return (said | explained) - notices
+
+
+def test_the_names_are_found() -> None:
+    names = fault_names()
+    assert {"relay welded", "turning with no relay on", "controller fault", "servo board", "not homed"} <= names
+    assert len(names) >= 21
+
+
+@pytest.mark.parametrize("name", sorted(fault_names()))
+def test_every_fault_fits_beside_its_axis(name: str) -> None:
+    shown = uppers(with_axis(AZ, fault=Fault(name, AZ, "")), 4)[2]
+    words = _SHORT_FAULTS.get(name, name.upper())
+    assert shown == f"AZ {words}"
+
+
+def test_no_short_name_is_of_a_fault_there_is_not() -> None:
+    assert set(_SHORT_FAULTS) <= fault_names()
+
+
+@pytest.mark.parametrize("limit", LIMITS.values())
+def test_what_holds_a_controller_back_fits_too(limit: str) -> None:
+    assert uppers(with_axis(EL, notices=(limit,)), 4)[2] == f"EL {_SHORT_NOTICES[limit]}"
+
+
+@pytest.mark.parametrize("head", sorted(_SHORT_NOTICES))
+def test_every_notice_fits(head: str) -> None:
+    assert uppers(with_axis(AZ, notices=(f"{head}: more",)), 4)[2] == f"AZ {_SHORT_NOTICES[head]}"
 
 
 # --- whatever the status

@@ -1,0 +1,75 @@
+"""The check of the switches that a person or the rotor throws: stop button, mode switch, limit switches.
+
+Knows which of them must be closed before anything may move. Takes their lines for a moment, where nobody has them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from hw.ports import Axis, HardwareError
+from rotator.config.model import Config
+from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
+from rotator.doctor.machine import Machine
+from rotator.doctor.wires import running
+
+POSITIONS = (
+    "MANUAL: the knobs move the antenna, programs do not",
+    "PARK: nobody moves the antenna",
+    "AUTO: programs move the antenna",
+    "JOG: the jog switches move the antenna, programs do not",
+)
+"""By 2 × MSB + LSB; a closed contact is a 1."""
+
+
+def has_switches(config: Config) -> bool:
+    return bool(config.panel.switches or config.limits.switches)
+
+
+def switches(machine: Machine, config: Config) -> Iterator[Finding]:
+    if left_alone := running(machine, config):
+        yield left_alone
+        return
+    panel = {f"panel.{key}": pin for key, pin in config.panel.switches.items()}
+    limits = {f"limits.{key}": pin for key, pin in config.limits.switches.items()}
+    try:
+        closed = machine.chips.closed(config, panel | limits)
+    except HardwareError as fault:
+        yield skipped(f"cannot be read: {fault}")
+        return
+    if "panel.stop" in panel:
+        yield _stop(panel["panel.stop"], closed=closed["panel.stop"])
+    if "panel.mode_msb" in panel:
+        yield fine(f"the mode switch is on {POSITIONS[2 * closed['panel.mode_msb'] + closed['panel.mode_lsb']]}")
+    if closed.get("panel.calibrate"):
+        yield warn(
+            "the calibrate switch is closed: the box calibrates when it starts", "Open it, unless you want that."
+        )
+    if limits:
+        yield from _limits({key: closed[key] for key in limits}, limits)
+
+
+def _stop(pin: int, *, closed: bool) -> Finding:
+    if closed:
+        return fine("the stop button is closed: nothing is stopped")
+    return wrong(
+        f"the stop button is pressed, or its wire is broken: GPIO {pin} is not at ground, and nothing will move",
+        "Pull it out. If it is out, measure from the GPIO to ground: a closed contact is 0 V.",
+    )
+
+
+def _limits(closed: Mapping[str, bool], pins: Mapping[str, int]) -> Iterator[Finding]:
+    for axis in Axis:
+        opened = [key for key in closed if key.startswith(f"limits.{axis.value}") and not closed[key]]
+        if len(opened) > 1:
+            yield wrong(
+                f"both limit switches of the {axis.value} are open, and it will not turn",
+                "An antenna is not at both ends: look at what the two have in common, a wire, or their optos' supply.",
+            )
+        elif opened:
+            yield warn(
+                f"{opened[0]} (GPIO {pins[opened[0]]}) is open: that way the {axis.value} goes no further",
+                "Does the antenna stand at that end? Then turn it away. If not, its wire is broken.",
+            )
+    if all(closed.values()):
+        yield fine(f"limit switches: {len(closed)} closed, none reached")

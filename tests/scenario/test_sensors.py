@@ -1,0 +1,135 @@
+"""Other sensors than the rotor's own: the whole box points by them, and says so when they fail."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from hw.ports import Axis
+from rotator.building import build_controller
+from rotator.config.load import parse
+from rotator.loop import ControlLoop
+from rotator.orders import Aim, Source
+from rotator.station import Station
+
+STEP_S = 0.05
+ONE_TURN = """
+[azimuth]
+min_deg = 10
+max_deg = 350
+"""
+AS5600_AND_MPU6050 = (
+    ONE_TURN
+    + """
+calibration = [[0.0277778, 10], [0.9722222, 350]]
+lowest_reading = 0.02
+highest_reading = 0.98
+[azimuth.sensor]
+kind = "as5600"
+[elevation.sensor]
+kind = "mpu6050"
+forward = "-y"
+up = "+z"
+"""
+)
+POTS = (
+    ONE_TURN
+    + """
+[azimuth.sensor]
+kind = "pot"
+[elevation.sensor]
+kind = "pot"
+"""
+)
+
+
+class Box:
+    def __init__(self, text: str, start_deg: tuple[float, float] = (40.0, 20.0)) -> None:
+        config = parse(text, "box")
+        self.clock = SimClock()
+        self.station = Station(config, self.clock, self.clock.sleep, start_deg, add_alarm=self.clock.add_alarm)
+        self.world: Any = self.station.world
+        self.loop = ControlLoop(build_controller(config), self.station.rotor, self.clock, STEP_S)
+        self.wait(2.0)
+
+    def wait(self, seconds: float) -> None:
+        for _ in range(round(seconds / STEP_S)):
+            self.clock.sleep(STEP_S)
+            self.loop.cycle()
+
+    def aim(self, azimuth_deg: float, elevation_deg: float, seconds: float = 60.0) -> None:
+        self.loop.post(Source("test"), Aim(azimuth_deg, elevation_deg))
+        self.wait(seconds)
+
+
+def rotor(kind: str) -> str:
+    return f'[rotor]\ntype = "{kind}"\n'
+
+
+def test_a_magnet_for_azimuth_and_gravity_for_elevation() -> None:
+    box = Box(rotor("relay-pot") + AS5600_AND_MPU6050)
+    assert box.loop.status.azimuth.angle_deg == pytest.approx(40.0, abs=0.5)
+    assert box.loop.status.elevation.angle_deg == pytest.approx(20.0, abs=1.0)
+    box.aim(200.0, 70.0)
+    assert box.world.antenna() == pytest.approx((200.0, 70.0), abs=1.5)
+    assert box.loop.status.faults == ()
+
+
+def test_over_the_top_by_gravity() -> None:
+    box = Box(rotor("relay-pot") + AS5600_AND_MPU6050)
+    box.aim(40.0, 130.0)
+    assert box.world.antenna()[1] == pytest.approx(130.0, abs=1.5)
+
+
+@pytest.mark.parametrize(
+    ("fault", "axis"),
+    [
+        ("azimuth-magnet-missing", Axis.AZIMUTH),
+        ("azimuth-as5600-gone", Axis.AZIMUTH),
+        ("elevation-shaken", Axis.ELEVATION),
+        ("mpu6050-gone", Axis.ELEVATION),
+    ],
+)
+def test_a_sensor_that_fails_stops_its_axis(fault: str, axis: Axis) -> None:
+    box = Box(rotor("relay-pot") + AS5600_AND_MPU6050)
+    box.aim(300.0, 170.0, seconds=5.0)
+    assert box.world.drives() == (1, 1)
+    box.world.inject(fault)
+    box.wait(1.0)
+    told = box.loop.status.axis(axis).fault
+    assert told is not None
+    assert told.name == "sensor silent"
+    assert box.world.drives()[list(Axis).index(axis)] == 0
+    assert box.world.drives() != (0, 0), "the other axis goes on"
+
+
+@pytest.mark.parametrize("kind", ["digipot", "relay-pulse", "servo"])
+def test_pots_on_a_rotor_that_brings_none(kind: str) -> None:
+    limits = POTS + (f"[{kind}.azimuth]\nstart_deg = 40\n" if kind != "relay-pulse" else "")
+    if kind == "servo":
+        limits = limits.replace("max_deg = 350", "max_deg = 170")
+    box = Box(rotor(kind) + limits)
+    assert {box.loop.status.axis(axis).source for axis in Axis} == {"measured"}
+    box.aim(160.0, 70.0)
+    assert box.world.antenna() == pytest.approx((160.0, 70.0), abs=3.0)
+    assert box.loop.status.azimuth.angle_deg == pytest.approx(box.world.shafts()[0], abs=0.5)
+    box.world.inject("azimuth-pot-open")
+    box.wait(1.0)
+    assert box.loop.status.azimuth.fault is not None
+    assert box.loop.status.azimuth.fault.name == "pot open or shorted"
+
+
+def test_a_pot_corrects_the_model_of_a_control_box() -> None:
+    # The model believes the file's 6°/s; cold grease lets the motor do two fifths of that.
+    box = Box(rotor("digipot") + POTS + "[digipot.azimuth]\nstart_deg = 40\n")
+    box.world.inject("azimuth-motor-slow")
+    box.aim(160.0, 20.0, seconds=8.0)
+    assert box.loop.status.azimuth.angle_deg == pytest.approx(box.world.shafts()[0], abs=1.0)
+    assert box.loop.status.azimuth.fault is None
+
+
+def test_without_a_pot_a_control_box_is_modelled_and_says_so() -> None:
+    box = Box(rotor("digipot"))
+    assert {box.loop.status.axis(axis).source for axis in Axis} == {"modelled"}
