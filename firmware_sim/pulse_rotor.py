@@ -57,10 +57,12 @@ class PulseRotor(SimRotor):
         *,
         relays_active_low: bool = False,
         contacts_active_low: bool = True,
+        master_pin: int | None = None,
     ) -> None:
         super().__init__(clock, sleep)
         self._active_low = relays_active_low
         self._closed_level = not contacts_active_low
+        self._master_pin = master_pin
         self.azimuth = SimPulseAxis(azimuth, clock())
         self.elevation = SimPulseAxis(elevation, clock())
         self.relay_starts: int = 0
@@ -70,6 +72,8 @@ class PulseRotor(SimRotor):
         self.gpio.on_edges.append(self._relays_changed)
         self.gpio.on_look.append(self._catch_up)
         self.faults = self._fault_table()
+        if master_pin is not None:
+            self._relays_changed(clock(), {master_pin: self.gpio.level(master_pin)})
 
     def antenna(self) -> tuple[float, float]:
         with self._lock:
@@ -94,6 +98,10 @@ class PulseRotor(SimRotor):
                     plus, minus = axis.coils = (self._pulled(pins[0]), self._pulled(pins[1]))
                     axis.motor.coils(plus, minus, now_s)
                     self.relay_starts += sum(self._pulled(pin) for pin in changed)
+            if self._master_pin is not None and self._master_pin in changes:
+                self._advance()
+                for axis in self._axes:
+                    axis.motor.supply = self._pulled(self._master_pin)
 
     def _pulled(self, pin: int) -> bool:
         return self.gpio.level(pin) != self._active_low

@@ -14,6 +14,8 @@ count is one short; or one missed while the motor ran at half its speed. Homing 
 from __future__ import annotations
 
 import math
+from collections import deque
+from itertools import pairwise
 
 from hw.cam import Cam
 from hw.ports import Direction
@@ -32,6 +34,8 @@ QUIET_PERIODS = 3.0
 """Driven for so many periods without a change of the contact: held, at the end stop, or the contact is dead."""
 LEARN = 0.25
 """How much of a newly measured speed is believed."""
+TURNING_CHANGES = 4
+"""So many changes at rest, as far apart as at full speed, are a motor that is still fed."""
 FASTER = 2.0
 """The speed measured may be this much faster or slower than the one configured."""
 
@@ -64,6 +68,8 @@ class CamCount:
         """The last change undid another; one that comes as soon undoes that."""
         self._run: tuple[tuple[int, float], ...] = ()
         """Zones entered in this run, the last three, and when."""
+        self._undriven: deque[tuple[float, bool]] = deque(maxlen=TURNING_CHANGES)
+        """When the contact changed at rest, and to what."""
         self._speeds_dps = dict.fromkeys((Direction.PLUS, Direction.MINUS), cam.speed_dps)
 
     # --- what is known
@@ -78,6 +84,19 @@ class CamCount:
         if self._drive is Direction.OFF:
             return False
         return self._quiet_s * self._speeds_dps[self._drive] > QUIET_PERIODS * self.cam.spacing_deg
+
+    @property
+    def turning(self) -> bool:
+        """It runs at its speed though no relay is on: welded, or somebody else feeds it."""
+        if not self.at_rest or len(self._undriven) < TURNING_CHANGES:
+            return False
+        # Wind that rocks an antenna about an edge of the contact changes it as often, but never at a motor's pace.
+        spans = [
+            (later_s - earlier_s, self._crossing_s(closed=closed))
+            for (earlier_s, closed), (later_s, _) in pairwise([*self._undriven, (self._at_s, False)])
+        ]
+        paced = all(expected_s / FASTER <= span_s <= expected_s * FASTER for span_s, expected_s in spans[:-1])
+        return paced and spans[-1][0] <= spans[-1][1] * FASTER
 
     @property
     def at_rest(self) -> bool:
@@ -140,6 +159,7 @@ class CamCount:
             self._crept = False
             if self._speed_dps * direction <= 0.0:
                 self._held_deg = 0.0
+        self._undriven.clear()
         self._drive = direction
         self._quiet_s = 0.0
         self._run = ()
@@ -148,12 +168,14 @@ class CamCount:
         """The contact changed; `lost` changes before that went unseen."""
         self.advance(at_s)
         self.changes += 1
+        if self.at_rest:
+            self._undriven.append((at_s, closed))
         if lost or closed is (self.zone % 2 == 0):
             self._doubt(f"{lost or 1} changes of the contact went unseen")
             self.zone += (lost or 1) * self._direction()
             self._before = None
         direction = self._direction()
-        soon = self._before is not None and at_s - self._changed_s < LEAST_CROSSING * self._crossing_s()
+        soon = self._before is not None and at_s - self._changed_s < LEAST_CROSSING * self._zone_s()
         if soon and (direction == self._last_step or self._undone):
             self._undo(at_s)
             return
@@ -179,10 +201,15 @@ class CamCount:
             return self.cam.begins_deg(self.zone + 1) - self._shaft_deg
         return self._shaft_deg - self.cam.begins_deg(self.zone) + self.cam.play_deg
 
+    def _crossing_s(self, *, closed: bool) -> float:
+        """How long the contact stays so at full speed."""
+        width_deg = self.cam.closed_deg if closed else self.cam.spacing_deg - self.cam.closed_deg
+        return width_deg / self.cam.speed_dps
+
     def _width_deg(self) -> float:
         return self.cam.begins_deg(self.zone + 1) - self.cam.begins_deg(self.zone)
 
-    def _crossing_s(self) -> float:
+    def _zone_s(self) -> float:
         return self._width_deg() / max(self._speeds_dps.values())
 
     def _enter(self, zone: int, direction: int) -> None:

@@ -148,6 +148,11 @@ class PulseCounter:
         return self._contact.closed()
 
     @property
+    def turning(self) -> bool:
+        """It runs at its speed though no relay is on."""
+        return self._count.turning
+
+    @property
     def quiet(self) -> bool:
         """Driven for three periods without a pulse."""
         return self._count.quiet

@@ -114,7 +114,9 @@ class Assembly:
         kept = keeper.load() if keeper else {}
         axes: dict[Axis, CountedAxis] = {}
         for axis in counting:
-            axes[axis] = CountedAxis(axis, self._counter(axis, overheard), keeper, clock)
+            axes[axis] = CountedAxis(
+                axis, self._counter(axis, overheard), keeper, clock, master=config.relays.master is not None
+            )
             axes[axis].begin(kept.get(axis, Place(Standing.KNOWN, self._start_deg(axis))))
         return CountedRotor(
             self._bank(overheard), self._sensors(dict(axes)), axes, self._shift, ends=self._ends, keeper=keeper

@@ -19,7 +19,7 @@ from rotator.control.homing import HomingSettings
 from rotator.control.motion import Motor
 from rotator.control.mount import Mount, Range
 from rotator.control.offsets import Offsets, Points, offsets
-from rotator.control.positioned import PositionedSettings
+from rotator.control.positioned import COMING_DEG, PositionedSettings
 from rotator.control.sensing import ANYTHING, Window
 from rotator.orders import Mode
 from rotator.simulation import SIM_CALIBRATION_RAW
@@ -93,6 +93,8 @@ def build_controller(
                 calibration,
                 undone,
                 source(config, which),
+                near_deg(config, which),
+                getattr(config.moteus, which.value).accel_limit_dps2 if config.rotor.type == "moteus" else None,
             )
         known = (learnt or {}).get(which)
         return AxisSettings(
@@ -154,6 +156,15 @@ def source(config: Config, axis: Axis) -> str:
         return "counted"
     own = config.axis(axis).sensor.kind == "own"
     return "modelled" if own and config.rotor.type in ("servo", "digipot") else "measured"
+
+
+def near_deg(config: Config, axis: Axis) -> float:
+    """How far from its place a motor that goes there by itself may come to rest."""
+    if config.rotor.type != "digipot":
+        return COMING_DEG
+    table = getattr(config.digipot, axis.value)
+    (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
+    return float(COMING_DEG + table.dead_band_deg + abs((high_deg - low_deg) / (high_step - low_step)))
 
 
 def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings:

@@ -206,12 +206,13 @@ class ControlLoop:
         self._controller.troubles.clear()
         for fault in self.status.faults:
             if fault not in before.faults:
-                log.error("FAULT %s", fault)
+                log.log(logging.WARNING if fault.passing else logging.ERROR, "FAULT %s", fault)
         mover = self.status.controlled_by
         if mover and mover != before.controlled_by and (told := self._movers.tell(f"{mover} moves the antenna")):
             log.info("%s", told)
         if before.faults and not self.status.faults:
-            log.warning("faults acknowledged")
+            passed = all(fault.passing for fault in before.faults)
+            log.warning("no fault any more" if passed else "faults acknowledged")
         for axis in Axis:
             for notice in self.status.axis(axis).notices:
                 if notice not in self._noticed[axis]:

@@ -138,6 +138,7 @@ class Plan:
             self._sleep,
             relays_active_low=self._config.relays.active == "low",
             contacts_active_low=self._config.pulses.active == "low",
+            master_pin=self._config.relays.master,
         )
 
     def _moteus(self) -> MoteusWorld:

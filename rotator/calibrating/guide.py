@@ -1,4 +1,4 @@
-"""Walks a person through setting an axis up: statuses and answers in, text and orders out.
+"""Walks a person through setting up an axis with a pot, or another sensor of shares: directions, ends, points between.
 
 Knows what to ask, in which order, and what to refuse. Pure: no clock, no terminal, no file. The walk is written down
 as one path from top to bottom (`_walk`).
@@ -7,69 +7,28 @@ as one path from top to bottom (`_walk`).
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import dataclass
 
-from hw.ports import Axis, Direction
-from rotator.calibrating.answers import Answer, Enter, Finish, No, Quit
-from rotator.calibrating.asking import Asking, Known
-from rotator.calibrating.readings import LEAST_TURN, READINGS, Doubt
+from hw.ports import Direction
+from rotator.calibrating.answers import Enter, Finish, No
+from rotator.calibrating.asking import Asking, Commissioned, Known
+from rotator.calibrating.readings import READINGS, Doubt
 from rotator.calibrating.table import Point, Table
+from rotator.calibrating.walk import Refused, Steps
 from rotator.calibrating.watch import Move
-from rotator.orders import Order, Stop
-from rotator.status import Status
-
-
-@dataclass(frozen=True, slots=True)
-class Commissioned:
-    """What is to be saved."""
-
-    axis: Axis
-    points: tuple[tuple[float, float], ...]
-    min_deg: float
-    max_deg: float
-
-
-@dataclass(frozen=True, slots=True)
-class Turn:
-    """What a step leads to."""
-
-    lines: tuple[str, ...]
-    orders: tuple[Order, ...]
-
-
-class Refused(Exception):  # noqa: N818 - the walk ends here; it is no failure of the program
-    """It makes no sense to go on."""
 
 
 class Guide(Asking):
-    """Call `step` with every status and every answer until `ended`; `result` is there if all went well."""
+    """`supply_v`: what a pot is fed with, so that readings can be told in volts too; None: it is no pot."""
 
-    def __init__(self, known: Known) -> None:
+    def __init__(self, known: Known, supply_v: float | None) -> None:
         super().__init__(known)
-        self.result: Commissioned | None = None
-        self.ended = False
-        self._walking = self._walk()
+        self._supply_v = supply_v
 
-    def step(self, status: Status, answer: Answer | None = None) -> Turn:
-        self._take(status, answer)
-        try:
-            if isinstance(answer, Quit):
-                raise Refused("Left: nothing is saved.")
-            next(self._walking)
-        except StopIteration:
-            self.ended = True
-        except Refused as reason:
-            self._say(str(reason))
-            self.ended = True
-        if self.ended:
-            self.prompt = ""
-            self._orders.append(Stop())
-        turn = Turn(tuple(self._lines), tuple(self._orders))
-        self._lines.clear()
-        self._orders.clear()
-        return turn
+    def reading(self, raw: float) -> str:
+        volts = "" if self._supply_v is None else f" ({raw * self._supply_v:.3f} V)"
+        return super().reading(raw) + volts
 
-    def _walk(self) -> Generator[None, None, None]:
+    def _walk(self) -> Steps:
         words, known = self._words, self.known
         self._say(*words.introduction)
         rising = yield from self._check_plus()
@@ -78,7 +37,7 @@ class Guide(Asking):
         table = yield from self._end(table, words.low_end, known.min_deg)
         table = yield from self._end(table, words.high_end, known.max_deg)
         table = yield from self._between(table)
-        self._say("", *table.lines(known.supply_v, known.lowest_reading, known.highest_reading))
+        self._say("", *table.lines(self._supply_v, known.lowest_reading, known.highest_reading))
         limits = yield from self._limits(table)
         self._say(*words.summary(*limits))
         if (yield from self._agrees("Save this? y or n:")):
@@ -97,33 +56,9 @@ class Guide(Asking):
         self._say(f"The reading {'rises' if change > 0 else 'falls'} with it: good, either will do.")
         return change > 0
 
-    def _check_minus(self, *, rising: bool) -> Generator[None, None, None]:
+    def _check_minus(self, *, rising: bool) -> Steps:
         change = yield from self._turn(Direction.MINUS, self._words.turn_minus, -1 if rising else 1)
         self._say(f"The reading {'rises' if change > 0 else 'falls'} on the way back: the directions are right.")
-
-    def _turn(self, direction: Direction, prompt: str, sign: int) -> Generator[None, None, float]:
-        """Presses that way until the reading has changed enough and always the same way (that of `sign`, if not 0)."""
-        total = 0.0
-        while abs(total) < LEAST_TURN:
-            event = yield from self._ask(prompt)
-            if not isinstance(event, Move):
-                self._say(self._words.press_first)
-                continue
-            if event.direction is not direction or event.turned is None:
-                continue
-            change, doubt = event.turned.change, event.turned.doubt()
-            if not doubt and sign and change * sign < 0:
-                raise Refused(self._words.same_way)
-            if not doubt and change * total < 0:
-                doubt = "the reading went the other way than a moment ago, though the motor ran the same way"
-            if doubt:
-                self._say(f"Not believed: {doubt}. Once more.")
-                total = 0.0
-                continue
-            total += change
-            if abs(total) < LEAST_TURN:
-                self._say("A little further.")
-        return total
 
     def _end(self, table: Table, where: str, proposed_deg: float) -> Generator[None, None, Table]:
         self._say("", *self._words.drive_to(where))

@@ -78,13 +78,18 @@ class Table:
         straight_deg = low.angle_deg + (point.raw - low.raw) * (high.angle_deg - low.angle_deg) / (high.raw - low.raw)
         return point.angle_deg - straight_deg
 
-    def lines(self, supply_v: float, lowest: float, highest: float) -> list[str]:
-        """The table as text, and how far its ends are from where a reading counts as a broken wire."""
-        rows = ["  reading     volts   degrees   off a straight line   noise"]
+    def lines(self, supply_v: float | None, lowest: float, highest: float) -> list[str]:
+        """The table as text, with volts where it is a pot's, and how far its ends are from what counts as a fault."""
+
+        def volts(share: float) -> str:
+            return "" if supply_v is None else f"{share * supply_v:.3f} V"
+
+        header, drift = ("volts", "a broken wire") if supply_v is not None else ("", "a fault")
+        rows = [f"  reading  {header:>8}   degrees   off a straight line   noise"]
         for point in self.points:
             noise_deg = point.measured.noise * self.deg_per_raw
             rows.append(
-                f"  {point.raw:7.4f}  {point.raw * supply_v:6.3f} V  {point.angle_deg:7.1f}°  "
+                f"  {point.raw:7.4f}  {volts(point.raw):>8}  {point.angle_deg:7.1f}°  "
                 f"{self.off_line_deg(point) + 0.0:+17.1f}°  {noise_deg:6.2f}°"
             )
         raws = [point.raw for point in self.points]
@@ -92,7 +97,8 @@ class Table:
             (min(raws) - lowest, f"above lowest_reading ({lowest:g})"),
             (highest - max(raws), f"below highest_reading ({highest:g})"),
         ):
-            rows.append(f"  {margin:.4f} ({margin * self.deg_per_raw:.0f}°, {margin * supply_v:.3f} V) {where}")
+            shown = ", ".join(filter(None, (f"{margin * self.deg_per_raw:.0f}°", volts(margin))))
+            rows.append(f"  {margin:.4f} ({shown}) {where}")
             if margin < LEAST_MARGIN:
-                rows.append("  That is little: some drift would be taken for a broken wire. See docs/wiring.md.")
+                rows.append(f"  That is little: some drift would be taken for {drift}. See docs/wiring.md.")
         return rows

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.calibrating.answers import Press
-from rotator.calibrating.readings import Turned, turned
+from rotator.calibrating.readings import SHARES, Grain, Turned, turned
 from rotator.status import AxisStatus, Status
 
 REST_READINGS = 10
@@ -30,8 +30,13 @@ class Move:
 
 
 class Watch:
-    def __init__(self, axis: Axis) -> None:
+    """`settle_s`: how long the axis moves on after it says that it does not move."""
+
+    def __init__(self, axis: Axis, grain: Grain = SHARES, settle_s: float = 0.0) -> None:
         self._axis = axis
+        self._grain = grain
+        self._settle_s = settle_s
+        self._moved_s = 0.0
         self._rest: deque[float] = deque(maxlen=REST_READINGS)
         self._during: list[tuple[float, float]] = []
         """When, and what it read."""
@@ -76,7 +81,10 @@ class Watch:
                 self._during.append((status.at_s, axis.raw))
             else:
                 self._rest.append(axis.raw)
-        return self._end() if self._ways and not axis.moving else None
+        if axis.moving:
+            self._moved_s = status.at_s
+            return None
+        return self._end() if self._ways and status.at_s - self._moved_s >= self._settle_s else None
 
     def stands(self) -> bool:
         """It has been driven for a while and the reading stands still."""
@@ -87,7 +95,7 @@ class Watch:
         half = len(latest) // 2
         if now_s - began_s <= STANDING_S or half < REST_READINGS // 2:
             return False
-        return turned(latest[:half], latest[half:]).stood
+        return turned(latest[:half], latest[half:], self._grain).stood
 
     def _end(self) -> Move:
         ways, failed = self._ways, self._failed
@@ -97,4 +105,4 @@ class Watch:
         self._rest.clear()
         self._rest.extend(during[-REST_READINGS:])
         whole = len(ways) == 1 and not failed and len(during) >= REST_READINGS
-        return Move(next(iter(ways)), turned(before, during) if whole else None)
+        return Move(next(iter(ways)), turned(before, during, self._grain) if whole else None)

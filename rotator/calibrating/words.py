@@ -23,7 +23,6 @@ class Words:
     seen: str
     low_end: str
     high_end: str
-    scale: str
 
     @property
     def keys(self) -> str:
@@ -38,7 +37,7 @@ class Words:
             f"Setting up the {self.axis}. It does not know its limits yet: be ready to cut the motors' supply.",
             f"  {self.plus_key} or {self.arrows}: {self.plus} / {self.minus} ({self.minus_key}), for as long as the "
             f"key is held; {self.plus_key.upper()} and {self.minus_key.upper()}: 2 s a press.",
-            "  Space or s stops. Ctrl-C or q leaves at any moment: every relay off, nothing saved.",
+            "  Space or s stops. Ctrl-C or q leaves at any moment: the motors stop, nothing is saved.",
         )
 
     @property
@@ -65,17 +64,54 @@ class Words:
         return f"Did the antenna turn {self.seen}? y or n:"
 
     @property
+    def did_it_turn_back(self) -> str:
+        return f"Did it turn back, {self.minus}? y or n:"
+
+    @property
     def swap(self) -> str:
         return (
             f"Then swap {self.plus_relay} and {self.minus_relay} in [relays] of the file (or the two wires), and begin "
             "again. Nothing is saved."
         )
 
+    def wrong_way(self, rotor: str) -> str:
+        """What to change where the antenna of this type of rotor turned the other way."""
+        match rotor:
+            case "moteus":
+                what = f"change the sign of moteus.{self.axis}.rev_per_turn"
+            case "servo":
+                what = f"swap the pulse widths in servo.{self.axis}.pulses_us"
+            case "digipot":
+                what = f"exchange PA0 and PB0 of the {self.axis}'s chip, or let digipot.{self.axis}.steps fall"
+            case _:
+                return self.swap
+        return f"Then {what}, and begin again. Nothing is saved."
+
     @property
     def same_way(self) -> str:
         return (
             f"Refused: {self.plus} and {self.minus} move the reading the same way. Do both relays drive one direction? "
             "Nothing is saved."
+        )
+
+    @property
+    def reads_backwards(self) -> str:
+        return (
+            f"Refused: it turned {self.plus}, and the reading fell. `forward` and `up` of {self.axis}.sensor do not "
+            "say how the board lies (docs/sensors.md). Nothing is saved."
+        )
+
+    @property
+    def homing(self) -> tuple[str, ...]:
+        return (
+            f"   Watch the antenna: it turns {self.minus} to its stop, a little back, and there again. The box cannot",
+            "   tell a stop from a branch that the antenna hangs in: you can. Space or s stops it.",
+        )
+
+    def limit(self, where: str) -> tuple[str, ...]:
+        return (
+            f"{where} angle that it may be sent to: drive it there, or type it. A degree or two before its stop,",
+            "   or earlier, where cables, guy wires or a chimney want it.",
         )
 
     def drive_to(self, where: str) -> tuple[str, ...]:
@@ -97,6 +133,9 @@ class Words:
     def summary(self, min_deg: float, max_deg: float) -> tuple[str, ...]:
         return ("", f"[{self.axis}]: the table above, limits {min_deg:g} to {max_deg:g}, direction checked.")
 
+    def degrees_summary(self, min_deg: float, max_deg: float) -> tuple[str, ...]:
+        return ("", f"[{self.axis}]: limits {min_deg:g} to {max_deg:g}, direction checked.")
+
 
 AZIMUTH = Words(
     axis="azimuth",
@@ -110,7 +149,6 @@ AZIMUTH = Words(
     seen="clockwise, seen from above",
     low_end="low end (counter-clockwise)",
     high_end="high end (clockwise)",
-    scale="-360 to 720",
 )
 ELEVATION = Words(
     axis="elevation",
@@ -124,7 +162,6 @@ ELEVATION = Words(
     seen="up",
     low_end="low end (down)",
     high_end="high end (up)",
-    scale="-90 to 210",
 )
 
 

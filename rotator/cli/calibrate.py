@@ -1,6 +1,6 @@
-"""`rotator calibrate`: a person at the keys, or lines on standard input, and the guide that sets an axis up.
+"""`rotator calibrate`: a person at the keys, or lines on standard input, and the guide that leads through it.
 
-Knows keys, lines and printing. What is asked and what is believed is the guide's; the axis runs on the bench.
+Knows keys, lines and printing. What is asked and what is believed is the guide's; the rotor runs on the bench.
 """
 
 from __future__ import annotations
@@ -19,18 +19,26 @@ from pathlib import Path
 from rich.console import Console, Group, RenderableType
 from rich.text import Text
 
+from firmware_sim.rotor import SimRotor
 from hw.ports import Axis
+from rotator.app import open_station
 from rotator.calibrating.answers import Answer, Halt, Keyboard, Quit, from_line
-from rotator.calibrating.guide import Commissioned
+from rotator.calibrating.north import Placed
+from rotator.calibrating.walk import Walk
 from rotator.cli.faults import parse_faults
+from rotator.cli.reach import monitor_places, reach
 from rotator.cli.screen import draw, log_to, stop_on_signals
-from rotator.commissioning import Bench, as_toml, keep
+from rotator.commissioning import Bench, NorthBench, Sat, Saved, as_toml, keep
+from rotator.compass import learnt_path
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.engine import Engine
+from rotator.links.console import console_path
+from rotator.links.wire import LinkError
 from rotator.station import Station
 
 POLL_S = 0.02
+NORTH = "north"
 
 
 class Typed:
@@ -55,75 +63,83 @@ class Typed:
             self._ahead.clear()
         self._ahead.append(answer)
 
-    def next(self, bench: Bench) -> Answer | None:
-        if not self._ahead or not (self._by_key or bench.guide.ready(self._ahead[0])):
+    def next(self, guide: Walk) -> Answer | None:
+        if not self._ahead or not (self._by_key or guide.ready(self._ahead[0])):
             return None
         return self._ahead.popleft()
 
 
-def calibrate_axes(path: Path | None, faults: tuple[str, ...], axis: str | None, *, plain: bool) -> int:
-    """The exit code: 0 when every axis asked for has been set up."""
+def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None, *, plain: bool) -> int:
+    """`what`: an axis, `north`, or None for both axes. The exit code: 0 when all that was asked for has been done."""
     config = load(path)
-    axes = list(Axis) if axis is None else [Axis(axis)]
-    station = Station(config, time.monotonic, time.sleep)
-    try:
-        sitting = Sitting(config, path, station, parse_faults(faults, station.world), plain=plain)
-        return asyncio.run(sitting.run(axes))
-    finally:
-        station.close()
+    if config.rotor.hardware != "sim":
+        _alone(path)
+    sitting = Sitting(config, path, faults, plain=plain)
+    return asyncio.run(sitting.run([axis.value for axis in Axis] if what is None else [what]))
 
 
 class Sitting:
-    """One after the other, the axes that are to be set up."""
+    """One after the other, what is to be set up; each with the hardware opened anew."""
 
-    def __init__(
-        self, config: Config, path: Path | None, station: Station, faults: list[tuple[float, str]], *, plain: bool
-    ) -> None:
+    def __init__(self, config: Config, path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
         self._config = config
         self._path = path
-        self._station = station
         self._faults = faults
         self._plain = plain
         self._console = Console(highlight=False, soft_wrap=True)
         self._typed = Typed()
 
-    async def run(self, axes: list[Axis]) -> int:
+    async def run(self, tasks: list[str]) -> int:
         stop = stop_on_signals()
         log_to(logging.StreamHandler())
         # The guide says what there is to say of faults, in its place; log lines in between would only confuse.
         logging.getLogger().setLevel(logging.CRITICAL)
-        events = asyncio.get_running_loop()
-        for at_s, name in self._faults:
-            assert self._station.world is not None, "faults are for the simulator"
-            events.call_later(at_s, self._station.world.inject, name)
-        if self._plain:
-            threading.Thread(target=_read_lines, args=(self._typed, events), daemon=True).start()
         if self._config.rotor.hardware == "sim":
             self._say("SIMULATED rotor: nothing real turns.")
-        for axis in axes:
-            done = await self._set_up(axis, stop)
+        for at, what in enumerate(tasks):
+            station = open_station(self._config)
+            try:
+                self._plan_faults(station.world)
+                if self._plain and at == 0:
+                    events = asyncio.get_running_loop()
+                    threading.Thread(target=_read_lines, args=(self._typed, events), daemon=True).start()
+                done = await self._set_up(what, station, stop)
+            finally:
+                await asyncio.to_thread(station.close)
             if done is None or not await self._keep(done):
                 return 1
         return 0
 
-    async def _set_up(self, axis: Axis, stop: asyncio.Event) -> Commissioned | None:
-        bench = Bench(self._config, axis, self._station, time.monotonic)
-        engine = Engine(bench.loop, self._station.rotor)
+    def _plan_faults(self, world: SimRotor | None) -> None:
+        for at_s, name in parse_faults(self._faults, world):
+            assert world is not None, "faults are for the simulator"
+            asyncio.get_running_loop().call_later(at_s, world.inject, name)
+
+    def _sat(self, what: str, station: Station) -> Sat:
+        if what == NORTH:
+            return NorthBench(self._config, station, time.monotonic, time.sleep, kept=learnt_path(self._config))
+        return Bench(self._config, Axis(what), station, time.monotonic)
+
+    async def _set_up(self, what: str, station: Station, stop: asyncio.Event) -> Saved | Placed | None:
+        bench = self._sat(what, station)
+        engine = Engine(bench.loop, station.rotor)
         drawing: asyncio.Task[None] | None = None
         if not self._plain:
             picture = partial(_picture, bench, self._typed)
             drawing = asyncio.create_task(draw(picture, self._typed.key, self._console))
         try:
             ended = engine.start()
+            bench.start()
             asked = ""
             while not (bench.guide.ended or stop.is_set() or ended.done()):
-                for line in bench.step(self._typed.next(bench)):
+                for line in bench.step(self._typed.next(bench.guide)):
                     self._say(line)
                 if self._plain and bench.guide.prompt != asked:
                     asked = bench.guide.prompt
                     self._say(f"> {asked}" if asked else "")
                 await asyncio.sleep(POLL_S)
         finally:
+            await asyncio.to_thread(bench.stop)
             failure = await engine.halt()
             if drawing:
                 drawing.cancel()
@@ -131,10 +147,12 @@ class Sitting:
         if failure is not None:
             raise failure
         if not bench.guide.ended:
-            self._say(f"Stopped: every relay is off, nothing of the {axis.value} is saved.")
-        return bench.guide.result
+            self._say(f"Stopped: the motors stand, nothing of the {what} is saved.")
+        return bench.result
 
-    async def _keep(self, done: Commissioned) -> bool:
+    async def _keep(self, done: Saved | Placed) -> bool:
+        if isinstance(done, Placed):
+            return True
         if self._path is None:
             self._say("No --config, so nothing is saved. In a file it would be:\n\n" + as_toml(done))
             return True
@@ -150,12 +168,20 @@ class Sitting:
         self._console.print(text, markup=False)
 
 
-def _picture(bench: Bench, typed: Typed) -> RenderableType:
-    axis = bench.loop.status.axis(bench.guide.known.axis)
-    reading = "----" if axis.raw is None else f"{axis.raw:.4f} ({axis.raw * bench.guide.known.supply_v:.3f} V)"
-    way = "" if not axis.drive else "  " + bench.guide.way(axis.drive)
+def _alone(path: Path | None) -> None:
+    """Relays have one owner, a serial port or an I2C chip any number. Raises LinkError where the box is running."""
+    try:
+        box = reach([console_path(each) for each in monitor_places(path)], "console")
+    except LinkError:
+        return
+    box.close()
+    raise LinkError("the box is running, and two programs cannot have the motors: end it (sudo systemctl stop rotator)")
+
+
+def _picture(bench: Sat, typed: Typed) -> RenderableType:
+    shown, turns = bench.picture()
     return Group(
-        Text(f"reading {reading}{way}", style="green" if axis.drive else "dim"),
+        Text(shown, style="green" if turns else "dim"),
         Text(f"> {bench.guide.prompt} {typed.keyboard.typed}", style="bold"),
     )
 

@@ -78,13 +78,13 @@ def arduino(pty: Path, path: Path | None, plain: bool) -> None:
 @CONFIG
 @FAULT
 @click.option("--plain", is_flag=True, help="Lines in and out even in a terminal.")
-@click.argument("axis", required=False, type=click.Choice(["azimuth", "elevation"]))
-def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, axis: str | None) -> None:
-    """Set an axis up, or both: directions, ends, points in between; saved in the file."""
+@click.argument("what", required=False, type=click.Choice(["azimuth", "elevation", "north"]))
+def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, what: str | None) -> None:
+    """Set an axis up, or both: directions, ends, points in between. Or find north. Saved in the file."""
     from rotator.cli.calibrate import calibrate_axes
 
     plain = plain or not (sys.stdin.isatty() and sys.stdout.isatty())
-    sys.exit(calibrate_axes(path, faults, axis, plain=plain))
+    sys.exit(calibrate_axes(path, faults, what, plain=plain))
 
 
 @cli.command()

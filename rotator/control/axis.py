@@ -105,34 +105,36 @@ class AxisControl:
 
     def see(self, reading: Reading, now_s: float) -> None:
         """Take the latest reading; the same one again is no news but may have grown too old."""
-        self._note(reading.condition)
+        lost = self._note(reading.condition)
         unbelievable = self._sensing.take(reading, now_s)
         homing = isinstance(self.goal, HomeGoal)
         if self._sensing.believable and reading.at_s != self._seen_s and self._sensing.angle_deg is not None:
             self._law.see(reading.at_s, self._sensing.angle_deg)
             self._seen_s = reading.at_s
-            self._astray = None if homing else self._watch.see(reading.at_s, self._sensing.angle_deg)
+            seen = self._watch.see(reading.at_s, self._sensing.angle_deg, reading.condition.changes)
+            self._astray = None if homing else seen
         self._present = unbelievable or self._astray
-        if reading.condition.fault and not homing:
-            # The rotor's own words say more than what can be seen of it from here.
-            self.fail(reading.condition.fault)
-        self.fail(self._present)
-        if self.fault and self.fault.passing and not reading.condition.fault:
-            self.fault = self._present
+        # The rotor's own words say more than what can be seen of it from here.
+        said = None if homing else reading.condition.fault
+        if self.fault and self.fault.passing:
+            self.fault = said or self._present
+        self.fail(said or self._present or lost)
 
-    def _note(self, condition: Condition) -> None:
-        """What has become of the rotor since the last reading."""
+    def _note(self, condition: Condition) -> Fault | None:
+        """What has become of the rotor since the last reading; a count that has just been lost is a fault, once."""
         before, self._condition = self._condition, condition
         if before is None:
-            return
+            return None
         if condition.scale != before.scale:
             self._begin_anew()
         if condition.lost and not before.lost and not isinstance(self.goal, HomeGoal):
-            self.fail(Fault("count lost", self.settings.axis, condition.lost))
+            return Fault("count lost", self.settings.axis, condition.lost)
+        return None
 
     def fail(self, fault: Fault | None) -> None:
-        """Something is wrong with this axis: it stops until that is acknowledged. The first fault is the one told."""
-        if fault is None or self.fault is not None:
+        """Something is wrong with this axis: it stops until that is acknowledged. The first fault is the one told, but
+        one that only cutting the supply ends comes before any other."""
+        if fault is None or (self.fault is not None and (self.fault.cut or not fault.cut)):
             return
         self.fault = fault
         self._law.motion.forget_run()
@@ -140,7 +142,8 @@ class AxisControl:
 
     def acknowledge(self) -> None:
         """A person or a stop has taken note of the fault; while its cause is there it stays."""
-        self.fault = self._present
+        said = self._condition.fault if self._condition and not self._condition.latched else None
+        self.fault = said or self._present
         self._watch.acknowledge()
 
     def decide(self, now_s: float) -> Run:
@@ -284,7 +287,9 @@ class AxisControl:
     def _new_watch(self) -> MotionWatch | RunWatch:
         settings, motors = self.settings, self._law.motion.motors
         if settings.source == "counted":
-            return RunWatch(settings.axis, settings.limits, motors)
+            assert settings.homing is not None
+            quiet_s = settings.homing.coast_s + settings.homing.period_s
+            return RunWatch(settings.axis, settings.limits, motors, quiet_s)
         return MotionWatch(settings.axis, settings.limits, motors, master=settings.master)
 
     def _learnt(self) -> tuple[LearntMotor, LearntMotor]:

@@ -259,6 +259,9 @@ class Controller:
                 control.goal = replace(control.goal, path=None)
 
     def _acknowledge(self) -> None:
+        if any(control.fault for control in self._axes.values()):
+            # What was on its way when it failed is not taken up again.
+            self._asked = None
         for axis, control in self._axes.items():
             control.acknowledge()
             self.errands.append(Acknowledge(axis))
@@ -268,6 +271,7 @@ class Controller:
         azimuth, elevation = self._axes[Axis.AZIMUTH], self._axes[Axis.ELEVATION]
         if not aim.engaged:
             azimuth.goal = elevation.goal = None
+            self._asked = None
             self._pointing.show(aim)
             return
         if aim.azimuth_deg is None:

@@ -41,6 +41,10 @@ class PositionedSettings:
     missing: tuple[str, ...] = ()
     """What a person has still to do before this axis may be aimed; empty: commissioned."""
     source: str = "measured"
+    near_deg: float = COMING_DEG
+    """Nearer than this to where it was told to be, the drive may leave it."""
+    accel_dps2: float | None = None
+    """How hard it brakes; None: at once."""
 
 
 class PositionedAxis:
@@ -82,9 +86,10 @@ class PositionedAxis:
         self._condition = reading.condition
         self._present = self._sensing.take(reading, now_s)
         # The rotor's own words say more than what can be seen of it from here.
-        self.fail(reading.condition.fault or self._present or self._straying(now_s))
-        if self.fault and self.fault.passing and not reading.condition.fault:
-            self.fault = self._present
+        said = reading.condition.fault
+        if self.fault and self.fault.passing:
+            self.fault = said or self._present
+        self.fail(said or self._present or self._straying(now_s))
 
     def fail(self, fault: Fault | None) -> None:
         """Something is wrong with this axis: it holds until that is acknowledged. The first fault is the one told."""
@@ -93,7 +98,8 @@ class PositionedAxis:
 
     def acknowledge(self) -> None:
         self._astray = None
-        self.fault = self._present
+        said = None if self._condition.latched else self._condition.fault
+        self.fault = said or self._present
 
     def decide(self, now_s: float) -> Steer | Hold:
         """Where the drive is to be from now on: what the goal asks for, as far as it is safe."""
@@ -163,18 +169,28 @@ class PositionedAxis:
         limits = self.settings.limits
         limit_deg = limits.max_deg if direction > 0 else limits.min_deg
         from_deg = self._sensing.angle_deg
-        if self._steered is not None:
-            from_deg = self._steered.angle_deg + self._steered.rate_dps * (now_s - self._steered_s)
-        if (limit_deg - from_deg) * direction <= 0:
+        if self._steered is None and (limit_deg - from_deg) * direction <= self.settings.near_deg:
             self.goal = None
             return HOLD
+        # From where it can just brake it is steered to its limit, on and on: to hold is to come to rest further on.
+        if self._steered is not None and not self._condition.settling:
+            from_deg = self._steered.angle_deg + self._steered.rate_dps * (now_s - self._steered_s)
+        if (limit_deg - from_deg) * direction <= self._braking_deg:
+            return Steer(limit_deg, 0.0, until_s)
         return self._within(from_deg, self.speed_dps * direction, until_s)
+
+    @property
+    def _braking_deg(self) -> float:
+        """How far it takes to come to rest from its full speed."""
+        accel_dps2 = self.settings.accel_dps2
+        return self.speed_dps**2 / (2.0 * accel_dps2) if accel_dps2 else 0.0
 
     def _within(self, angle_deg: float, rate_dps: float, until_s: float) -> Steer:
         """No further than the limits; at a limit the target moves on alone."""
         kept_deg = self.settings.limits.nearest(angle_deg)
-        outward = kept_deg in (self.settings.limits.min_deg, self.settings.limits.max_deg) and kept_deg != angle_deg
-        return Steer(kept_deg, 0.0 if outward else rate_dps, until_s)
+        limits = self.settings.limits
+        outward = (kept_deg == limits.max_deg and rate_dps > 0) or (kept_deg == limits.min_deg and rate_dps < 0)
+        return Steer(kept_deg, 0.0 if outward or kept_deg != angle_deg else rate_dps, until_s)
 
     def _blocked(self, command: Steer) -> Direction | None:
         """The way in which it would turn, where a limit switch lets it go no further."""
@@ -187,13 +203,13 @@ class PositionedAxis:
         steered, angle_deg = self._steered, self._sensing.angle_deg
         if steered is None or angle_deg is None:
             return True
-        return abs(steered.angle_deg - angle_deg) < COMING_DEG and abs(steered.rate_dps) < STILL_DPS
+        return abs(steered.angle_deg - angle_deg) < self.settings.near_deg and abs(steered.rate_dps) < STILL_DPS
 
     def _direction(self) -> Direction:
         if self._steered is None or self._sensing.angle_deg is None or self._arrived():
             return Direction.OFF
         ahead_deg = self._steered.angle_deg - self._sensing.angle_deg
-        towards = ahead_deg if abs(ahead_deg) >= COMING_DEG else self._steered.rate_dps
+        towards = ahead_deg if abs(ahead_deg) >= self.settings.near_deg else self._steered.rate_dps
         return Direction.PLUS if towards > 0 else Direction.MINUS
 
     def _straying(self, now_s: float) -> Fault | None:

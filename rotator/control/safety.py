@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from hw.ports import Axis, Direction
 from rotator.control.motion import Motor
 from rotator.control.mount import Range
-from rotator.control.run_watch import WAYS, endless
+from rotator.control.run_watch import CUT_BY_HAND, WAYS, endless, unstoppable
 from rotator.control.trend import Slope, Trend
 from rotator.status import Fault
 
@@ -39,8 +39,6 @@ NEAR_END_DEG = 5.0
 """Standing still this near to a limit, driven towards it, is an end stop."""
 CUT_IN_S = 3.0
 """What still turns so long after the supply was to be cut is beyond this box."""
-
-CUT_BY_HAND = "CUT MOTOR POWER!"
 
 
 def late(axis: Axis, gap_s: float, period_s: float) -> Fault:
@@ -90,7 +88,7 @@ class MotionWatch:
             self._cut_s = math.inf
         self._direction, self._since_s = direction, now_s
 
-    def see(self, at_s: float, angle_deg: float) -> Fault | None:
+    def see(self, at_s: float, angle_deg: float, _changes: int = 0) -> Fault | None:
         """A believable reading. Returns the fault it amounts to, if it does."""
         taken = self._trend.see(at_s, angle_deg, max(motor.speed_dps for motor in self._motors.values()))
         if self._direction is Direction.OFF:
@@ -210,11 +208,7 @@ class MotionWatch:
         return self._closed(name, measured, f"{limit_dps:.2g}°/s for {TURNING_S[0]:g} s")
 
     def _closed(self, name: str, measured: str, limit: str) -> Fault:
-        """What no relay of this axis can end: only without supply does it stand."""
-        if self._master:
-            return Fault(name, self._axis, f"{measured}; the master is opened", limit, cut=True)
-        measured += "; no master is wired, so switch the motors' supply off by hand NOW"
-        return Fault(name, self._axis, measured, limit, cut=True, act_now=CUT_BY_HAND)
+        return unstoppable(name, self._axis, measured, limit, master=self._master)
 
     def _way(self, direction: Direction) -> str:
         return WAYS[self._axis, direction]

@@ -32,6 +32,8 @@ class Condition:
 
     fault: Fault | None = None
     """What is wrong with it now, as the rotor itself knows."""
+    latched: bool = False
+    """The rotor itself keeps that fault until it is told that somebody has taken note of it."""
     notice: str = ""
     """What a person should know though it stops nothing."""
     lost: str = ""

@@ -25,7 +25,20 @@ def no_switches(_axis: Axis) -> frozenset[Direction]:
     return frozenset()
 
 
-class GuardedRotor:
+class PlainRotor:
+    """What most kinds have not: a supply that can be switched, contacts that are counted."""
+
+    def closed_contacts(self) -> frozenset[Axis]:
+        return frozenset()
+
+    def cut(self) -> bool:
+        return False
+
+    def restore(self) -> None:
+        pass
+
+
+class GuardedRotor(PlainRotor):
     """A drive whose commands expire, with whoever sees to that: a thread, or the alarms of a simulated clock."""
 
     def __init__(
@@ -43,17 +56,8 @@ class GuardedRotor:
     def run(self, errand: Errand) -> None:
         """Nothing here has to be told; a kind that has says so."""
 
-    def closed_contacts(self) -> frozenset[Axis]:
-        return frozenset()
-
     def off(self) -> None:
         self._drive.off()
-
-    def cut(self) -> bool:
-        return False
-
-    def restore(self) -> None:
-        pass
 
     def start(self) -> None:
         self._guard.start()

@@ -14,6 +14,7 @@ from hw.pulses import PulseCounter
 from hw.relays import RelayBank
 from rotator.control.commands import Command, Errand, Place, Run
 from rotator.control.offsets import Offsets
+from rotator.control.run_watch import unstoppable
 from rotator.control.sensing import Condition
 from rotator.rotors.common import Ends, no_switches
 from rotator.rotors.keeper import Keeper
@@ -26,15 +27,27 @@ KEEP_EVERY_S = 0.5
 
 
 class CountedAxis:
-    """A counter that two threads use, one to read and one to place; as a sensor it tells degrees."""
+    """A counter that two threads use, one to read and one to place; as a sensor it tells degrees.
+
+    `master`: an output switches the motors' supply.
+    """
 
     source = "counted"
 
-    def __init__(self, axis: Axis, counter: PulseCounter, keeper: Keeper | None, clock: Callable[[], float]) -> None:
+    def __init__(
+        self,
+        axis: Axis,
+        counter: PulseCounter,
+        keeper: Keeper | None,
+        clock: Callable[[], float],
+        *,
+        master: bool = False,
+    ) -> None:
         self._axis = axis
         self._counter = counter
         self._keeper = keeper
         self._clock = clock
+        self._master = master
         self._lock = threading.Lock()
         self._scale = 0
         self._doubt = ""
@@ -94,6 +107,9 @@ class CountedAxis:
         unkept = self._keeper.trouble(self._axis) if self._keeper else ""
         if unkept:
             return Fault("count not kept", self._axis, f"it does not move: {unkept}", passing=True)
+        if self._counter.turning:
+            measured = "its contact opens and closes as if its motor ran"
+            return unstoppable("turning with no relay on", self._axis, measured, "", master=self._master)
         if self._counter.quiet:
             return Fault("no pulses", self._axis, "driven for three periods, and its contact did not change")
         return None

@@ -17,11 +17,11 @@ from rotator.control.offsets import Offsets
 from rotator.control.sensing import Condition
 from rotator.orders import LetGo
 from rotator.rotor import AddAlarm
-from rotator.rotors.common import Ends, no_switches
+from rotator.rotors.common import Ends, PlainRotor, no_switches
 from rotator.status import Fault
 
 
-class MoteusRotor:
+class MoteusRotor(PlainRotor):
     """`serve`: the bus, in real time, or what stands in for it in simulated time."""
 
     def __init__(
@@ -39,7 +39,12 @@ class MoteusRotor:
         self._ends = ends
 
     def condition(self, axis: Axis) -> Condition:
-        return Condition(fault=self._fault(axis), notice=self._drive.limits().get(axis, ""), ends=self._ends(axis))
+        return Condition(
+            fault=self._fault(axis),
+            latched=axis in self._drive.faults(),
+            notice=self._drive.limits().get(axis, ""),
+            ends=self._ends(axis),
+        )
 
     def obey(self, axis: Axis, command: Command) -> Direction:
         if isinstance(command, Steer):
@@ -58,17 +63,8 @@ class MoteusRotor:
             case LetGo():
                 self._drive.release()
 
-    def closed_contacts(self) -> frozenset[Axis]:
-        return frozenset()
-
     def off(self) -> None:
         self._drive.off()
-
-    def cut(self) -> bool:
-        return False
-
-    def restore(self) -> None:
-        pass
 
     def start(self) -> None:
         if isinstance(self._serve, MoteusBus):

@@ -3,38 +3,55 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
 
 from firmware_sim.clock import SimClock
-from firmware_sim.world import World
 from hw.ports import Axis
 from rotator.calibrating.answers import from_line
-from rotator.calibrating.guide import Guide
-from rotator.commissioning import Bench
+from rotator.commissioning import Bench, NorthBench
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.station import Station
 
 PERIOD_S = 0.05
-LONGEST_S = 30.0
+LONGEST_S = 1200.0
 QUIET = "[sim]\nbus_takes_time = false\n"
 
 
 class Sitting:
-    def __init__(self, config: Config, axis: Axis = Axis.AZIMUTH) -> None:
+    """`counts`: where counted axes are kept; None: they know their place. `bad_luck`: a fault from the beginning."""
+
+    bench: Any
+
+    def __init__(
+        self,
+        config: Config,
+        axis: Axis = Axis.AZIMUTH,
+        *,
+        counts: Path | None = None,
+        start_deg: tuple[float, float] = (200.0, 60.0),
+        bad_luck: str = "",
+    ) -> None:
         self.clock = SimClock()
-        station = Station(config, self.clock, self.clock.sleep, (200.0, 60.0), add_alarm=self.clock.add_alarm)
-        assert station.world is not None
-        self.world: World = station.world
-        self.bank = station.rotor.bank
+        self.station = Station(
+            config, self.clock, self.clock.sleep, start_deg, add_alarm=self.clock.add_alarm, counts=counts
+        )
+        self.world: Any = self.station.world
         self.axis = axis
-        self.bench = Bench(config, axis, station, self.clock)
         self.said: list[str] = []
+        if bad_luck:
+            self.world.inject(bad_luck)
+        self._sit_down(config)
         self.wait(0.5)
 
+    def _sit_down(self, config: Config) -> None:
+        self.bench = Bench(config, self.axis, self.station, self.clock)
+
     @property
-    def guide(self) -> Guide:
+    def guide(self) -> Any:
         return self.bench.guide
 
     @property
@@ -62,9 +79,7 @@ class Sitting:
         return self.say(*[key] * presses)
 
     def shaft_deg(self) -> float:
-        part = self.world.azimuth if self.axis is Axis.AZIMUTH else self.world.elevation
-        part.motor.advance(self.clock())
-        return part.motor.shaft_deg
+        return float(self.world.shafts()[0 if self.axis is Axis.AZIMUTH else 1])
 
     def moving(self) -> bool:
         return any(self.world.drives())
@@ -83,11 +98,37 @@ class Sitting:
             self.said += self.bench.step()
 
 
+class NorthSitting(Sitting):
+    """With the compass, which is looked at ten times a second. `kept`: the file of what it has learnt."""
+
+    def __init__(self, config: Config, *, kept: Path | None = None, **rest: Any) -> None:
+        self._kept = kept
+        self._cycles = 0
+        super().__init__(config, **rest)
+
+    def _sit_down(self, config: Config) -> None:
+        self.bench = NorthBench(config, self.station, self.clock, self.clock.sleep, kept=self._kept)
+
+    def _cycle(self) -> None:
+        self._cycles += 1
+        if self._cycles % 2:
+            self.bench.compass.look()
+        super()._cycle()
+
+
 @pytest.fixture
 def sit() -> Callable[..., Sitting]:
     """A sitting at the azimuth (or another axis) of a simulated rotor, standing at 200° and 60°."""
 
-    def start(text: str = "", axis: Axis = Axis.AZIMUTH) -> Sitting:
-        return Sitting(parse(text + QUIET, "test"), axis)
+    def start(text: str = "", axis: Axis = Axis.AZIMUTH, **rest: Any) -> Sitting:
+        return Sitting(parse(text + QUIET, "test"), axis, **rest)
+
+    return start
+
+
+@pytest.fixture
+def sit_with_compass() -> Callable[..., NorthSitting]:
+    def start(text: str, **rest: Any) -> NorthSitting:
+        return NorthSitting(parse(text + QUIET, "test"), **rest)
 
     return start

@@ -26,7 +26,8 @@ def test_without_a_gpio_chip_it_says_so(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "what"), [("moteus", "their own watchdog"), ("servo", "servos hold"), ("digipot", "where their chips point")]
+    ("kind", "what"),
+    [("moteus", "their own watchdog"), ("servo", "servos hold"), ("digipot", "where their chips point")],
 )
 def test_a_rotor_without_relays_has_no_line_touched(tmp_path: Path, kind: str, what: str) -> None:
     # The relays' pins may be anything there.

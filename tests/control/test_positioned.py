@@ -113,8 +113,10 @@ def test_a_jog_goes_on_from_where_it_is_at_its_own_speed(motor: Motor) -> None:
 
 def test_a_jog_ends_at_the_limit(motor: Motor) -> None:
     motor.axis.start_jog(Direction.MINUS, None, 0.0)
-    assert motor.step(5.0) is None
-    assert motor.angle_deg == pytest.approx(0.0, abs=1.0)
+    told = motor.step(5.0)
+    assert told is not None
+    assert (told.angle_deg, told.rate_dps) == (0.0, 0.0), "to let go of it would be to come to rest further on"
+    assert motor.angle_deg == 0.0
 
 
 def test_a_jog_for_a_while_ends_by_itself(motor: Motor) -> None:

@@ -1,0 +1,83 @@
+"""`rotator calibrate north` as a person starts it, without a terminal: lines in, lines out, the file at the end."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rotator.config.load import load
+
+LIMIT_S = 120.0
+STATION = """# A fast one, mounted askew.
+[azimuth]
+offset_deg = 17               # guessed
+speed_dps = 180
+max_deg = 150
+
+[sim.azimuth]
+speed_dps = 180
+lag_s = 0.02
+
+[elevation]
+max_deg = 90
+
+[sim.elevation]
+speed_dps = 90
+
+[mount]
+declination_deg = 4.1         # where I live
+"""
+COMPASS = '\n[compass]\nkind = "bno055"\n'
+
+
+def north(path: Path, *lines: str, fault: str = "") -> tuple[str, int]:
+    extra = ["--fault", fault] if fault else []
+    process = subprocess.run(
+        [sys.executable, "-m", "rotator", "calibrate", "north", "--config", str(path), *extra],
+        input="".join(f"{line}\n" for line in lines),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+    )
+    assert "Traceback" not in process.stdout
+    return process.stdout, process.returncode
+
+
+@pytest.fixture
+def station(tmp_path: Path) -> Path:
+    path = tmp_path / "station.toml"
+    path.write_text(STATION + COMPASS)
+    return path
+
+
+def test_north_is_found_and_saved(station: Path) -> None:
+    text, code = north(station, "y", "y", "y")
+    assert code == 0, text
+    assert text.startswith("SIMULATED")
+    assert load(station).azimuth.offset_deg == pytest.approx(17.0, abs=1.0)
+    assert "# where I live" in station.read_text()
+    assert station.with_name("station.toml.bak").read_text() == STATION + COMPASS
+    assert sorted(each.name for each in station.parent.iterdir()) == ["station.toml", "station.toml.bak"]
+
+
+@pytest.mark.parametrize(
+    ("fault", "said"), [("compass-gone", "Refused: no compass: "), ("azimuth-pot-open", "Refused: azimuth: pot open")]
+)
+def test_what_is_broken_is_a_sentence(station: Path, fault: str, said: str) -> None:
+    text, code = north(station, "y", "y", "y", fault=fault)
+    assert code == 1
+    assert said in text
+    assert station.read_text() == STATION + COMPASS
+
+
+def test_a_station_without_a_compass(tmp_path: Path) -> None:
+    path = tmp_path / "station.toml"
+    path.write_text(STATION)
+    text, code = north(path)
+    assert code == 1
+    assert "rotator: the file has no compass" in text

@@ -1,0 +1,139 @@
+"""What the box makes of every fault that a simulator knows: one line each. A fault without a line fails its test.
+
+Knows names and promises. A name without its axis stands for both. Knows nothing of how it is tried.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Remedy(Enum):
+    """What a person does when the cause is gone, so that it points right again."""
+
+    NOTHING = "the next order is enough"
+    ACKNOWLEDGE = "a stop, and the next order"
+    AGAIN = "one run in the direction of the relay that had welded"
+    HOME = "homing: the count is lost"
+    CONFIRM = "saying where it points"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    fault: str = ""
+    """What the box calls it; empty: it says nothing, and goes on."""
+    within_s: float = 0.0
+    """So soon after it struck in mid-move it is told, and the drive is off."""
+    remedy: Remedy = Remedy.ACKNOWLEDGE
+    turns_on: bool = False
+    """Nothing that the box has can stop it."""
+    notice: str = ""
+    """What it begins to say though it goes on."""
+    astray: bool = False
+    """Without a word the box takes it for somewhere else: nothing tells it."""
+    before: bool = False
+    """It strikes before the order, because it would not matter in mid-move."""
+
+
+def goes_on(
+    *, astray: bool = False, before: bool = False, notice: str = "", remedy: Remedy = Remedy.NOTHING
+) -> Outcome:
+    return Outcome(remedy=remedy, notice=notice, astray=astray, before=before)
+
+
+STANDS_STILL = "motor runs and pot stands still"
+LOST = Remedy.HOME
+# Arriving after at most 15 s, and then turned by somebody else for a second or two.
+TURNED = Outcome("relay welded", 22.0, Remedy.AGAIN, turns_on=True)
+
+RELAYS_AND_POTS = {
+    "adc-gone": Outcome("sensor silent", 0.3),
+    "pot-open": Outcome("pot open or shorted", 0.3),
+    "pot-shorted": Outcome("pot open or shorted", 0.3),
+    "pot-loose": Outcome("pot jumps", 0.3),
+    "pot-reversed": Outcome("pot moves the wrong way", 2.5),
+    "pot-stuck": Outcome(STANDS_STILL, 2.0),
+    "pot-jumps": goes_on(),  # one reading that is far off moves nothing
+    "motor-stalled": Outcome(STANDS_STILL, 2.0),
+    "motor-reversed": Outcome("pot moves the wrong way", 1.0),
+    "motor-slow": goes_on(),
+    "hand-turns": TURNED,
+    "wind-turns": goes_on(notice="turning with no relay on"),  # and is brought back, again and again
+    "stop-early": goes_on(),
+    "relay-welded-cw": TURNED,
+    "relay-welded-up": TURNED,
+    "relay-welded-ccw": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN, turns_on=True),
+    "relay-welded-down": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN, turns_on=True),
+}
+COUNTED = {
+    # Three periods of 5° at 6°/s are 2.5 s.
+    "contact-stuck-open": Outcome("no pulses", 2.6, LOST),
+    "contact-stuck-closed": Outcome("no pulses", 2.6, LOST),
+    "motor-stalled": Outcome("no pulses", 2.6, LOST),
+    "motor-slow": Outcome("count lost", 4.0, LOST),
+    # Every fifth: the first one missed may be 25° away.
+    "pulses-missed": Outcome("count lost", 5.5, LOST),
+    "pulses-doubled": goes_on(),  # a contact cannot close again so soon
+    "motor-reversed": goes_on(astray=True, before=True, remedy=LOST),  # a pulse does not say which way
+    "hand-turns": Outcome("count lost", 15.0, LOST, turns_on=True),
+    "relay-welded-cw": Outcome("count lost", 15.0, LOST, turns_on=True),
+    "relay-welded-up": Outcome("count lost", 15.0, LOST, turns_on=True),
+    "relay-welded-ccw": Outcome("no pulses", 2.6, LOST, turns_on=True),
+    "relay-welded-down": Outcome("no pulses", 2.6, LOST, turns_on=True),
+}
+FIRMWARE = dict.fromkeys(
+    (
+        *("calibration", "gate-driver", "over-voltage", "encoder", "not-configured", "pwm-overrun"),
+        *("over-temperature", "start-outside-limit", "under-voltage", "config-changed", "theta-invalid"),
+        *("position-invalid", "driver-enable", "stop-position", "timing", "bemf-feedforward", "invalid-limits"),
+        *("position-error", "velocity-error"),
+    ),
+    Outcome("controller fault", 0.1),
+)
+MOTEUS = FIRMWARE | {
+    "silent": Outcome("controller silent", 0.5),
+    "jammed": Outcome("axis does not follow", 3.5),
+    "factory-bounds": Outcome("axis does not follow", 3.5, notice="its position bounds"),  # as sold
+    "power-cycled": Outcome("position unknown", 0.1, Remedy.CONFIRM),
+}
+SERVOS = {
+    # The board is asked once a second, and noticed at once where it has to be written to.
+    "board-unpowered": Outcome("servo board", 1.1),
+    "board-dips": Outcome("servo board", 1.1),
+    "wind-turns": goes_on(),  # it holds against the wind
+    # Nothing comes back from a servo.
+    "servo-stalled": goes_on(astray=True),
+    "servo-unpowered": goes_on(astray=True),
+}
+BOXES = {
+    "chip-dips": goes_on(),  # its step is said again every second
+    # Nothing comes back from a control box either.
+    "select-broken": goes_on(astray=True, before=True),
+    "motor-stalled": goes_on(astray=True),
+    "motor-slow": goes_on(),  # but until it arrives the box takes it for up to 30° further on
+}
+OUTCOMES = {
+    "g5500": RELAYS_AND_POTS,
+    "u100": COUNTED,
+    "isel": MOTEUS,
+    "servos": SERVOS,
+    "orbit360": BOXES,
+}
+REAL_TIME = {
+    "g5500": {"bus-hung": Outcome("sensor late")},
+    "servos": {"bus-hung": Outcome("axis does not follow")},
+    "isel": {
+        "adapter-unplugged": Outcome("controller silent"),
+        "adapter-deaf": Outcome("controller silent"),
+        "lines-dropped": Outcome("controller silent"),
+        "lines-garbled": Outcome("controller silent"),
+        "lines-late": Outcome("controller silent"),
+    },
+}
+"""What needs threads: a bus that blocks whoever asks, and lines that come late."""
+
+
+def plain(name: str) -> str:
+    """A fault's name without its axis."""
+    return name.removeprefix("azimuth-").removeprefix("elevation-")

@@ -1,0 +1,182 @@
+"""Every kind of rotor as it is shipped, in simulated time: its station, the control loop and doors, run by hand.
+
+Knows the shipped configurations and what each kind can do. Knows nothing of what a test is after. Angles are degrees as
+the box reports them; what the simulated rotor shows on its own scale is shifted by as much as the file says.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+import tomlkit
+
+from firmware_sim.clock import SimClock
+from firmware_sim.rotor import SimRotor
+from hw.ports import Axis
+from rotator.building import build_controller, build_mount, build_offsets
+from rotator.cli.rehearse import simulated
+from rotator.config.load import parse, shipped
+from rotator.config.model import Config
+from rotator.door import Door
+from rotator.loop import ControlLoop
+from rotator.orders import Aim, Order, Source
+from rotator.station import Station
+from rotator.status import AxisStatus, Status
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+LINK, PERSON = Source("gs232b", 1), Source("console")
+STARTED_S = 1000.0
+PATIENCE_S = 180.0
+STANDS_S = 1.0
+"""What has not moved for so long, and is not said to move, stands: longer than any of these motors coasts."""
+STANDS_ANYHOW_S = 6.0
+"""Whatever is said: longer than a servo is waited for that may be jumping to its first pulse."""
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A rotor, and the least that may be expected of it."""
+
+    profile: str
+    source: str
+    start_deg: tuple[float, float]
+    within_deg: float
+    """How near to its order the boom comes to rest."""
+    run_on_deg: float
+    """How far the shaft turns on after a stop at full speed."""
+    trembles_deg: float = 0.001
+    """How much it moves while it stands."""
+
+
+KINDS = (
+    Kind("g5500", "measured", (90.0, 30.0), 1.0, 1.3),
+    Kind("u100", "counted", (90.0, 70.0), 1.0, 1.0),
+    # From 30°/s, at 20°/s² down.
+    Kind("isel", "measured", (90.0, 30.0), 0.05, 24.0),
+    # The servo is somewhat faster than its order moves, and trembles while it holds.
+    Kind("servos", "modelled", (90.0, 90.0), 0.6, 2.0, trembles_deg=1.0),
+    # The box's dead band, half a step of the chip, and half the play of the gear.
+    Kind("orbit360", "modelled", (90.0, 30.0), 2.0 + 0.7 + 0.25, 1.5),
+)
+
+
+def all_but(**defects: str) -> pytest.MarkDecorator:
+    """Every kind, but for those, by profile, that are known not to: when one does, the test says so."""
+    marks = {name: [pytest.mark.xfail(reason=why, strict=True)] for name, why in defects.items()}
+    each = [pytest.param(kind, id=kind.profile, marks=marks.get(kind.profile, [])) for kind in KINDS]
+    return pytest.mark.parametrize("kind", each)
+
+
+def configured(profile: str, **tables: Any) -> Config:
+    """A shipped configuration, simulated, with these tables' keys in place of its own."""
+    values = tomllib.loads(shipped(profile))
+    for table, keys in (("rotor", {"hardware": "sim"}), *tables.items()):
+        values[table] = values.get(table, {}) | keys
+    return simulated(parse(tomlkit.dumps(values), profile))
+
+
+class Box:
+    """`start_deg` on the rotor's own scale. `counts`: the file in which counted axes are kept."""
+
+    def __init__(
+        self,
+        kind: Kind,
+        start_deg: tuple[float, float] | None = None,
+        *,
+        counts: Path | None = None,
+        **tables: Any,
+    ) -> None:
+        self.kind = kind
+        self.config = configured(kind.profile, **tables)
+        self.clock = SimClock(STARTED_S)
+        self.station = Station(
+            self.config,
+            self.clock,
+            self.clock.sleep,
+            start_deg or kind.start_deg,
+            add_alarm=self.clock.add_alarm,
+            counts=counts,
+        )
+        assert self.station.world is not None
+        self.world: SimRotor = self.station.world
+        self.rotor = self.station.rotor
+        self.period_s = 1 / self.config.control.rate_hz
+        self.loop = ControlLoop(build_controller(self.config), self.rotor, self.clock, self.period_s)
+        self._shift = build_offsets(self.config)
+        self._next_s = self.clock()
+        self._closed = False
+
+    @property
+    def status(self) -> Status:
+        return self.loop.status
+
+    def axis(self, axis: Axis) -> AxisStatus:
+        return self.status.axis(axis)
+
+    def boom_deg(self, axis: Axis) -> float:
+        """Where the antenna really points."""
+        return self.world.antenna()[list(Axis).index(axis)] + self._shift.of(axis)
+
+    def shaft_deg(self, axis: Axis) -> float:
+        """Where the shaft really is, before the play of the gears."""
+        return self.world.shafts()[list(Axis).index(axis)] + self._shift.of(axis)
+
+    def door(self, source: Source = LINK) -> Door:
+        return Door(self.loop, build_mount(self.config), source, clock=self.clock)
+
+    def order(self, *orders: Order, by: Source = LINK) -> None:
+        for order in orders:
+            self.loop.post(by, order)
+
+    def run(self, seconds: float) -> None:
+        """Cycles at their rate until that much time has passed."""
+        end_s = self.clock() + seconds
+        while self._next_s < end_s:
+            self.clock.sleep_until(self._next_s)
+            self.loop.cycle()
+            self._next_s += self.period_s
+        self.clock.sleep_until(end_s)
+
+    def left_alone(self, seconds: float) -> None:
+        """The control thread gets no turn; whoever guards the drive does."""
+        self.clock.sleep(seconds)
+        self._next_s = self.clock()
+
+    def until(self, done: Callable[[], bool], patience_s: float = PATIENCE_S) -> float:
+        """Cycles until it has come to pass. Returns how long that took."""
+        began_s = self.clock()
+        while not done():
+            assert self.clock() - began_s < patience_s, f"it never came: {self.status}"
+            self.run(self.period_s)
+        return self.clock() - began_s
+
+    def until_it_stands(self, patience_s: float = PATIENCE_S) -> None:
+        """Cycles until no shaft has moved for a while."""
+        since_s, stood_deg = self.clock(), self.world.shafts()
+
+        def stands() -> bool:
+            nonlocal since_s, stood_deg
+            shafts_deg = self.world.shafts()
+            ways_deg = [is_deg - was_deg for is_deg, was_deg in zip(shafts_deg, stood_deg, strict=True)]
+            if max(map(abs, ways_deg)) > self.kind.trembles_deg:
+                since_s, stood_deg = self.clock(), shafts_deg
+            return self.clock() - since_s >= (STANDS_ANYHOW_S if self.status.moving else STANDS_S)
+
+        self.until(stands, patience_s)
+
+    def arrives(self, azimuth_deg: float, elevation_deg: float) -> bool:
+        """Aimed there, it stands there in the end, as near as its kind can."""
+        self.order(Aim(azimuth_deg, elevation_deg))
+        self.until_it_stands()
+        off_deg = [abs(self.boom_deg(AZ) - azimuth_deg), abs(self.boom_deg(EL) - elevation_deg)]
+        return max(off_deg) <= self.kind.within_deg
+
+    def close(self) -> None:
+        if not self._closed:
+            self._closed = True
+            self.station.close()

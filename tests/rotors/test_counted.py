@@ -1,0 +1,203 @@
+"""An axis that counts, between its counter and its file: what is believed at the start, and what becomes of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from hw.ports import Direction
+from hw.relays import RelayBank
+from rotator.control.commands import Place as Placed
+from rotator.control.commands import Run
+from rotator.control.offsets import Offsets
+from rotator.rotors.counted import CountedAxis, CountedRotor
+from rotator.rotors.keeper import Keeper, at_once
+from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing
+from tests.hw.pulse_rig import AZ, CYCLE_S, STANDS_S, PulseRig
+
+MINUS, OFF, PLUS = Direction
+CAMS = {AZ: {"spacing_deg": 5.0}}
+NO_ENDS: frozenset[Direction] = frozenset()
+
+
+class Mast:
+    """The azimuth of a U-100 at 180°, as a rotor that is obeyed and read by hand."""
+
+    def __init__(self, path: Path, kept: Place, *, offset_deg: float = 0.0) -> None:
+        self.rig = PulseRig(180.0)
+        self.path = path
+        file = CountsFile(path, CAMS)
+        if kept.standing is Standing.KNOWN:
+            file.home(AZ, kept.angle_deg)
+        self.keeper = Keeper(file, at_once)
+        self.axis = CountedAxis(AZ, self.rig.counter, self.keeper, self.rig.clock)
+        self.axis.begin(kept)
+        bank: RelayBank = self.rig.bank
+        self.rotor = CountedRotor(bank, {AZ: self.axis}, {AZ: self.axis}, Offsets(offset_deg), keeper=self.keeper)
+
+    def run(self, way: Direction, seconds: float) -> None:
+        until_s = self.rig.clock() + seconds
+        while self.rig.clock() < until_s:
+            self.rotor.obey(AZ, Run(way, self.rig.clock() + 0.2))
+            self.rig.clock.sleep(CYCLE_S)
+            self.axis.read()
+        self.rotor.obey(AZ, Run(OFF, 0.0))
+
+    def wait(self, seconds: float) -> None:
+        for _ in range(round(seconds / CYCLE_S)):
+            self.rig.clock.sleep(CYCLE_S)
+            self.axis.read()
+
+    def on_disk(self) -> Place:
+        return CountsFile(self.path, CAMS).load()[AZ]
+
+
+KNOWN = Place(Standing.KNOWN, 180.0)
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "counts.json"
+
+
+# --- the start
+
+
+def test_what_is_known_is_where_it_stands(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    assert mast.axis.read() == pytest.approx(180.0, abs=0.3)
+    assert mast.axis.condition(NO_ENDS).lost == ""
+    assert mast.axis.source == "counted"
+
+
+@pytest.mark.parametrize(
+    ("kept", "why"),
+    [
+        (NEVER, "homing (nobody has yet)"),
+        (LOST, "homing (the program ended in mid-move, or its count was in doubt)"),
+        (Place(Standing.MOVING), "homing (the program ended in mid-move, or its count was in doubt)"),
+    ],
+    ids=["never", "lost", "moving"],
+)
+def test_what_is_not_known_wants_homing_and_says_why(path: Path, kept: Place, why: str) -> None:
+    mast = Mast(path, kept)
+    mast.wait(1.0)
+    assert mast.axis.condition(NO_ENDS).lost == why
+    mast.wait(60.0)
+    assert mast.on_disk().standing is not Standing.KNOWN, "a guess is never kept"
+
+
+def test_a_kept_place_that_the_contact_contradicts_is_not_believed(path: Path) -> None:
+    # At 181° the contact of this cam is closed; where the rotor stands it is open.
+    mast = Mast(path, Place(Standing.KNOWN, 180.8))
+    assert "the contact is open, which it is not at 180.8°" in mast.axis.condition(NO_ENDS).lost
+
+
+# --- moving
+
+
+def test_the_file_says_so_before_the_relay_closes(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    mast.wait(1.0)
+    assert mast.on_disk() == KNOWN
+    assert mast.rotor.obey(AZ, Run(PLUS, mast.rig.clock() + 0.2)) is PLUS
+    assert mast.on_disk().standing is Standing.LOST
+
+
+def test_a_file_that_cannot_say_so_keeps_the_relay_open(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    mast.wait(1.0)
+    path.unlink()
+    path.mkdir()
+    assert mast.rotor.obey(AZ, Run(PLUS, mast.rig.clock() + 0.2)) is OFF
+    fault = mast.axis.condition(NO_ENDS).fault
+    assert fault is not None
+    assert (fault.name, fault.passing) == ("count not kept", True)
+    path.rmdir()
+    mast.wait(1.0)
+    assert mast.axis.condition(NO_ENDS).fault is None
+
+
+def test_a_rest_is_kept_and_the_next_run_goes_on_from_it(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    mast.run(PLUS, 3.0)
+    mast.wait(30.0)
+    kept = mast.on_disk()
+    assert kept.standing is Standing.KNOWN
+    assert kept.angle_deg == pytest.approx(mast.rig.shaft_deg, abs=0.3)
+
+
+def test_closed_in_mid_coast_it_is_not_taken_for_a_rest(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    mast.run(PLUS, 3.0)
+    mast.rotor.close()
+    assert mast.on_disk().standing is Standing.LOST
+
+
+def test_closed_at_rest_it_is_kept_at_once(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    mast.run(PLUS, 3.0)
+    mast.wait(STANDS_S)
+    mast.rotor.close()
+    assert mast.on_disk().standing is Standing.KNOWN
+
+
+# --- trouble
+
+
+def test_a_count_in_doubt_is_lost_on_disk_too(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    mast.rig.rotor.inject("azimuth-contact-stuck-open")
+    mast.run(PLUS, 4.0)
+    condition = mast.axis.condition(NO_ENDS)
+    assert condition.lost == "homing (driven for three periods, and the contact did not change)"
+    assert mast.on_disk().standing is Standing.LOST
+    mast.wait(60.0)
+    mast.rotor.close()
+    assert mast.on_disk().standing is Standing.LOST
+
+
+def test_turned_by_something_else_at_rest_it_is_lost_on_disk_at_once(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    mast.wait(30.0)
+    assert mast.on_disk().standing is Standing.KNOWN
+    mast.rig.rotor.inject("azimuth-hand-turns")
+    mast.wait(4.0)
+    assert mast.axis.condition(NO_ENDS).lost == "homing (it turns with no relay on)"
+    assert mast.on_disk().standing is Standing.LOST
+
+
+def test_driven_and_quiet_is_a_fault_by_its_name(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    mast.rig.rotor.inject("azimuth-motor-stalled")
+    until_s = mast.rig.clock() + 4.0
+    while mast.rig.clock() < until_s:
+        mast.rotor.obey(AZ, Run(PLUS, mast.rig.clock() + 0.2))
+        mast.rig.clock.sleep(CYCLE_S)
+        mast.axis.read()
+    fault = mast.axis.condition(NO_ENDS).fault
+    assert fault is not None
+    assert str(fault).startswith("azimuth: no pulses: driven for three periods, and its contact did not change")
+
+
+def test_placed_it_is_known_again_on_another_scale(path: Path) -> None:
+    mast = Mast(path, LOST, offset_deg=20.0)
+    before = mast.axis.condition(NO_ENDS)
+    mast.rotor.run(Placed(AZ, 200.0))
+    after = mast.axis.condition(NO_ENDS)
+    assert (after.lost, after.scale) == ("", before.scale + 1)
+    assert mast.axis.read() == pytest.approx(180.0), "20° less on the rotor's own scale"
+    assert mast.on_disk() == KNOWN
+
+
+def test_what_the_switches_say_is_passed_on(path: Path) -> None:
+    assert Mast(path, KNOWN).axis.condition(frozenset({PLUS})).ends == {PLUS}
+
+
+def test_without_a_file_nothing_is_waited_for() -> None:
+    rig = PulseRig(180.0)
+    axis = CountedAxis(AZ, rig.counter, None, rig.clock)
+    axis.begin(KNOWN)
+    assert axis.may_start()
+    assert axis.read() == pytest.approx(180.0, abs=0.3)

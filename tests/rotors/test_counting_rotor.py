@@ -1,0 +1,185 @@
+"""A rotor that counts, through power cuts, full disks and a relay that welds: what it still knows, and the way back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from firmware_sim.pulse_rotor import PulseRotor
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, Home, Jog, Stop
+from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
+
+NewBox = Callable[..., Box]
+U100 = KINDS[1]
+MINUS, OFF, PLUS = Direction
+PRESS_S = 2.0
+"""What an axis that nobody has homed obeys at a time."""
+SPACING_DEG = 5.0
+"""From one closure of the contact to the next."""
+
+
+@pytest.fixture
+def counts(tmp_path: Path) -> Path:
+    return tmp_path / "rotator" / "counts.json"
+
+
+def homed(box: Box) -> None:
+    box.run(1.0)
+    for axis in Axis:
+        box.order(Home(axis), by=PERSON)
+        box.run(1.0)
+        box.until(lambda: not (box.axis(AZ).homing or box.axis(EL).homing))
+    box.run(1.0)
+    assert [box.axis(axis).uncalibrated for axis in Axis] == ["", ""]
+
+
+def switched_on_again(new_box: NewBox, before: Box, counts: Path, past_deg: float = 0.0) -> Box:
+    """The power was away, and the rotor stands where it was, or has run on a little."""
+    azimuth_deg, elevation_deg = before.world.shafts()
+    box = new_box(U100, (azimuth_deg + past_deg, elevation_deg), counts=counts)
+    box.run(1.0)
+    return box
+
+
+# --- a count, and the power goes
+
+
+def test_fresh_from_the_box_it_wants_homing(new_box: NewBox, counts: Path) -> None:
+    box = new_box(U100, counts=counts)
+    box.run(1.0)
+    assert box.axis(AZ).uncalibrated == "homing (nobody has yet)"
+    refused = box.door().order(Aim(120.0, 40.0))
+    assert refused is not None
+    assert refused.reason.startswith("UNCALIBRATED: azimuth needs homing (nobody has yet)")
+    homed(box)
+    assert box.world.shafts() == (0.0, 0.0)
+    assert box.arrives(120.0, 40.0)
+
+
+def test_switched_off_at_rest_it_knows_where_it_is(new_box: NewBox, counts: Path) -> None:
+    box = new_box(U100, counts=counts)
+    homed(box)
+    assert box.arrives(123.0, 45.0)
+    box.close()
+    again = switched_on_again(new_box, box, counts)
+    assert [again.axis(axis).uncalibrated for axis in Axis] == ["", ""]
+    assert again.axis(AZ).angle_deg == pytest.approx(box.axis(AZ).angle_deg, abs=0.1)
+    assert again.arrives(60.0, 80.0)
+
+
+def test_the_power_goes_long_after_the_last_move(new_box: NewBox, counts: Path) -> None:
+    """Nobody closes anything: what is on disk has to do."""
+    box = new_box(U100, counts=counts)
+    homed(box)
+    assert box.arrives(123.0, 45.0)
+    box.run(30.0)
+    again = switched_on_again(new_box, box, counts)
+    assert [again.axis(axis).uncalibrated for axis in Axis] == ["", ""]
+    assert again.arrives(60.0, 80.0)
+
+
+@pytest.mark.parametrize("into_s", [0.3, 1.7, 4.0])
+def test_the_power_goes_in_mid_move(new_box: NewBox, counts: Path, into_s: float) -> None:
+    box = new_box(U100, counts=counts)
+    homed(box)
+    assert box.arrives(90.0, 20.0)
+    box.run(30.0)
+    box.order(Aim(150.0, None))
+    box.until(lambda: box.world.drives() != (0, 0))
+    box.run(into_s)
+
+    again = switched_on_again(new_box, box, counts, past_deg=0.6)
+    assert again.axis(AZ).uncalibrated == "homing (the program ended in mid-move, or its count was in doubt)"
+    assert again.axis(EL).uncalibrated == "", "the other axis stood"
+    stood_deg = again.shaft_deg(AZ)
+    again.order(Aim(200.0, None))
+    again.run(5.0)
+    assert again.shaft_deg(AZ) == stood_deg, "nobody knows where that is"
+    again.order(Jog(AZ, PLUS))
+    again.run(PRESS_S + 5.0)
+    assert 6.0 < again.shaft_deg(AZ) - stood_deg < PRESS_S * 6.0 + U100.run_on_deg
+
+    again.order(Home(AZ), by=PERSON)
+    again.run(1.0)
+    again.until(lambda: not again.axis(AZ).homing)
+    again.run(1.0)
+    assert again.axis(AZ).uncalibrated == ""
+    assert again.arrives(200.0, 50.0)
+
+
+def test_homing_that_is_stopped_has_found_nothing(new_box: NewBox, counts: Path) -> None:
+    box = new_box(U100, counts=counts)
+    box.run(1.0)
+    box.order(Home(AZ), by=PERSON)
+    box.run(3.0)
+    assert box.axis(AZ).homing
+    box.order(Stop())
+    box.until_it_stands()
+    assert not box.axis(AZ).homing
+    assert box.axis(AZ).uncalibrated.startswith("homing")
+    assert box.shaft_deg(AZ) > 45.0
+
+
+def test_a_disk_that_takes_no_more_is_told_and_nothing_moves_unkept(new_box: NewBox, counts: Path) -> None:
+    box = new_box(U100, counts=counts)
+    homed(box)
+    assert box.arrives(60.0, 20.0)
+    box.run(30.0)
+    folder = counts.parent.rename(counts.parent.with_name("elsewhere"))
+    counts.parent.write_text("in its way")
+    stood_deg = box.shaft_deg(AZ)
+    box.order(Aim(120.0, None))
+    box.until(lambda: box.status.faults != (), 1.0)
+    assert [(fault.axis, fault.name) for fault in box.status.faults] == [(AZ, "count not kept")]
+    box.run(5.0)
+    assert box.shaft_deg(AZ) == stood_deg
+    counts.parent.unlink()
+    folder.rename(counts.parent)
+    box.run(1.0)
+    assert box.status.faults == (), "it goes with its cause"
+    assert box.arrives(120.0, 20.0)
+
+
+def test_pulses_missed_cost_homing_and_no_more_than_a_closure(new_box: NewBox) -> None:
+    """How far it may be off without knowing: what it says is one spacing from the truth at most."""
+    box = new_box(U100)
+    box.run(1.0)
+    box.world.inject("azimuth-pulses-missed")
+    box.order(Aim(150.0, None))
+    off_deg: list[float] = []
+    while box.axis(AZ).fault is None:
+        box.run(box.period_s)
+        off_deg.append(abs((box.axis(AZ).angle_deg or 0.0) - box.shaft_deg(AZ)))
+    assert max(off_deg) <= 1.05 * SPACING_DEG
+
+
+# --- a relay that stays closed
+
+
+def test_a_relay_that_welds_on_a_counting_rotor_is_shouted_and_cuts(new_box: NewBox) -> None:
+    box = new_box(U100)
+    box.run(1.0)
+    box.order(Jog(AZ, PLUS))
+    box.run(3.0)
+    box.world.inject("azimuth-relay-welded-cw")
+    box.order(Stop())
+    box.run(5.0)
+    assert box.status.cut
+    assert [fault.act_now for fault in box.status.faults] == ["CUT MOTOR POWER!"]
+
+
+def test_nor_is_it_met_by_the_opposite_relay(new_box: NewBox) -> None:
+    box = new_box(U100)
+    box.run(1.0)
+    box.order(Jog(AZ, PLUS))
+    box.run(3.0)
+    box.world.inject("azimuth-relay-welded-cw")
+    box.order(Stop())
+    box.run(5.0)
+    box.order(Stop(), Jog(AZ, MINUS))
+    box.run(1.5)
+    assert isinstance(box.world, PulseRotor)
+    assert box.world.azimuth.motor.shorted_s == 0.0
