@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from firmware_sim.clock import SimClock
 from firmware_sim.world import World
 from hw.ports import Axis, Direction
-from rotator.building import build_controller
+from rotator.assembly.settings import build_controller
+from rotator.assembly.station import Station
 from rotator.config.load import parse
 from rotator.loop import ControlLoop
 from rotator.orders import Jog, Order, Source, Stop
-from rotator.station import Station
 from rotator.status import Status
 
 MASTER = "[relays]\nmaster = 16\n"

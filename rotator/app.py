@@ -1,6 +1,6 @@
 """The composition root: from a configuration to hardware, controller and links, running.
 
-With `station` and `simulation`, its other parts, the only code that names concrete classes. Knows how the parts fit
+With `rotator.assembly` and `rotator.rotors`, its other parts, the only code that names concrete classes. Knows how the parts fit
 together, and in which order they start and stop.
 """
 
@@ -15,12 +15,13 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from rotator.building import build_controller, build_learnt, build_mount, build_offsets
+from rotator.assembly.panel import panel_thread
+from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
+from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.display import DisplayThread
 from rotator.door import Door
 from rotator.engine import Engine, process_end
-from rotator.fitting import panel_thread
 from rotator.keeping import Keeper
 from rotator.links.console import ConsoleSocket, console_path
 from rotator.links.monitor import MonitorSocket
@@ -29,7 +30,6 @@ from rotator.orders import Source
 from rotator.overhearing import Tape
 from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
-from rotator.station import Station
 from rotator.store import counts, knobs
 from rotator.supervisor import Supervisor, runtime_folder
 from rotator.switchboard import build_links

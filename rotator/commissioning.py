@@ -13,8 +13,9 @@ from pathlib import Path
 from typing import Protocol
 
 from hw.ports import Axis, HardwareError
-from rotator.board import Board
-from rotator.building import build_controller, build_offsets, source
+from rotator.assembly.board import Board
+from rotator.assembly.settings import build_controller, build_offsets, source
+from rotator.assembly.station import Station
 from rotator.calibrating.answers import Answer
 from rotator.calibrating.asking import Asking, Commissioned, Known
 from rotator.calibrating.boom import Scale
@@ -28,7 +29,6 @@ from rotator.config.model import Config
 from rotator.config.save import changed, save_axis
 from rotator.loop import ControlLoop
 from rotator.orders import Source
-from rotator.station import Station
 from rotator.store.compass import CompassFile
 
 SCALES_DEG = {Axis.AZIMUTH: (-360.0, 720.0), Axis.ELEVATION: (-90.0, 210.0)}

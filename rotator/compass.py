@@ -13,7 +13,7 @@ from pathlib import Path
 
 from hw.bno055 import Bno055
 from hw.ports import HardwareError
-from rotator.board import Board
+from rotator.assembly.board import Board
 from rotator.config.model import Config
 from rotator.control.north import Learnt, Sighting
 from rotator.store.compass import CompassFile

@@ -13,7 +13,9 @@ from typing import Protocol
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotor import SimRotor
-from rotator.building import build_controller, build_mount, build_offsets
+from rotator.assembly.settings import build_controller, build_mount, build_offsets
+from rotator.assembly.simulation import arduino_station
+from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.control.angles import great_circle_deg
 from rotator.door import Door
@@ -26,8 +28,6 @@ from rotator.protocols.rotctld import Request
 from rotator.protocols.rotctld import encode as encode_request
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
-from rotator.simulation import arduino_station
-from rotator.station import Station
 from rotator.status import Status
 
 SAMPLE_S = 0.05

@@ -14,7 +14,7 @@ from firmware_sim.clock import SimClock
 from firmware_sim.rotor import SimRotor
 from firmware_sim.servo_rotor import ServoAxisSpec, ServoRotor
 from hw.ports import HardwareError
-from rotator.board import Board
+from rotator.assembly.board import Board
 from rotator.compass import CompassReader, learnt_path, open_compass
 from rotator.config.load import parse
 from rotator.store.compass import CompassFile

@@ -10,7 +10,8 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
-from rotator.building import build_controller, build_mount
+from rotator.assembly.settings import build_controller, build_mount
+from rotator.assembly.station import Station
 from rotator.config.load import parse
 from rotator.door import MOST_PER_S, Door, Rights
 from rotator.loop import ControlLoop
@@ -19,7 +20,6 @@ from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.seldom import Seldom
-from rotator.station import Station
 
 CONFIG = parse("[azimuth]\nmax_deg = 310\n", "bench")
 

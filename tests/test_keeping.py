@@ -9,12 +9,12 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis
-from rotator.building import build_controller, build_learnt, build_offsets
+from rotator.assembly.settings import build_controller, build_learnt, build_offsets
+from rotator.assembly.station import Station
 from rotator.config.load import load
 from rotator.keeping import Keeper
 from rotator.loop import ControlLoop
 from rotator.orders import Aim, Calibrate, Order, Source
-from rotator.station import Station
 from rotator.status import LearntMotor
 
 STATION = """

@@ -17,12 +17,12 @@ import pytest
 from firmware_sim.clock import SimClock
 from firmware_sim.world import World
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
-from rotator.building import build_controller
+from rotator.assembly.settings import build_controller
+from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.loop import ControlLoop
 from rotator.orders import Aim, Jog, Source, Stop
 from rotator.rotors.relays import RelayRotor
-from rotator.station import Station
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PERIOD_S = 0.05

@@ -10,13 +10,13 @@ import pytest
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction, HardwareError
 from hw.relays import RelayBank
-from rotator.building import build_controller
+from rotator.assembly.settings import build_controller
+from rotator.assembly.station import Station
 from rotator.commissioning import Bench
 from rotator.config.load import parse
 from rotator.loop import ControlLoop
 from rotator.orders import Aim, Source
 from rotator.rotors.relays import RelayRotor
-from rotator.station import Station
 
 
 class Fragile:

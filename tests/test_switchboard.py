@@ -8,14 +8,14 @@ from typing import get_args
 import pytest
 
 from firmware_sim.clock import SimClock
-from rotator.building import build_controller, build_mount
+from rotator.assembly.settings import build_controller, build_mount
+from rotator.assembly.station import Station
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.config.load import parse
 from rotator.loop import ControlLoop
 from rotator.orders import Aim, Order
 from rotator.overhearing import Tape
 from rotator.protocols.reference import Example
-from rotator.station import Station
 from rotator.switchboard import build_links, session_maker
 
 SPID_STATUS = bytes.fromhex("57 00 00 00 00 00 00 00 00 00 00 1F 20")

@@ -14,11 +14,11 @@ from pathlib import Path
 from rich.console import RenderableType
 
 from firmware_sim.arduino.station import ArduinoStation
+from rotator.assembly.simulation import arduino_station
 from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals
 from rotator.config.load import load
 from rotator.links.pty import PtyLink
 from rotator.links.wire import Wire
-from rotator.simulation import arduino_station
 from rotator.views import terminal
 
 JOIN_S = 2.0

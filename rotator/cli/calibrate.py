@@ -22,6 +22,7 @@ from rich.text import Text
 from firmware_sim.rotor import SimRotor
 from hw.ports import Axis
 from rotator.app import open_station
+from rotator.assembly.station import Station
 from rotator.calibrating.answers import Answer, Halt, Keyboard, Quit, from_line
 from rotator.calibrating.north import Placed
 from rotator.calibrating.walk import Walk
@@ -35,7 +36,6 @@ from rotator.config.model import Config
 from rotator.engine import Engine
 from rotator.links.console import console_path
 from rotator.links.wire import LinkError
-from rotator.station import Station
 
 POLL_S = 0.02
 NORTH = "north"

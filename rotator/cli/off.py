@@ -13,8 +13,8 @@ import click
 from hw.gpio import LinesBusyError, find_chip, real_gpiod
 from hw.lines_off import switch_off
 from hw.ports import HardwareError
+from rotator.assembly.station import off_lines
 from rotator.config.load import load
-from rotator.station import off_lines
 
 HOLDS = {
     "moteus": "the controllers stop and hold by their own watchdog, half a second after the program's last word",

@@ -27,8 +27,8 @@ from hw.pca9685 import MODE1, PRE_SCALE, SLEEP
 from hw.ports import AngleSensor, Axis, HardwareError
 from hw.pot import Reference
 from hw.spi import real_spidev
+from rotator.assembly.simulation import simulated_rotor
 from rotator.config.model import Config
-from rotator.simulation import simulated_rotor
 
 Bus = SmbusI2C
 

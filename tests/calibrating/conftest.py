@@ -10,11 +10,11 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis
+from rotator.assembly.station import Station
 from rotator.calibrating.answers import from_line
 from rotator.commissioning import Bench, NorthBench
 from rotator.config.load import parse
 from rotator.config.model import Config
-from rotator.station import Station
 
 PERIOD_S = 0.05
 LONGEST_S = 1200.0

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.building import missing
+from rotator.assembly.settings import missing
 from rotator.cli.rehearse import simulated
 from rotator.config.axes import AxisTable
 from rotator.config.load import ConfigError, parse, profiles, shipped

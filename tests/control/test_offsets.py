@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.building import build_controller, build_mount, build_offsets
+from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.config.load import ConfigError, parse
 from rotator.control.offsets import Offsets, offsets
 

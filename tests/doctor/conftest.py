@@ -14,13 +14,13 @@ from firmware_sim.clock import SimClock
 from firmware_sim.i2c import SimI2CBus
 from hw.gpio import GpioOutputs
 from hw.i2c import SmbusI2C
+from rotator.assembly.simulation import simulated_rotor
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION
 from rotator.doctor.chips import Chips, ask_in_step
 from rotator.doctor.finding import Finding
 from rotator.doctor.machine import Machine
-from rotator.simulation import simulated_rotor
 
 PI_4 = "Raspberry Pi 4 Model B Rev 1.4"
 STATION = """

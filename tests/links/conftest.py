@@ -16,7 +16,8 @@ from typing import Any
 import pytest
 
 from firmware_sim.clock import SimClock
-from rotator.building import build_controller, build_mount
+from rotator.assembly.settings import build_controller, build_mount
+from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.door import Door
 from rotator.links.wire import Wire
@@ -25,7 +26,6 @@ from rotator.orders import Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
-from rotator.station import Station
 
 PATIENCE_S = 30.0
 

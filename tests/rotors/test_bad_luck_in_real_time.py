@@ -12,10 +12,10 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from hw.ports import Axis
-from rotator.building import build_controller
+from rotator.assembly.settings import build_controller
+from rotator.assembly.station import Station
 from rotator.loop import ControlLoop
 from rotator.orders import Aim, Order, Source, Stop
-from rotator.station import Station
 from rotator.status import Status
 from tests.rotors.outcomes import REAL_TIME
 from tests.rotors.rig import AZ, EL, KINDS, Kind, configured

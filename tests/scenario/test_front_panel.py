@@ -14,15 +14,15 @@ import pytest
 from firmware_sim.clock import SimClock
 from firmware_sim.panel import SimPanel
 from hw.ports import Axis
-from rotator.building import build_controller, build_mount
+from rotator.assembly.panel import panel_thread
+from rotator.assembly.settings import build_controller, build_mount
+from rotator.assembly.station import Station
 from rotator.config.load import parse
 from rotator.door import Door
-from rotator.fitting import panel_thread
 from rotator.loop import ControlLoop
 from rotator.orders import Mode, Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
-from rotator.station import Station
 
 MANUAL, PARK, AUTO, JOG = range(4)
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

@@ -8,11 +8,11 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis
-from rotator.building import build_controller
+from rotator.assembly.settings import build_controller
+from rotator.assembly.station import Station
 from rotator.config.load import parse
 from rotator.loop import ControlLoop
 from rotator.orders import Aim, Source
-from rotator.station import Station
 
 STEP_S = 0.05
 ONE_TURN = """

@@ -14,9 +14,9 @@ from pathlib import Path
 from hw.ports import Axis, Direction
 from hw.relays import RelayBank
 from rotator.app import App
+from rotator.assembly.station import Station
 from rotator.config.load import load
 from rotator.rotors.relays import RelayRotor
-from rotator.station import Station
 
 
 class BuggyDrive:

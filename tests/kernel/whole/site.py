@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Self
 
 from firmware_sim.world import World
+from rotator.assembly.simulation import SIM_CALIBRATION_RAW, simulated_rotor
 from rotator.config.load import parse
-from rotator.simulation import SIM_CALIBRATION_RAW, simulated_rotor
 from tests.kernel.bench.edges import EdgeRecorder
 from tests.kernel.bench.gpio import GpioChip, persisting
 from tests.kernel.bench.i2c import I2CAdapter

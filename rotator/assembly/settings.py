@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from hw.ports import Axis
+from rotator.assembly.simulation import SIM_CALIBRATION_RAW
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
@@ -22,7 +23,6 @@ from rotator.control.offsets import Offsets, Points, offsets
 from rotator.control.positioned import COMING_DEG, PositionedSettings
 from rotator.control.sensing import ANYTHING, Window
 from rotator.orders import Mode
-from rotator.simulation import SIM_CALIBRATION_RAW
 from rotator.status import LearntMotor
 from rotator.store.learnt import LearntFile, Motors
 

@@ -31,11 +31,11 @@ from hw.relays import RelayBank
 from hw.servo_axis import ServoSpec
 from hw.servo_drive import ServoDrive
 from hw.spi import SCK, SI, KernelSpi, LineSpi, SpiBus, real_spidev
-from rotator.board import Board
-from rotator.building import build_offsets, own_points
+from rotator.assembly.board import Board
+from rotator.assembly.panel import limit_switches
+from rotator.assembly.settings import build_offsets, own_points
 from rotator.config.model import Config
 from rotator.control.calibration import Calibration
-from rotator.fitting import limit_switches
 from rotator.rotor import Rotor
 from rotator.rotors.boxes import FollowedBox
 from rotator.rotors.counted import CountedAxis, CountedRotor

@@ -12,9 +12,9 @@ from firmware_sim.clock import SimClock
 from firmware_sim.rotor import SimRotor
 from hw.gpio import LinesBusyError
 from hw.ports import HardwareError
-from rotator.board import Board
+from rotator.assembly.board import Board
+from rotator.assembly.simulation import Plan
 from rotator.config.model import Config
-from rotator.simulation import Plan
 
 PINS = {"one": 17, "two": 27}
 

@@ -1,7 +1,7 @@
 """The hardware half of the composition root: from a configuration to drivers, on real chips or simulated ones.
 
 Knows what is opened whatever the rotor, and the order in which it is let go. The rotor's own drivers are put together
-in `rotator.assembly`. Decides nothing.
+in `rotator.assembly.rotors`. Decides nothing.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from hw.heartbeat import Heartbeat
 from hw.lines_off import RelayLines
 from hw.ports import CharacterDisplay
 from hw.sentinel import Sentinel
-from rotator.assembly import Assembly
-from rotator.board import Board
+from rotator.assembly.board import Board
+from rotator.assembly.panel import panel_parts
+from rotator.assembly.rotors import Assembly
+from rotator.assembly.simulation import Plan
 from rotator.config.model import Config
-from rotator.fitting import panel_parts
 from rotator.panel.thread import PanelParts
 from rotator.rotor import AddAlarm, Rotor
-from rotator.simulation import Plan
 
 
 def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:

@@ -14,7 +14,7 @@ from hw.pca9685 import Pca9685
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from hw.pot import PotSensor, Reference
 from hw.switches import LimitSwitches
-from rotator.board import Board
+from rotator.assembly.board import Board
 from rotator.config.model import Config
 from rotator.orders import Order
 from rotator.panel.panel import Panel, PanelSettings
