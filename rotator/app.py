@@ -1,7 +1,7 @@
 """The composition root: from a configuration to hardware, controller and links, running.
 
-With `rotator.assembly` and `rotator.rotors`, its other parts, the only code that names concrete classes. Knows how the parts fit
-together, and in which order they start and stop.
+With `rotator.assembly` and `rotator.rotors`, its other parts, the only code that names concrete classes. Knows how the
+parts fit together, and in which order they start and stop.
 """
 
 from __future__ import annotations
