@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: run test check tests test-kernel test-install test-gpredict test-flights bench fuzz picture picture-gpredict drawings clean
+.PHONY: run test check tests test-kernel test-install test-gpredict test-rotors bench fuzz picture picture-gpredict drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -21,8 +21,9 @@ check: $(VENV)/.dev
 tests: $(VENV)/.dev
 	$(BIN)/pytest -n 3 --dist loadfile $(TESTS)
 
-# Twelve real passes on every kind of rotor, in simulated time: some minutes.
-test-flights: $(VENV)/.dev
+# Every kind of rotor: one contract, every fault by name, finding north; then twelve real passes on each.
+test-rotors: $(VENV)/.dev
+	$(BIN)/pytest -n 3 --dist loadfile tests/rotors tests/calibrating/test_north.py tests/cli/test_calibrate_north.py
 	$(BIN)/pytest tests/flights
 
 # install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in build/roots.

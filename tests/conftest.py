@@ -14,6 +14,16 @@ PASSES = sorted((Path(__file__).parent / "passes").glob("*.csv"))
 collect_ignore = [] if "GS232_KERNEL" in os.environ else ["kernel"]
 """Tests that need a kernel of their own run in it: `make test-kernel`."""
 
+ROTORS = ("rotors", "flights", "calibrating/test_north.py", "cli/test_calibrate_north.py")
+"""Every kind of rotor, all its faults, whole passes: minutes, so only where they are named: `make test-rotors`."""
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    here = Path(__file__).parent
+    slow = [here / name for name in ROTORS if collection_path.is_relative_to(here / name)]
+    named = [Path(argument.split("::")[0]).resolve() for argument in config.args]
+    return True if slow and not any(name.is_relative_to(slow[0]) for name in named) else None
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("hardware", "tests/contract on a Raspberry Pi")

@@ -1,6 +1,6 @@
 """What the README promises of each kind of rotor on twelve real passes, and that its table is what comes out.
 
-`make test-flights` flies them all; every figure is the same on every machine.
+`make test-rotors` flies them all; every figure is the same on every machine.
 """
 
 from __future__ import annotations
