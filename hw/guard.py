@@ -59,14 +59,19 @@ class Guard:
             if self._thread.is_alive():
                 self._thread.join(timeout=2 * PATIENCE_S)
 
+    def enforce(self, now_s: float) -> None:
+        """End what has expired. What fails is said once, and tried again when this is called again."""
+        try:
+            self._drive.enforce(now_s)
+            self._failed = ""
+        except HardwareError as fault:
+            if str(fault) != self._failed:
+                self._failed = str(fault)
+                log.error("%s", f"{self._alarm}: {fault}; trying again" if self._alarm else self._failed)
+
     def _watch(self) -> None:
         while not self._stopping.is_set():
             self._drive.wait_until_due(PATIENCE_S)
-            try:
-                self._drive.enforce(self._clock())
-                self._failed = ""
-            except HardwareError as fault:
-                if str(fault) != self._failed:
-                    self._failed = str(fault)
-                    log.error("%s", f"{self._alarm}: {fault}; trying again" if self._alarm else self._failed)
+            self.enforce(self._clock())
+            if self._failed:
                 self._stopping.wait(RETRY_S)

@@ -5,17 +5,14 @@ Knows threads and alarms. Knows no kind of rotor.
 
 from __future__ import annotations
 
-import logging
 import time
 from collections.abc import Callable, Mapping
 
 from hw.guard import Expiring, Guard
-from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from hw.ports import AngleSensor, Axis, Direction
 from rotator.control.commands import Errand
 from rotator.control.sensing import Condition
 from rotator.rotor import AddAlarm
-
-log = logging.getLogger(__name__)
 
 Ends = Callable[[Axis], frozenset[Direction]]
 """The ways in which the limit switches let an axis go no further."""
@@ -48,7 +45,6 @@ class GuardedRotor(PlainRotor):
         self._drive = drive
         self._ends = ends
         self._guard = Guard(drive, time.monotonic, alarm=alarm)
-        self._failed = ""
 
     def condition(self, axis: Axis) -> Condition:
         return Condition(ends=self._ends(axis))
@@ -63,17 +59,7 @@ class GuardedRotor(PlainRotor):
         self._guard.start()
 
     def begin(self, add_alarm: AddAlarm) -> None:
-        add_alarm(self._drive.due_s, self._enforce)
+        add_alarm(self._drive.due_s, self._guard.enforce)
 
     def close(self) -> None:
         self._guard.stop()
-
-    def _enforce(self, now_s: float) -> None:
-        """As the guard does it; what fails is tried again when it is due again."""
-        try:
-            self._drive.enforce(now_s)
-            self._failed = ""
-        except HardwareError as fault:
-            if str(fault) != self._failed:
-                log.error("%s", fault)
-            self._failed = str(fault)

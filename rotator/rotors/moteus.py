@@ -12,12 +12,13 @@ from hw.moteus_bus import MoteusBus
 from hw.moteus_drive import MoteusDrive
 from hw.moteus_library import MoteusInStep
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
-from rotator.control.commands import Acknowledge, Command, Errand, Place, Steer
+from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.offsets import Offsets
 from rotator.control.sensing import Condition
 from rotator.orders import LetGo
 from rotator.rotor import AddAlarm
 from rotator.rotors.common import Ends, PlainRotor, no_switches
+from rotator.rotors.positioned import steered
 from rotator.status import Fault
 
 
@@ -47,12 +48,7 @@ class MoteusRotor(PlainRotor):
         )
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        if isinstance(command, Steer):
-            own_deg = command.angle_deg - self._shift.of(axis)
-            self._drive.aim(axis, own_deg, command.rate_dps, command.until_s)
-        else:
-            self._drive.hold(axis)
-        return Direction.OFF
+        return steered(self._drive, self._shift, axis, command)
 
     def run(self, errand: Errand) -> None:
         match errand:

@@ -16,6 +16,15 @@ from rotator.orders import LetGo
 from rotator.rotors.common import Ends, GuardedRotor, no_switches
 
 
+def steered(drive: PositionedDrive, shift: Offsets, axis: Axis, command: Command) -> Direction:
+    """Tell the drive, on the rotor's own scale. Returns that no relay is closed. Raises HardwareError."""
+    if isinstance(command, Steer):
+        drive.aim(axis, command.angle_deg - shift.of(axis), command.rate_dps, command.until_s)
+    else:
+        drive.hold(axis)
+    return Direction.OFF
+
+
 class GuardedDrive(PositionedDrive, Expiring, Protocol):
     """A positioned drive that a guard looks after."""
 
@@ -29,12 +38,7 @@ class PositionedRotor(GuardedRotor):
         self._shift = shift
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        if isinstance(command, Steer):
-            own_deg = command.angle_deg - self._shift.of(axis)
-            self._motors.aim(axis, own_deg, command.rate_dps, command.until_s)
-        else:
-            self._motors.hold(axis)
-        return Direction.OFF
+        return steered(self._motors, self._shift, axis, command)
 
     def run(self, errand: Errand) -> None:
         if isinstance(errand, LetGo):
