@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from firmware_sim.faults import SimFault
 from firmware_sim.mcp41010 import Mcp41010, SimSpidev
 from firmware_sim.motor import MotorSpec, SimMotor
-from firmware_sim.rotor import SimRotor
+from firmware_sim.rotor import GearedRotor
 
 BOX_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.15, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=-3.0, stop_high_deg=363.0
@@ -60,11 +60,14 @@ class SimBox:
             self.motor.coils(driven > 0, driven < 0, self._now_s)
 
 
-class DigipotRotor(SimRotor):
+class DigipotRotor(GearedRotor):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none).
 
     `enable_pin`: the relay that feeds both boxes, on while the line is high; None: they are always fed.
     """
+
+    azimuth: SimBox
+    elevation: SimBox
 
     def __init__(
         self,
@@ -88,16 +91,6 @@ class DigipotRotor(SimRotor):
             box.motor.supply = enable_pin is None or self.gpio.level(enable_pin)
         self.gpio.on_edges.append(self._lines_changed)
         self.faults = self._fault_table()
-
-    def antenna(self) -> tuple[float, float]:
-        with self._lock:
-            self._advance()
-            return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
-
-    def shafts(self) -> tuple[float, float]:
-        with self._lock:
-            self._advance()
-            return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg
 
     def _lines_changed(self, _now_s: float, changes: Mapping[int, bool]) -> None:
         with self._lock:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from firmware_sim.contact import ContactFault, ContactSpec, SimContact
 from firmware_sim.faults import SimFault
 from firmware_sim.motor import MotorSpec, SimMotor
-from firmware_sim.rotor import SimRotor
+from firmware_sim.rotor import GearedRotor
 
 U100_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.1, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=0.0, stop_high_deg=360.0
@@ -45,8 +45,11 @@ class SimPulseAxis:
         self.coils = (False, False)
 
 
-class PulseRotor(SimRotor):
+class PulseRotor(GearedRotor):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none)."""
+
+    azimuth: SimPulseAxis
+    elevation: SimPulseAxis
 
     def __init__(
         self,
@@ -74,16 +77,6 @@ class PulseRotor(SimRotor):
         self.faults = self._fault_table()
         if master_pin is not None:
             self._relays_changed(clock(), {master_pin: self.gpio.level(master_pin)})
-
-    def antenna(self) -> tuple[float, float]:
-        with self._lock:
-            self._advance()
-            return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
-
-    def shafts(self) -> tuple[float, float]:
-        with self._lock:
-            self._advance()
-            return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg
 
     def drives(self) -> tuple[int, int]:
         with self._lock:

@@ -11,6 +11,7 @@ import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import SimpleNamespace
+from typing import Protocol
 
 from firmware_sim.ads1115 import Ads1115
 from firmware_sim.as5600 import As5600, MagnetFault
@@ -19,6 +20,7 @@ from firmware_sim.faults import Fallible, SimFault
 from firmware_sim.gpio import SimGpio
 from firmware_sim.hd44780 import Hd44780
 from firmware_sim.i2c import SimI2CBus
+from firmware_sim.motor import SimMotor
 from firmware_sim.mpu6050 import Mpu6050
 from firmware_sim.panel import PanelSpec, SimPanel
 from firmware_sim.pcf8574 import Backpack
@@ -138,3 +140,26 @@ class SimRotor(Fallible):
 
     def _gone(self, address: int) -> SimFault:
         return SimFault(lambda: self.bus.gone.add(address), lambda: self.bus.gone.discard(address))
+
+
+class Geared(Protocol):
+    """An axis whose motor turns the boom through gears with play."""
+
+    motor: SimMotor
+
+
+class GearedRotor(SimRotor):
+    """A rotor of two such axes."""
+
+    azimuth: Geared
+    elevation: Geared
+
+    def antenna(self) -> tuple[float, float]:
+        with self._lock:
+            self._advance()
+            return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
+
+    def shafts(self) -> tuple[float, float]:
+        with self._lock:
+            self._advance()
+            return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg

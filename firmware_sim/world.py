@@ -13,7 +13,7 @@ from firmware_sim.ads1115 import Ads1115
 from firmware_sim.faults import SimFault
 from firmware_sim.motor import MotorSpec, SimMotor
 from firmware_sim.pot import PotFault, PotSpec, SimPot
-from firmware_sim.rotor import SimRotor
+from firmware_sim.rotor import GearedRotor
 
 EARLY_DEG = 4.0
 """How far inside the range a misplaced end stop stands."""
@@ -52,8 +52,11 @@ class SimAxis:
         self.coils = (False, False)
 
 
-class World(SimRotor):
+class World(GearedRotor):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none)."""
+
+    azimuth: SimAxis
+    elevation: SimAxis
 
     def __init__(
         self, spec: WorldSpec, clock: Callable[[], float], sleep: Callable[[float], None] | None = None
@@ -73,16 +76,6 @@ class World(SimRotor):
         self.faults = self._fault_table()
         if spec.master_pin is not None:
             self._relays_changed(clock(), {spec.master_pin: self.gpio.level(spec.master_pin)})
-
-    def antenna(self) -> tuple[float, float]:
-        with self._lock:
-            self._advance()
-            return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
-
-    def shafts(self) -> tuple[float, float]:
-        with self._lock:
-            self._advance()
-            return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg
 
     def drives(self) -> tuple[int, int]:
         with self._lock:
