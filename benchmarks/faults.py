@@ -10,13 +10,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from firmware_sim.clock import SimClock
-from firmware_sim.world import World
+from firmware_sim.rotors.relay_pot import World
 from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.loop import ControlLoop
 from rotator.orders import Jog, Order, Source, Stop
+from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
 
 MASTER = "[relays]\nmaster = 16\n"

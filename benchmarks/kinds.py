@@ -17,8 +17,8 @@ from multiprocessing import get_context
 from benchmarks.passes import PASSES, mean
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
-from rotator.passes import read_pass
-from rotator.rehearsal import Sample, Summary, fly, plant_maker
+from rotator.rehearsal.flight import Sample, Summary, fly, plant_maker
+from rotator.rehearsal.passes import read_pass
 
 AWAY_DEG = 10.0
 """Off by this much, a second is lost."""

@@ -13,8 +13,8 @@ from itertools import pairwise
 
 from benchmarks.passes import PASSES
 from rotator.config.load import parse
-from rotator.passes import Pass, read_pass
-from rotator.rehearsal import SAMPLE_S, Sample, fly, plant_maker
+from rotator.rehearsal.flight import SAMPLE_S, Sample, fly, plant_maker
+from rotator.rehearsal.passes import Pass, read_pass
 
 OFF_DEG = 10.0
 LONG_SWING_DEG = 200.0

@@ -17,8 +17,8 @@ from pathlib import Path
 
 from benchmarks.picture import draw
 from rotator.config.load import parse
-from rotator.passes import read_pass
-from rotator.rehearsal import Summary, fly, plant_maker
+from rotator.rehearsal.flight import Summary, fly, plant_maker
+from rotator.rehearsal.passes import read_pass
 
 PASSES = Path(__file__).parent.parent / "tests" / "passes"
 TOLERANCES_DEG = (4.0, 2.0, 1.0)

@@ -16,8 +16,8 @@ from benchmarks.passes import Flight, fly_all, mean
 from firmware_sim.clock import SimClock
 from rotator.assembly.simulation import SIM_CALIBRATION_RAW
 from rotator.config.load import parse
-from rotator.control.angles import turn_deg
-from rotator.rehearsal import BoxPlant
+from rotator.control.sky.angles import turn_deg
+from rotator.rehearsal.flight import BoxPlant
 
 HALF = "[sim.azimuth]\nspeed_dps = 3.0\n[sim.elevation]\nspeed_dps = 1.35\n"
 TWICE = "[sim.azimuth]\nspeed_dps = 12.0\n[sim.elevation]\nspeed_dps = 5.4\n"

@@ -10,11 +10,11 @@ import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from firmware_sim.ads1115 import Ads1115
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.buses.i2c import SimI2CBus
+from firmware_sim.chips.ads1115 import Ads1115
+from firmware_sim.chips.pca9685 import Pca9685
 from firmware_sim.faults import Fallible, SimFault
-from firmware_sim.gpio import SimGpio
-from firmware_sim.i2c import SimI2CBus
-from firmware_sim.pca9685 import Pca9685
 
 BOUNCES_HZ = 7.3
 """How often a worn mode switch changes while it bounces: out of step with whoever looks 20 times a second."""

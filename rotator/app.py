@@ -15,24 +15,24 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from rotator.assembly.links import build_links
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
 from rotator.assembly.station import Station
 from rotator.config.model import Config
-from rotator.display import DisplayThread
-from rotator.door import Door
-from rotator.engine import Engine, process_end
-from rotator.keeping import Keeper
 from rotator.links.console import ConsoleSocket, console_path
-from rotator.links.monitor import MonitorSocket
-from rotator.loop import ControlLoop
+from rotator.monitor.socket import MonitorSocket
+from rotator.monitor.tap import Tape
 from rotator.orders import Source
-from rotator.overhearing import Tape
 from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
+from rotator.runtime.autosave import Keeper
+from rotator.runtime.client import Door
+from rotator.runtime.display import DisplayThread
+from rotator.runtime.engine import Engine, process_end
+from rotator.runtime.loop import ControlLoop
+from rotator.runtime.service_manager import Supervisor, runtime_folder
 from rotator.store import counts, knobs
-from rotator.supervisor import Supervisor, runtime_folder
-from rotator.switchboard import build_links
 from rotator.views import lcd
 
 RELAY_LINES = "relay-lines.json"

@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from firmware_sim.arduino import f1efw
 from firmware_sim.arduino.f1efw import Coefficients, F1efwV4
 from firmware_sim.arduino.uno import ADC_STEPS, SUPPLY_V, Uno
-from firmware_sim.hd44780 import Hd44780
-from firmware_sim.motor import MotorSpec, SimMotor
-from firmware_sim.pot import PotSpec, SimPot
+from firmware_sim.chips.hd44780 import Hd44780
+from firmware_sim.parts.motor import MotorSpec, SimMotor
+from firmware_sim.parts.pot import PotSpec, SimPot
 
 # The pots' ends stand on the supply rails, so the wiper uses the converter's whole range.
 AZIMUTH_POT = PotSpec(low_deg=0.0, high_deg=450.0, low_ratio=0.0, high_ratio=1.0)

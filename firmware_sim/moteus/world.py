@@ -17,7 +17,7 @@ from firmware_sim.moteus.controller import SimController
 from firmware_sim.moteus.lines import LineServer
 from firmware_sim.moteus.motor import Settings, SimMotor
 from firmware_sim.moteus.terminal import SimAdapter
-from firmware_sim.rotor import SimRotor
+from firmware_sim.rotors.rotor import SimRotor
 
 FAULT_CODES = {
     "calibration": 32,

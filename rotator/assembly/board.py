@@ -9,9 +9,9 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from typing import Any
 
-from firmware_sim.rotor import SimRotor
-from hw.gpio import PI_HEADER_LABEL, GpioContact, GpioOutputs, find_chip, real_gpiod
-from hw.i2c import SmbusI2C, open_bus
+from firmware_sim.rotors.rotor import SimRotor
+from hw.buses.gpio import PI_HEADER_LABEL, GpioContact, GpioOutputs, find_chip, real_gpiod
+from hw.buses.i2c import SmbusI2C, open_bus
 
 
 class Board:

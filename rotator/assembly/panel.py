@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from hw.ads1115 import Ads1115
-from hw.gpio import GpioInputs
-from hw.pca9685 import Pca9685
+from hw.buses.gpio import GpioInputs
+from hw.chips.ads1115 import Ads1115
+from hw.chips.pca9685 import Pca9685
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
-from hw.pot import PotSensor, Reference
-from hw.switches import LimitSwitches
+from hw.sensors.pot import PotSensor, Reference
+from hw.sensors.switches import LimitSwitches
 from rotator.assembly.board import Board
 from rotator.config.model import Config
 from rotator.orders import Order

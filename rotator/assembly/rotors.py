@@ -10,37 +10,37 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from firmware_sim.digipot_rotor import DigipotRotor
 from firmware_sim.moteus.world import MoteusWorld
-from hw import servo_drive
-from hw.ads1115 import Ads1115
-from hw.as5600 import As5600
-from hw.cam import Cam
-from hw.digipot_drive import BoxSpec, DigipotDrive, DigipotSensor
-from hw.mcp41010 import Mcp41010
-from hw.moteus_bus import MoteusBus
-from hw.moteus_drive import MoteusDrive
-from hw.moteus_library import CanChannel, MoteusInStep, SerialPort
-from hw.moteus_orders import AxisSpec as MoteusAxisSpec
-from hw.mpu6050 import Mounting, Mpu6050
-from hw.pca9685 import Pca9685
+from firmware_sim.rotors.digipot import DigipotRotor
+from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus, real_spidev
+from hw.chips.ads1115 import Ads1115
+from hw.chips.as5600 import As5600
+from hw.chips.mcp41010 import Mcp41010
+from hw.chips.mpu6050 import Mounting, Mpu6050
+from hw.chips.pca9685 import Pca9685
+from hw.drives import servo as servo_drive
+from hw.drives.digipot import BoxSpec, DigipotDrive, DigipotSensor
+from hw.drives.relays import RelayBank
+from hw.drives.servo import ServoDrive
+from hw.drives.servo_axis import ServoSpec
+from hw.moteus.bus import MoteusBus
+from hw.moteus.drive import MoteusDrive
+from hw.moteus.library import CanChannel, MoteusInStep, SerialPort
+from hw.moteus.orders import AxisSpec as MoteusAxisSpec
 from hw.ports import AngleSensor, Axis, LeaseWatch, OutputLines
-from hw.pot import PotSensor, Reference
-from hw.pulses import OverheardLines, PulseCounter
-from hw.relays import RelayBank
-from hw.servo_axis import ServoSpec
-from hw.servo_drive import ServoDrive
-from hw.spi import SCK, SI, KernelSpi, LineSpi, SpiBus, real_spidev
+from hw.sensors.cam import Cam
+from hw.sensors.pot import PotSensor, Reference
+from hw.sensors.pulses import OverheardLines, PulseCounter
 from rotator.assembly.board import Board
 from rotator.assembly.panel import limit_switches
 from rotator.assembly.settings import build_offsets, own_points
 from rotator.config.model import Config
-from rotator.control.calibration import Calibration
-from rotator.rotor import Rotor
+from rotator.control.axis.calibration_table import Calibration
 from rotator.rotors.boxes import FollowedBox
 from rotator.rotors.counted import CountedAxis, CountedRotor
 from rotator.rotors.keeper import Keeper, at_once
 from rotator.rotors.moteus import MoteusRotor
+from rotator.rotors.port import Rotor
 from rotator.rotors.positioned import PositionedRotor
 from rotator.rotors.relays import RelayRotor
 from rotator.rotors.servos import ServoRotor

@@ -13,15 +13,15 @@ from rotator.assembly.simulation import SIM_CALIBRATION_RAW
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
-from rotator.control.axis import AxisSettings
-from rotator.control.calibration import Calibration
+from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.homing import HomingSettings
+from rotator.control.axis.motion import Motor
+from rotator.control.axis.positioned import COMING_DEG, PositionedSettings
+from rotator.control.axis.sensing import ANYTHING, Window
+from rotator.control.axis.switched import AxisSettings
 from rotator.control.controller import Controller, Settings
-from rotator.control.homing import HomingSettings
-from rotator.control.motion import Motor
-from rotator.control.mount import Mount, Range
-from rotator.control.offsets import Offsets, Points, offsets
-from rotator.control.positioned import COMING_DEG, PositionedSettings
-from rotator.control.sensing import ANYTHING, Window
+from rotator.control.sky.mount import Mount, Range
+from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.orders import Mode
 from rotator.status import LearntMotor
 from rotator.store.learnt import LearntFile, Motors

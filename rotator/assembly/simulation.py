@@ -9,19 +9,19 @@ from collections.abc import Callable
 from typing import Any
 
 from firmware_sim.arduino.station import ArduinoStation
-from firmware_sim.contact import ContactSpec
-from firmware_sim.digipot_rotor import BoxSpec, DigipotRotor
 from firmware_sim.moteus.world import AxisSpec as MoteusAxisSpec
 from firmware_sim.moteus.world import MoteusWorld
-from firmware_sim.motor import MotorSpec
 from firmware_sim.panel import PanelSpec
-from firmware_sim.pot import PotSpec
-from firmware_sim.pulse_rotor import PulseAxisSpec, PulseRotor
-from firmware_sim.rotor import LcdSpec, SimRotor
-from firmware_sim.servo import ServoSpec
-from firmware_sim.servo_rotor import ServoAxisSpec, ServoRotor
-from firmware_sim.world import AxisSpec, World, WorldSpec
-from hw.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS
+from firmware_sim.parts.contact import ContactSpec
+from firmware_sim.parts.motor import MotorSpec
+from firmware_sim.parts.pot import PotSpec
+from firmware_sim.parts.servo import ServoSpec
+from firmware_sim.rotors.digipot import BoxSpec, DigipotRotor
+from firmware_sim.rotors.relay_pot import AxisSpec, World, WorldSpec
+from firmware_sim.rotors.relay_pulse import PulseAxisSpec, PulseRotor
+from firmware_sim.rotors.rotor import LcdSpec, SimRotor
+from firmware_sim.rotors.servo import ServoAxisSpec, ServoRotor
+from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS
 from hw.ports import Axis
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config

@@ -10,21 +10,21 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 
-from firmware_sim.rotor import SimRotor
-from hw.digipot_drive import ENABLE
-from hw.gpio import GpioOutputs
-from hw.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780
-from hw.heartbeat import Heartbeat
-from hw.lines_off import RelayLines
+from firmware_sim.rotors.rotor import SimRotor
+from hw.buses.gpio import GpioOutputs
+from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780
+from hw.drives.digipot import ENABLE
 from hw.ports import CharacterDisplay
-from hw.sentinel import Sentinel
+from hw.safety.heartbeat import Heartbeat
+from hw.safety.lines_off import RelayLines
+from hw.safety.sentinel import Sentinel
 from rotator.assembly.board import Board
 from rotator.assembly.panel import panel_parts
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulation import Plan
 from rotator.config.model import Config
 from rotator.panel.thread import PanelParts
-from rotator.rotor import AddAlarm, Rotor
+from rotator.rotors.port import AddAlarm, Rotor
 
 
 def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:

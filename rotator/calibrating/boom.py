@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 from hw.ports import Axis
 from rotator.calibrating.answers import Answer, Halt, Press
+from rotator.calibrating.bearing import Learnt, Look, Sighting
 from rotator.calibrating.degrees import BEGIN_S, PLACED_S, POSITION_UNKNOWN
 from rotator.calibrating.walk import Refused, Steps, Walk
-from rotator.control.angles import turn_deg
-from rotator.control.north import Learnt, Look, Sighting
+from rotator.control.sky.angles import turn_deg
 from rotator.orders import Aim, Confirm, Jog, Stop
 from rotator.status import AxisStatus, Status
 

@@ -10,17 +10,17 @@ from collections.abc import Generator
 from dataclasses import dataclass, replace
 
 from rotator.calibrating.answers import Enter, No, Number, Yes
-from rotator.calibrating.boom import FULL_TURN_DEG, KEYS, LEAST_PLACES, PAUSE_S, Boom, Knows, Scale
-from rotator.calibrating.degrees import PLACED_S
-from rotator.calibrating.walk import Refused, Steps
-from rotator.control.angles import turn_deg
-from rotator.control.north import (
+from rotator.calibrating.bearing import (
     LEAST_MAGNETOMETER,
     North,
     NorthRefused,
     agree,
     find_north,
 )
+from rotator.calibrating.boom import FULL_TURN_DEG, KEYS, LEAST_PLACES, PAUSE_S, Boom, Knows, Scale
+from rotator.calibrating.degrees import PLACED_S
+from rotator.calibrating.walk import Refused, Steps
+from rotator.control.sky.angles import turn_deg
 
 RAISED_EVERY = 2
 """Turned about, it is raised at one place of so many."""

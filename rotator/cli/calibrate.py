@@ -19,23 +19,23 @@ from pathlib import Path
 from rich.console import Console, Group, RenderableType
 from rich.text import Text
 
-from firmware_sim.rotor import SimRotor
+from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import Axis
 from rotator.app import open_station
 from rotator.assembly.station import Station
 from rotator.calibrating.answers import Answer, Halt, Keyboard, Quit, from_line
+from rotator.calibrating.compass import learnt_path
 from rotator.calibrating.north import Placed
+from rotator.calibrating.rig import Bench, NorthBench, Sat, Saved, as_toml, keep
 from rotator.calibrating.walk import Walk
 from rotator.cli.faults import parse_faults
 from rotator.cli.reach import monitor_places, reach
 from rotator.cli.screen import draw, log_to, stop_on_signals
-from rotator.commissioning import Bench, NorthBench, Sat, Saved, as_toml, keep
-from rotator.compass import learnt_path
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
-from rotator.engine import Engine
 from rotator.links.console import console_path
 from rotator.links.wire import LinkError
+from rotator.runtime.engine import Engine
 
 POLL_S = 0.02
 NORTH = "north"

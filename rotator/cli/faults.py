@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import click
 
-from firmware_sim.rotor import SimRotor
+from firmware_sim.rotors.rotor import SimRotor
 
 
 def parse_faults(texts: tuple[str, ...], world: SimRotor | None) -> list[tuple[float, str]]:

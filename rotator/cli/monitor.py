@@ -14,7 +14,7 @@ import click
 
 from rotator.cli.reach import monitor_places, reach
 from rotator.links.wire import LinkError
-from rotator.transcript import LinkNote, Piece, Remark, parse
+from rotator.monitor.transcript import LinkNote, Piece, Remark, parse
 
 BYTES_PER_MB = 1_000_000
 

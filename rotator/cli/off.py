@@ -10,9 +10,9 @@ from pathlib import Path
 
 import click
 
-from hw.gpio import LinesBusyError, find_chip, real_gpiod
-from hw.lines_off import switch_off
+from hw.buses.gpio import LinesBusyError, find_chip, real_gpiod
 from hw.ports import HardwareError
+from hw.safety.lines_off import switch_off
 from rotator.assembly.station import off_lines
 from rotator.config.load import load
 

@@ -1,6 +1,6 @@
 """`rotator rehearse`: fly a pass on the simulated rotor and say how well it went.
 
-Knows files and output. The flying is `rotator.rehearsal`.
+Knows files and output. The flying is `rotator.rehearsal.flight`.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from rotator.cli.faults import parse_faults
 from rotator.config.axes import AxisTable
 from rotator.config.load import load
 from rotator.config.model import Config
-from rotator.passes import Pass, PassError, read_pass
-from rotator.rehearsal import BoxPlant, Plant, Sample, Summary, fly, plant_maker
+from rotator.rehearsal.flight import BoxPlant, Plant, Sample, Summary, fly, plant_maker
+from rotator.rehearsal.passes import Pass, PassError, read_pass
 
 
 def rehearse_pass(

@@ -8,7 +8,7 @@ things change in between.
 from __future__ import annotations
 
 from hw.ports import Axis
-from rotator.control.mount import Mount, Unreachable
+from rotator.control.sky.mount import Mount, Unreachable
 from rotator.orders import Aim, Calibrate, Home, LoadTimed, Order, Park, Refusal
 from rotator.status import Status
 

@@ -12,17 +12,17 @@ from dataclasses import dataclass, replace
 
 from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
-from rotator.control.axis import AxisControl, AxisSettings
+from rotator.control.axis.goals import HomeGoal
+from rotator.control.axis.motion_watch import LATE_S, late
+from rotator.control.axis.positioned import PositionedAxis, PositionedSettings
+from rotator.control.axis.sensing import Reading
+from rotator.control.axis.switched import AxisControl, AxisSettings
 from rotator.control.commands import Acknowledge, Command, Errand, Place
-from rotator.control.goals import HomeGoal
-from rotator.control.mount import Mount, Unreachable
-from rotator.control.nudges import Nudges
-from rotator.control.pointing import AimGoal, Goals, Pointing
-from rotator.control.positioned import PositionedAxis, PositionedSettings
-from rotator.control.route import Speeds
-from rotator.control.safety import LATE_S, late
-from rotator.control.sensing import Reading
-from rotator.control.timed import TimedList
+from rotator.control.sky.mount import Mount, Unreachable
+from rotator.control.sky.nudges import Nudges
+from rotator.control.sky.pointing import AimGoal, Goals, Pointing
+from rotator.control.sky.route import Speeds
+from rotator.control.sky.timed import TimedList
 from rotator.orders import (
     BOTH,
     Aim,

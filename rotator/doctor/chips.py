@@ -12,21 +12,21 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from hw.ads1115 import Ads1115
-from hw.as5600 import As5600
-from hw.bno055 import Bno055
-from hw.gpio import GpioInputs, find_chip, holders, real_gpiod
-from hw.i2c import SmbusI2C, open_bus
-from hw.moteus_bus import MoteusBus
-from hw.moteus_drive import MoteusDrive
-from hw.moteus_faults import LIMITS, explain
-from hw.moteus_library import CanChannel, MoteusInStep, SerialPort
-from hw.moteus_orders import AxisSpec, Mode
-from hw.mpu6050 import Mounting, Mpu6050
-from hw.pca9685 import MODE1, PRE_SCALE, SLEEP
+from hw.buses.gpio import GpioInputs, find_chip, holders, real_gpiod
+from hw.buses.i2c import SmbusI2C, open_bus
+from hw.buses.spi import real_spidev
+from hw.chips.ads1115 import Ads1115
+from hw.chips.as5600 import As5600
+from hw.chips.bno055 import Bno055
+from hw.chips.mpu6050 import Mounting, Mpu6050
+from hw.chips.pca9685 import MODE1, PRE_SCALE, SLEEP
+from hw.moteus.bus import MoteusBus
+from hw.moteus.drive import MoteusDrive
+from hw.moteus.faults import LIMITS, explain
+from hw.moteus.library import CanChannel, MoteusInStep, SerialPort
+from hw.moteus.orders import AxisSpec, Mode
 from hw.ports import AngleSensor, Axis, HardwareError
-from hw.pot import Reference
-from hw.spi import real_spidev
+from hw.sensors.pot import Reference
 from rotator.assembly.simulation import simulated_rotor
 from rotator.config.model import Config
 

@@ -19,7 +19,7 @@ from typing import Any
 from rotator.links.allowed import Allowed
 from rotator.links.wire import Conversation, LinkError, Wire, reason
 from rotator.protocols.session import Session
-from rotator.seldom import Seldom
+from rotator.runtime.log_limit import Seldom
 
 log = logging.getLogger(__name__)
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from hw.ports import AngleSensor, Axis, HardwareError
-from hw.switches import SwitchInputs
+from hw.sensors.switches import SwitchInputs
 from rotator.orders import Order, Stop
 from rotator.panel.panel import Panel, PanelAct, PanelLook
 from rotator.status import Status

@@ -5,9 +5,9 @@ Knows that a pot on the rotor, where one is read, tells the drive's model where 
 
 from __future__ import annotations
 
-from hw.digipot_drive import DigipotDrive
+from hw.drives.digipot import DigipotDrive
 from hw.ports import AngleSensor, Axis
-from rotator.control.calibration import Calibration
+from rotator.control.axis.calibration_table import Calibration
 
 
 class FollowedBox:

@@ -8,11 +8,11 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 
-from hw.guard import Expiring, Guard
 from hw.ports import AngleSensor, Axis, Direction
+from hw.safety.guard import Expiring, Guard
+from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Errand
-from rotator.control.sensing import Condition
-from rotator.rotor import AddAlarm
+from rotator.rotors.port import AddAlarm
 
 Ends = Callable[[Axis], frozenset[Direction]]
 """The ways in which the limit switches let an axis go no further."""

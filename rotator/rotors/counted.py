@@ -1,7 +1,7 @@
 """Motors on relays, each with a contact that is counted: rotors of the Alliance U-100 kind.
 
 Knows when a count is kept, when it is lost, and that a motor starts only once the file says so. The counting itself is
-`hw.pulses`.
+`hw.sensors.pulses`.
 """
 
 from __future__ import annotations
@@ -9,13 +9,13 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping
 
+from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, Axis, Direction
-from hw.pulses import PulseCounter
-from hw.relays import RelayBank
+from hw.sensors.pulses import PulseCounter
+from rotator.control.axis.run_watch import unstoppable
+from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand, Place, Run
-from rotator.control.offsets import Offsets
-from rotator.control.run_watch import unstoppable
-from rotator.control.sensing import Condition
+from rotator.control.sky.offsets import Offsets
 from rotator.rotors.common import Ends, no_switches
 from rotator.rotors.keeper import Keeper
 from rotator.rotors.relays import RelayRotor

@@ -1,23 +1,23 @@
 """Two moteus controllers as the control loop sees them.
 
 Knows what they say is wrong, when nobody knows where an axis points, and what only a person may tell them. How they are
-talked to is `hw.moteus_bus`, or in simulated time `hw.moteus_library`.
+talked to is `hw.moteus.bus`, or in simulated time `hw.moteus.library`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from hw.moteus_bus import MoteusBus
-from hw.moteus_drive import MoteusDrive
-from hw.moteus_library import MoteusInStep
+from hw.moteus.bus import MoteusBus
+from hw.moteus.drive import MoteusDrive
+from hw.moteus.library import MoteusInStep
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Acknowledge, Command, Errand, Place
-from rotator.control.offsets import Offsets
-from rotator.control.sensing import Condition
+from rotator.control.sky.offsets import Offsets
 from rotator.orders import LetGo
-from rotator.rotor import AddAlarm
 from rotator.rotors.common import Ends, PlainRotor, no_switches
+from rotator.rotors.port import AddAlarm
 from rotator.rotors.positioned import steered
 from rotator.status import Fault
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Protocol
 
-from hw.guard import Expiring
 from hw.ports import AngleSensor, Axis, Direction, PositionedDrive
+from hw.safety.guard import Expiring
 from rotator.control.commands import Command, Errand, Steer
-from rotator.control.offsets import Offsets
+from rotator.control.sky.offsets import Offsets
 from rotator.orders import LetGo
 from rotator.rotors.common import Ends, GuardedRotor, no_switches
 

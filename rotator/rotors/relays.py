@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, Axis, Direction
-from hw.relays import RelayBank
 from rotator.control.commands import Command, Run
 from rotator.rotors.common import Ends, GuardedRotor, no_switches
 

@@ -5,10 +5,10 @@ Knows what their board says is wrong. A servo itself says nothing.
 
 from __future__ import annotations
 
+from hw.drives.servo import ServoDrive
 from hw.ports import AngleSensor, Axis
-from hw.servo_drive import ServoDrive
-from rotator.control.offsets import Offsets
-from rotator.control.sensing import Condition
+from rotator.control.axis.sensing import Condition
+from rotator.control.sky.offsets import Offsets
 from rotator.rotors.common import Ends, no_switches
 from rotator.rotors.positioned import PositionedRotor
 from rotator.status import Fault

@@ -9,8 +9,8 @@ from contextlib import ExitStack
 import pytest
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotor import SimRotor
-from hw.gpio import LinesBusyError
+from firmware_sim.rotors.rotor import SimRotor
+from hw.buses.gpio import LinesBusyError
 from hw.ports import HardwareError
 from rotator.assembly.board import Board
 from rotator.assembly.simulation import Plan

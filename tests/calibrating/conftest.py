@@ -12,7 +12,7 @@ from firmware_sim.clock import SimClock
 from hw.ports import Axis
 from rotator.assembly.station import Station
 from rotator.calibrating.answers import from_line
-from rotator.commissioning import Bench, NorthBench
+from rotator.calibrating.rig import Bench, NorthBench
 from rotator.config.load import parse
 from rotator.config.model import Config
 

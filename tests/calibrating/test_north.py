@@ -11,11 +11,11 @@ from typing import Any
 
 import pytest
 
-from firmware_sim.bno055 import LEARNT
-from firmware_sim.bno055 import Bno055 as SimBno055
+from firmware_sim.chips.bno055 import LEARNT
+from firmware_sim.chips.bno055 import Bno055 as SimBno055
 from hw.ports import HardwareError
 from rotator.calibrating.north import Found, Placed
-from rotator.commissioning import as_toml
+from rotator.calibrating.rig import as_toml
 from rotator.config.load import parse
 from rotator.store.compass import CompassFile, encode
 

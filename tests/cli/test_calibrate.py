@@ -14,7 +14,7 @@ import pytest
 
 from hw.ports import Axis
 from rotator.calibrating.asking import Commissioned
-from rotator.commissioning import as_toml
+from rotator.calibrating.rig import as_toml
 from rotator.config.load import load, parse
 from rotator.links.console import console_path
 

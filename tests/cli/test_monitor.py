@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from rotator.transcript import Piece, Way, parse
+from rotator.monitor.transcript import Piece, Way, parse
 
 Start = Callable[..., Any]
 Rotator = Callable[..., Any]

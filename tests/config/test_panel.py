@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from pydantic import ValidationError
 
-from hw.switches import LIMITS
+from hw.sensors.switches import LIMITS
 from rotator.config.panel import LAMPS, LimitsTable, PanelTable
 from rotator.panel.panel import LAMPS as PANEL_LAMPS
 

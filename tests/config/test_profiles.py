@@ -12,9 +12,9 @@ from rotator.cli.rehearse import simulated
 from rotator.config.axes import AxisTable
 from rotator.config.load import ConfigError, parse, profiles, shipped
 from rotator.config.model import Config
-from rotator.control.calibration import Calibration
-from rotator.passes import read_pass
-from rotator.rehearsal import fly, plant_maker
+from rotator.control.axis.calibration_table import Calibration
+from rotator.rehearsal.flight import fly, plant_maker
+from rotator.rehearsal.passes import read_pass
 
 PASSES = Path(__file__).parents[1] / "passes"
 POTS = ["f1efw", "g5500", "spid"]

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from hw.i2c import SmbusI2C
+from hw.buses.i2c import SmbusI2C
 
 RELAYS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25}
 LCD_PINS = {"rs": 17, "e": 27, "d4": 5, "d5": 6, "d6": 12, "d7": 13}

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import time
 
-from firmware_sim.ads1115 import Ads1115
-from firmware_sim.hd44780 import Hd44780
-from firmware_sim.i2c import SimI2CBus
-from firmware_sim.pcf8574 import Backpack
+from firmware_sim.buses.i2c import SimI2CBus
+from firmware_sim.chips.ads1115 import Ads1115
+from firmware_sim.chips.hd44780 import Hd44780
+from firmware_sim.chips.pcf8574 import Backpack
 from tests.contract.bench import ADC_ADDRESS, LCD_ADDRESS
 
 YWROBOT = {"rs": 0, "rw": 1, "e": 2, "bl": 3, "d4": 4, "d5": 5, "d6": 6, "d7": 7}

@@ -16,8 +16,8 @@ from typing import Any, NoReturn
 
 import pytest
 
-from hw.gpio import PI_HEADER_LABEL, find_chip, real_gpiod
-from hw.i2c import SmbusI2C, open_bus
+from hw.buses.gpio import PI_HEADER_LABEL, find_chip, real_gpiod
+from hw.buses.i2c import SmbusI2C, open_bus
 from rotator.config.model import Config
 from tests.contract.bench import Edge
 

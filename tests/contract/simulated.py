@@ -6,9 +6,9 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from firmware_sim.gpio import SimGpio
-from firmware_sim.hd44780 import Hd44780
-from hw.i2c import SmbusI2C
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.chips.hd44780 import Hd44780
+from hw.buses.i2c import SmbusI2C
 from tests.contract.bench import LCD_PINS, RELAYS, Edge
 from tests.contract.chips import Chips
 

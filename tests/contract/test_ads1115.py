@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from hw.ads1115 import Ads1115
+from hw.chips.ads1115 import Ads1115
 from hw.ports import HardwareError
 from tests.contract.bench import NOBODY, Bench
 

@@ -8,7 +8,7 @@ from itertools import product
 
 import pytest
 
-from hw.gpio import PI_HEADER_LABEL, GpioOutputs, find_chip
+from hw.buses.gpio import PI_HEADER_LABEL, GpioOutputs, find_chip
 from hw.ports import HardwareError
 from tests.contract.bench import Bench
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from hw.gpio import GpioOutputs
-from hw.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780, NibblePort
+from hw.buses.gpio import GpioOutputs
+from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780, NibblePort
 from hw.ports import HardwareError
 from tests.contract.bench import Bench
 

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from hw.gpio import GpioOutputs
-from hw.guard import Guard
+from hw.buses.gpio import GpioOutputs
+from hw.drives.relays import LONGEST_LEASE_S, RELAYS, RelayBank
 from hw.ports import Axis, Direction
-from hw.relays import LONGEST_LEASE_S, RELAYS, RelayBank
+from hw.safety.guard import Guard
 from tests.contract.bench import Bench, Edge
 
 PATIENCE_S = 20.0

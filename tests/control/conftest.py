@@ -8,13 +8,13 @@ from collections.abc import Mapping
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis import AxisSettings
-from rotator.control.calibration import between_ends
+from rotator.control.axis.calibration_table import between_ends
+from rotator.control.axis.motion import Motor
+from rotator.control.axis.sensing import Reading, Window
+from rotator.control.axis.switched import AxisSettings
+from rotator.control.axis.switched_law import Run
 from rotator.control.controller import Controller, Settings
-from rotator.control.motion import Motor
-from rotator.control.mount import Mount, Range
-from rotator.control.sensing import Reading, Window
-from rotator.control.switched import Run
+from rotator.control.sky.mount import Mount, Range
 from rotator.orders import Order, Source
 from rotator.status import Status
 

@@ -6,7 +6,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.admission import refusal
-from rotator.control.mount import Mount, Range
+from rotator.control.sky.mount import Mount, Range
 from rotator.orders import (
     Aim,
     Calibrate,

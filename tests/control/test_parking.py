@@ -5,7 +5,7 @@ from __future__ import annotations
 from firmware_sim.clock import SimClock
 from rotator.config.load import parse
 from rotator.orders import Aim, Order, Park, Release, Source
-from rotator.rehearsal import BoxPlant
+from rotator.rehearsal.flight import BoxPlant
 
 LINK, CONSOLE = Source("gs232b", 1), Source("console")
 PARKED = (90.0, 45.0)

@@ -12,10 +12,10 @@ import pytest
 from docs.drawings.album import profile, sheets
 from docs.drawings.header import GPIO_PINS
 from docs.drawings.panel import LIMITS, PANEL
-from hw.cam import Cam
-from hw.cam_count import CamCount
-from hw.moteus_faults import FAULTS
+from hw.moteus.faults import FAULTS
 from hw.ports import Direction
+from hw.sensors.cam import Cam
+from hw.sensors.cam_count import CamCount
 from rotator.config.load import shipped
 from rotator.config.model import Config
 from rotator.config.panel import LimitsTable, PanelTable

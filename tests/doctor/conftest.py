@@ -10,10 +10,10 @@ from typing import Any, NoReturn
 
 import pytest
 
+from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.clock import SimClock
-from firmware_sim.i2c import SimI2CBus
-from hw.gpio import GpioOutputs
-from hw.i2c import SmbusI2C
+from hw.buses.gpio import GpioOutputs
+from hw.buses.i2c import SmbusI2C
 from rotator.assembly.simulation import simulated_rotor
 from rotator.config.load import parse
 from rotator.config.model import Config

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from hw.i2c import open_bus
+from hw.buses.i2c import open_bus
 from tests.doctor.conftest import STATION, Forbidden, Pi, hold
 
 BACKPACK = '[lcd]\nkind = "pcf8574"\n'

@@ -8,7 +8,7 @@ from types import ModuleType
 
 import pytest
 
-from hw.gpio import real_gpiod
+from hw.buses.gpio import real_gpiod
 from rotator.doctor.checks import OF_THE_MACHINE
 from rotator.doctor.finding import Check
 from rotator.doctor.machine import Machine

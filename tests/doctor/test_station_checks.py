@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from firmware_sim.gpio import SimGpio
+from firmware_sim.buses.gpio import SimGpio
 from tests.doctor.conftest import Forbidden, Pi, hold
 
 CONFIG_TXT = "/boot/firmware/config.txt"

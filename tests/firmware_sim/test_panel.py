@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.clock import SimClock
-from firmware_sim.gpio import SimGpio
-from firmware_sim.i2c import SimI2CBus
 from firmware_sim.panel import PanelSpec, SimPanel
 
 MSB, LSB, CALIBRATE, STOP = 4, 5, 6, 7  # pulled up from boot on

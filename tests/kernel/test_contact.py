@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import gpiod
 import pytest
 
-from hw.gpio import EVENTS_KEPT, GpioContact
+from hw.buses.gpio import EVENTS_KEPT, GpioContact
 from tests.kernel.bench.gpio import GpioChip
 from tests.kernel.bench.waiting import until
 

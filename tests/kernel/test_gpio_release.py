@@ -14,14 +14,14 @@ from collections.abc import Iterator
 import gpiod
 import pytest
 
-from hw.gpio import GpioOutputs
+from hw.buses.gpio import GpioOutputs
 from tests.kernel.bench.gpio import GpioChip, persisting
 from tests.kernel.bench.waiting import until
 
 PULLED_UP, PULLED_DOWN = 5, 22
 HOLDER = """
 import gpiod, sys
-from hw.gpio import GpioOutputs
+from hw.buses.gpio import GpioOutputs
 lines = GpioOutputs(gpiod, sys.argv[1], {"up": 5, "down": 22}, consumer="holder")
 lines.set({"up": sys.argv[2] == "1", "down": sys.argv[2] == "1"})
 print("held", flush=True)

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 import pytest
 from smbus2 import SMBus
 
-from firmware_sim.ads1115 import Ads1115
-from firmware_sim.i2c import SimI2CBus
-from hw.i2c import open_bus
+from firmware_sim.buses.i2c import SimI2CBus
+from firmware_sim.chips.ads1115 import Ads1115
+from hw.buses.i2c import open_bus
 from hw.ports import HardwareError
 from tests.kernel.bench.i2c import I2CAdapter
 

@@ -19,13 +19,13 @@ from firmware_sim.clock import SimClock
 from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
 from rotator.config.model import Config
-from rotator.door import Door
 from rotator.links.wire import Wire
-from rotator.loop import ControlLoop
 from rotator.orders import Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
+from rotator.runtime.client import Door
+from rotator.runtime.loop import ControlLoop
 
 PATIENCE_S = 30.0
 

@@ -12,11 +12,11 @@ from typing import Any
 
 import pytest
 
-from rotator.door import Door
 from rotator.links.asking import AskingLink
 from rotator.links.wire import Wire
 from rotator.orders import Source
 from rotator.protocols.rotctld_follow import RotctldFollower
+from rotator.runtime.client import Door
 
 PATIENCE_S = 30.0
 Running = Callable[[AskingLink], Any]

@@ -10,12 +10,12 @@ from typing import Any
 
 import pytest
 
-from rotator.door import Door
 from rotator.links.allowed import Allowed
 from rotator.links.udp import FORGOTTEN_AFTER_S, MOST_BYTES, MOST_SENDERS, Report, UdpLink
 from rotator.links.wire import LinkError, Wire
 from rotator.orders import Source
 from rotator.protocols.pstrotator import PstRotatorSession
+from rotator.runtime.client import Door
 
 PATIENCE_S = 30.0
 Running = Callable[[UdpLink], Any]

@@ -16,16 +16,16 @@ from typing import Any
 
 import pytest
 
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.clock import SimClock
-from firmware_sim.gpio import SimGpio
-from firmware_sim.i2c import SimI2CBus
 from firmware_sim.panel import PanelSpec, SimPanel
-from hw.ads1115 import Ads1115
-from hw.gpio import GpioInputs
-from hw.i2c import SmbusI2C
-from hw.pca9685 import Pca9685
+from hw.buses.gpio import GpioInputs
+from hw.buses.i2c import SmbusI2C
+from hw.chips.ads1115 import Ads1115
+from hw.chips.pca9685 import Pca9685
 from hw.ports import Axis, Direction
-from hw.pot import PotSensor, Reference
+from hw.sensors.pot import PotSensor, Reference
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.panel.panel import LAMPS, Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread

@@ -9,12 +9,12 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.admission import refusal
-from rotator.control.axis import AxisSettings
-from rotator.control.calibration import Calibration
+from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.motion import Motor
+from rotator.control.axis.sensing import Reading, Window
+from rotator.control.axis.switched import AxisSettings
 from rotator.control.controller import Controller, Settings
-from rotator.control.motion import Motor
-from rotator.control.mount import Mount, Range
-from rotator.control.sensing import Reading, Window
+from rotator.control.sky.mount import Mount, Range
 from rotator.orders import Aim, Jog, LoadTimed, Order, Park, Refusal, RunTimed, Source
 from rotator.protocols.session import Session
 from rotator.status import Status

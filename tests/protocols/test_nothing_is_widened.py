@@ -12,11 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis
+from rotator.assembly.links import session_maker
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.orders import Calibrate
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import NotUnderstood
-from rotator.switchboard import session_maker
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, get_args
 
 import pytest
 
+from rotator.assembly.links import session_maker
 from rotator.config.links import FOLLOW, Link, ProtocolName
+from rotator.monitor.transcript import At, LinkNote, Piece, Way, parse
 from rotator.orders import Order, Refusal
 from rotator.protocols.session import Session
 from rotator.status import Status
-from rotator.switchboard import session_maker
-from rotator.transcript import At, LinkNote, Piece, Way, parse
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

@@ -16,16 +16,16 @@ import pytest
 import tomlkit
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotor import SimRotor
+from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import Axis
 from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
-from rotator.door import Door
-from rotator.loop import ControlLoop
 from rotator.orders import Aim, Order, Source
+from rotator.runtime.client import Door
+from rotator.runtime.loop import ControlLoop
 from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

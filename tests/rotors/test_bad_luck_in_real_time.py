@@ -14,8 +14,8 @@ import pytest
 from hw.ports import Axis
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
-from rotator.loop import ControlLoop
 from rotator.orders import Aim, Order, Source, Stop
+from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
 from tests.rotors.outcomes import REAL_TIME
 from tests.rotors.rig import AZ, EL, KINDS, Kind, configured

@@ -5,16 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from tests.hw.pulse_rig import AZ, CYCLE_S, STANDS_S, PulseRig
 
+from hw.drives.relays import RelayBank
 from hw.ports import Direction
-from hw.relays import RelayBank
 from rotator.control.commands import Place as Placed
 from rotator.control.commands import Run
-from rotator.control.offsets import Offsets
+from rotator.control.sky.offsets import Offsets
 from rotator.rotors.counted import CountedAxis, CountedRotor
 from rotator.rotors.keeper import Keeper, at_once
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing
-from tests.hw.pulse_rig import AZ, CYCLE_S, STANDS_S, PulseRig
 
 MINUS, OFF, PLUS = Direction
 CAMS = {AZ: {"spacing_deg": 5.0}}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from firmware_sim.pulse_rotor import PulseRotor
+from firmware_sim.rotors.relay_pulse import PulseRotor
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Home, Jog, Stop
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box

@@ -9,8 +9,8 @@ from collections.abc import Callable
 
 import pytest
 
+from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import Axis, Direction
-from hw.relays import LONGEST_LEASE_S
 from rotator.control.commands import HOLD, Command, Run, Steer
 from rotator.orders import Aim, Jog, Order, Release, Stop
 from tests.rotors.rig import AZ, EL, PERSON, Box, Kind

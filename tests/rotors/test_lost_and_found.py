@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import pytest
 
-from firmware_sim.digipot_rotor import DigipotRotor
-from firmware_sim.servo_rotor import ServoRotor
+from firmware_sim.rotors.digipot import DigipotRotor
+from firmware_sim.rotors.servo import ServoRotor
 from hw.ports import Direction, HardwareError
 from rotator.control.commands import Steer
 from rotator.orders import Aim, Confirm, Jog, LetGo, Release, Stop

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.angles import great_circle_deg
+from rotator.control.sky.angles import great_circle_deg
 from rotator.orders import Aim, Jog, Park, Release, Stop
 from rotator.status import AxisStatus
 from tests.rotors.rig import AZ, EL, LINK, PERSON, Box, Kind, all_but, configured

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from firmware_sim.world import World
+from firmware_sim.rotors.relay_pot import World
 from hw.ports import AngleSensor, Axis
 from rotator.app import App
 from rotator.config.load import parse, shipped

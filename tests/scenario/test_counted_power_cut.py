@@ -5,10 +5,10 @@ from __future__ import annotations
 import random
 from pathlib import Path
 
-from hw.cam_count import CamCount
 from hw.ports import Direction
+from hw.sensors.cam_count import CamCount
 from rotator.store.counts import CountsFile, Standing
-from tests.hw.pulse_rig import AZ, CAM, PulseRig
+from tests.hw.sensors.pulse_rig import AZ, CAM, PulseRig
 
 CUTS = 1000
 CYCLE_S = 0.1

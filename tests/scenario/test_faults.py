@@ -16,8 +16,8 @@ from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
 from rotator.config.load import parse
 from rotator.orders import Aim, Jog, Order, Release, Stop
-from rotator.passes import Pass, read_pass
-from rotator.rehearsal import BoxPlant, fly
+from rotator.rehearsal.flight import BoxPlant, fly
+from rotator.rehearsal.passes import Pass, read_pass
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction

@@ -18,11 +18,11 @@ from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.door import Door
-from rotator.loop import ControlLoop
 from rotator.orders import Mode, Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
+from rotator.runtime.client import Door
+from rotator.runtime.loop import ControlLoop
 
 MANUAL, PARK, AUTO, JOG = range(4)
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION

@@ -11,8 +11,8 @@ from hw.ports import Axis
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.loop import ControlLoop
 from rotator.orders import Aim, Source
+from rotator.runtime.loop import ControlLoop
 
 STEP_S = 0.05
 ONE_TURN = """

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hw.moteus_faults import LIMITS
+from hw.moteus.faults import LIMITS
 from hw.ports import Axis, Direction
 from rotator.status import AxisStatus, Fault, Status
 from rotator.views.lcd import _SHORT_FAULTS, _SHORT_NOTICES, rows

@@ -8,8 +8,8 @@ import pytest
 
 from firmware_sim.arduino.liquid_crystal import LcdPins, LiquidCrystal
 from firmware_sim.arduino.uno import Uno
+from firmware_sim.chips.hd44780 import Hd44780
 from firmware_sim.clock import SimClock
-from firmware_sim.hd44780 import Hd44780
 
 PINS = LcdPins(rs=7, enable=8, data=(9, 10, 11, 12))
 

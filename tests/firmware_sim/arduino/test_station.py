@@ -9,8 +9,8 @@ import pytest
 
 from firmware_sim.arduino.station import AZIMUTH_POT, ArduinoStation, Boom, coefficient
 from firmware_sim.clock import SimClock
-from firmware_sim.motor import MotorSpec
-from firmware_sim.pot import PotSpec
+from firmware_sim.parts.motor import MotorSpec
+from firmware_sim.parts.pot import PotSpec
 
 AZIMUTH = MotorSpec(
     speed_dps=6.0, lag_s=0.15, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=0.0, stop_high_deg=450.0

@@ -12,8 +12,8 @@ from typing import Any
 
 import gpiod
 
-from firmware_sim.hd44780 import Hd44780
-from hw.i2c import SmbusI2C, open_bus
+from firmware_sim.chips.hd44780 import Hd44780
+from hw.buses.i2c import SmbusI2C, open_bus
 from tests.contract.bench import LCD_PINS, RELAYS, Edge
 from tests.contract.chips import Chips
 from tests.kernel.bench.edges import EdgeRecorder

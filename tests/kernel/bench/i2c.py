@@ -13,7 +13,7 @@ from typing import Self
 
 from smbus2 import i2c_msg
 
-from firmware_sim.i2c import READ_FLAG, SimI2CBus
+from firmware_sim.buses.i2c import READ_FLAG, SimI2CBus
 from tests.kernel.bench.usbip import Identity, Setup, StallError, UsbDevice
 from tests.kernel.bench.waiting import until
 

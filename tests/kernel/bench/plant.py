@@ -12,7 +12,7 @@ from typing import Self
 import gpiod
 from gpiod.line import Direction, Value
 
-from firmware_sim.world import World
+from firmware_sim.rotors.relay_pot import World
 from tests.kernel.bench.gpio import GpioChip
 
 PERIOD_S = 0.02

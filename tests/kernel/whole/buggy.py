@@ -11,8 +11,8 @@ import sys
 import time
 from pathlib import Path
 
+from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction
-from hw.relays import RelayBank
 from rotator.app import App
 from rotator.assembly.station import Station
 from rotator.config.load import load

@@ -17,7 +17,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Self
 
-from firmware_sim.world import World
+from firmware_sim.rotors.relay_pot import World
 from rotator.assembly.simulation import SIM_CALIBRATION_RAW, simulated_rotor
 from rotator.config.load import parse
 from tests.kernel.bench.edges import EdgeRecorder

@@ -1,0 +1,1 @@
+"""Simulated GPIO lines and I2C."""

@@ -1,0 +1,162 @@
+"""Simulated GPIO chips in the shape of the `gpiod` module (libgpiod 2.x).
+
+Knows which chips there are and offers a bench: hands that put levels on pins and eyes that see every change. Knows
+nothing of what hangs on the pins.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from typing import Self
+
+from firmware_sim.buses.gpio_lines import LINES, Bank
+from firmware_sim.buses.gpio_request import (
+    Config,
+    RequestReleasedError,
+    SimLineRequest,
+    by_offset,
+    check_offset,
+    is_active,
+)
+
+__all__ = ["ChipInfo", "Edge", "LineInfo", "RequestReleasedError", "SimChip", "SimGpio", "SimLineRequest"]
+
+EDGES_KEPT = 10_000
+DEFAULT_CHIPS = {"/dev/gpiochip0": "pinctrl-bcm2711"}
+
+Listener = Callable[[float, Mapping[int, bool]], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """A physical level that changed."""
+
+    at_s: float
+    offset: int
+    level: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ChipInfo:
+    name: str
+    label: str
+    num_lines: int
+
+
+@dataclass(frozen=True, slots=True)
+class LineInfo:
+    offset: int
+    name: str
+    used: bool
+    consumer: str
+
+
+class SimGpio:
+    """Stands where the module `gpiod` stands: `request_lines`, `Chip`, `is_gpiochip_device`.
+
+    `level`, `edges`, `on_edges`, `on_look` and `drive_input` are about the chip on the pin header: the first one whose
+    label says pinctrl. `strict` is mainline's way with released lines: back to inputs. Raspberry Pi kernels leave them
+    driven unless `dtparam=strict_gpiod` is set.
+    """
+
+    def __init__(
+        self, clock: Callable[[], float], chips: Mapping[str, str] | None = None, *, strict: bool = False
+    ) -> None:
+        self.strict = strict
+        self.edges: deque[Edge] = deque(maxlen=EDGES_KEPT)
+        self.on_edges: list[Listener] = []
+        """Called once an instant, in order, with every physical level that changed. The lines are locked meanwhile."""
+        labels = DEFAULT_CHIPS if chips is None else chips
+        self._banks = {path: Bank(path, label, clock) for path, label in labels.items()}
+        banks = list(self._banks.values()) or [Bank("", "", clock)]
+        self._header = next((bank for bank in banks if bank.label.startswith("pinctrl-")), banks[0])
+        self._header.changed = self._record
+        self.on_look = self._header.on_look
+        """Called with the present moment before an input is looked at, with the lines locked: what moves by itself
+        tells with `drive_input` what has become of its pins, and when, in order of time."""
+
+    # --- gpiod
+
+    def paths(self) -> list[str]:
+        """What a look for /dev/gpiochip* would find."""
+        return list(self._banks)
+
+    def is_gpiochip_device(self, path: str) -> bool:
+        return path in self._banks
+
+    def Chip(self, path: str) -> SimChip:  # noqa: N802 - gpiod's own name
+        return SimChip(self._bank(path))
+
+    def request_lines(
+        self,
+        path: str,
+        config: Config,
+        consumer: str | None = None,
+        event_buffer_size: int | None = None,
+        output_values: Mapping[int, Enum] | None = None,
+    ) -> SimLineRequest:
+        settings = by_offset(config)
+        if output_values:  # libgpiod: then it speaks for every line, and a line it leaves out is INACTIVE
+            outputs = {offset: is_active(output_values.get(offset)) for offset in settings}
+        else:
+            outputs = {offset: is_active(wanted.output_value) for offset, wanted in settings.items()}
+        return SimLineRequest(
+            self._bank(path),
+            settings,
+            outputs,
+            consumer=consumer or "?",
+            strict=self.strict,
+            event_buffer_size=event_buffer_size,
+        )
+
+    def _bank(self, path: str) -> Bank:
+        if path not in self._banks:
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), path)
+        return self._banks[path]
+
+    # --- the bench
+
+    def level(self, offset: int) -> bool:
+        """The physical level of a pin of the header."""
+        if self._header.lines[offset].driven is None:
+            self._header.look()
+        return self._header.lines[offset].level
+
+    def drive_input(self, offset: int, level: bool | None, at_s: float | None = None) -> None:
+        """Put a level on a pin of the header from outside, now or since `at_s`; None lets go of it."""
+        with self._header.instant([offset], at_s):
+            self._header.lines[offset].outside = level
+
+    def _record(self, at_s: float, changes: Mapping[int, bool]) -> None:
+        self.edges.extend(Edge(at_s, offset, level) for offset, level in changes.items())
+        for listener in self.on_edges:
+            listener(at_s, changes)
+
+
+class SimChip:
+    """An opened chip, as `gpiod.Chip`, to be looked at."""
+
+    def __init__(self, bank: Bank) -> None:
+        self._bank = bank
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Nothing to let go of."""
+
+    def get_info(self) -> ChipInfo:
+        return ChipInfo(os.path.basename(self._bank.path), self._bank.label, LINES)
+
+    def get_line_info(self, offset: int) -> LineInfo:
+        check_offset(offset)
+        consumer = self._bank.lines[offset].consumer
+        return LineInfo(offset, f"GPIO{offset}", consumer is not None, consumer or "")

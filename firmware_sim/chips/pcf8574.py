@@ -1,0 +1,67 @@
+"""A simulated PCF8574 port expander, and the backpack that puts one behind a character LCD.
+
+Knows which byte is on the eight pins, and which LCD pin hangs on which of them. Knows nothing of time (the bus brings
+the bytes when it brings them) and nothing of what the LCD makes of its pins.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from firmware_sim.chips.hd44780 import Hd44780
+
+POWER_ON = 0xFF
+
+
+class Pcf8574:
+    """The expander: every byte written is on the pins at its ACK; `on_change` hears of each new state."""
+
+    bytewise = True
+
+    def __init__(self, on_change: Callable[[int], None] = lambda port: None) -> None:
+        self.on_change = on_change
+        self.port = POWER_ON
+        self.inputs = 0xFF
+        """What the world does to the pins: a 0 pulls one down. A pin written 1 is only weakly high, hence an input."""
+
+    def write(self, data: bytes) -> None:
+        for value in data:
+            if value != self.port:
+                self.port = value
+                self.on_change(value)
+
+    def read(self, count: int) -> bytes:
+        return bytes([self.port & self.inputs]) * count
+
+
+class Backpack:
+    """An expander soldered to an LCD. Attach `expander` to the bus; give the LCD the bus's `wire_time`.
+
+    `pin_map` names the expander bit of rs, rw, e, d4, d5, d6, d7 and bl. Without rw that pin is grounded; without bl
+    the light is always on.
+    """
+
+    def __init__(self, lcd: Hd44780, pin_map: Mapping[str, int], backlight_active_high: bool = True) -> None:
+        self.lcd = lcd
+        self.expander = Pcf8574(self._wires)
+        self._pin_map = dict(pin_map)
+        self._backlight_active_high = backlight_active_high
+        self._wires(self.expander.port)
+
+    @property
+    def backlight(self) -> bool:
+        return "bl" not in self._pin_map or self._high("bl", self.expander.port) == self._backlight_active_high
+
+    def _wires(self, port: int) -> None:
+        self.lcd.pins(
+            rs=self._high("rs", port),
+            rw="rw" in self._pin_map and self._high("rw", port),
+            e=self._high("e", port),
+            d4=self._high("d4", port),
+            d5=self._high("d5", port),
+            d6=self._high("d6", port),
+            d7=self._high("d7", port),
+        )
+
+    def _high(self, pin: str, port: int) -> bool:
+        return bool(port >> self._pin_map[pin] & 1)

@@ -1,0 +1,1 @@
+"""Simulated motors, pots, contacts and servos."""

@@ -1,0 +1,1 @@
+"""Simulated rotors, one file a kind."""

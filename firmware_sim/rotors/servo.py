@@ -1,0 +1,95 @@
+"""A simulated rotor of two hobby servos on a PCA9685, and the antenna they turn.
+
+Knows what is wired where, and its faults by name. Knows no driver: it offers a bus in the shape of smbus2 and lines in
+the shape of gpiod, and the rest is physics.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+from firmware_sim.chips.pca9685 import Pca9685
+from firmware_sim.faults import SimFault
+from firmware_sim.parts.servo import ServoSpec, SimServo
+from firmware_sim.rotors.rotor import SimRotor
+
+WIND_DPS = 10.0
+
+
+@dataclass(frozen=True, slots=True)
+class ServoAxisSpec:
+    """One servo: the board's output it is on, and where it stands at power-on."""
+
+    channel: int
+    start_deg: float = 90.0
+    servo: ServoSpec = field(default_factory=ServoSpec)
+
+
+class ServoRotor(SimRotor):
+    """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none).
+
+    `enable_pin`: the line at the board's OE input, active low, with a pull-up to 3.3 V beside it.
+    """
+
+    def __init__(
+        self,
+        azimuth: ServoAxisSpec,
+        elevation: ServoAxisSpec,
+        clock: Callable[[], float],
+        sleep: Callable[[float], None] | None = None,
+        *,
+        address: int = 0x40,
+        enable_pin: int | None = None,
+        osc_hz: float = 25e6,
+    ) -> None:
+        super().__init__(clock, sleep)
+        self._enable_pin = enable_pin
+        self._enabled = enable_pin is None
+        self.board = Pca9685(clock, osc_hz=osc_hz)
+        self.bus.attach(address, self.board)
+        self.azimuth, self.elevation = (
+            SimServo(spec.servo, spec.start_deg, clock, lambda spec=spec: self._pulse_us(spec.channel))  # type: ignore[misc]
+            for spec in (azimuth, elevation)
+        )
+        self.board.before_change.append(self._advance)
+        if enable_pin is not None:
+            self.gpio.drive_input(enable_pin, True)
+            self.gpio.on_edges.append(self._lines_changed)
+        self.faults = self._fault_table()
+
+    def antenna(self) -> tuple[float, float]:
+        with self._lock:
+            return self.azimuth.angle_deg(), self.elevation.angle_deg()
+
+    def _pulse_us(self, channel: int) -> float | None:
+        return self.board.pulse_us(channel) if self._enabled else None
+
+    def _lines_changed(self, _now_s: float, changes: Mapping[int, bool]) -> None:
+        if self._enable_pin is not None and self._enable_pin in changes:
+            self._advance()
+            self._enabled = not changes[self._enable_pin]
+
+    def _advance(self) -> None:
+        with self._lock:
+            self.azimuth.advance()
+            self.elevation.advance()
+
+    def _fault_table(self) -> dict[str, SimFault]:
+        table = {
+            "board-unpowered": self._fault_of(self.board, "supply", False, True),
+            "bus-hung": SimFault(self.bus.hang, self.bus.release),
+            "board-dips": SimFault(self._dip, lambda: None),
+        }
+        for name, servo in (("azimuth", self.azimuth), ("elevation", self.elevation)):
+            table |= {
+                f"{name}-servo-stalled": self._fault_of(servo, "stalled", True, False),
+                f"{name}-servo-unpowered": self._fault_of(servo, "powered", False, True),
+                f"{name}-wind-turns": self._fault_of(servo, "pushed_dps", WIND_DPS, 0.0),
+            }
+        return table
+
+    def _dip(self) -> None:
+        """VCC goes for an instant, which resets the chip."""
+        self.board.supply = False
+        self.board.supply = True

@@ -1,0 +1,1 @@
+"""GPIO lines, I2C and SPI."""

@@ -1,0 +1,30 @@
+"""The MCP41010, a 10 kΩ potentiometer of 256 steps on SPI.
+
+Knows the chip's commands (Microchip DS11195C, figure 5-2). The chip forgets: it powers up in the middle, step 128, and
+cannot be asked where it is. Does not know what its wiper is wired to.
+"""
+
+from __future__ import annotations
+
+from hw.buses.spi import SpiBus
+
+STEPS = 256
+MID_STEP = 128
+_WRITE = 0x11
+_SHUT_DOWN = 0x21
+
+
+class Mcp41010:
+    def __init__(self, bus: SpiBus, chip: str) -> None:
+        self._bus = bus
+        self._chip = chip
+
+    def write(self, step: int) -> None:
+        """Put the wiper on a step, 0 to 255: that share of 256 from B to A. Ends a shutdown. Raises HardwareError."""
+        if not 0 <= step < STEPS:
+            raise ValueError(f"a wiper has the steps 0 to {STEPS - 1}, not {step}")
+        self._bus.send(self._chip, bytes([_WRITE, step]))
+
+    def shut_down(self) -> None:
+        """Open A, and join the wiper with B. Raises HardwareError."""
+        self._bus.send(self._chip, bytes([_SHUT_DOWN, 0]))

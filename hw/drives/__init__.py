@@ -1,0 +1,1 @@
+"""Motors: relays, servos, digital pots."""

@@ -1,0 +1,228 @@
+"""A rotor of two hobby servos on a PCA9685, as the program sees it: a positioned drive and two modelled angles.
+
+Knows leases, the first pulse, and what to do about a board that has lost its supply. A servo moves only while somebody
+calls `enforce`: a program that hangs leaves it holding. Does not know where a servo really stands: nobody does.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+
+from hw.chips.pca9685 import Pca9685
+from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.servo_axis import ServoAxis, ServoSpec
+from hw.ports import Axis, HardwareError, OutputLines
+
+ENABLE = "servo_enable"
+"""The line at the board's OE input; OE is active low, so this output is requested as active low."""
+
+LOOK_S = 1.0
+"""How often a board with pulses on it is asked whether it has been reset."""
+RETRY_S = 0.5
+
+
+class ServoDrive:
+    """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock.
+
+    `enable`: the line `ENABLE`, where one is wired. `idle_off_s`: a servo that has not moved for so long gets no more
+    pulses, and is limp; None: it holds for good. Raises HardwareError for a specification that contradicts itself.
+    """
+
+    def __init__(
+        self,
+        chip: Pca9685,
+        azimuth: ServoSpec,
+        elevation: ServoSpec,
+        clock: Callable[[], float],
+        *,
+        enable: OutputLines | None = None,
+        idle_off_s: float | None = None,
+    ) -> None:
+        if azimuth.channel == elevation.channel:
+            raise HardwareError(f"azimuth and elevation are both on output {azimuth.channel}: give each its own")
+        self._chip = chip
+        self._clock = clock
+        self._enable = enable
+        self._idle_off_s = idle_off_s
+        self._axes = {
+            Axis.AZIMUTH: ServoAxis("azimuth servo", azimuth),
+            Axis.ELEVATION: ServoAxis("elevation servo", elevation),
+        }
+        self._changed = threading.Condition()
+        self._wire = threading.Lock()
+        """Held while the board is talked to, so that nobody who only wants to stop waits for a bus."""
+        self._started = False
+        self._look_s = clock()
+        self._failure: str | None = None
+
+    # --- hw.ports.PositionedDrive
+
+    def aim(self, axis: Axis, angle_deg: float, rate_dps: float, until_s: float) -> None:
+        """As the port says; refuses an angle outside the axis's calibration table, and moves nothing then."""
+        with self._changed:
+            now_s = self._clock()
+            if self._failure:
+                raise HardwareError(self._failure)
+            if until_s <= now_s:
+                self._axes[axis].hold()
+            else:
+                self._axes[axis].aim(angle_deg, rate_dps, now_s, min(until_s, now_s + LONGEST_LEASE_S))
+            self._changed.notify_all()
+
+    def hold(self, axis: Axis) -> None:
+        with self._changed:
+            self._axes[axis].hold()
+
+    def off(self) -> None:
+        with self._changed:
+            for axis in self._axes.values():
+                axis.hold()
+
+    def release(self) -> None:
+        """No pulses: the servos are limp. The next aim is a first one again, with its jump. Raises HardwareError."""
+        self.off()
+        with self._wire:
+            self.off()
+            try:
+                if self._enable:
+                    self._enable.set({ENABLE: False})
+            finally:
+                for axis in self._axes.values():
+                    axis.sleep(lost=True)
+            for axis in self._axes.values():
+                self._chip.off(axis.spec.channel)
+        with self._changed:
+            self._changed.notify_all()
+
+    def due_s(self) -> float | None:
+        with self._changed:
+            return self._due_s()
+
+    def enforce(self, now_s: float) -> None:
+        """Move every pulse on by what its slew allows; a course that has run out is held where it is.
+
+        Raises HardwareError when the board does not answer; it is set up anew when it does.
+        """
+        with self._wire:
+            try:
+                if not self._started:
+                    self._start()
+                elif now_s >= self._look_s:
+                    self._chip.check()
+                    self._look_s = now_s + LOOK_S
+                for axis in self._axes.values():
+                    self._step(axis, now_s)
+            except HardwareError as fault:
+                self._fail(str(fault), now_s)
+                raise
+
+    def wait_until_due(self, patience_s: float) -> None:
+        """Sleep until `enforce` has something to do, or an order came, or that long. For the guard thread."""
+        with self._changed:
+            due_s = self._due_s()
+            left_s = patience_s if due_s is None else min(patience_s, due_s - self._clock())
+            if left_s > 0:
+                self._changed.wait(left_s)
+
+    # --- how it is
+
+    def sensor(self, axis: Axis) -> ServoSensor:
+        return ServoSensor(self, axis)
+
+    def angle_deg(self, axis: Axis) -> float:
+        """Where the servo is taken to be. Raises HardwareError when the board does not answer."""
+        with self._changed:
+            if self._failure:
+                raise HardwareError(self._failure)
+            return self._axes[axis].angle_deg
+
+    def position_known(self, axis: Axis) -> bool:
+        """Whether the servo has had its pulse for as long as the longest way takes."""
+        with self._changed:
+            return self._axes[axis].settled_s <= self._clock()
+
+    def faults(self) -> dict[Axis, str]:
+        """What keeps the axes from moving, in a sentence; it goes by itself when the board answers."""
+        with self._changed:
+            return dict.fromkeys(self._axes, self._failure) if self._failure else {}
+
+    # --- the board, with `_wire` held
+
+    def _start(self) -> None:
+        if self._enable:
+            self._enable.set({ENABLE: False})
+        self._chip.start()
+        with self._changed:
+            self._started, self._failure = True, None
+            self._look_s = self._clock() + LOOK_S
+
+    def _step(self, axis: ServoAxis, now_s: float) -> None:
+        with self._changed:
+            axis.expire(now_s)
+            due = axis.due_s() <= now_s
+            angle_deg = axis.next_deg(now_s)
+        if due and (angle_deg != axis.angle_deg or not axis.pulsing):
+            self._chip.pulse(axis.spec.channel, axis.scale.value(angle_deg))
+            if not axis.pulsing:
+                self._wake(axis, now_s)
+        elif self._idle(axis, now_s):
+            self._chip.off(axis.spec.channel)
+            axis.sleep(lost=False)
+            if self._enable and not any(other.pulsing for other in self._axes.values()):
+                self._enable.set({ENABLE: False})
+        if due:
+            with self._changed:
+                axis.stepped(angle_deg, now_s)
+
+    def _wake(self, axis: ServoAxis, now_s: float) -> None:
+        # The pulse is right before it can reach the servo.
+        if self._enable:
+            self._enable.set({ENABLE: True})
+        with self._changed:
+            axis.wake(now_s)
+
+    def _idle(self, axis: ServoAxis, now_s: float) -> bool:
+        return axis.pulsing and now_s >= self._idle_s(axis)
+
+    def _idle_s(self, axis: ServoAxis) -> float:
+        if self._idle_off_s is None:
+            return float("inf")
+        return max(axis.moved_s, axis.settled_s) + self._idle_off_s
+
+    def _fail(self, failure: str, now_s: float) -> None:
+        with self._changed:
+            self._failure, self._started = failure, False
+            self._look_s = now_s + RETRY_S
+            for axis in self._axes.values():
+                axis.hold()
+                axis.sleep(lost=True)
+        if self._enable:
+            with suppress(HardwareError):  # the board's own failure is what is told
+                self._enable.set({ENABLE: False})
+
+    def _due_s(self) -> float | None:
+        if self._wire.locked():  # it is being done: simulated time may pass on the bus meanwhile
+            return None
+        if not self._started:
+            return self._look_s
+        moments = [axis.due_s() for axis in self._axes.values() if axis.under_way]
+        for axis in self._axes.values():
+            if axis.pulsing:
+                moments += [self._look_s, self._idle_s(axis)]
+        return min(moments, default=None)
+
+
+class ServoSensor:
+    """One axis of the drive as an angle sensor; its readings are degrees already."""
+
+    source = "modelled"
+
+    def __init__(self, drive: ServoDrive, axis: Axis) -> None:
+        self._drive = drive
+        self._axis = axis
+
+    def read(self) -> float:
+        """Degrees on the rotor's own scale. Raises HardwareError."""
+        return self._drive.angle_deg(self._axis)

@@ -1,0 +1,122 @@
+"""One hobby servo: the pulse that is ordered now, and the angle it is taken to stand at.
+
+Knows how far the ordered angle may go in a moment. Knows no chip, no thread and no other axis. A servo tells nothing
+back: the angle here is a model, that of a servo which is faster than it is asked to be.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hw.drives.scale import Scale
+
+FRAME_S = 0.02
+"""A servo takes a new width with every pulse, 50 times a second."""
+
+
+@dataclass(frozen=True, slots=True)
+class ServoSpec:
+    """Which output, and what its pulses mean. `pulses_us` are pairs of an angle on the rotor's scale and a width."""
+
+    channel: int
+    pulses_us: tuple[tuple[float, float], ...] = ((0.0, 500.0), (180.0, 2500.0))
+    start_deg: float = 0.0
+    """Where the first pulse sends it, at the servo's own speed: nothing can slow that one down."""
+    slew_dps: float = 40.0
+    """How fast the ordered angle moves; less than the servo can."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Course:
+    angle_deg: float
+    rate_dps: float
+    since_s: float
+    until_s: float
+
+    def at(self, now_s: float) -> float:
+        return self.angle_deg + self.rate_dps * (now_s - self.since_s)
+
+
+class ServoAxis:
+    """`name` opens the errors. Raises HardwareError for a calibration table that is none, or a start outside it."""
+
+    def __init__(self, name: str, spec: ServoSpec) -> None:
+        self.spec = spec
+        self.scale = Scale(name, spec.pulses_us)
+        self.scale.check(spec.start_deg)
+        self.angle_deg = spec.start_deg
+        self.pulsing = False
+        self.settled_s = float("inf")
+        """When the jump of a first pulse is over, however far it was."""
+        self.moved_s = float("-inf")
+        """When the pulse has last changed."""
+        self._course: _Course | None = None
+        self._stepped_s = float("-inf")
+
+    def aim(self, angle_deg: float, rate_dps: float, now_s: float, until_s: float) -> None:
+        """Raises HardwareError for an angle outside the calibration table."""
+        self.scale.check(angle_deg)
+        self._course = _Course(angle_deg, rate_dps, now_s, until_s)
+
+    def hold(self) -> None:
+        """The pulse stays what it is, which is how a servo holds."""
+        self._course = None
+
+    def expire(self, now_s: float) -> None:
+        if self._course and self._course.until_s <= now_s:
+            self._course = None
+
+    def wake(self, now_s: float) -> None:
+        """Its pulse goes out from now on; where it was lost, it jumps to it from wherever it is."""
+        self.pulsing, self.moved_s = True, now_s
+        if self._lost:
+            travel_deg = self.scale.high_deg - self.scale.low_deg
+            self.settled_s = now_s + travel_deg / self.spec.slew_dps
+
+    def sleep(self, *, lost: bool) -> None:
+        """No pulse any more. `lost`: something else may turn it meanwhile."""
+        self.pulsing = False
+        if lost:
+            self.settled_s = float("inf")
+
+    @property
+    def width_us(self) -> float:
+        return self.scale.value(self.angle_deg)
+
+    @property
+    def under_way(self) -> bool:
+        return self._course is not None
+
+    def due_s(self) -> float:
+        """When the next step is due; the course runs out as the first thing then."""
+        if self._course is None:
+            return float("inf")
+        if self._arrived:
+            return self._course.until_s
+        if not self.pulsing:
+            return self._stepped_s
+        return min(max(self._stepped_s + FRAME_S, self.settled_s), self._course.until_s)
+
+    def next_deg(self, now_s: float) -> float:
+        """Where the pulse is to point now: as near to the course as the slew allows. A late call makes no leap."""
+        if self._course is None or not self.pulsing:
+            return self.angle_deg
+        most_deg = self.spec.slew_dps * min(now_s - self._stepped_s, 2 * FRAME_S)
+        error_deg = self.scale.within(self._course.at(now_s)) - self.angle_deg
+        return self.angle_deg + min(max(error_deg, -most_deg), most_deg)
+
+    def stepped(self, angle_deg: float, now_s: float) -> None:
+        """The pulse points there now."""
+        if angle_deg != self.angle_deg:
+            self.angle_deg, self.moved_s = angle_deg, now_s
+        self._stepped_s = now_s
+
+    @property
+    def _lost(self) -> bool:
+        return self.settled_s == float("inf")
+
+    @property
+    def _arrived(self) -> bool:
+        """It is to stay where it is, and is there."""
+        course = self._course
+        return course is not None and not self._lost and course.rate_dps == 0 and course.angle_deg == self.angle_deg

@@ -1,0 +1,1 @@
+"""Two moteus controllers on CAN-FD."""

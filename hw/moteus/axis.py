@@ -1,0 +1,212 @@
+"""What one moteus controller is to be told next, and what its answers mean. No library, no thread, no clock.
+
+Knows latches, watchdog and home states, and how often a controller must be spoken to. Knows no CAN and no serial port.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from enum import Enum
+
+from hw.moteus.faults import LIMITS, explain
+from hw.moteus.orders import WATCHDOG_S, Answer, AxisSpec, Home, Look, Mode, Move, Order, SetOutput, Stop
+from hw.ports import Axis, HardwareError
+
+MOVING_EVERY_S = 0.02
+PARKED_EVERY_S = 0.08
+STALE_S = 0.3
+"""An older answer is no answer."""
+ERRAND_S = 2.0
+"""What a person asked for is forgotten when the controller could not be told in this time."""
+
+
+class Wish(Enum):
+    NOTHING = "nothing was ordered yet"
+    LET_GO = "a person let go of it"
+    HOLD = "hold"
+    AIM = "aim"
+
+
+class MoteusAxis:
+    """Tell it what is wanted; ask it what to send (`order`); give it what came back (`heard`, `missed`)."""
+
+    def __init__(self, axis: Axis, spec: AxisSpec) -> None:
+        self.spec = spec
+        self.fault: str | None = None
+        """What stopped this axis, for a person; `acknowledge` makes it usable again."""
+        self.answer: Answer | None = None
+        self.heard_s = -math.inf
+        self.until_s = -math.inf
+        self.wish = Wish.NOTHING
+        self._name = f"{axis.value}: moteus {spec.can_id}"
+        self._aim = (0.0, 0.0, 0.0)  # angle, rate, when
+        self._errands: deque[Stop | SetOutput] = deque()
+        self._errands_until_s = math.inf
+        self._engaged = False
+        """It has been given torque by us."""
+        self._told_to_hold = False
+        self._missed = True
+        self._next_s = -math.inf
+
+    # --- what is wanted
+
+    def aim(self, angle_deg: float, rate_dps: float, until_s: float, now_s: float) -> None:
+        """Raises HardwareError where it cannot obey."""
+        if not (math.isfinite(angle_deg) and math.isfinite(rate_dps)):
+            raise HardwareError(f"{self._name}: {angle_deg}° at {rate_dps}°/s is nowhere to aim at")
+        if self.fault:
+            raise HardwareError(self.fault)
+        self.angle_deg(now_s)
+        self._aim = (angle_deg, rate_dps, now_s)
+        self.until_s = until_s
+        self._want(Wish.AIM)
+
+    def hold(self) -> None:
+        """Decelerate and hold. What has no torque, because nobody aimed it yet or a person let go of it, gets none."""
+        if self.wish is Wish.AIM:
+            self._want(Wish.HOLD)
+
+    def release(self) -> None:
+        """Let go, now or as soon as it hears again."""
+        self._send_first(math.inf, Stop())
+        self._want(Wish.LET_GO)
+
+    def acknowledge(self, now_s: float) -> None:
+        """Forget the fault and be usable again; a fault that is still there comes back. Raises HardwareError."""
+        self._must_answer(now_s)
+        self.fault = None
+        self._send_first(now_s + ERRAND_S, Stop())
+
+    def confirm(self, angle_deg: float, exactly: bool, now_s: float) -> None:
+        """A person or a sensor says where it stands. Raises HardwareError."""
+        self._must_answer(now_s)
+        if not math.isfinite(angle_deg):
+            raise HardwareError(f"{self._name}: {angle_deg}° is no angle")
+        self.hold()
+        # Loose meanwhile: a scale that shifts under a controller that holds could be taken for a way to go.
+        self._send_first(now_s + ERRAND_S, Stop(), SetOutput(self.spec.revolutions(angle_deg), exactly))
+
+    def _want(self, wish: Wish) -> None:
+        self.wish = wish
+        self._next_s = -math.inf
+
+    def _send_first(self, until_s: float, *errands: Stop | SetOutput) -> None:
+        self._errands = deque(errands)
+        self._errands_until_s = until_s
+        self._next_s = -math.inf
+
+    # --- what is known
+
+    @property
+    def busy(self) -> bool:
+        """Errands are still on their way."""
+        return bool(self._errands)
+
+    @property
+    def moving(self) -> bool:
+        return self.answer is not None and abs(self.answer.velocity_rev_s) > self.spec.span_rev(0.01)
+
+    @property
+    def at_rest(self) -> bool:
+        """Nothing is left to do before one may stop talking to it."""
+        if self.fault or self.wish in (Wish.NOTHING, Wish.LET_GO):
+            return not self._errands
+        return self._told_to_hold and not self.moving
+
+    @property
+    def position_known(self) -> bool:
+        home = self.answer.home if self.answer else Home.RELATIVE
+        return home == Home.OUTPUT or (home == Home.ROTOR and not self.spec.geared)
+
+    @property
+    def limited_by(self) -> str | None:
+        """What holds a healthy controller back, in words."""
+        return LIMITS.get(self.answer.fault) if self.answer else None
+
+    def angle_deg(self, now_s: float) -> float:
+        """Where it stands, in degrees of the rotor's own scale. Raises HardwareError."""
+        answer = self._must_answer(now_s)
+        if not self.position_known:
+            raise HardwareError(
+                f"{self._name} was switched on and does not know which way the antenna points: "
+                "look at the antenna and confirm its angle"
+            )
+        if not math.isfinite(answer.position_rev):
+            raise HardwareError(f"{self._name} has no position: check its encoder")
+        return self.spec.degrees(answer.position_rev)
+
+    def _must_answer(self, now_s: float) -> Answer:
+        if self.answer is None or now_s - self.heard_s > STALE_S:
+            raise HardwareError(f"{self._name} does not answer: check its supply, the CAN wires and its id")
+        return self.answer
+
+    # --- the wire
+
+    def due_s(self) -> float:
+        return self._next_s
+
+    def order(self, now_s: float) -> Order | None:
+        """What to send now; None: not yet."""
+        if now_s < self._next_s:
+            return None
+        self._next_s = now_s + (MOVING_EVERY_S if self.wish is Wish.AIM or self.moving or self.busy else PARKED_EVERY_S)
+        if now_s > self._errands_until_s:
+            self._errands.clear()
+        # Whoever was silent may have lost its supply and, with it, its position: look before it is told to move.
+        if self._missed or self.answer is None:
+            return Look()
+        if self._errands:
+            return self._errands[0]
+        if self.fault or self.wish not in (Wish.AIM, Wish.HOLD):
+            return Look()
+        if not self._engaged and self.answer.mode == Mode.TIMEOUT:  # how an earlier run ended
+            self._send_first(math.inf, Stop())
+            return Stop()
+        return self._move(now_s)
+
+    def _move(self, now_s: float) -> Move:
+        self._engaged = True
+        if self.wish is not Wish.AIM or not self.position_known:
+            return Move(math.nan, 0.0)
+        angle_deg, rate_dps, at_s = self._aim
+        speed_rev_s = rate_dps / 360 * self.spec.rev_per_turn
+        return Move(self.spec.revolutions(angle_deg + rate_dps * (now_s - at_s)), speed_rev_s)
+
+    def missed(self) -> None:
+        """No answer came."""
+        self._missed = True
+
+    def heard(self, order: Order, answer: Answer, now_s: float) -> None:
+        """The answer to `order`."""
+        self.answer, self.heard_s, self._missed = answer, now_s, False
+        self._told_to_hold = isinstance(order, Move) and math.isnan(order.position_rev)
+        if self._errands:
+            self._run_errand(order, answer)
+            return
+        if self.fault is None:
+            self.fault = self._judge(answer)
+            if self.fault and self.wish is Wish.AIM:
+                self.wish = Wish.HOLD
+
+    def _run_errand(self, order: Order, answer: Answer) -> None:
+        match self._errands[0]:
+            case Stop():  # the answer may be older than the command: it is done when it shows
+                done = order == Stop() and answer.mode == Mode.STOPPED
+                self._engaged = self._engaged and not done
+            case SetOutput():
+                done = isinstance(order, SetOutput) and answer.home == Home.OUTPUT
+        if done:
+            self._errands.popleft()
+            self._next_s = -math.inf
+
+    def _judge(self, answer: Answer) -> str | None:
+        if answer.mode == Mode.FAULT:
+            fault = explain(answer.fault)
+            return f"{self._name}: {fault.name} ({answer.fault}): {fault.remedy}, then acknowledge it"
+        if answer.mode == Mode.TIMEOUT and self._engaged:
+            return (
+                f"{self._name} heard nothing for {WATCHDOG_S} s and stopped by itself: "
+                "look for a loose cable or a frozen computer, then acknowledge it"
+            )
+        return None

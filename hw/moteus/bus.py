@@ -1,0 +1,137 @@
+"""The thread that talks to the moteus controllers, and lives with what cables and the library do.
+
+Knows that a closed connection leaves its port registered (so every one gets an event loop of its own), that some calls
+wait for ever (so all have a time limit), and that an unplugged port raises in a callback without end (so the first such
+error ends the connection). Decides nothing.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import errno
+import logging
+import threading
+from collections.abc import Awaitable
+from typing import Any
+
+from hw.moteus.drive import MoteusDrive
+from hw.moteus.library import CanChannel, SerialPort, Wire, library
+from hw.ports import HardwareError
+
+log = logging.getLogger(__name__)
+
+EXCHANGE_S = 0.15
+SILENCE_S = 2.0
+"""Nobody answered for so long: the connection is made anew."""
+BACK_OFF_S = (0.1, 2.0)
+COMING_TO_REST_S = 2.0
+
+
+class MoteusBus:
+    """Serves a drive in a thread of its own, for as long as it is open, whatever becomes of the cable."""
+
+    def __init__(self, drive: MoteusDrive, port: SerialPort | CanChannel) -> None:
+        """Raises HardwareError where the library is missing."""
+        self._moteus = library()
+        self._drive = drive
+        self._port = port
+        self._closing = threading.Event()
+        self._lock = threading.Lock()
+        self._bell: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
+        self._thread = threading.Thread(target=self._run, name="moteus", daemon=True)
+        drive.on_news = self._ring
+
+    def start(self) -> None:
+        self._drive.lost(f"moteus: {self._port}: not connected yet")
+        self._thread.start()
+
+    def close(self) -> None:
+        """Let both axes come to rest and hold, then end the thread. The controllers' watchdogs take over."""
+        self._drive.off()
+        self._closing.set()
+        self._ring()
+        self._thread.join(timeout=COMING_TO_REST_S + 1.0)
+
+    def _ring(self) -> None:
+        with self._lock, contextlib.suppress(RuntimeError):  # the loop may just have ended
+            if self._bell:
+                self._bell[0].call_soon_threadsafe(self._bell[1].set)
+
+    def _run(self) -> None:
+        wait_s = BACK_OFF_S[0]
+        while not self._closing.is_set():
+            try:
+                lively = asyncio.run(self._connection())
+                reason = "nobody answers: check the controllers' supply and the CAN wires"
+            except (Exception, SystemExit) as failure:  # the library ends the program where a handler fails
+                lively, reason = False, _explain(failure)
+            if self._closing.is_set():
+                break
+            wait_s = BACK_OFF_S[0] if lively else min(2 * wait_s, BACK_OFF_S[1])
+            log.debug("moteus: %s: %s; next try in %.1f s", self._port, reason, wait_s)
+            self._drive.lost(f"moteus: {self._port}: {reason}")
+            self._closing.wait(wait_s)
+
+    async def _connection(self) -> bool:
+        """Talk until the line fails (raises), nobody answers for long, or it is time to close."""
+        loop, news, broken = asyncio.get_running_loop(), asyncio.Event(), asyncio.Event()
+        me = asyncio.current_task()
+        failures: list[BaseException] = []
+
+        def fail(_loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+            failures.append(context.get("exception") or OSError(context["message"]))
+            if not broken.is_set() and me:
+                broken.set()
+                me.cancel()
+
+        loop.set_exception_handler(fail)
+        transport = self._port(self._moteus)
+        with self._lock:
+            self._bell = (loop, news)
+        try:
+            return await self._talk(Wire(self._moteus, transport, self._drive), news)
+        except asyncio.CancelledError:
+            raise failures[0] if failures else OSError("the connection was cut") from None
+        finally:
+            with self._lock:
+                self._bell = None
+            transport.close()
+
+    async def _talk(self, wire: Wire, news: asyncio.Event) -> bool:
+        loop = asyncio.get_running_loop()
+        heard_s, lively, rested_by_s = loop.time(), False, None
+        while loop.time() - heard_s < SILENCE_S:
+            if self._closing.is_set():
+                rested_by_s = rested_by_s or loop.time() + COMING_TO_REST_S
+                if loop.time() > rested_by_s or self._drive.at_rest:
+                    break
+            news.clear()
+            if await wire.serve(_patiently):
+                heard_s, lively = loop.time(), True
+            with contextlib.suppress(TimeoutError):
+                await asyncio.wait_for(news.wait(), self._drive.next_order_in_s())
+        return lively
+
+
+async def _patiently(call: Awaitable[Any]) -> Any:
+    try:
+        return await asyncio.wait_for(call, EXCHANGE_S)
+    except RuntimeError as failure:  # what the library makes of a lost or spoilt line
+        raise TimeoutError from failure
+
+
+def _explain(failure: BaseException) -> str:
+    match failure:
+        case HardwareError():
+            return str(failure)
+        case OSError() if failure.errno == errno.ENOENT:
+            return "there is no such port: plug the adapter in, or correct moteus.port"
+        case OSError() if failure.errno in (errno.EACCES, errno.EPERM):
+            return "no permission: add the user to the group dialout"
+        case OSError() if failure.errno == errno.ENODEV:
+            return "there is no such CAN interface: bring it up with ip link set can0 up type can ... fd on"
+        case OSError() if failure.errno == errno.ENETDOWN:
+            return "the CAN interface is down: ip link set can0 up"
+        case _:
+            return f"the adapter has gone ({failure}): check its plug and its cable"

@@ -1,0 +1,187 @@
+"""A rotor of two moteus controllers, as the program sees it: a positioned drive and two angle sensors.
+
+Knows leases, and that several threads ask while one talks to the controllers. Knows neither the library nor the wire:
+`hw.moteus.bus` carries the orders and brings the answers.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+from hw.drives.relays import LONGEST_LEASE_S
+from hw.moteus.axis import MoteusAxis, Wish
+from hw.moteus.orders import Answer, AxisSpec, Order
+from hw.ports import Axis, HardwareError
+
+
+class MoteusDrive:
+    """`clock` gives seconds; `until_s` of an aim is on the same clock. Safe to call from any thread."""
+
+    def __init__(self, azimuth: AxisSpec, elevation: AxisSpec, clock: Callable[[], float]) -> None:
+        if azimuth.can_id == elevation.can_id:
+            raise HardwareError(f"azimuth and elevation both have CAN id {azimuth.can_id}: give one another with tview")
+        self._clock = clock
+        self._lock = threading.RLock()
+        self._axes = {
+            Axis.AZIMUTH: MoteusAxis(Axis.AZIMUTH, azimuth),
+            Axis.ELEVATION: MoteusAxis(Axis.ELEVATION, elevation),
+        }
+        self._offline: str | None = None
+        self.on_news: Callable[[], None] = lambda: None
+        """Called when something is to be sent at once; set by the bus."""
+
+    # --- hw.ports.PositionedDrive
+
+    def aim(self, axis: Axis, angle_deg: float, rate_dps: float, until_s: float) -> None:
+        with self._lock:
+            now_s = self._clock()
+            if until_s <= now_s:
+                self._axes[axis].hold()
+            else:
+                self._check_online()
+                self._axes[axis].aim(angle_deg, rate_dps, min(until_s, now_s + LONGEST_LEASE_S), now_s)
+        self.on_news()
+
+    def hold(self, axis: Axis) -> None:
+        """Decelerate, and hold where it comes to rest. One that cannot be reached does so by its own watchdog."""
+        with self._lock:
+            self._axes[axis].hold()
+        self.on_news()
+
+    def release(self) -> None:
+        with self._lock:
+            for axis in self._axes.values():
+                axis.release()
+        self.on_news()
+
+    def off(self) -> None:
+        with self._lock:
+            for axis in self._axes.values():
+                axis.hold()
+        self.on_news()
+
+    def due_s(self) -> float | None:
+        with self._lock:
+            return min((axis.until_s for axis in self._axes.values() if axis.wish is Wish.AIM), default=None)
+
+    def enforce(self, now_s: float) -> None:
+        with self._lock:
+            expired = [axis for axis in self._axes.values() if axis.wish is Wish.AIM and axis.until_s <= now_s]
+            for axis in expired:
+                axis.hold()
+        if expired:
+            self.on_news()
+
+    # --- how it is
+
+    def sensor(self, axis: Axis) -> MoteusSensor:
+        return MoteusSensor(self, axis)
+
+    def angle_deg(self, axis: Axis) -> float:
+        """Where the axis stands on the rotor's own scale. Raises HardwareError: silent, or its position is unknown."""
+        with self._lock:
+            self._check_online()
+            return self._axes[axis].angle_deg(self._clock())
+
+    def position_known(self, axis: Axis) -> bool:
+        """False: switched on behind a gear with an encoder on the rotor only; `confirm` ends that."""
+        with self._lock:
+            return self._axes[axis].position_known
+
+    def faults(self) -> dict[Axis, str]:
+        """What stopped an axis, in a sentence; it stays until `acknowledge`."""
+        with self._lock:
+            return {name: axis.fault for name, axis in self._axes.items() if axis.fault}
+
+    def limits(self) -> dict[Axis, str]:
+        """What holds back a controller that is well: its position bounds, say."""
+        with self._lock:
+            return {name: axis.limited_by for name, axis in self._axes.items() if axis.limited_by}
+
+    def answer(self, axis: Axis) -> Answer | None:
+        """The latest the controller said: volts, temperature, mode; None: it has not answered yet."""
+        with self._lock:
+            return self._axes[axis].answer
+
+    # --- what only a person asks for
+
+    def acknowledge(self, axis: Axis) -> None:
+        """Make the axis usable again after a fault; one that is still there comes back. Raises HardwareError."""
+        with self._lock:
+            self._check_online()
+            self._axes[axis].acknowledge(self._clock())
+        self.on_news()
+
+    def confirm(self, axis: Axis, angle_deg: float, *, exactly: bool = False) -> None:
+        """The axis stands at this angle: exactly, or at the nearest one that the rotor's encoder agrees with.
+
+        `position_known` shows when the controller has it. The motor is loose for a moment. Raises HardwareError.
+        """
+        with self._lock:
+            self._check_online()
+            self._axes[axis].confirm(angle_deg, exactly, self._clock())
+        self.on_news()
+
+    # --- for the bus
+
+    @property
+    def specs(self) -> dict[Axis, AxisSpec]:
+        return {name: axis.spec for name, axis in self._axes.items()}
+
+    def order(self, axis: Axis) -> Order | None:
+        """What to send to this axis' controller now; None: nothing yet."""
+        with self._lock:
+            now_s = self._clock()
+            self.enforce(now_s)
+            return self._axes[axis].order(now_s)
+
+    def next_order_s(self) -> float:
+        """When there is something to send."""
+        with self._lock:
+            return min(axis.due_s() for axis in self._axes.values())
+
+    def next_order_in_s(self) -> float:
+        """How long until then."""
+        return max(0.0, self.next_order_s() - self._clock())
+
+    def heard(self, axis: Axis, order: Order, answer: Answer) -> None:
+        with self._lock:
+            self._offline = None
+            self._axes[axis].heard(order, answer, self._clock())
+
+    def missed(self, axis: Axis) -> None:
+        """No answer came."""
+        with self._lock:
+            self._axes[axis].missed()
+
+    def lost(self, reason: str) -> None:
+        """There is no connection; until something is heard again this is what whoever asks is told."""
+        with self._lock:
+            self._offline = reason
+            for axis in self._axes.values():
+                axis.missed()
+
+    @property
+    def at_rest(self) -> bool:
+        """Nothing is to move, nothing moves, and the controllers have been told so."""
+        with self._lock:
+            return all(axis.at_rest for axis in self._axes.values())
+
+    def _check_online(self) -> None:
+        if self._offline:
+            raise HardwareError(self._offline)
+
+
+class MoteusSensor:
+    """One axis of the drive as an angle sensor; its readings are degrees already."""
+
+    source = "measured"
+
+    def __init__(self, drive: MoteusDrive, axis: Axis) -> None:
+        self._drive = drive
+        self._axis = axis
+
+    def read(self) -> float:
+        """Degrees on the rotor's own scale. Raises HardwareError."""
+        return self._drive.angle_deg(self._axis)

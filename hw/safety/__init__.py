@@ -1,0 +1,1 @@
+"""What opens the relays when the program cannot."""

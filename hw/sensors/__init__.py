@@ -1,0 +1,1 @@
+"""From chips and lines to an angle, a count or a switch."""

@@ -1,0 +1,49 @@
+"""A potentiometer as an angle sensor: the share of its supply that stands at the wiper.
+
+Knows one input of a converter, and the supply as a number or as another input (ratiometric: drift cancels). Knows
+nothing of degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from hw.chips.ads1115 import Ads1115
+from hw.ports import HardwareError
+
+REFERENCE_EVERY_S = 1.0
+"""A supply drifts slowly; reading it with every cycle would double the time on the bus."""
+LEAST_REFERENCE_V = 0.5
+
+
+class Reference:
+    """The pots' supply voltage, measured on an input of its own now and then."""
+
+    def __init__(self, adc: Ads1115, channel: int, clock: Callable[[], float]) -> None:
+        self._adc = adc
+        self._channel = channel
+        self._clock = clock
+        self._read_s: float | None = None
+        self._volts = 0.0
+
+    def volts(self) -> float:
+        now_s = self._clock()
+        if self._read_s is None or now_s - self._read_s >= REFERENCE_EVERY_S:
+            volts = self._adc.volts(self._channel)
+            if volts < LEAST_REFERENCE_V:
+                raise HardwareError(f"the pots' supply reads {volts:.2f} V on input {self._channel}: is it wired?")
+            self._volts, self._read_s = volts, now_s
+        return self._volts
+
+
+class PotSensor:
+    source = "measured"
+
+    def __init__(self, adc: Ads1115, channel: int, supply: Reference | float) -> None:
+        self._adc = adc
+        self._channel = channel
+        self._supply = supply
+
+    def read(self) -> float:
+        supply_v = self._supply.volts() if isinstance(self._supply, Reference) else self._supply
+        return self._adc.volts(self._channel) / supply_v

@@ -1,0 +1,172 @@
+"""The switchboard of the composition root: from a `[[link]]` table to a running link that speaks its protocol.
+
+Knows which class carries the bytes of which place, and which one speaks which protocol. Moves nothing itself.
+"""
+
+from __future__ import annotations
+
+import itertools
+import logging
+import math
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Protocol
+
+from rotator.config.links import FOLLOW, Link, ProtocolName, address
+from rotator.control.sky.mount import Mount
+from rotator.links.allowed import Allowed
+from rotator.links.asking import AskingLink
+from rotator.links.file import FileLink
+from rotator.links.pty import PtyLink
+from rotator.links.serial import SerialLink
+from rotator.links.tcp import TcpLink
+from rotator.links.udp import Report, UdpLink
+from rotator.links.wire import Wire
+from rotator.monitor.tap import Overheard, OverheardInquiry, Tape
+from rotator.monitor.transcript import Way
+from rotator.orders import Source
+from rotator.protocols.dcu1 import Dcu1Session
+from rotator.protocols.easycomm import Level
+from rotator.protocols.easycomm_session import EasycommSession
+from rotator.protocols.f1efw import F1efwSession
+from rotator.protocols.gs232 import Dialect
+from rotator.protocols.gs232_session import Gs232Session
+from rotator.protocols.macdoppler import MacDopplerSession
+from rotator.protocols.n1mm import N1mmReport, N1mmSession
+from rotator.protocols.pstrotator import ANSWERS_ABOVE, PstRotatorSession
+from rotator.protocols.rotctld_follow import RotctldFollower
+from rotator.protocols.rotctld_session import RotctldSession
+from rotator.protocols.session import Box, Inquiry, Session
+from rotator.protocols.spid import Model
+from rotator.protocols.spid_session import SpidSession
+from rotator.protocols.wsjtx import WsjtxSession
+from rotator.runtime.client import Door, Rights
+from rotator.runtime.log_limit import Seldom
+from rotator.runtime.loop import ControlLoop
+
+log = logging.getLogger(__name__)
+
+MOST_REMARKS = 20
+"""On one link: what a program asks for and the box has not is told once, and not without end."""
+
+
+class RunningLink(Protocol):
+    wire: Wire
+
+    async def open(self) -> None: ...
+
+    async def run(self) -> None: ...
+
+
+def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _text: None) -> Session:
+    """A fresh conversation on a link, in its protocol. `remark` takes what the log should know of what is asked."""
+    match link.protocol:
+        case "gs232a" | "gs232b":
+            return Gs232Session(
+                box,
+                Dialect.A if link.protocol == "gs232a" else Dialect.B,
+                ack=b"\r" if link.ack == "cr" else b"",
+                may_calibrate=link.may_calibrate,
+            )
+        case "gs232-f1efw":
+            return F1efwSession(box)
+        case "rotctld":
+            return RotctldSession(box)
+        case "rotctld-follow":
+            raise ValueError("there is no conversation on a link that asks")
+        case "easycomm1" | "easycomm2" | "easycomm3":
+            level = {"easycomm1": Level.I, "easycomm2": Level.II, "easycomm3": Level.III}[link.protocol]
+            return EasycommSession(box, level, pstrotator=link.easycomm_answer == "pstrotator")
+        case "rot1prog":
+            return SpidSession(box, Model.ROT1PROG)
+        case "rot2prog":
+            return SpidSession(box, Model.ROT2PROG, link.pulses_per_degree)
+        case "md01":
+            return SpidSession(box, Model.MD01, link.pulses_per_degree)
+        case "dcu1":
+            return Dcu1Session(box)
+        case "pstrotator":
+            return PstRotatorSession(box, remark)
+        case "n1mm":
+            return N1mmSession(box, link.rotor_name, remark)
+        case "macdoppler":
+            return MacDopplerSession(box)
+        case "wsjtx":
+            return WsjtxSession(box, link.body)
+
+
+_BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01")
+
+
+def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tape: Tape) -> list[RunningLink]:
+    """Each with a name of its own, for a source is known by it: the second gs232b is gs232b-2."""
+    built: list[RunningLink] = []
+    given = {link.name for link in links}
+    taken: set[str] = set()
+    for link in links:
+        plain = link.name or link.protocol
+        names = (plain if number == 1 else f"{plain}-{number}" for number in itertools.count(1))
+        name = next(name for name in names if name not in taken and (name == link.name or name not in given))
+        taken.add(name)
+        tape.link(name, link.model_dump(exclude_unset=True))
+        built.append(_build(link, Wire(name, link.protocol, link.where), loop, mount, tape))
+    return built
+
+
+def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tape: Tape) -> RunningLink:
+    connections = itertools.count(1)
+    rights, complaints = Rights(link.read_only, link.most_per_s), Seldom(time.monotonic)
+
+    remarks = Seldom(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
+
+    def remark(text: str) -> None:
+        if told := remarks.tell(text):
+            log.info("%s: %s", wire.name, told)
+
+    def connection() -> tuple[Source, Door]:
+        source = Source(wire.name, next(connections))
+        return source, Door(loop, mount, source, rights=rights, complaints=complaints)
+
+    def session() -> Session:
+        source, door = connection()
+        return Overheard(session_maker(link, door, remark), tape, source, text=link.protocol not in _BINARY)
+
+    def follower() -> Inquiry:
+        source, door = connection()
+        return OverheardInquiry(RotctldFollower(door, link.poll_s), tape, source)
+
+    if link.pty is not None:
+        return PtyLink(wire, Path(link.pty), session)
+    if link.serial is not None:
+        return SerialLink(wire, link.serial, link.serial_baud, session)
+    if link.file is not None:
+        return FileLink(wire, Path(link.file), session)
+    host, port = address(link.where)
+    if link.udp is not None:
+        return UdpLink(
+            wire,
+            host,
+            port,
+            session,
+            answer_port=port + ANSWERS_ABOVE if link.protocol == "pstrotator" else None,
+            report=_report(link, Source(wire.name), loop, mount, tape),
+            allowed=Allowed(link.allow),
+        )
+    if link.protocol == FOLLOW:
+        return AskingLink(wire, host, port, follower, every_s=link.poll_s)
+    return TcpLink(wire, host, port, session, allowed=Allowed(link.allow), most_clients=link.most_clients)
+
+
+def _report(link: Link, source: Source, loop: ControlLoop, mount: Mount, tape: Tape) -> Report | None:
+    """What a link says by itself; None: nothing."""
+    if link.status_to is None or link.rotor_name is None:
+        return None
+    reporter = N1mmReport(Door(loop, mount, source), link.rotor_name)
+
+    def due(now_s: float) -> bytes | None:
+        said = reporter.due(now_s)
+        tape.note(source, Way.OUT, said or b"", text=True)
+        return said
+
+    return Report(address(link.status_to), due)

@@ -1,0 +1,112 @@
+"""The law for a motor that is only on or off: when to start it, when to stop it.
+
+A target that stands still is bang-bang with a tolerance: left alone until the error exceeds it, then hit. A moving one
+is followed in steps that run past it, so that it drifts back through the window (`plan`). A stop falls where the motor,
+as learnt, coasts onto its goal. Knows one axis. Knows nothing of the sky, of limits, of faults or of relays.
+"""
+
+from __future__ import annotations
+
+import math
+
+from hw.ports import Direction
+from rotator.control.axis.motion import Motion, Motor
+from rotator.control.commands import Run
+from rotator.control.sky.plan import Path, next_place_deg
+
+FLOOR = 0.55
+"""Below this share of the tolerance no error starts a motor, however slow the target: whole degrees are no better."""
+LEAST_MOVE_DEG = 0.3
+
+
+class SwitchedLaw:
+    """`period_s`: how soon the law will be asked again; a stop nearer than that is left to the lease's end."""
+
+    def __init__(self, motor: Motor, *, lease_s: float, period_s: float) -> None:
+        self.motion = Motion(motor)
+        self._lease_s = lease_s
+        self._period_s = period_s
+        self._running = Direction.OFF
+        self._goal_deg = 0.0
+        self._stop_s: float | None = None
+        """When the lease will have opened the relay."""
+        self._planned: tuple[Path, float] | None = None
+
+    def see(self, at_s: float, angle_deg: float) -> None:
+        """A new believable reading of the axis."""
+        self._note_stop(at_s)
+        self.motion.see(at_s, angle_deg)
+
+    def driven(self, now_s: float, direction: Direction) -> None:
+        """What the relays do from now on."""
+        self._note_stop(now_s)
+        wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
+        self.motion.driven(now_s, direction, wanted_deg)
+
+    def rest(self, now_s: float) -> Run:
+        self._running = Direction.OFF
+        self._stop_s = None
+        self._planned = None
+        return Run(Direction.OFF, now_s)
+
+    def approach(self, now_s: float, target_deg: float, tolerance_deg: float) -> Run:
+        """Towards a target that stands still."""
+        error_deg = target_deg - self._rest_deg(now_s)
+        if self._running is Direction.OFF and abs(error_deg) <= tolerance_deg:
+            return self.rest(now_s)
+        return self._go(now_s, target_deg)
+
+    def follow(self, now_s: float, path: Path, tolerance_deg: float) -> Run:
+        """Along with a target that moves; the tolerance is on the sky."""
+        rest_deg = self._rest_deg(now_s)
+        direction = Direction.PLUS if path.angle_deg(now_s) > rest_deg else Direction.MINUS
+        speed_dps = self.motion.motors[self._running or direction].speed_dps
+        place_deg = self._place_deg(path, rest_deg, speed_dps, tolerance_deg)
+        if self._running is Direction.OFF:
+            crossing_s = now_s + abs(place_deg - rest_deg) / speed_dps / 2
+            then_deg = path.angle_deg(crossing_s)
+            staying_deg, going_deg = abs(then_deg - rest_deg), abs(then_deg - place_deg)
+            on_sky_deg = staying_deg * math.sqrt(path.weight(crossing_s))
+            if staying_deg < going_deg or on_sky_deg < FLOOR * tolerance_deg:
+                return Run(Direction.OFF, now_s)
+            if abs(place_deg - rest_deg) < LEAST_MOVE_DEG:
+                return Run(Direction.OFF, now_s)
+        return self._go(now_s, place_deg)
+
+    def _place_deg(self, path: Path, rest_deg: float, speed_dps: float, tolerance_deg: float) -> float:
+        """The place planned on this path; planned once, for a path is only good for half a second."""
+        if self._planned is None or self._planned[0] is not path:
+            self._planned = (path, next_place_deg(path, rest_deg, speed_dps, tolerance_deg))
+        return self._planned[1]
+
+    def _go(self, now_s: float, goal_deg: float) -> Run:
+        """Start, or go on, towards the goal; stop where the motor would coast onto it."""
+        if self._stop_s is not None:
+            if now_s < self._stop_s and goal_deg == self._goal_deg:
+                return Run(self._running, self._stop_s)
+            if now_s >= self._stop_s:
+                return self.rest(now_s)
+            self._stop_s = None
+        left_deg = goal_deg - self._rest_deg(now_s)
+        if self._running is Direction.OFF:
+            self._running = Direction.PLUS if left_deg > 0 else Direction.MINUS
+        self._goal_deg = goal_deg
+        left_deg *= self._running
+        if left_deg <= 0:
+            return self.rest(now_s)
+        # The point where the axis would come to rest runs ahead at full speed from the first moment on.
+        left_s = left_deg / self.motion.motors[self._running].speed_dps
+        if left_s > self._period_s:
+            return Run(self._running, now_s + self._lease_s)
+        self._stop_s = now_s + left_s
+        return Run(self._running, self._stop_s)
+
+    def _rest_deg(self, now_s: float) -> float:
+        return self.motion.rest_deg(now_s)
+
+    def _note_stop(self, now_s: float) -> None:
+        if self._stop_s is not None and now_s >= self._stop_s:
+            self.motion.driven(self._stop_s, Direction.OFF, self._goal_deg)
+            self._running = Direction.OFF
+            self._stop_s = None
+            self._planned = None

@@ -1,0 +1,1 @@
+"""From a direction in the sky to axis angles."""

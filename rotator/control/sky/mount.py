@@ -1,0 +1,106 @@
+"""Turns a direction in the sky into axis angles: the only place that does.
+
+Knows the range of each axis, its overlap, whether the antenna may go over the top, the horizon of trees and roofs, and
+the park position. Knows nothing of motors, sensors or time.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from dataclasses import dataclass
+
+from rotator.control.sky.angles import turn_deg
+
+ZENITH_DEG = 90.0
+
+
+class Unreachable(ValueError):  # noqa: N818 - an answer about a direction, not a failure
+    """No axis angle within the range points there; the text says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Where an axis may be, in degrees on its own scale."""
+
+    min_deg: float
+    max_deg: float
+
+    def nearest(self, angle_deg: float) -> float:
+        return min(max(angle_deg, self.min_deg), self.max_deg)
+
+    def holds(self, angle_deg: float) -> bool:
+        return self.min_deg <= angle_deg <= self.max_deg
+
+
+@dataclass(frozen=True, slots=True)
+class Mount:
+    azimuth: Range
+    elevation: Range
+    park_azimuth_deg: float = 0.0
+    park_elevation_deg: float = 0.0
+    flip: bool = False
+    """A person has said that the antenna clears everything on its way over the top."""
+    horizon: tuple[tuple[float, float], ...] = ()
+    """Points (azimuth, least elevation), azimuth rising from 0 to below 360: trees, the neighbour's roof."""
+
+    def axis_angles(
+        self, azimuth_deg: float, elevation_deg: float | None, near_azimuth_deg: float
+    ) -> tuple[float, float | None]:
+        """Axis angles for an order, on the turn of azimuth nearest to `near_azimuth_deg`. Raises Unreachable.
+
+        Below the horizon azimuth follows and elevation rests at its minimum. Past the zenith an order is axis angles
+        where the range allows, else the direction that it means. A direction that azimuth does not reach is looked at
+        over the top, where the antenna may go there.
+        """
+        if elevation_deg is None:
+            return self._turn(azimuth_deg, near_azimuth_deg), None
+        if elevation_deg > ZENITH_DEG and not self.elevation.holds(elevation_deg):
+            azimuth_deg, elevation_deg = (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
+        if self.flip and not self._turns(azimuth_deg) and self._turns(azimuth_deg + 180.0):
+            azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
+        axis_azimuth_deg = self._turn(azimuth_deg, near_azimuth_deg)
+        return axis_azimuth_deg, self.clear_deg(axis_azimuth_deg, elevation_deg)
+
+    def on_the_way(
+        self, azimuth_deg: float, elevation_deg: float, from_azimuth_deg: float, *, flipped: bool
+    ) -> tuple[float, float]:
+        """Axis angles for a direction, going on from an azimuth the short way, over the top or not; limits not yet
+        applied, for a way may lead beyond them."""
+        if flipped:
+            azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
+        return from_azimuth_deg + turn_deg(from_azimuth_deg, azimuth_deg), elevation_deg
+
+    def clear_deg(self, axis_azimuth_deg: float, elevation_deg: float) -> float:
+        """The elevation nearest to the one asked for that is within limits and above the horizon there."""
+        elevation_deg = self.elevation.nearest(elevation_deg)
+        if not self.horizon:
+            return elevation_deg
+        if elevation_deg > ZENITH_DEG:
+            least_deg = self._horizon_deg(axis_azimuth_deg + 180.0)
+            return self.elevation.nearest(min(elevation_deg, 180.0 - least_deg))
+        return self.elevation.nearest(max(elevation_deg, self._horizon_deg(axis_azimuth_deg)))
+
+    def _horizon_deg(self, azimuth_deg: float) -> float:
+        """Straight lines between the points, all the way round."""
+        azimuth_deg %= 360.0
+        last = self.horizon[-1]
+        around = ((last[0] - 360.0, last[1]), *self.horizon, (self.horizon[0][0] + 360.0, self.horizon[0][1]))
+        at = bisect_right(around, azimuth_deg, key=lambda point: point[0])
+        (az_a, el_a), (az_b, el_b) = around[at - 1], around[at]
+        return el_a + (azimuth_deg - az_a) / (az_b - az_a) * (el_b - el_a)
+
+    def _turn(self, azimuth_deg: float, near_deg: float) -> float:
+        if azimuth_deg > 360.0 and self.azimuth.holds(azimuth_deg):  # the sender names the overlap
+            return azimuth_deg
+        turns = self._turns(azimuth_deg)
+        if not turns:
+            limits = f"{self.azimuth.min_deg:g} to {self.azimuth.max_deg:g}"
+            raise Unreachable(f"azimuth {azimuth_deg:g} is outside the rotor's range of {limits} degrees")
+        return min(turns, key=lambda turn_deg: abs(turn_deg - near_deg))
+
+    def _turns(self, azimuth_deg: float) -> list[float]:
+        """Every place on the scale that points there."""
+        first = math.ceil((self.azimuth.min_deg - azimuth_deg) / 360.0)
+        last = math.floor((self.azimuth.max_deg - azimuth_deg) / 360.0)
+        return [azimuth_deg + 360.0 * turn for turn in range(first, last + 1)]

@@ -1,0 +1,175 @@
+"""From orders for directions to goals for the axes, now and over the next minute.
+
+Knows what was asked for, where the target is going (`track`), and on which way the antenna follows it (`route`). Knows
+nothing of who asks, of faults, or of how an axis reaches its goal.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rotator.control.sky.mount import ZENITH_DEG, Mount
+from rotator.control.sky.plan import OFFSETS_S, Path
+from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way
+from rotator.control.sky.track import Track
+from rotator.orders import Aim
+
+PLAN_EVERY_S = 0.5
+ROUTE_EVERY_S = 3.0
+SURE_AFTER_S = 45.0
+"""A track this long tells well enough where the pass will end; until then the antenna stays on its turn."""
+LEAST_WEIGHT = 0.1
+"""Near the zenith azimuth hardly matters, but an antenna sent there by hand is to turn all the same."""
+EVEN = (1.0,) * len(OFFSETS_S)
+
+
+@dataclass(frozen=True, slots=True)
+class AimGoal:
+    """A target, with its path where it moves. The tolerance is the axis's own, or on the sky along a path."""
+
+    target_deg: float
+    tolerance_deg: float
+    path: Path | None = None
+
+
+Goals = tuple[AimGoal, AimGoal | None]
+"""For azimuth and elevation; None: elevation keeps what it has."""
+
+
+class Pointing:
+    def __init__(self, mount: Mount, azimuth_tolerance_deg: float, elevation_tolerance_deg: float) -> None:
+        self._mount = mount
+        self._azimuth_tolerance_deg = azimuth_tolerance_deg
+        self._elevation_tolerance_deg = elevation_tolerance_deg
+        self._track = Track()
+        self._way: Way | None = None
+        self._planned_s: float | None = None
+        self._routed_s: float | None = None
+        self.wanted = Aim(None, None)
+        """What was last asked for, as asked: the display's SAT."""
+
+    def forget(self, *, azimuth: bool = True, elevation: bool = True) -> None:
+        """Nothing is asked for any more, on these axes."""
+        self._track.clear()
+        self._way = None
+        kept = self.wanted
+        self.wanted = Aim(None if azimuth else kept.azimuth_deg, None if elevation else kept.elevation_deg)
+
+    def show(self, aim: Aim) -> None:
+        """Something is asked for that is not to be followed."""
+        self.forget()
+        self.wanted = aim
+
+    def aim(self, now_s: float, aim: Aim, azimuth_deg: float, elevation_deg: float) -> Goals:
+        """Goals for an order, with the antenna where it is. Raises Unreachable; then all is as it was."""
+        assert aim.azimuth_deg is not None, "every order that points has an azimuth"
+        again = self._way is not None and (aim.azimuth_deg, aim.elevation_deg) == (
+            self.wanted.azimuth_deg,
+            self.wanted.elevation_deg,
+        )
+        # The same order again: stay on the turn chosen, though the antenna has moved since.
+        near_deg = self._way.azimuth_deg if again and self._way is not None else azimuth_deg
+        axis_azimuth_deg, axis_elevation_deg = self._mount.axis_angles(aim.azimuth_deg, aim.elevation_deg, near_deg)
+        kept_deg = self.wanted.elevation_deg if aim.elevation_deg is None else aim.elevation_deg
+        self.wanted = Aim(aim.azimuth_deg, kept_deg)
+        self._planned_s = None
+        if aim.elevation_deg is None or axis_elevation_deg is None:
+            self._track.clear()
+            self._way = Way(axis_azimuth_deg, flipped=False)
+            return AimGoal(axis_azimuth_deg, self._standing_tolerance_deg(elevation_deg)), None
+        self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
+        moving = self._track.moving(now_s)
+        if self._way is not None and moving:
+            # On its way the antenna stays there, wherever it has got to.
+            flown_deg, _ = self._mount.on_the_way(
+                *_direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
+            )
+            self._way = Way(flown_deg, self._way.flipped)
+        elif not again:
+            self._way = Way(axis_azimuth_deg, axis_elevation_deg > ZENITH_DEG)
+        return self._standing(settled=not moving)
+
+    def raise_to(self, elevation_deg: float, azimuth_deg: float) -> AimGoal:
+        """The goal for an order of elevation alone, with azimuth where it is."""
+        self.wanted = Aim(self.wanted.azimuth_deg, elevation_deg)
+        return AimGoal(self._mount.clear_deg(azimuth_deg, elevation_deg), self._elevation_tolerance_deg)
+
+    def look_ahead(self, now_s: float, speeds: Speeds, *, had_path: bool) -> Goals | None:
+        """New goals where the target moves, or has stopped moving; None: the present ones hold."""
+        if self._way is None:
+            return None
+        if not self._track.moving(now_s):
+            return self._standing(settled=True) if had_path else None
+        if self._planned_s is not None and now_s - self._planned_s < PLAN_EVERY_S:
+            return None
+        self._planned_s = now_s
+        self._choose_way(now_s, speeds)
+        directions = [self._track.direction(now_s + offset_s) for offset_s in OFFSETS_S]
+        azimuths_deg, elevations_deg = [], []
+        azimuth_deg = self._way.azimuth_deg
+        for direction_az_deg, direction_el_deg in directions:
+            azimuth_deg, elevation_deg = self._mount.on_the_way(
+                direction_az_deg, direction_el_deg, azimuth_deg, flipped=self._way.flipped
+            )
+            kept_deg = self._mount.azimuth.nearest(azimuth_deg)
+            azimuths_deg.append(kept_deg)
+            elevations_deg.append(self._mount.clear_deg(kept_deg, elevation_deg))
+        weights = [max(LEAST_WEIGHT, math.cos(math.radians(el_deg))) ** 2 for _, el_deg in directions]
+        return (
+            AimGoal(azimuths_deg[0], self._azimuth_tolerance_deg, Path(now_s, azimuths_deg, weights)),
+            AimGoal(elevations_deg[0], self._elevation_tolerance_deg, Path(now_s, elevations_deg, EVEN)),
+        )
+
+    def _choose_way(self, now_s: float, speeds: Speeds) -> None:
+        assert self._way is not None
+        if self._track.age_s(now_s) < SURE_AFTER_S:
+            return
+        if self._routed_s is not None and now_s - self._routed_s < ROUTE_EVERY_S:
+            return
+        self._routed_s = now_s
+        directions = [self._track.direction(now_s)]
+        for look in range(1, LOOKS):
+            direction = self._track.direction(now_s + look * STEP_S)
+            if direction[1] < 0:
+                break
+            directions.append(direction)
+        # A program that flips itself has decided already.
+        may_flip = (self.wanted.elevation_deg or 0.0) <= ZENITH_DEG
+        self._way = best_way(self._mount, directions, self._way, speeds, may_flip=may_flip)
+
+    def _standing(self, *, settled: bool) -> Goals:
+        """Goals for the last order as it stands, on the way chosen; a target that has settled beyond the end of its
+        turn is worth going round for."""
+        wanted = self.wanted
+        assert self._way is not None
+        assert wanted.azimuth_deg is not None
+        if settled and self._mount.azimuth.nearest(self._way.azimuth_deg) != self._way.azimuth_deg:
+            near_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
+            axis_deg, raised_deg = self._mount.axis_angles(wanted.azimuth_deg, wanted.elevation_deg, near_deg)
+            flipped = self._way.flipped if raised_deg is None else raised_deg > ZENITH_DEG
+            self._way = Way(axis_deg, flipped)
+        way = self._way
+        if wanted.elevation_deg is None:
+            return AimGoal(self._mount.azimuth.nearest(way.azimuth_deg), self._azimuth_tolerance_deg), None
+        azimuth_deg, elevation_deg = self._mount.on_the_way(
+            *_direction(wanted.azimuth_deg, wanted.elevation_deg), way.azimuth_deg, flipped=way.flipped
+        )
+        azimuth_deg = self._mount.azimuth.nearest(azimuth_deg)
+        elevation_deg = self._mount.clear_deg(azimuth_deg, elevation_deg)
+        return (
+            AimGoal(azimuth_deg, self._standing_tolerance_deg(elevation_deg)),
+            AimGoal(elevation_deg, self._elevation_tolerance_deg),
+        )
+
+    def _standing_tolerance_deg(self, elevation_deg: float) -> float:
+        """The tolerance is on the sky: high up, a degree of azimuth moves the antenna less than a degree."""
+        weight = max(LEAST_WEIGHT, abs(math.cos(math.radians(elevation_deg))))
+        return self._azimuth_tolerance_deg / weight
+
+
+def _direction(azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
+    """An order past the zenith as the direction that it means."""
+    if elevation_deg > ZENITH_DEG:
+        return (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
+    return azimuth_deg, elevation_deg

@@ -1,0 +1,97 @@
+"""Which turn of the overlap, and whether over the top: the way of the antenna through the rest of a pass.
+
+Knows the target's path to where it sets, the ranges and the motors' speeds; a way that leaves the range, and a change
+from one way to another, cost the seconds in which the antenna points elsewhere. Knows nothing of steps, relays or
+sensors.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+
+from rotator.control.sky.angles import turn_deg
+from rotator.control.sky.mount import Mount
+
+STEP_S = 5.0
+"""The path is looked at this often; `LOOKS` times, or until the target sets."""
+LOOKS = 180
+LOST_DEG = 10.0
+"""Off by this much the antenna might as well point anywhere: a second here is a second lost."""
+WORTH_S = 5.0
+"""A change of way must save this much, or predictions that waver would make the antenna waver."""
+EQUAL_S = 2.0
+"""Moments for the change that differ by less are equally good, and the earliest is taken."""
+
+Direction = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """The axis azimuth that points at the target now, limits aside, and whether elevation goes past the zenith."""
+
+    azimuth_deg: float
+    flipped: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Speeds:
+    azimuth_dps: float
+    elevation_dps: float
+
+
+def best_way(mount: Mount, directions: Sequence[Direction], present: Way, speeds: Speeds, *, may_flip: bool) -> Way:
+    """The way to be on from now: the present one, or another if the best moment to change is now.
+
+    `directions`: where the target will be, `STEP_S` apart, from now to where it sets.
+    """
+    ways = [Way(present.azimuth_deg + turn, present.flipped) for turn in (-360.0, 360.0)]
+    if may_flip and mount.flip:
+        ways += [Way(present.azimuth_deg + turn, not present.flipped) for turn in (-180.0, 180.0)]
+    here = _Flown(mount, directions, present)
+    best_s, change = here.lost_s[-1] - WORTH_S, None
+    plans = []
+    for way in ways:
+        there = _Flown(mount, directions, way)
+        plans += [(there.lost_after_change_s(here, look, speeds), look, way) for look in range(len(directions))]
+    if plans:
+        least_s = min(plan[0] for plan in plans)
+        if least_s < best_s:
+            change = min((plan for plan in plans if plan[0] <= least_s + EQUAL_S), key=lambda plan: (plan[1], plan[0]))
+    return change[2] if change is not None and change[1] == 0 else present
+
+
+class _Flown:
+    """A way flown to the end: where the axes are, and the seconds lost up to each look."""
+
+    def __init__(self, mount: Mount, directions: Sequence[Direction], way: Way) -> None:
+        self.azimuths_deg: list[float] = []
+        self.elevations_deg: list[float] = []
+        losses_s = [0.0]
+        azimuth_deg, before_deg = way.azimuth_deg, directions[0][0]
+        for direction_deg, elevation_deg in directions:
+            azimuth_deg += turn_deg(before_deg, direction_deg)
+            before_deg = direction_deg
+            axis_el_deg = 180.0 - elevation_deg if way.flipped else elevation_deg
+            kept_az_deg, kept_el_deg = mount.azimuth.nearest(azimuth_deg), mount.elevation.nearest(axis_el_deg)
+            off_deg = math.hypot(
+                min(abs(azimuth_deg - kept_az_deg), 90.0) * math.cos(math.radians(elevation_deg)),
+                max(0.0, abs(axis_el_deg - kept_el_deg) - max(0.0, -elevation_deg)),
+            )
+            losses_s.append(min(1.0, off_deg / LOST_DEG) ** 2 * STEP_S)
+            self.azimuths_deg.append(kept_az_deg)
+            self.elevations_deg.append(kept_el_deg)
+        self.lost_s = list(accumulate(losses_s))
+
+    def lost_after_change_s(self, before: _Flown, look: int, speeds: Speeds) -> float:
+        """Seconds lost in all, if the antenna changes from `before` to this way at that look."""
+        travel_s = max(
+            abs(self.azimuths_deg[look] - before.azimuths_deg[look]) / speeds.azimuth_dps,
+            abs(self.elevations_deg[look] - before.elevations_deg[look]) / speeds.elevation_dps,
+        )
+        arrival = min(look + math.ceil(travel_s / STEP_S), len(self.lost_s) - 1)
+        # A change that the end of the pass cuts short costs no more than what was left of the pass.
+        spent_s = min(travel_s, (arrival - look) * STEP_S)
+        return before.lost_s[look] + spent_s + self.lost_s[-1] - self.lost_s[arrival]

@@ -1,0 +1,168 @@
+"""Where the target is going: its path over the next minute, from the degrees that arrive once a second.
+
+Knows directions ordered and when. A satellite flies past in nearly a straight line, and a straight line in space,
+projected onto the plane that touches the sky at the target (gnomonic), is x(s) = (a + b s) / (1 + g s) for both
+coordinates with one g: five numbers, fitted to the last minute's orders by least squares. That tells the direction now
+to 0.2 degrees and in 40 seconds to 1.2 (real passes, whole degrees). Orders with decimals need less averaging: then a
+few seconds tell, and the rest of the line, which the earth's turning bends a little, is left out. Knows nothing of
+axes, motors or tolerances.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Sequence
+
+from rotator.control.sky.angles import great_circle_deg
+
+MEMORY_S = {1.0: 25.0, 0.1: 8.0, 0.01: 4.0}
+"""By what orders are rounded to: their weight falls by e in this time. Longer averages the rounding better, shorter
+bends more easily."""
+KEPT_S = 4 * max(MEMORY_S.values())
+THIN_S = 0.4
+"""Orders that come faster tell no more: of those within this time the latest counts."""
+REFIT_S = 0.2
+LEAST_ORDERS = 4
+LONGEST_GAP_S = 5.0
+"""Orders further apart are no stream: each is a place of its own."""
+LEAST_TRAVEL = 1.0
+"""Orders that differ by less than this share of their rounding may be one standing target, rounded two ways."""
+LARGEST_SURPRISE_DEG = 4.0
+"""An order further than this from where the path led is a new target."""
+COASTING_S = 3.0
+"""Without new orders the target goes on this long; then the last order stands."""
+
+_SIDEWAYS_PRIOR = 1e-3
+_APPROACH_PRIOR = 0.3
+"""How strongly, in orders of whole degrees, the fit holds to `not coming nearer` while there is little to go by."""
+_LEAST_FACING = 0.3
+"""Cosine beyond which the touching plane says nothing."""
+
+Vector = tuple[float, float, float]
+
+
+class Track:
+    def __init__(self) -> None:
+        self._orders: deque[tuple[float, float, float]] = deque()
+        self._fit: _Fit | None = None
+
+    def clear(self) -> None:
+        self._orders.clear()
+        self._fit = None
+
+    def note(self, now_s: float, azimuth_deg: float, elevation_deg: float) -> None:
+        """An order for this direction arrived."""
+        if self._orders:
+            expected_deg = self.direction(now_s)
+            surprised = great_circle_deg(*expected_deg, azimuth_deg, elevation_deg) > LARGEST_SURPRISE_DEG
+            if surprised or now_s - self._orders[-1][0] > LONGEST_GAP_S:
+                self.clear()
+            elif now_s <= self._orders[-1][0] or (len(self._orders) > 1 and now_s - self._orders[-2][0] < THIN_S):
+                self._orders.pop()
+        self._orders.append((now_s, azimuth_deg, elevation_deg))
+        while self._orders[0][0] < now_s - KEPT_S:
+            self._orders.popleft()
+        if not self._is_stream():
+            self._fit = None
+        elif self._fit is None or now_s - self._fit.at_s >= REFIT_S:
+            self._fit = _Fit(self._orders, _grain_deg(self._orders))
+
+    def moving(self, now_s: float) -> bool:
+        """Whether there is a path; else the last order is where the target stands."""
+        return self._fit is not None and now_s - self._orders[-1][0] <= COASTING_S
+
+    def age_s(self, now_s: float) -> float:
+        """How long the stream has lasted; 0 without one."""
+        return now_s - self._orders[0][0] if self._fit is not None else 0.0
+
+    def direction(self, at_s: float) -> tuple[float, float]:
+        """Azimuth and elevation at a moment, now or to come. There must have been an order."""
+        if self._fit is None:
+            _, azimuth_deg, elevation_deg = self._orders[-1]
+            return azimuth_deg, elevation_deg
+        return self._fit.direction(at_s)
+
+    def _is_stream(self) -> bool:
+        if len(self._orders) < LEAST_ORDERS:
+            return False
+        first, last = self._orders[0], self._orders[-1]
+        return great_circle_deg(*first[1:], *last[1:]) >= LEAST_TRAVEL * max(_grain_deg(self._orders), 0.1)
+
+
+class _Fit:
+    """The line through space that fits the orders, seen from the last one; they are rounded to `grain_deg`."""
+
+    def __init__(self, orders: Sequence[tuple[float, float, float]], grain_deg: float) -> None:
+        memory_s = MEMORY_S[grain_deg]
+        last_s, azimuth_deg, elevation_deg = orders[-1]
+        self.at_s = last_s
+        az, el = math.radians(azimuth_deg), math.radians(elevation_deg)
+        # The plane touches the sky at the last order; its axes point along growing azimuth and growing elevation.
+        self._ahead = _unit(azimuth_deg, elevation_deg)
+        self._right: Vector = (math.cos(az), -math.sin(az), 0.0)
+        self._up: Vector = (-math.sin(el) * math.sin(az), -math.sin(el) * math.cos(az), math.cos(el))
+        matrix = [[0.0] * 5 for _ in range(5)]
+        side = [0.0] * 5
+        for at_s, order_az_deg, order_el_deg in orders:
+            seen = _unit(order_az_deg, order_el_deg)
+            facing = _dot(seen, self._ahead)
+            if facing < _LEAST_FACING:
+                continue
+            s = at_s - last_s
+            weight = math.exp(s / memory_s) * facing * facing
+            x, y = _dot(seen, self._right) / facing, _dot(seen, self._up) / facing
+            # x (1 + g s) = a + b s, and the same for y: linear in the five unknowns a, b, c, d, g.
+            for row, value in (((1.0, s, 0.0, 0.0, -s * x), x), ((0.0, 0.0, 1.0, s, -s * y), y)):
+                for i in range(5):
+                    if row[i]:
+                        side[i] += weight * row[i] * value
+                        for j in range(5):
+                            matrix[i][j] += weight * row[i] * row[j]
+        for i, prior in ((1, _SIDEWAYS_PRIOR), (3, _SIDEWAYS_PRIOR), (4, _APPROACH_PRIOR)):
+            # The finer the orders, the less is believed in advance: as errors do, it goes with the square.
+            matrix[i][i] += prior * grain_deg * grain_deg
+        self._a, self._b, self._c, self._d, self._g = _solve(matrix, side)
+
+    def direction(self, at_s: float) -> tuple[float, float]:
+        s = at_s - self.at_s
+        x, y, z = self._a + self._b * s, self._c + self._d * s, 1.0 + self._g * s
+        east, north, up = (
+            x * right + y * upward + z * ahead
+            for right, upward, ahead in zip(self._right, self._up, self._ahead, strict=True)
+        )
+        return math.degrees(math.atan2(east, north)) % 360.0, math.degrees(math.atan2(up, math.hypot(east, north)))
+
+
+def _grain_deg(orders: Sequence[tuple[float, float, float]]) -> float:
+    """What the latest orders are rounded to: whole degrees, tenths or finer."""
+    angles_deg = [angle for order in list(orders)[-LEAST_ORDERS:] for angle in order[1:]]
+    for grain_deg in (1.0, 0.1):
+        if all(abs(angle / grain_deg - round(angle / grain_deg)) < 1e-6 for angle in angles_deg):
+            return grain_deg
+    return 0.01
+
+
+def _unit(azimuth_deg: float, elevation_deg: float) -> Vector:
+    az, el = math.radians(azimuth_deg), math.radians(elevation_deg)
+    return math.cos(el) * math.sin(az), math.cos(el) * math.cos(az), math.sin(el)
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _solve(matrix: list[list[float]], side: list[float]) -> list[float]:
+    """Gauss elimination; the priors and the many orders keep the matrix positive definite, so no pivots are needed."""
+    size = len(side)
+    for i in range(size):
+        for row in range(i + 1, size):
+            factor = matrix[row][i] / matrix[i][i]
+            for column in range(i, size):
+                matrix[row][column] -= factor * matrix[i][column]
+            side[row] -= factor * side[i]
+    solution = [0.0] * size
+    for i in reversed(range(size)):
+        known = sum(matrix[i][j] * solution[j] for j in range(i + 1, size))
+        solution[i] = (side[i] - known) / matrix[i][i]
+    return solution

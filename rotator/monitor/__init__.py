@@ -1,0 +1,1 @@
+"""What goes over the links, copied for a person to read."""

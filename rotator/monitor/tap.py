@@ -1,0 +1,139 @@
+"""Every byte that a session hears and says, told to whoever watches; the session does not notice.
+
+Knows sessions and inquiries by their shape, whose they are, and the form of a transcript. Knows no socket and no file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from datetime import datetime
+
+from rotator import __version__
+from rotator.monitor.transcript import At, LinkNote, Way, encode_at, encode_link, encode_piece
+from rotator.orders import Source
+from rotator.protocols.session import Inquiry, Session
+from rotator.status import Status
+
+MOVED_DEG = 1.0
+MOVED_EVERY_S = 1.0
+
+
+class Tape:
+    """Makes lines of what goes over the links, and hands each to `listeners`. Costs nothing while there are none.
+
+    `clock` is the time of day. Whose orders the antenna obeys is told when that changes; where it points with it, and
+    while it turns once a second. `status` may be asked only where there are listeners.
+    """
+
+    def __init__(self, clock: Callable[[], datetime], status: Callable[[], Status]) -> None:
+        self.listeners: list[Callable[[str], None]] = []
+        self.on_data: Callable[[], None] = lambda: None
+        """Called when something has come over a link."""
+        self._clock = clock
+        self._status = status
+        self._links: list[LinkNote] = []
+        self._day = ""
+        self._at: At | None = None
+        self._at_told = datetime.min
+
+    def link(self, name: str, keys: Mapping[str, object]) -> None:
+        """A link that there is: said to every listener first."""
+        self._links.append(LinkNote(name, keys))
+
+    def greeting(self) -> list[str]:
+        """What a new listener must know first."""
+        moment, at = self._clock(), self._where()
+        if not self.listeners:
+            self._at, self._at_told = at, moment
+        lines = [f"# rotator {__version__}, {moment:%Y-%m-%d}", *map(encode_link, self._links)]
+        return [*lines, encode_at(at)] if at else lines
+
+    def note(self, source: Source, way: Way, data: bytes, *, text: bool) -> None:
+        if data and way is Way.IN:
+            self.on_data()
+        if not self.listeners or not data:
+            return
+        moment = self._clock()
+        for line in (*self._changes(moment), encode_piece(moment, source, way, data, text=text)):
+            for listener in list(self.listeners):
+                listener(line)
+
+    def _changes(self, moment: datetime) -> list[str]:
+        lines = []
+        day = f"{moment:%Y-%m-%d}"
+        if self._day not in ("", day):
+            lines.append(f"# {day}")
+        self._day = day
+        at = self._where()
+        if at and self._is_news(at, moment):
+            self._at, self._at_told = at, moment
+            lines.append(encode_at(at))
+        return lines
+
+    def _where(self) -> At | None:
+        status = self._status()
+        azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
+        if azimuth_deg is None or elevation_deg is None:
+            return None
+        return At(azimuth_deg, elevation_deg, status.controlled_by)
+
+    def _is_news(self, at: At, moment: datetime) -> bool:
+        if self._at is None or at.under != self._at.under:
+            return True
+        moved_deg = max(
+            abs(at.azimuth_deg - self._at.azimuth_deg),
+            abs(at.elevation_deg - self._at.elevation_deg),
+        )
+        return moved_deg >= MOVED_DEG and (moment - self._at_told).total_seconds() >= MOVED_EVERY_S
+
+
+class Overheard:
+    """A session, and `tape` has every byte of it. `text`: its bytes are characters."""
+
+    def __init__(self, session: Session, tape: Tape, source: Source, *, text: bool = True) -> None:
+        self._session = session
+        self._tape = tape
+        self._source = source
+        self._text = text
+
+    @property
+    def idle_s(self) -> float | None:
+        return self._session.idle_s
+
+    @property
+    def closed(self) -> bool:
+        return self._session.closed
+
+    def receive(self, data: bytes) -> list[bytes]:
+        self._tape.note(self._source, Way.IN, data, text=self._text)
+        return self._said(self._session.receive(data))
+
+    def idle(self) -> list[bytes]:
+        return self._said(self._session.idle())
+
+    def _said(self, replies: list[bytes]) -> list[bytes]:
+        for reply in replies:
+            self._tape.note(self._source, Way.OUT, reply, text=self._text)
+        return replies
+
+
+class OverheardInquiry:
+    """The same of an inquiry: here the box speaks first."""
+
+    def __init__(self, inquiry: Inquiry, tape: Tape, source: Source) -> None:
+        self._inquiry = inquiry
+        self._tape = tape
+        self._source = source
+
+    @property
+    def trouble(self) -> str:
+        return self._inquiry.trouble
+
+    def ask(self) -> bytes:
+        question = self._inquiry.ask()
+        self._tape.note(self._source, Way.OUT, question, text=True)
+        return question
+
+    def receive(self, data: bytes) -> bool:
+        self._tape.note(self._source, Way.IN, data, text=True)
+        return self._inquiry.receive(data)

@@ -1,0 +1,1 @@
+"""The reference pages of the protocols, made from their command tables."""

@@ -1,0 +1,1 @@
+"""A pass flown against the simulated rotor in simulated time."""

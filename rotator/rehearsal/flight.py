@@ -1,0 +1,198 @@
+"""Flies a satellite pass in simulated time: orders through the protocol, the real drivers on simulated chips.
+
+Knows how to set a station going on a simulated clock and what to note of it. Decides nothing about pointing; it is part
+of the composition root, for the same parts under another clock.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Protocol
+
+from firmware_sim.clock import SimClock
+from firmware_sim.rotors.rotor import SimRotor
+from rotator.assembly.settings import build_controller, build_mount, build_offsets
+from rotator.assembly.simulation import arduino_station
+from rotator.assembly.station import Station
+from rotator.config.model import Config
+from rotator.control.sky.angles import great_circle_deg
+from rotator.orders import Order, Source
+from rotator.protocols.gs232 import Command, Dialect, encode
+from rotator.protocols.gs232_session import Gs232Session
+from rotator.protocols.rotctld import Request
+from rotator.protocols.rotctld import encode as encode_request
+from rotator.protocols.rotctld_session import RotctldSession
+from rotator.protocols.session import Session
+from rotator.rehearsal.passes import Pass
+from rotator.runtime.client import Door
+from rotator.runtime.loop import ControlLoop
+from rotator.status import Status
+
+SAMPLE_S = 0.05
+SETTLING_S = 5.0
+"""Errors count from here on: the antenna has to get going first."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """One row of the trace. Target: the true pass; antenna: where the boom points; drives: -1, 0, 1."""
+
+    t: float
+    target_az: float
+    target_el: float
+    antenna_az: float
+    antenna_el: float
+    az_drive: int
+    el_drive: int
+
+    @property
+    def error_deg(self) -> float:
+        return great_circle_deg(self.target_az, self.target_el, self.antenna_az, self.antenna_el)
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """Great-circle error between target and antenna while the satellite is up, and what it cost."""
+
+    rms_deg: float
+    p95_deg: float
+    max_deg: float
+    relay_starts: int | None
+    motor_s: float
+
+    def as_dict(self) -> dict[str, float | int | None]:
+        return {key: round(value, 3) if isinstance(value, float) else value for key, value in asdict(self).items()}
+
+
+class Plant(Protocol):
+    """What a rehearsal needs of whatever flies it."""
+
+    def order(self, azimuth_deg: float, elevation_deg: float) -> None: ...
+
+    def run_until(self, moment_s: float) -> None: ...
+
+    def look(self) -> tuple[float, float, int, int]:
+        """Boom azimuth and elevation, azimuth and elevation drive."""
+
+    def relay_starts(self) -> int | None:
+        """None: it has no relays."""
+
+
+class BoxPlant:
+    """The product, from its protocol to its relays, on a simulated station."""
+
+    def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float], via: str) -> None:
+        self._clock = clock
+        self._period_s = 1 / config.control.rate_hz
+        self._shift = build_offsets(config)
+        start_deg = (start_deg[0] - self._shift.azimuth_deg, start_deg[1] - self._shift.elevation_deg)
+        station = Station(config, clock, clock.sleep, start_deg, add_alarm=clock.add_alarm)
+        assert station.world is not None, "a rehearsal is always simulated"
+        self.world: SimRotor = station.world
+        self._loop = ControlLoop(build_controller(config), station.rotor, clock, self._period_s)
+        door = Door(self._loop, build_mount(config), Source(via), clock=clock)
+        self._session: Session = RotctldSession(door) if via == "rotctld" else Gs232Session(door, Dialect.B)
+        self._encode = _rotctld_order if via == "rotctld" else _gs232_order
+
+    @property
+    def status(self) -> Status:
+        return self._loop.status
+
+    def post(self, source: Source, order: Order) -> None:
+        """An order past the protocol, from the console for one."""
+        self._loop.post(source, order)
+
+    def order(self, azimuth_deg: float, elevation_deg: float) -> None:
+        self._session.receive(self._encode(azimuth_deg, elevation_deg))
+
+    def run_until(self, moment_s: float) -> None:
+        first, last = (math.ceil(at_s / self._period_s - 1e-9) for at_s in (self._clock(), moment_s + self._period_s))
+        for count in range(first, last):
+            self._clock.sleep_until(count * self._period_s)
+            self._loop.cycle()
+
+    def look(self) -> tuple[float, float, int, int]:
+        # The simulated boom is on the rotor's own scale; mounted askew, it points that much beside.
+        azimuth_deg, elevation_deg = self.world.antenna()
+        drives = self.world.drives()
+        if self.world.relay_starts is None:
+            drives = int(self.status.azimuth.drive), int(self.status.elevation.drive)
+        return azimuth_deg + self._shift.azimuth_deg, elevation_deg + self._shift.elevation_deg, *drives
+
+    def relay_starts(self) -> int | None:
+        return self.world.relay_starts
+
+
+class ArduinoPlant:
+    """The emulated Arduino that the product replaces, with motors and ranges from the same configuration."""
+
+    def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float]) -> None:
+        self._station = arduino_station(config, clock, clock.sleep, start_deg)
+
+    def order(self, azimuth_deg: float, elevation_deg: float) -> None:
+        self._station.host_send(_gs232_order(azimuth_deg, elevation_deg))
+
+    def run_until(self, moment_s: float) -> None:
+        self._station.run_until(moment_s)
+
+    def look(self) -> tuple[float, float, int, int]:
+        boom = self._station.antenna()
+        return boom.azimuth_deg, boom.elevation_deg, *self._station.drives()
+
+    def relay_starts(self) -> int:
+        return self._station.relay_starts
+
+
+def plant_maker(config: Config, *, via: str = "gs232", arduino: bool = False) -> Callable[[SimClock, Pass], Plant]:
+    """How to build what flies: given the clock and the pass, at whose first azimuth the rotor waits, horizontal."""
+
+    def make(clock: SimClock, flown: Pass) -> Plant:
+        start_deg = (flown.rows[0][1], 0.0)
+        return ArduinoPlant(config, clock, start_deg) if arduino else BoxPlant(config, clock, start_deg, via)
+
+    return make
+
+
+def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Sample], Summary]:
+    """Fly the pass: an order a second, as a tracking program sends them. Returns the trace and its summary."""
+    clock = SimClock()
+    plant = make(clock, flown)
+    trace: list[Sample] = []
+    started_s = clock()
+
+    def sample(now_s: float) -> None:
+        t_s = now_s - started_s
+        target_az_deg, target_el_deg = flown.at(t_s)
+        trace.append(Sample(t_s, target_az_deg, target_el_deg, *plant.look()))
+
+    def order(now_s: float) -> None:
+        azimuth_deg, elevation_deg = flown.at(now_s - started_s)
+        plant.order(azimuth_deg, max(0.0, elevation_deg))
+
+    clock.every(SAMPLE_S, sample)
+    clock.every(1.0, order)
+    plant.run_until(flown.end_s)
+    return trace, summarise(trace, plant.relay_starts())
+
+
+def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:
+    errors = sorted(sample.error_deg for sample in trace if sample.t >= SETTLING_S and sample.target_el >= 0)
+    if not errors:
+        errors = [0.0]
+    return Summary(
+        rms_deg=math.sqrt(sum(error * error for error in errors) / len(errors)),
+        p95_deg=errors[min(len(errors) - 1, math.ceil(0.95 * len(errors)) - 1)],
+        max_deg=errors[-1],
+        relay_starts=relay_starts,
+        motor_s=sum(abs(sample.az_drive) + abs(sample.el_drive) for sample in trace) * SAMPLE_S,
+    )
+
+
+def _gs232_order(azimuth_deg: float, elevation_deg: float) -> bytes:
+    return encode(Command("W", azimuth_deg, elevation_deg))
+
+
+def _rotctld_order(azimuth_deg: float, elevation_deg: float) -> bytes:
+    return encode_request(Request("set_pos", (f"{azimuth_deg:.2f}", f"{elevation_deg:.2f}")))

@@ -1,0 +1,1 @@
+"""The threads of the running box and what they share."""

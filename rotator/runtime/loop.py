@@ -1,0 +1,227 @@
+"""The control loop: reads the sensors, steps the controller, commands the drive. The only reader of the clock.
+
+Knows when to do what. Decides nothing: that is the controller's. Owns the rotor; nobody else touches it, but
+for the guard, which may open relays at any time. Sensors are read in a thread of their own, so that neither
+a slow bus nor one that hangs keeps an order waiting or a stale reading from being noticed.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+
+from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from rotator.control.axis.sensing import Reading
+from rotator.control.controller import Controller
+from rotator.orders import Jog, Order, Source
+from rotator.rotors.port import Rotor
+from rotator.runtime.log_limit import Seldom
+from rotator.status import Status
+
+log = logging.getLogger(__name__)
+
+LATE_PERIODS = 1.5
+"""Without news from the sensors for this long the loop goes on all the same, and notices that they are silent."""
+JOIN_S = 1.0
+
+
+class ControlLoop:
+    """`post` and `status` may be used from any thread; the rest belongs to one: `run`'s, or a rehearsal's."""
+
+    def __init__(
+        self,
+        controller: Controller,
+        rotor: Rotor,
+        clock: Callable[[], float],
+        period_s: float,
+        *,
+        after_good_step: Callable[[], None] = lambda: None,
+    ) -> None:
+        self._controller = controller
+        self._after_good_step = after_good_step
+        self._rotor = rotor
+        self._clock = clock
+        self._period_s = period_s
+        self._inbox: list[tuple[Source, Order, bool]] = []
+        self._inbox_lock = threading.Lock()
+        self._wake = threading.Event()
+        self._pause = threading.Event()
+        self._stopping = False
+        self._failure: Exception | None = None
+        self._readings: dict[Axis, Reading] = {}
+        self._troubles: dict[str, str] = {}
+        self._must_obey = ("supply", *(f"{axis.value} drive" for axis in Axis))
+        self._late_s = 0.0
+        self._supply_cut = False
+        self._noticed: dict[Axis, tuple[str, ...]] = dict.fromkeys(Axis, ())
+        self._movers = Seldom(clock)
+        self.status: Status = controller.status(clock(), dict.fromkeys(Axis, Direction.OFF))
+        """The latest status; replaced whole, never changed."""
+
+    def post(self, source: Source, order: Order, *, can_wait: bool = False) -> None:
+        """Hand over an order; it takes effect at once, not at the next cycle.
+
+        One that `can_wait` does so until the next cycle, and takes the place of those of its kind from the same source
+        that wait as well: so many of them cost little, and the newest wins.
+        """
+        with self._inbox_lock:
+            if can_wait:
+                kind = _kind(order)
+                self._inbox = [
+                    (whose, each, waits)
+                    for whose, each, waits in self._inbox
+                    if not (waits and whose == source and _kind(each) == kind)
+                ]
+            self._inbox.append((source, order, can_wait))
+        if not can_wait:
+            self._wake.set()
+
+    def cycle(self) -> None:
+        """Read every sensor, then act. For whoever runs the loop in one thread, in simulated time."""
+        self._read_all()
+        self.act()
+
+    def act(self) -> None:
+        """Take the orders that have come, decide, drive, tell. With the readings as they are."""
+        with self._inbox_lock:
+            posted, self._inbox = self._inbox, []
+        orders = [(source, order) for source, order, _ in posted]
+        now_s = self._clock()
+        before = self.status
+        commands = self._controller.step(now_s, dict(self._readings), orders)
+        driven = dict.fromkeys(Axis, Direction.OFF)
+        self._run_errands()
+        for axis, command in commands.items():
+            try:
+                driven[axis] = self._rotor.obey(axis, command)
+                self._trouble(f"{axis.value} drive", "")
+            except HardwareError as fault:
+                self._trouble(f"{axis.value} drive", str(fault))
+        self.status = self._controller.status(now_s, driven, self._late_s)
+        self._switch_supply()
+        self._tell(before)
+        self._sign_of_life()
+
+    def _run_errands(self) -> None:
+        for errand in self._controller.errands:
+            try:
+                self._rotor.run(errand)
+            except HardwareError as fault:
+                log.error("%s", fault)
+        self._controller.errands.clear()
+
+    def _sign_of_life(self) -> None:
+        """Told to whoever would switch the motors off without it. Not where a relay may not have obeyed."""
+        if any(self._troubles.get(what) for what in self._must_obey):
+            return
+        try:
+            self._after_good_step()
+            self._trouble("heartbeat", "")
+        except HardwareError as fault:
+            self._trouble("heartbeat", str(fault))
+
+    def _switch_supply(self) -> None:
+        """Off where a fault asks for it, tried until it is; back when the fault has been acknowledged."""
+        if self.status.cut == self._supply_cut:
+            return
+        try:
+            if self.status.cut:
+                self._rotor.cut()
+            else:
+                self._rotor.restore()
+            self._supply_cut = self.status.cut
+            self._trouble("supply", "")
+        except HardwareError as fault:
+            self._trouble("supply", str(fault))
+
+    def run(self) -> None:
+        """Act on every round of readings and on every order until `stop`. Relays are off when this returns."""
+        reader = threading.Thread(target=self._keep_reading, name="sensors", daemon=True)
+        try:
+            reader.start()
+            while not self._stopping:
+                asked_s = self._clock()
+                self._wake.wait(self._period_s * LATE_PERIODS)
+                self._wake.clear()
+                if self._stopping:
+                    break
+                self._late_s = max(0.0, self._clock() - asked_s - self._period_s)
+                self.act()
+                if self._failure is not None:
+                    raise self._failure
+        finally:
+            try:
+                self._rotor.off()
+            finally:
+                self.stop()
+                # A bus that hangs holds the thread; it is left behind, for it cannot move anything.
+                reader.join(timeout=JOIN_S)
+
+    def stop(self) -> None:
+        self._stopping = True
+        self._pause.set()
+        self._wake.set()
+
+    def _keep_reading(self) -> None:
+        try:
+            due_s = self._clock()
+            while not self._stopping:
+                self._read_all()
+                self._wake.set()
+                # Fallen behind, it goes on from now: a burst of readings to catch up would help nobody.
+                due_s = max(due_s + self._period_s, self._clock())
+                self._pause.wait(due_s - self._clock())
+        except Exception as failure:
+            # Whatever it is, the control thread stops the motors and tells.
+            self._failure = failure
+            self._wake.set()
+
+    def _read_all(self) -> None:
+        for axis, sensor in self._rotor.sensors.items():
+            self._readings[axis] = self._read(axis, sensor)
+
+    def _read(self, axis: Axis, sensor: AngleSensor) -> Reading:
+        try:
+            raw = sensor.read()
+        except HardwareError as fault:
+            self._trouble(axis.value, str(fault))
+            return Reading(self._clock(), None, str(fault), self._rotor.condition(axis))
+        self._trouble(axis.value, "")
+        return Reading(self._clock(), raw, condition=self._rotor.condition(axis))
+
+    def _trouble(self, what: str, text: str) -> None:
+        """Log a trouble once when it comes and once when it goes."""
+        if text == self._troubles.get(what, ""):
+            return
+        self._troubles[what] = text
+        if text:
+            log.error("%s: %s", what, text)
+        else:
+            log.warning("%s: answers again", what)
+
+    def _tell(self, before: Status) -> None:
+        for text in self._controller.troubles:
+            log.warning("%s", text)
+        self._controller.troubles.clear()
+        for fault in self.status.faults:
+            if fault not in before.faults:
+                log.log(logging.WARNING if fault.passing else logging.ERROR, "FAULT %s", fault)
+        mover = self.status.controlled_by
+        if mover and mover != before.controlled_by and (told := self._movers.tell(f"{mover} moves the antenna")):
+            log.info("%s", told)
+        if before.faults and not self.status.faults:
+            passed = all(fault.passing for fault in before.faults)
+            log.warning("no fault any more" if passed else "faults acknowledged")
+        for axis in Axis:
+            for notice in self.status.axis(axis).notices:
+                if notice not in self._noticed[axis]:
+                    log.warning("%s: %s", axis.value, notice)
+            self._noticed[axis] = self.status.axis(axis).notices
+        if self.status.latched != before.latched:
+            log.warning(f"stopped by {self.status.latched} until released" if self.status.latched else "released")
+
+
+def _kind(order: Order) -> object:
+    """Two orders of one kind: the later one alone is left to do."""
+    return (Jog, order.axis) if isinstance(order, Jog) else type(order)

@@ -1,0 +1,284 @@
+"""Whether an axis does what its relays tell it: readings and relays by hand, at 20 Hz, with and without noise."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.motion import Motor
+from rotator.control.axis.motion_watch import CUT_BY_HAND, MotionWatch
+from rotator.control.sky.mount import Range
+from rotator.status import Fault
+
+MINUS, OFF, PLUS = Direction
+STEP_S = 0.05
+NOISES_DEG = pytest.mark.parametrize("noise_deg", [0.0, 0.1, 0.4])
+SPEEDS_DPS = pytest.mark.parametrize("speed_dps", [0.5, 2.7, 6.0, 60.0])
+BOTH_WAYS = pytest.mark.parametrize("way", [PLUS, MINUS], ids=["plus", "minus"])
+
+
+class Bench:
+    """A watched azimuth axis. What it really does is up to the test: it turns as fast as it is told to."""
+
+    def __init__(
+        self, speed_dps: float = 6.0, noise_deg: float = 0.1, *, master: bool = False, at_deg: float = 200.0
+    ) -> None:
+        motor = Motor(speed_dps, speed_dps * 0.15)
+        self.watch = MotionWatch(Axis.AZIMUTH, Range(0.0, 450.0), {PLUS: motor, MINUS: motor}, master=master)
+        self.speed_dps = speed_dps
+        self.now_s = 1000.0
+        self.angle_deg = at_deg
+        self._noise_deg = noise_deg
+        self._chance = random.Random(7)
+        self.pass_by(2.0)
+
+    def read(self, off_deg: float = 0.0) -> Fault | None:
+        self.now_s += STEP_S
+        return self.watch.see(self.now_s, self.angle_deg + off_deg + self._chance.gauss(0.0, self._noise_deg))
+
+    def pass_by(self, seconds: float, dps: float = 0.0) -> Fault | None:
+        """Turn that fast for so long, or until there is a fault."""
+        for _ in range(round(seconds / STEP_S)):
+            self.angle_deg += dps * STEP_S
+            fault = self.read()
+            if fault is not None:
+                return fault
+        return None
+
+    def time_to_fault(self, seconds: float, dps: float = 0.0) -> tuple[str, float]:
+        began_s = self.now_s
+        fault = self.pass_by(seconds, dps)
+        return (fault.name if fault else "", self.now_s - began_s)
+
+    def drive(self, way: Direction) -> None:
+        self.watch.driven(self.now_s, way)
+
+    def run(self, way: Direction, seconds: float) -> Fault | None:
+        """Drive it, and let it turn as it should."""
+        self.drive(way)
+        return self.pass_by(seconds, way * self.speed_dps)
+
+    def end_run(self) -> Fault | None:
+        self.drive(OFF)
+        return self.pass_by(0.15, 0.0)
+
+
+# --- nothing is wrong
+
+
+@NOISES_DEG
+@SPEEDS_DPS
+def test_runs_and_rests_are_no_fault(speed_dps: float, noise_deg: float) -> None:
+    bench = Bench(speed_dps, noise_deg)
+    for way in (PLUS, PLUS, MINUS, PLUS, MINUS, MINUS):
+        assert bench.run(way, min(10.0, 100.0 / speed_dps)) is None
+        assert bench.end_run() is None
+        assert bench.pass_by(3.0) is None
+        assert bench.watch.notices == ()
+
+
+@SPEEDS_DPS
+def test_a_motor_said_to_be_faster_or_slower_than_it_is_may_run(speed_dps: float) -> None:
+    bench = Bench(6.0)
+    for way in (PLUS, MINUS):
+        bench.drive(way)
+        assert bench.pass_by(min(60.0, 100.0 / speed_dps), way * speed_dps) is None
+        assert bench.end_run() is None
+
+
+@NOISES_DEG
+def test_a_day_of_standing_is_quiet(noise_deg: float) -> None:
+    bench = Bench(2.7, noise_deg)
+    assert bench.pass_by(3600.0) is None
+    assert bench.watch.notices == ()
+
+
+@pytest.mark.parametrize("way", [OFF, PLUS])
+def test_one_spark_is_nothing(way: Direction) -> None:
+    bench = Bench()
+    bench.run(way, 3.0)
+    for _ in range(10):
+        assert bench.read(off_deg=90.0) is None
+        assert bench.pass_by(0.5, way * 6.0) is None
+    assert bench.watch.notices == ()
+
+
+def test_an_axis_that_is_suddenly_elsewhere_is_watched_there() -> None:
+    bench = Bench()
+    bench.angle_deg = 20.0
+    assert bench.pass_by(5.0) is None
+    assert bench.watch.notices == ()
+    bench.drive(PLUS)
+    assert bench.time_to_fault(5.0)[0] == "motor runs and pot stands still"
+
+
+# --- driven, and it stands
+
+
+@NOISES_DEG
+@SPEEDS_DPS
+@BOTH_WAYS
+def test_a_motor_that_does_not_start(speed_dps: float, noise_deg: float, way: Direction) -> None:
+    bench = Bench(speed_dps, noise_deg)
+    bench.drive(way)
+    name, after_s = bench.time_to_fault(4.0)
+    assert name == "motor runs and pot stands still"
+    assert after_s <= (2.0 if noise_deg < 0.4 else 2.4)
+
+
+@pytest.mark.parametrize(("speed_dps", "noise_deg"), [(0.5, 0.1), (2.7, 0.4), (6.0, 0.4), (60.0, 0.4)])
+def test_a_motor_that_gets_stuck(speed_dps: float, noise_deg: float) -> None:
+    bench = Bench(speed_dps, noise_deg, at_deg=20.0)
+    bench.run(PLUS, 4.0)
+    name, after_s = bench.time_to_fault(4.0)
+    assert name == "motor runs and pot stands still"
+    assert after_s <= 2.0
+
+
+@pytest.mark.parametrize(("at_deg", "way"), [(447.0, PLUS), (450.5, PLUS), (2.0, MINUS), (-1.0, MINUS)])
+def test_standing_at_its_end_it_is_an_end_stop(at_deg: float, way: Direction) -> None:
+    bench = Bench(at_deg=at_deg)
+    bench.drive(way)
+    name, after_s = bench.time_to_fault(4.0)
+    assert name == "end stop reached"
+    assert after_s <= 2.0
+
+
+@pytest.mark.parametrize(("at_deg", "way"), [(447.0, MINUS), (2.0, PLUS)])
+def test_standing_at_its_end_and_driven_inward_it_is_stuck(at_deg: float, way: Direction) -> None:
+    bench = Bench(at_deg=at_deg)
+    bench.drive(way)
+    assert bench.time_to_fault(4.0)[0] == "motor runs and pot stands still"
+
+
+# --- driven, and it goes elsewhere
+
+
+@NOISES_DEG
+@pytest.mark.parametrize("speed_dps", [2.7, 6.0, 60.0])
+@BOTH_WAYS
+def test_the_wrong_way(speed_dps: float, noise_deg: float, way: Direction) -> None:
+    bench = Bench(speed_dps, noise_deg)
+    bench.drive(way)
+    name, after_s = bench.time_to_fault(4.0, -way * speed_dps)
+    assert name == "pot moves the wrong way"
+    assert after_s <= 1.0
+
+
+def test_a_motor_that_drags_is_on_for_longer_than_the_travel_takes() -> None:
+    bench = Bench(at_deg=0.0)
+    bench.run(PLUS, 5.0)
+    bench.end_run()
+    bench.pass_by(2.0)
+    bench.drive(PLUS)
+    name, after_s = bench.time_to_fault(300.0, 0.4 * 6.0)
+    assert name == "motor on longer than the travel takes"
+    assert after_s == pytest.approx(1.3 * 450.0 / 6.0 + 5.0, rel=0.1)
+
+
+# --- not driven, and it turns
+
+
+@NOISES_DEG
+@pytest.mark.parametrize("share", [0.5, 1.0, -1.0])
+@pytest.mark.parametrize("speed_dps", [2.7, 6.0])
+def test_at_half_its_speed_for_a_second(speed_dps: float, share: float, noise_deg: float) -> None:
+    bench = Bench(speed_dps, noise_deg)
+    # A little more than half: at exactly that the noise decides.
+    name, after_s = bench.time_to_fault(5.0, 1.2 * share * speed_dps)
+    assert name == "turning with no relay on"
+    assert 0.8 <= after_s <= 2.0
+
+
+@pytest.mark.parametrize("share", [0.3, -0.3])
+def test_slower_than_that_it_is_a_notice_that_goes_again(share: float) -> None:
+    bench = Bench()
+    assert bench.pass_by(10.0, share * 6.0) is None
+    assert bench.watch.notices == ("turning with no relay on: a hand may be on the control box's switch",)
+    assert bench.pass_by(5.0) is None
+    assert bench.watch.notices == ()
+
+
+def test_a_push_of_half_a_second_is_no_fault() -> None:
+    bench = Bench()
+    assert bench.pass_by(0.5, 6.0) is None
+    assert bench.pass_by(5.0) is None
+
+
+@BOTH_WAYS
+def test_going_on_after_its_relay_opened_is_a_welded_relay(way: Direction) -> None:
+    bench = Bench()
+    bench.run(way, 4.0)
+    bench.drive(OFF)
+    name, after_s = bench.time_to_fault(5.0, way * 6.0)
+    assert name == "relay welded"
+    assert after_s <= 2.0
+
+
+def welded(*, master: bool) -> tuple[Bench, Fault]:
+    bench = Bench(master=master)
+    bench.run(PLUS, 4.0)
+    bench.drive(OFF)
+    fault = bench.pass_by(5.0, 6.0)
+    assert fault is not None
+    return bench, fault
+
+
+def test_with_a_master_it_is_cut_and_without_one_a_person_must() -> None:
+    _, fault = welded(master=True)
+    assert (fault.cut, fault.act_now) == (True, "")
+    _, fault = welded(master=False)
+    assert (fault.cut, fault.act_now) == (True, CUT_BY_HAND)
+    assert str(fault).startswith("CUT MOTOR POWER! azimuth: relay welded: ")
+
+
+def test_while_it_turns_the_fault_comes_straight_back() -> None:
+    bench, _ = welded(master=False)
+    bench.watch.acknowledge()
+    assert bench.time_to_fault(1.0, 6.0) == ("relay welded", pytest.approx(STEP_S))
+
+
+def test_what_still_turns_with_the_master_open_is_said() -> None:
+    bench, _ = welded(master=True)
+    for _ in range(100):
+        bench.pass_by(STEP_S, 6.0)
+    assert bench.watch.notices == (f"still turning with the master open: {CUT_BY_HAND}",)
+
+
+# --- never the opposite relay
+
+
+def test_until_it_has_slowed_down_the_opposite_relay_stays_open() -> None:
+    bench = Bench()
+    bench.run(PLUS, 4.0)
+    bench.drive(OFF)
+    for _ in range(20):
+        bench.pass_by(STEP_S, 6.0)
+        assert bench.watch.forbids(MINUS)
+        assert not bench.watch.forbids(PLUS)
+
+
+@NOISES_DEG
+def test_a_healthy_reversal_hardly_waits(noise_deg: float) -> None:
+    bench = Bench(6.0, noise_deg)
+    for way in (PLUS, MINUS, PLUS, MINUS):
+        bench.run(way, 4.0)
+        bench.drive(OFF)
+        bench.pass_by(0.6)
+        assert not bench.watch.forbids(Direction(-way))
+
+
+def test_a_relay_found_welded_must_show_that_it_opens_before_the_opposite_one_is_tried() -> None:
+    bench, _ = welded(master=True)
+    bench.watch.acknowledge()
+    bench.pass_by(10.0)  # it stands, for the supply is gone: that shows nothing
+    fault = bench.watch.accuse(MINUS)
+    assert fault is not None
+    assert (fault.name, fault.cut) == ("relay welded", True)
+    assert bench.watch.accuse(PLUS) is None
+    bench.run(PLUS, 1.0)
+    bench.end_run()
+    bench.pass_by(3.0)
+    assert bench.watch.accuse(MINUS) is None

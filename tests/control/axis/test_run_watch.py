@@ -1,0 +1,112 @@
+"""How long a motor may run where nothing else can be seen of it: from end to end, and a third more."""
+
+from __future__ import annotations
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.motion import Motor
+from rotator.control.axis.run_watch import WAYS, RunWatch
+from rotator.control.sky.mount import Range
+from rotator.status import Fault
+
+MINUS, OFF, PLUS = Direction
+QUIET_S = 0.5 + 5.0 / 6.0
+"""Its coast, and a period of its contact."""
+LONGEST_S = 1.3 * 60.0 + 5.0
+"""360° at 6°/s."""
+
+
+@pytest.fixture
+def motors() -> dict[Direction, Motor]:
+    return {PLUS: Motor(6.0, 0.6), MINUS: Motor(6.0, 0.6)}
+
+
+@pytest.fixture
+def watch(motors: dict[Direction, Motor]) -> RunWatch:
+    return RunWatch(Axis.AZIMUTH, Range(0.0, 360.0), motors, QUIET_S)
+
+
+def first_fault(watch: RunWatch, from_s: float, seconds: float) -> tuple[float, Fault] | None:
+    """The readings of a run that goes on and on."""
+    for cycle in range(round(seconds / 0.05)):
+        at_s = from_s + cycle * 0.05
+        fault = watch.see(at_s, 6.0 * (at_s - from_s))
+        if fault:
+            return at_s - from_s, fault
+    return None
+
+
+def test_a_run_from_end_to_end_is_none(watch: RunWatch) -> None:
+    watch.driven(100.0, PLUS)
+    assert first_fault(watch, 100.0, LONGEST_S - 0.1) is None
+
+
+@pytest.mark.parametrize("way", [PLUS, MINUS], ids=["clockwise", "counter-clockwise"])
+def test_one_that_does_not_end_is_told_with_its_way_and_its_limit(watch: RunWatch, way: Direction) -> None:
+    watch.driven(100.0, way)
+    told = first_fault(watch, 100.0, 100.0)
+    assert told is not None
+    after_s, fault = told
+    assert after_s == pytest.approx(LONGEST_S, abs=0.1)
+    assert str(fault) == (
+        f"azimuth: motor on longer than the travel takes: 83 s {WAYS[Axis.AZIMUTH, way]} in one go, limit 83 s "
+        "(see docs/troubleshooting.md#motor-on-longer-than-the-travel-takes)"
+    )
+
+
+def test_a_stop_or_a_reversal_begins_anew(watch: RunWatch) -> None:
+    watch.driven(0.0, PLUS)
+    assert first_fault(watch, 0.0, 80.0) is None
+    watch.driven(80.0, MINUS)
+    assert first_fault(watch, 80.0, 80.0) is None
+    watch.driven(160.0, OFF)
+    watch.driven(161.0, MINUS)
+    assert first_fault(watch, 161.0, 80.0) is None
+
+
+def test_the_same_order_again_is_the_same_run(watch: RunWatch) -> None:
+    for second in range(84):
+        watch.driven(float(second), PLUS)
+    assert watch.see(84.0, 0.0) is not None
+
+
+def test_standing_for_a_day_is_none(watch: RunWatch) -> None:
+    assert watch.see(86_400.0, 12.0) is None
+    watch.driven(86_400.0, OFF)
+    assert watch.see(172_800.0, 12.0) is None
+
+
+def test_a_motor_that_has_shown_to_be_slow_has_longer(watch: RunWatch, motors: dict[Direction, Motor]) -> None:
+    motors[PLUS] = Motor(3.0, 0.3)
+    watch.driven(0.0, PLUS)
+    assert first_fault(watch, 0.0, LONGEST_S + 60.0) is None
+    watch.driven(200.0, MINUS)
+    assert first_fault(watch, 200.0, 100.0) is not None, "the other way it is as fast as ever"
+
+
+def test_it_accuses_nothing_by_itself(watch: RunWatch) -> None:
+    assert watch.accuse(MINUS) is None
+    watch.acknowledge()
+    assert watch.notices == ()
+
+
+def test_the_opposite_relay_waits_until_the_contact_has_been_quiet_for_a_coast_and_a_period(watch: RunWatch) -> None:
+    watch.driven(0.0, PLUS)
+    watch.driven(1.0, OFF)
+    watch.see(1.5, 6.0, changes=1)
+    assert watch.forbids(MINUS)
+    assert not watch.forbids(PLUS)
+    watch.see(1.5 + QUIET_S - 0.05, 6.0, changes=1)
+    assert watch.forbids(MINUS)
+    watch.see(1.5 + QUIET_S, 6.0, changes=1)
+    assert not watch.forbids(MINUS)
+
+
+def test_it_waits_for_ever_where_the_contact_goes_on_changing(watch: RunWatch) -> None:
+    # The relay that was to open has welded: its opposite would short the motor's winding.
+    watch.driven(0.0, PLUS)
+    watch.driven(1.0, OFF)
+    for count in range(100):
+        watch.see(1.5 + count * 0.4, 6.0, changes=count)
+        assert watch.forbids(MINUS)

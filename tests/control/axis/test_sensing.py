@@ -1,0 +1,141 @@
+"""Whether a sensor can be believed: the window, how long a bad reading may last, silence, staleness."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from hw.ports import Axis
+from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.sensing import ANYTHING, BAD_FOR_S, STALE_S, Reading, Sensing, Window
+from rotator.status import Fault
+
+HALF_CIRCLE = Calibration(((0.05, 0.0), (0.95, 180.0)))
+STEP_S = 0.05
+BAD = [0.0, 0.019, 0.981, 1.0, -0.001, 1.2, math.nan, math.inf, None]
+
+
+class Bench:
+    """An elevation pot looked at twenty times a second."""
+
+    def __init__(self, calibration: Calibration | None = HALF_CIRCLE) -> None:
+        self.sensing = Sensing(Axis.ELEVATION, Window(0.02, 0.98), calibration)
+        self.now_s = 50.0
+
+    def read(self, raw: float | None, problem: str = "") -> Fault | None:
+        self.now_s += STEP_S
+        return self.sensing.take(Reading(self.now_s, raw, problem), self.now_s)
+
+    def read_for(self, seconds: float, raw: float | None) -> list[Fault | None]:
+        return [self.read(raw) for _ in range(round(seconds / STEP_S))]
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+def test_before_the_first_reading_nothing_is_believed(bench: Bench) -> None:
+    assert not bench.sensing.believable
+    assert bench.sensing.angle_deg is None
+
+
+@pytest.mark.parametrize(("raw", "angle_deg"), [(0.02, -6.0), (0.05, 0.0), (0.5, 90.0), (0.95, 180.0), (0.98, 186.0)])
+def test_a_reading_within_the_window_is_an_angle(bench: Bench, raw: float, angle_deg: float) -> None:
+    assert bench.read(raw) is None
+    assert bench.sensing.believable
+    assert bench.sensing.angle_deg == pytest.approx(angle_deg)
+
+
+def test_without_a_calibration_there_is_a_reading_but_no_angle() -> None:
+    bench = Bench(None)
+    assert bench.read(0.5) is None
+    assert (bench.sensing.raw, bench.sensing.angle_deg, bench.sensing.believable) == (0.5, None, True)
+
+
+@pytest.mark.parametrize("raw", BAD)
+def test_the_very_first_bad_reading_is_not_believed(bench: Bench, raw: float | None) -> None:
+    bench.read(0.5)
+    assert bench.read(raw) is None, "one bad reading is no fault yet"
+    assert not bench.sensing.believable
+    assert bench.sensing.angle_deg == pytest.approx(90.0), "the last good angle is kept"
+
+
+@pytest.mark.parametrize("raw", BAD)
+def test_bad_readings_that_last_are_a_fault_at_the_third_or_fourth(bench: Bench, raw: float | None) -> None:
+    bench.read(0.5)
+    faults = bench.read_for(4 * STEP_S, raw)
+    assert faults[:2] == [None, None]
+    assert faults[3] is not None
+
+
+@pytest.mark.parametrize("raw", BAD)
+def test_a_sensor_bad_from_the_start_is_a_fault_as_soon(bench: Bench, raw: float | None) -> None:
+    assert bench.read_for(4 * STEP_S, raw)[3] is not None
+
+
+def test_a_spark_now_and_then_is_no_fault(bench: Bench) -> None:
+    for _ in range(20):
+        assert bench.read(1.0) is None
+        assert bench.read_for(0.5, 0.5) == [None] * 10
+    assert bench.sensing.believable
+
+
+def test_a_good_reading_ends_the_fault(bench: Bench) -> None:
+    bench.read(0.5)
+    bench.read_for(1.0, 1.0)
+    assert bench.read(0.6) is None
+    assert bench.sensing.angle_deg == pytest.approx(110.0)
+
+
+def test_the_same_reading_again_grows_old(bench: Bench) -> None:
+    bench.read(0.5)
+    old, read_s = Reading(bench.now_s, 0.5), bench.now_s
+    assert bench.sensing.take(old, read_s + STALE_S - 0.01) is None
+    assert bench.sensing.believable
+    bench.sensing.take(old, read_s + STALE_S + 0.01)
+    assert not bench.sensing.believable
+    fault = bench.sensing.take(old, read_s + STALE_S + 0.01 + BAD_FOR_S + 0.01)
+    assert fault is not None
+    assert (fault.name, fault.limit) == ("sensor late", f"{STALE_S:g} s")
+
+
+# --- a fault names the axis, what was measured, the limit, and the page that explains it
+
+
+def test_a_broken_pot_explains_itself(bench: Bench) -> None:
+    fault = bench.read_for(0.5, 0.004)[-1]
+    assert fault == Fault("pot open or shorted", Axis.ELEVATION, "reads 0.004", "0.02 to 0.98")
+    assert str(fault) == (
+        "elevation: pot open or shorted: reads 0.004, limit 0.02 to 0.98"
+        " (see docs/troubleshooting.md#pot-open-or-shorted)"
+    )
+    assert bench.sensing.raw == 0.004, "the raw value is shown, for whoever looks for the break"
+
+
+def test_a_silent_sensor_says_why(bench: Bench) -> None:
+    for _ in range(10):
+        fault = bench.read(None, "I2C bus 1: the device does not answer (address 0x48)")
+    assert fault is not None
+    assert (fault.name, fault.measured) == ("sensor silent", "I2C bus 1: the device does not answer (address 0x48)")
+
+
+# --- a pot's wires
+
+
+@pytest.mark.parametrize(
+    ("window", "blind"),
+    [
+        (Window(0.02, 0.98), False),
+        (Window(0.0, 0.98), True),
+        (Window(0.02, 1.0), True),
+        (Window(-0.01, 1.01), True),
+        # A magnet over its chip: all the way round, and a broken wire is silence.
+        (Window(-0.01, 1.01, pot=False), False),
+        (Window(0.0, 1.0, pot=False), False),
+        (ANYTHING, False),
+    ],
+)
+def test_only_a_pot_can_be_blind_to_its_wires(window: Window, blind: bool) -> None:
+    assert window.blind is blind

@@ -1,0 +1,249 @@
+"""The adapter as Linux and the I2C specification describe it.
+
+Knows smbus2's real message objects. Knows no chip but a memory that keeps what it is told.
+"""
+
+from __future__ import annotations
+
+import errno
+import threading
+from collections.abc import Callable
+
+import pytest
+from smbus2 import i2c_msg
+
+from firmware_sim.buses.i2c import Nack, SimI2CBus
+
+ADDRESS = 0x48
+BYTE_S = 90e-6  # nine clocks at 100 kHz: eight bits and the ACK
+
+
+class Recorder:
+    """A chip that keeps what was written and answers with what it was given."""
+
+    def __init__(self, answer: bytes = b"", clock: Callable[[], float] = lambda: 0.0, bytewise: bool = False) -> None:
+        self.written: list[bytes] = []
+        self.moments_s: list[float] = []
+        self.answer = answer
+        self.bytewise = bytewise
+        self.refuses = False
+        self._clock = clock
+
+    def write(self, data: bytes) -> None:
+        if self.refuses:
+            raise Nack
+        self.written.append(data)
+        self.moments_s.append(self._clock())
+
+    def read(self, count: int) -> bytes:
+        self.moments_s.append(self._clock())
+        return self.answer[:count]
+
+
+class FakeTime:
+    def __init__(self) -> None:
+        self.now_s = 0.0
+        self.sleeps: list[float] = []
+
+    def clock(self) -> float:
+        return self.now_s
+
+    def sleep(self, seconds: float) -> None:
+        self.sleeps.append(seconds)
+        self.now_s += seconds
+
+
+def bus_with(chip: Recorder, sleep: Callable[[float], None] | None = None) -> SimI2CBus:
+    bus = SimI2CBus(sleep)
+    bus.attach(ADDRESS, chip)
+    return bus
+
+
+# --- transfers
+
+
+def test_a_write_message_reaches_the_chip_whole() -> None:
+    chip = Recorder()
+    bus_with(chip).i2c_rdwr(i2c_msg.write(ADDRESS, [0x01, 0x85, 0x83]))
+    assert chip.written == [b"\x01\x85\x83"]
+
+
+def test_read_messages_are_filled_in_each_with_its_own_answer() -> None:
+    bus = bus_with(Recorder(b"\x27\x10"))
+    bus.attach(0x49, Recorder(b"\x02"))
+    first, second = i2c_msg.read(ADDRESS, 2), i2c_msg.read(0x49, 1)
+    bus.i2c_rdwr(first, second)
+    assert (bytes(first), bytes(second)) == (b"\x27\x10", b"\x02")
+
+
+def test_a_combined_transfer_writes_and_then_reads() -> None:
+    chip = Recorder(b"\x85\x83")
+    answer = i2c_msg.read(ADDRESS, 2)
+    bus_with(chip).i2c_rdwr(i2c_msg.write(ADDRESS, [0x01]), answer)
+    assert (chip.written, bytes(answer)) == ([b"\x01"], b"\x85\x83")
+
+
+def test_smbus_calls_are_the_same_bytes() -> None:
+    # Linux, Documentation/i2c/smbus-protocol.rst: what each call puts on the wire
+    chip = Recorder(b"\xa1\xa2\xa3")
+    bus = bus_with(chip)
+    bus.write_quick(ADDRESS)
+    bus.write_byte(ADDRESS, 0x10)
+    bus.write_byte_data(ADDRESS, 0x20, 0x21)
+    bus.write_i2c_block_data(ADDRESS, 0x30, [0x31, 0x32])
+    assert chip.written == [b"", b"\x10", b"\x20\x21", b"\x30\x31\x32"]
+    assert bus.read_byte(ADDRESS) == 0xA1
+    assert bus.read_byte_data(ADDRESS, 0x40) == 0xA1
+    assert bus.read_i2c_block_data(ADDRESS, 0x50, 4) == [0xA1, 0xA2, 0xA3, 0xFF]  # nobody pulls down the last
+    assert chip.written[4:] == [b"\x40", b"\x50"]
+
+
+def test_a_block_is_32_bytes_at_most() -> None:  # I2C_SMBUS_BLOCK_MAX
+    with pytest.raises(ValueError, match="32"):
+        bus_with(Recorder()).write_i2c_block_data(ADDRESS, 0, bytes(33))
+
+
+@pytest.mark.parametrize("count", [0, 43])
+def test_a_transfer_has_1_to_42_messages(count: int) -> None:  # I2C_RDWR_IOCTL_MAX_MSGS
+    with pytest.raises(OSError, match="Invalid argument"):
+        bus_with(Recorder()).i2c_rdwr(*[i2c_msg.write(ADDRESS, [0])] * count)
+
+
+# --- time
+
+
+def test_a_transfer_sleeps_once_for_every_address_and_data_byte() -> None:
+    time = FakeTime()
+    bus = bus_with(Recorder(b"\0\0"), sleep=time.sleep)
+    bus.i2c_rdwr(i2c_msg.write(ADDRESS, [0x00]), i2c_msg.read(ADDRESS, 2))
+    assert time.sleeps == pytest.approx([5 * BYTE_S])  # address, pointer, address again, two bytes back
+
+
+def test_an_unanswered_address_takes_one_byte() -> None:
+    time = FakeTime()
+    with pytest.raises(OSError, match="Remote I/O"):
+        SimI2CBus(sleep=time.sleep).i2c_rdwr(i2c_msg.write(ADDRESS, bytes(10)))
+    assert time.sleeps == pytest.approx([BYTE_S])
+
+
+def test_wire_time_tells_a_bytewise_chip_when_each_byte_came() -> None:
+    time = FakeTime()
+    bus = SimI2CBus(sleep=time.sleep)
+    chip = Recorder(clock=bus.wire_time(time.clock), bytewise=True)
+    bus.attach(ADDRESS, chip)
+    bus.i2c_rdwr(i2c_msg.write(ADDRESS, b"abc"))
+    assert chip.written == [b"a", b"b", b"c"]
+    assert chip.moments_s == pytest.approx([2 * BYTE_S, 3 * BYTE_S, 4 * BYTE_S])
+    assert len(time.sleeps) == 1
+
+
+def test_wire_time_is_the_end_of_a_write_and_the_start_of_a_read() -> None:
+    time = FakeTime()
+    bus = SimI2CBus(sleep=time.sleep)
+    chip = Recorder(b"\0\0", clock=bus.wire_time(time.clock))
+    bus.attach(ADDRESS, chip)
+    bus.i2c_rdwr(i2c_msg.write(ADDRESS, [0x00]), i2c_msg.read(ADDRESS, 2))
+    assert chip.moments_s == pytest.approx([2 * BYTE_S, 3 * BYTE_S])
+
+
+def test_wire_time_runs_on_where_the_clock_stands_still() -> None:
+    time = FakeTime()
+    bus = SimI2CBus()
+    chip = Recorder(clock=bus.wire_time(time.clock), bytewise=True)
+    bus.attach(ADDRESS, chip)
+    bus.i2c_rdwr(i2c_msg.write(ADDRESS, b"ab"))
+    time.now_s += 1.0
+    bus.i2c_rdwr(i2c_msg.write(ADDRESS, b"c"))
+    assert chip.moments_s == pytest.approx([2 * BYTE_S, 3 * BYTE_S, 1.0 + 5 * BYTE_S])
+
+
+def test_two_threads_take_turns() -> None:
+    inside, most = 0, 0
+    gate = threading.Lock()
+
+    def sleep(seconds: float) -> None:
+        nonlocal inside, most
+        with gate:
+            inside += 1
+            most = max(most, inside)
+        with gate:
+            inside -= 1
+
+    bus = bus_with(Recorder(), sleep=sleep)
+
+    def write_many() -> None:
+        for _ in range(200):
+            bus.write_byte(ADDRESS, 0)
+
+    threads = [threading.Thread(target=write_many) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert most == 1
+
+
+# --- what goes wrong
+
+
+def test_nobody_at_the_address_is_errno_121() -> None:
+    # Linux, Documentation/i2c/fault-codes.rst; i2c-bcm2835 says EREMOTEIO
+    with pytest.raises(OSError, match="Remote I/O error") as error:
+        SimI2CBus().read_byte(ADDRESS)
+    assert error.value.errno == errno.EREMOTEIO == 121
+
+
+def test_a_chip_that_refuses_a_byte_is_errno_121() -> None:
+    chip = Recorder()
+    chip.refuses = True
+    with pytest.raises(OSError, match="Remote I/O error"):
+        bus_with(chip).write_byte(ADDRESS, 0)
+
+
+def test_a_chip_that_is_gone_comes_back_until_it_is_detached() -> None:
+    chip = Recorder()
+    bus = bus_with(chip)
+    bus.gone.add(ADDRESS)
+    with pytest.raises(OSError, match="Remote I/O error"):
+        bus.write_byte(ADDRESS, 1)
+    bus.gone.remove(ADDRESS)
+    bus.write_byte(ADDRESS, 2)
+    bus.detach(ADDRESS)
+    with pytest.raises(OSError, match="Remote I/O error"):
+        bus.write_byte(ADDRESS, 3)
+    assert chip.written == [b"\x02"]
+
+
+def test_messages_before_the_unanswered_one_have_happened() -> None:
+    chip = Recorder()
+    with pytest.raises(OSError, match="Remote I/O error"):
+        bus_with(chip).i2c_rdwr(i2c_msg.write(ADDRESS, [1]), i2c_msg.read(0x49, 1))
+    assert chip.written == [b"\x01"]
+
+
+def test_a_hung_bus_lets_nothing_through_until_released() -> None:
+    chip = Recorder()
+    bus = bus_with(chip)
+    bus.hang()
+    writer = threading.Thread(target=bus.write_byte, args=(ADDRESS, 7), daemon=True)
+    writer.start()
+    assert chip.written == []
+    bus.release()
+    writer.join(timeout=10)
+    assert chip.written == [b"\x07"]
+
+
+def test_a_hung_bus_may_time_out() -> None:
+    bus = bus_with(Recorder())
+    bus.hang(hang_timeout_s=0.0)
+    with pytest.raises(TimeoutError) as error:
+        bus.write_byte(ADDRESS, 7)
+    assert error.value.errno == errno.ETIMEDOUT
+
+
+def test_a_closed_bus_is_a_bad_file_descriptor() -> None:
+    with bus_with(Recorder()) as bus:
+        pass
+    with pytest.raises(OSError, match="Bad file descriptor") as error:
+        bus.write_byte(ADDRESS, 0)
+    assert error.value.errno == errno.EBADF

@@ -1,0 +1,121 @@
+"""A contact on an input line: the real driver on simulated gpiod lines."""
+
+from __future__ import annotations
+
+import errno
+import os
+from typing import NoReturn
+
+import pytest
+
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.clock import SimClock
+from hw.buses.gpio import GpioContact, LinesBusyError
+from hw.ports import ContactChange, HardwareError
+
+PATH = "/dev/gpiochip0"
+PIN = 17
+
+
+@pytest.fixture
+def clock() -> SimClock:
+    return SimClock(1000.0)
+
+
+@pytest.fixture
+def gpio(clock: SimClock) -> SimGpio:
+    return SimGpio(clock)
+
+
+def switch(gpio: SimGpio, clock: SimClock, *levels: bool, every_s: float = 0.1) -> None:
+    for level in levels:
+        gpio.drive_input(PIN, level)
+        clock.sleep(every_s)
+
+
+def told(contact: GpioContact) -> list[tuple[float, bool, int]]:
+    return [(round(change.at_s - 1000.0, 6), change.closed, change.lost) for change in contact.changes()]
+
+
+def test_an_opto_isolator_pulls_the_line_low(gpio: SimGpio, clock: SimClock) -> None:
+    contact = GpioContact(gpio, PATH, PIN, consumer="test")
+    assert gpio.level(PIN)  # the Pi's own resistor
+    assert not contact.closed()
+    switch(gpio, clock, False)
+    assert contact.closed()
+    switch(gpio, clock, True)
+    assert told(contact) == [(0.02, True, 0), (0.12, False, 0)]
+    assert contact.changes() == []
+
+
+def test_a_contact_to_3v3_is_active_high(gpio: SimGpio, clock: SimClock) -> None:
+    contact = GpioContact(gpio, PATH, PIN, consumer="test", active_low=False)
+    assert not contact.closed()
+    switch(gpio, clock, True)
+    assert told(contact) == [(0.02, True, 0)]
+
+
+def test_with_a_resistor_outside_the_pi_s_own_stays_off(gpio: SimGpio, clock: SimClock) -> None:
+    contact = GpioContact(gpio, PATH, PIN, consumer="test", pull=False)
+    assert not gpio.level(PIN)  # nothing holds it
+    switch(gpio, clock, True)
+    assert not contact.closed()
+
+
+def test_bounce_is_no_change(gpio: SimGpio, clock: SimClock) -> None:
+    contact = GpioContact(gpio, PATH, PIN, consumer="test", debounce_s=0.02)
+    switch(gpio, clock, False, True, False, True, False, every_s=0.001)
+    clock.sleep(0.1)
+    assert told(contact) == [(0.024, True, 0)]
+
+
+def test_a_quarter_of_a_minute_of_chatter_waits_for_who_reads_late(gpio: SimGpio, clock: SimClock) -> None:
+    contact = GpioContact(gpio, PATH, PIN, consumer="test")
+    switch(gpio, clock, *[False, True] * 350, every_s=0.021)
+    clock.sleep(0.1)
+    assert [change.lost for change in contact.changes()] == [0] * 700
+
+
+def test_what_was_dropped_is_counted(gpio: SimGpio, clock: SimClock) -> None:
+    contact = GpioContact(gpio, PATH, PIN, consumer="test")
+    switch(gpio, clock, *[False, True] * 600, every_s=0.021)
+    clock.sleep(0.1)
+    changes = contact.changes()
+    assert (len(changes), changes[0].lost) == (1024, 1200 - 1024)
+    assert {change.lost for change in changes[1:]} == {0}
+
+
+def test_a_busy_line_is_named(gpio: SimGpio) -> None:
+    GpioContact(gpio, PATH, PIN, consumer="somebody")
+    with pytest.raises(LinesBusyError, match=r"cannot take contact on GPIO17: a line is taken by another program"):
+        GpioContact(gpio, PATH, PIN, consumer="test")
+
+
+def test_closed_it_lets_go(gpio: SimGpio) -> None:
+    GpioContact(gpio, PATH, PIN, consumer="test").close()
+    GpioContact(gpio, PATH, PIN, consumer="test")
+
+
+class Unplugged:
+    """The gpiod package on a chip that goes away (a USB GPIO board): Linux answers ENODEV."""
+
+    def request_lines(self, path: str, **_wanted: object) -> Unplugged:
+        return self
+
+    def get_value(self, offset: int) -> NoReturn:
+        raise OSError(errno.ENODEV, os.strerror(errno.ENODEV))
+
+    def wait_edge_events(self, timeout: float) -> NoReturn:
+        raise OSError(errno.ENODEV, os.strerror(errno.ENODEV))
+
+
+def test_a_chip_that_goes_away_is_a_sentence() -> None:
+    contact = GpioContact(Unplugged(), PATH, PIN, consumer="test")
+    with pytest.raises(HardwareError, match="GPIO: cannot read GPIO17: No such device"):
+        contact.closed()
+    with pytest.raises(HardwareError, match="GPIO: cannot read GPIO17: No such device"):
+        contact.changes()
+
+
+def test_a_change_is_a_value() -> None:
+    assert ContactChange(1.0, closed=True) == ContactChange(1.0, closed=True, lost=0)

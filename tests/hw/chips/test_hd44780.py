@@ -1,0 +1,184 @@
+"""The HD44780 driver on a simulated display: six GPIO lines, and every way a backpack is wired.
+
+What counts is what a person reads on the glass, and that the controller (Hitachi ADE-207-272) was never spoken to while
+it was busy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import pytest
+
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.buses.i2c import SimI2CBus
+from firmware_sim.chips.hd44780 import Hd44780 as Glass
+from firmware_sim.chips.pcf8574 import Backpack
+from firmware_sim.clock import SimClock
+from hw.buses.gpio import GpioOutputs
+from hw.buses.i2c import SmbusI2C
+from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780, NibblePort
+
+ADDRESS = 0x27
+ROWS = ("SAT A:235 E:025 ", "SIM A:231 E:024 ")
+PINS = {"rs": 17, "e": 27, "d4": 5, "d5": 6, "d6": 12, "d7": 13}
+# Which bit of the PCF8574 is RS, RW, E, D4 to D7 and the light, and which level lights it, as the boards are sold
+BOARDS = {
+    "ywrobot": ((0, 1, 2, 4, 5, 6, 7, 3), True),
+    "lcm1602": ((0, 1, 2, 4, 5, 6, 7, 3), False),
+    "mjkdz": ((6, 5, 4, 0, 1, 2, 3, 7), False),
+    "lcdxio": ((4, 5, 6, 0, 1, 2, 3, 7), False),
+    "swapped": ((2, 1, 0, 4, 5, 6, 7, 3), True),
+}
+
+
+class Bench:
+    clock: SimClock
+    glass: Glass
+    port: NibblePort
+    display: Hd44780
+
+
+class SixLines(Bench):
+    def __init__(self) -> None:
+        self.clock = SimClock()
+        gpio = SimGpio(self.clock)
+        self.glass = Glass(self.clock)
+        levels = {pin: gpio.level(pin) for pin in PINS.values()}
+
+        def wires(_now_s: float, changes: Mapping[int, bool]) -> None:
+            levels.update(changes)
+            self.glass.pins(**{name: levels[pin] for name, pin in PINS.items()})
+
+        gpio.on_edges.append(wires)
+        lines = GpioOutputs(gpio, "/dev/gpiochip0", PINS, consumer="test")
+        self.port = GpioPort(lines, self.clock.sleep)
+        self.display = Hd44780(self.port, self.clock.sleep)
+
+
+class OnBackpack(Bench):
+    def __init__(self, board: str = "ywrobot") -> None:
+        self.clock = SimClock()
+        self.wire = SimI2CBus(self.clock.sleep)
+        self.glass = Glass(self.wire.wire_time(self.clock))
+        bits, lit_when_high = BOARDS[board]
+        pins = dict(zip(("rs", "rw", "e", "d4", "d5", "d6", "d7", "bl"), bits, strict=True))
+        self.backpack = Backpack(self.glass, pins, lit_when_high)
+        self.wire.attach(ADDRESS, self.backpack.expander)
+        active_low = board in BACKLIGHT_ACTIVE_LOW
+        bus = SmbusI2C(self.wire, "bus 1")
+        self.port = BackpackPort(bus, ADDRESS, BACKPACKS[board], backlight_active_low=active_low)
+        self.display = Hd44780(self.port, self.clock.sleep)
+
+
+@pytest.fixture(params=["six lines", *BOARDS])
+def bench(request: pytest.FixtureRequest) -> Bench:
+    return SixLines() if request.param == "six lines" else OnBackpack(request.param)
+
+
+def test_every_board_of_the_table_is_tested() -> None:
+    assert set(BOARDS) == set(BACKPACKS)
+
+
+def test_it_reads_what_it_was_told(bench: Bench) -> None:
+    bench.display.reset()
+    bench.display.show(ROWS)
+    assert bench.glass.text() == ROWS
+    assert bench.glass.violations == 0
+
+
+def test_a_reset_shows_nothing_and_is_on(bench: Bench) -> None:
+    bench.display.reset()
+    assert bench.glass.text() == (" " * 16, " " * 16)
+    assert bench.glass.display_on
+
+
+def test_new_rows_replace_the_old_ones(bench: Bench) -> None:
+    bench.display.reset()
+    for number in range(20):
+        rows = (f"SAT A:{number:03d} E:000 ", f"ANT A:000 E:{number:03d} ")
+        bench.display.show(rows)
+        assert bench.glass.text() == rows
+    assert bench.glass.violations == 0
+
+
+def test_rows_are_cut_and_padded_to_the_width(bench: Bench) -> None:
+    bench.display.reset()
+    bench.display.show(("0123456789ABCDEFGHIJ", "short"))
+    assert bench.glass.text() == ("0123456789ABCDEF", "short           ")
+
+
+def test_more_rows_than_it_has_are_left_out(bench: Bench) -> None:
+    bench.display.reset()
+    bench.display.show((*ROWS, "a third"))
+    assert bench.glass.text() == ROWS
+
+
+def test_signs_outside_ascii_come_from_rom_a00(bench: Bench) -> None:
+    bench.display.reset()
+    bench.display.show(("235° → ←", "a\\b ~ é"))
+    assert bench.glass.text() == ("235° → ←        ", "a?b ? ?         ")
+
+
+# --- initializing by instruction, figure 24: works from any state
+
+
+@pytest.mark.parametrize("register_select", [False, True], ids=["instruction", "data"])
+@pytest.mark.parametrize("stray", range(16))
+def test_half_a_byte_behind_a_reset_brings_it_back(bench: Bench, stray: int, register_select: bool) -> None:
+    bench.display.reset()
+    bench.display.show(ROWS)
+    bench.port.send(register_select, [stray])  # a spark on E: from here on every byte is shifted by half
+    bench.display.reset()
+    bench.display.show(ROWS)
+    assert bench.glass.text() == ROWS
+    assert bench.glass.violations == 0
+
+
+def test_without_a_reset_half_a_byte_behind_is_garbage(bench: Bench) -> None:
+    bench.display.reset()
+    bench.port.send(False, [0x0])
+    bench.display.show(ROWS)
+    assert bench.glass.text() != ROWS
+
+
+def test_a_second_reset_does_no_harm(bench: Bench) -> None:
+    for _ in range(2):
+        bench.display.reset()
+        bench.display.show(ROWS)
+    assert bench.glass.text() == ROWS
+    assert bench.glass.violations == 0
+
+
+# --- backpacks
+
+
+@pytest.mark.parametrize("board", list(BOARDS))
+def test_the_light_is_on(board: str) -> None:
+    bench = OnBackpack(board)
+    bench.display.reset()
+    assert bench.backpack.backlight
+    bench.display.show(ROWS)
+    assert bench.backpack.backlight
+
+
+def test_a_row_is_one_write_of_about_68_bytes() -> None:
+    bench = OnBackpack()
+    bench.display.reset()
+    started_s = bench.clock()
+    bench.display.show(ROWS[:1])
+    wire_bytes = round((bench.clock() - started_s) / 90e-6)
+    assert 68 <= wire_bytes <= 74  # four a character, the address, RS in between: 6.5 ms at 100 kHz
+
+
+def test_a_display_plugged_in_again_is_brought_up_from_power_on() -> None:
+    bench = OnBackpack()
+    bench.display.reset()
+    bench.display.show(ROWS)
+    bench.wire.detach(ADDRESS)
+    glass = Glass(bench.wire.wire_time(bench.clock))
+    bench.wire.attach(ADDRESS, Backpack(glass, BACKPACKS["ywrobot"]).expander)
+    bench.display.reset()
+    bench.display.show(ROWS)
+    assert glass.text() == ROWS
+    assert glass.violations == 0

@@ -1,0 +1,228 @@
+"""The MPU6050 as an elevation sensor on a simulated chip: waking, mounting, averaging, and what shaking does to it."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from firmware_sim.buses.i2c import SimI2CBus
+from firmware_sim.chips.mpu6050 import Mpu6050 as SimMpu6050
+from firmware_sim.clock import SimClock
+from hw.buses.i2c import SmbusI2C
+from hw.chips.mpu6050 import LASTS_S, Mounting, Mpu6050
+from hw.ports import AngleSensor, HardwareError
+
+CYCLE_S = 0.05
+
+
+class Bench:
+    """A boom with the board on it, x forward and z up unless told."""
+
+    def __init__(self, noise_g_per_root_hz: float = 0.0, address: int = 0x68) -> None:
+        self.clock = SimClock(10.0)
+        self.elevation_deg = 30.0
+        self.lean_deg = 0.0
+        self.wire = SimI2CBus(self.clock.sleep)
+        self.chip = SimMpu6050(self.clock, self.feels_g, noise_g_per_root_hz=noise_g_per_root_hz)
+        self.wire.attach(address, self.chip)
+
+    def feels_g(self) -> tuple[float, float, float]:
+        # What the table under a board pushes: 1 g upwards, as the tilted board sees it.
+        elevation, lean = math.radians(self.elevation_deg), math.radians(self.lean_deg)
+        return (
+            math.sin(elevation) * math.cos(lean),
+            math.sin(lean),
+            math.cos(elevation) * math.cos(lean),
+        )
+
+    def driver(self, address: int = 0x68, mounting: Mounting | None = None, averaged: int = 4) -> Mpu6050:
+        bus = SmbusI2C(self.wire, "bus 1")
+        return Mpu6050(bus, self.clock, self.clock.sleep, address=address, mounting=mounting, averaged=averaged)
+
+    def register(self, at: int) -> int:
+        self.chip.write(bytes([at]))
+        return self.chip.read(1)[0]
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+def test_it_is_an_angle_sensor_that_measures(bench: Bench) -> None:
+    sensor: AngleSensor = bench.driver()
+    assert sensor.source == "measured"
+
+
+def test_the_chip_is_woken_and_set_up(bench: Bench) -> None:
+    bench.chip.write(b"\x1c\x18")  # somebody left it at 16 g
+    bench.driver().read()
+    assert (bench.register(0x6B), bench.register(0x1A), bench.register(0x1C)) == (0, 5, 0)
+
+
+@pytest.mark.parametrize("elevation_deg", [-30.0, 0.0, 10.0, 45.0, 89.0, 90.0, 91.0, 135.0, 179.9, 180.0, 180.1, 200.0])
+def test_the_reading_is_the_elevation_over_the_top_and_beyond(bench: Bench, elevation_deg: float) -> None:
+    bench.elevation_deg = elevation_deg
+    assert bench.driver().read() == pytest.approx(elevation_deg, abs=0.01)
+
+
+@pytest.mark.parametrize("lean_deg", [-20.0, 20.0])
+def test_a_board_that_leans_to_the_side_reads_the_same(bench: Bench, lean_deg: float) -> None:
+    bench.lean_deg = lean_deg
+    assert bench.driver().read() == pytest.approx(30.0, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("forward", "up", "elevation_deg"),
+    [("+x", "+z", 30.0), ("-x", "+z", -30.0), ("+z", "+x", 60.0), ("+x", "-z", 150.0), ("-x", "-z", 210.0)],
+)
+def test_mounted_another_way(bench: Bench, forward: str, up: str, elevation_deg: float) -> None:
+    assert bench.driver(mounting=Mounting(forward, up)).read() == pytest.approx(elevation_deg, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("forward", "up", "words"),
+    [
+        ("x", "+z", "forward is 'x'; write \\+x, -x"),
+        ("+x", "up", "up is 'up'"),
+        ("+x", "-x", "forward \\+x and up -x are the same axis"),
+    ],
+)
+def test_no_way_to_mount_a_board(forward: str, up: str, words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        Mounting(forward, up)
+
+
+def test_the_other_address() -> None:
+    assert Bench(address=0x69).driver(0x69).read() == pytest.approx(30.0, abs=0.01)
+
+
+def test_a_reading_leaves_a_20_hz_loop_its_time(bench: Bench) -> None:
+    sensor = bench.driver()
+    sensor.read()
+    started_s = bench.clock()
+    sensor.read()
+    assert bench.clock() - started_s < 1e-3
+
+
+# --- noise, 400 ug per root Hz
+
+
+@pytest.mark.parametrize(("averaged", "rms_deg"), [(1, 0.09), (4, 0.045)])
+def test_averaging_halves_the_noise_of_four(averaged: int, rms_deg: float) -> None:
+    bench = Bench(noise_g_per_root_hz=400e-6)
+    sensor = bench.driver(averaged=averaged)
+    errors = []
+    for _ in range(600):
+        bench.clock.sleep(CYCLE_S)
+        errors.append(sensor.read() - 30.0)
+    assert math.sqrt(math.fsum(error**2 for error in errors) / len(errors)) == pytest.approx(rms_deg, rel=0.15)
+
+
+def test_moving_at_3_degrees_a_second_the_average_is_a_quarter_of_a_degree_late(bench: Bench) -> None:
+    sensor = bench.driver()
+    late = []
+    for _ in range(100):
+        bench.clock.sleep(CYCLE_S)
+        bench.elevation_deg += 3.0 * CYCLE_S
+        late.append(bench.elevation_deg - sensor.read())
+    assert max(late) < 0.25
+
+
+def test_a_pause_ends_the_average(bench: Bench) -> None:
+    sensor = bench.driver()
+    sensor.read()
+    bench.clock.sleep(LASTS_S + 0.01)
+    bench.elevation_deg = 60.0
+    assert sensor.read() == pytest.approx(60.0, abs=0.01)
+
+
+# --- what goes wrong
+
+
+def jolt(bench: Bench, along_x_g: float) -> None:
+    bench.chip.offset_g = (along_x_g, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("jolt_g", [0.14, -0.14])
+def test_what_is_near_1_g_is_taken(bench: Bench, jolt_g: float) -> None:
+    bench.elevation_deg = 90.0
+    jolt(bench, jolt_g)
+    assert bench.driver().read() == pytest.approx(90.0, abs=0.01)
+
+
+@pytest.mark.parametrize(("jolt_g", "felt"), [(0.16, "1.16"), (-0.16, "0.84")])
+def test_what_is_not_near_1_g_is_not(bench: Bench, jolt_g: float, felt: str) -> None:
+    bench.elevation_deg = 90.0
+    jolt(bench, jolt_g)
+    with pytest.raises(HardwareError, match=f"it feels {felt} g"):
+        bench.driver().read()
+
+
+def test_a_short_jolt_is_passed_over_a_long_one_is_told(bench: Bench) -> None:
+    sensor = bench.driver()
+    sensor.read()
+    jolt(bench, 0.8)
+    until_s = bench.clock() + LASTS_S - CYCLE_S
+    while bench.clock() < until_s:
+        bench.clock.sleep(CYCLE_S / 2)
+        assert sensor.read() == pytest.approx(30.0, abs=0.01)
+    bench.clock.sleep(2 * CYCLE_S)
+    with pytest.raises(HardwareError, match=r"MPU6050 at 0x68: it feels 1\.56 g where gravity is 1 g; wait until"):
+        sensor.read()
+    jolt(bench, 0.0)
+    assert sensor.read() == pytest.approx(30.0, abs=0.01)
+
+
+def test_shaken_from_the_start_there_is_no_angle(bench: Bench) -> None:
+    jolt(bench, 0.8)
+    with pytest.raises(HardwareError, match="it feels"):
+        bench.driver().read()
+
+
+def test_in_the_wind_the_readings_near_1_g_still_lead_to_the_angle() -> None:
+    bench = Bench(noise_g_per_root_hz=400e-6)
+    sensor = bench.driver()
+    sensor.read()
+    bench.chip.shaken_g = 0.1
+    readings = []
+    for _ in range(200):
+        bench.clock.sleep(CYCLE_S)
+        readings.append(sensor.read())
+    assert math.fsum(readings) / len(readings) == pytest.approx(30.0, abs=1.0)
+
+
+def test_after_a_dip_in_the_supply_it_is_woken_again(bench: Bench) -> None:
+    sensor = bench.driver()
+    sensor.read()
+    bench.chip.brown_out()
+    for _ in range(3):
+        bench.clock.sleep(CYCLE_S)
+        sensor.read()
+    bench.elevation_deg = 70.0
+    bench.clock.sleep(LASTS_S + CYCLE_S)
+    assert sensor.read() == pytest.approx(70.0, abs=0.01)
+
+
+def test_a_board_on_its_side(bench: Bench) -> None:
+    bench.lean_deg = 80.0
+    with pytest.raises(HardwareError, match="lies on its side; check which arrows point forward and up"):
+        bench.driver().read()
+
+
+def test_another_chip_at_the_address(bench: Bench) -> None:
+    bench.chip.identity = 0x70
+    with pytest.raises(HardwareError, match="WHO_AM_I says 0x70, an MPU6050 says 0x68"):
+        bench.driver().read()
+
+
+def test_a_chip_that_is_gone_and_comes_back_from_power_on(bench: Bench) -> None:
+    sensor = bench.driver()
+    sensor.read()
+    bench.wire.gone.add(0x68)
+    with pytest.raises(HardwareError, match=r"does not answer; .* \(address 0x68\)"):
+        sensor.read()
+    bench.chip.brown_out()
+    bench.wire.gone.clear()
+    assert sensor.read() == pytest.approx(30.0, abs=0.01)

@@ -1,0 +1,214 @@
+"""Two control boxes with digital potentiometers, in simulated time: edges on the lines, and where the antenna goes."""
+
+from __future__ import annotations
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from firmware_sim.rotors.digipot import BoxSpec as SimBoxSpec
+from firmware_sim.rotors.digipot import DigipotRotor
+from hw.buses.gpio import GpioOutputs
+from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus
+from hw.chips.mcp41010 import Mcp41010
+from hw.drives.digipot import ENABLE, REFRESH_S, BoxSpec, DigipotDrive
+from hw.drives.relays import LONGEST_LEASE_S
+from hw.ports import Axis, HardwareError
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+ENABLE_PIN = 22
+CYCLE_S = 0.05
+BAND_DEG = 2.0 + 0.7 + 0.5
+"""The box's dead band, half a step, and the play of the gear."""
+
+
+class Bench:
+    """The rotor stands at 40° and 30° when the power comes, and the drive is told so."""
+
+    def __init__(self, *, relay: bool = True, kernel: bool = False, start_deg: float = 40.0) -> None:
+        self.clock = SimClock(100.0)
+        self.rotor = DigipotRotor(
+            SimBoxSpec(select_pin=8, start_deg=40.0),
+            SimBoxSpec(select_pin=7, start_deg=30.0),
+            self.clock,
+            enable_pin=ENABLE_PIN if relay else None,
+        )
+        bus = self.kernel() if kernel else self.lines()
+        self.drive = DigipotDrive(
+            (Mcp41010(bus, "azimuth"), BoxSpec(start_deg=start_deg)),
+            (Mcp41010(bus, "elevation"), BoxSpec(steps=((0.0, 0.0), (90.0, 64.0)), start_deg=30.0)),
+            self.clock,
+            enable=self.outputs({ENABLE: ENABLE_PIN}) if relay else None,
+        )
+        self.clock.add_alarm(self.drive.due_s, self.drive.enforce)
+
+    def outputs(self, pins: dict[str, int], *, active_low: bool = False) -> GpioOutputs:
+        return GpioOutputs(self.rotor.gpio, "/dev/gpiochip0", pins, consumer="rotator-digipot", active_low=active_low)
+
+    def lines(self) -> SpiBus:
+        selects = self.outputs({"azimuth": 8, "elevation": 7}, active_low=True)
+        return LineSpi(selects, self.outputs({SCK: 11, SI: 10}))
+
+    def kernel(self) -> SpiBus:
+        return KernelSpi(self.rotor.spidev, 0, {"azimuth": 0, "elevation": 1})
+
+    def follow(self, axis: Axis, angle_deg: float, seconds: float) -> None:
+        for _ in range(round(seconds / CYCLE_S)):
+            self.drive.aim(axis, angle_deg, 0.0, self.clock() + 0.25)
+            self.clock.sleep(CYCLE_S)
+
+    def antenna(self, axis: Axis) -> float:
+        return self.rotor.antenna()[list(Axis).index(axis)]
+
+
+# --- power-on
+
+
+def test_without_a_relay_the_box_turns_to_the_middle_before_anybody_asked() -> None:
+    bench = Bench(relay=False)
+    bench.clock.sleep(40.0)
+    assert bench.antenna(AZ) == pytest.approx(180.0, abs=BAND_DEG)
+
+
+def test_with_the_relay_nothing_turns_before_the_first_aim() -> None:
+    bench = Bench()
+    bench.clock.sleep(40.0)
+    bench.drive.hold(AZ)
+    bench.drive.off()
+    assert bench.rotor.antenna() == (40.0, 30.0)
+    assert not bench.rotor.gpio.level(ENABLE_PIN)
+
+
+def test_the_relay_closes_when_both_chips_say_where_the_rotor_is() -> None:
+    bench = Bench()
+    steps: list[tuple[int, int]] = []
+
+    def note(_at_s: float, changes: object) -> None:
+        if ENABLE_PIN in changes:  # type: ignore[operator]
+            steps.append((bench.rotor.azimuth.chip.step, bench.rotor.elevation.chip.step))
+
+    bench.rotor.gpio.on_edges.append(note)
+    bench.follow(AZ, 100.0, 1.0)
+    assert steps == [(28, 21)]  # 40° and 30°, at 1.41° a step
+    bench.follow(AZ, 100.0, 20.0)
+    assert bench.antenna(EL) == pytest.approx(30.0, abs=0.1), "the other axis stays"
+
+
+# --- motion
+
+
+@pytest.mark.parametrize("kernel", [False, True], ids=["lines", "spidev"])
+@pytest.mark.parametrize("angle_deg", [0.0, 39.0, 100.0, 360.0])
+def test_the_box_goes_where_the_wiper_says_and_the_model_with_it(kernel: bool, angle_deg: float) -> None:
+    bench = Bench(kernel=kernel)
+    bench.follow(AZ, angle_deg, 60.0)
+    assert bench.antenna(AZ) == pytest.approx(angle_deg, abs=BAND_DEG)
+    assert bench.drive.sensor(AZ).read() == pytest.approx(bench.antenna(AZ), abs=1.5)
+    assert bench.drive.sensor(AZ).source == "modelled"
+
+
+def test_on_the_way_the_model_is_where_the_antenna_is() -> None:
+    bench = Bench()
+    for _ in range(8):
+        bench.follow(AZ, 100.0, 1.0)
+        assert bench.drive.sensor(AZ).read() == pytest.approx(bench.antenna(AZ), abs=1.5)
+
+
+@pytest.mark.parametrize("stop", ["hold", "off", "expiry"])
+def test_stop_is_where_it_is(stop: str) -> None:
+    bench = Bench()
+    bench.follow(AZ, 340.0, 5.0)
+    at_deg = bench.antenna(AZ)
+    match stop:
+        case "hold":
+            bench.drive.hold(AZ)
+        case "off":
+            bench.drive.off()
+        case _:
+            bench.drive.aim(AZ, 340.0, 0.0, bench.clock() + 60.0)
+            at_deg += 6.0 * LONGEST_LEASE_S
+    bench.clock.sleep(10.0)
+    assert bench.antenna(AZ) == pytest.approx(at_deg, abs=1.5)
+
+
+def test_only_changes_are_sent_and_all_of_it_once_a_second() -> None:
+    bench = Bench()
+    bench.follow(AZ, 100.0, 10.0)
+    assert bench.rotor.azimuth.chip.frames == pytest.approx(2 + 10 / REFRESH_S, abs=1)
+
+
+def test_a_chip_that_forgot_is_told_again() -> None:
+    bench = Bench()
+    bench.follow(AZ, 42.0, 2.0)
+    bench.rotor.inject("azimuth-chip-dips")
+    bench.clock.sleep(REFRESH_S)
+    bench.clock.sleep(5.0)
+    assert bench.antenna(AZ) == pytest.approx(42.0, abs=BAND_DEG + 1.0)
+    assert bench.rotor.azimuth.chip.step != 0x80
+
+
+def test_the_resolution() -> None:
+    drive = Bench().drive
+    assert drive.resolution_deg(AZ) == pytest.approx(1.41, abs=0.01)
+    assert drive.resolution_deg(EL) == pytest.approx(1.41, abs=0.01)
+
+
+def test_an_angle_outside_the_calibration_is_refused_and_moves_nothing() -> None:
+    bench = Bench()
+    with pytest.raises(HardwareError, match=r"elevation box: 91.0° is outside its calibration table"):
+        bench.drive.aim(EL, 91.0, 0.0, bench.clock() + 0.25)
+    assert not bench.rotor.gpio.level(ENABLE_PIN)
+
+
+def test_release_takes_the_supply_and_an_aim_gives_it_back() -> None:
+    bench = Bench()
+    bench.follow(AZ, 340.0, 3.0)
+    bench.drive.release()
+    at_deg = bench.antenna(AZ)
+    bench.clock.sleep(20.0)
+    assert bench.antenna(AZ) == pytest.approx(at_deg, abs=1.5)
+    bench.follow(AZ, at_deg, 3.0)
+    assert bench.antenna(AZ) == pytest.approx(at_deg, abs=BAND_DEG)
+
+
+def test_chips_that_forgot_meanwhile_are_told_before_the_supply_comes_back() -> None:
+    bench = Bench()
+    bench.follow(AZ, 40.0, 1.0)
+    bench.drive.release()
+    bench.rotor.inject("azimuth-chip-dips")
+    bench.drive.aim(AZ, 40.0, 0.0, bench.clock() + 0.25)
+    assert bench.rotor.azimuth.chip.step == 28
+
+
+def test_release_without_a_relay_says_so() -> None:
+    with pytest.raises(HardwareError, match="no relay is wired"):
+        Bench(relay=False).drive.release()
+
+
+# --- what a model does not know
+
+
+def test_a_motor_that_stalls_is_not_noticed_until_it_is_measured() -> None:
+    bench = Bench()
+    bench.rotor.inject("azimuth-motor-stalled")
+    bench.follow(AZ, 100.0, 20.0)
+    assert bench.antenna(AZ) == 40.0
+    assert bench.drive.sensor(AZ).read() == pytest.approx(98.0, abs=0.8)
+    bench.clock.sleep(LONGEST_LEASE_S)
+    bench.drive.found(AZ, 40.0)
+    bench.drive.hold(AZ)
+    assert bench.rotor.azimuth.chip.step == 28
+
+
+def test_a_broken_select_leaves_the_chip_in_the_middle() -> None:
+    bench = Bench()
+    bench.rotor.inject("azimuth-select-broken")
+    bench.follow(AZ, 40.0, 40.0)
+    assert bench.antenna(AZ) == pytest.approx(180.0, abs=BAND_DEG)
+
+
+@pytest.mark.parametrize("steps", [((0.0, 0.0), (360.0, 300.0)), ((0.0, -5.0), (360.0, 255.0))])
+def test_steps_that_are_none(steps: tuple[tuple[float, float], ...]) -> None:
+    bench = Bench()
+    chip = Mcp41010(bench.kernel(), "azimuth")
+    with pytest.raises(HardwareError, match="0 to 256"):
+        DigipotDrive((chip, BoxSpec(steps=steps)), (chip, BoxSpec()), bench.clock)

@@ -1,0 +1,125 @@
+"""What the relay bank tells the sentinel: every lease before it counts, and the end of the last one."""
+
+from __future__ import annotations
+
+import pytest
+
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.clock import SimClock
+from hw.buses.gpio import GpioOutputs
+from hw.drives.relays import RelayBank
+from hw.ports import Axis, Direction, HardwareError
+
+PINS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25, "master": 26}
+MINUS, OFF, PLUS = Direction
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+
+
+class Journal:
+    """A watch that writes down what it hears, and what is on at that moment."""
+
+    def __init__(self, gpio: SimGpio) -> None:
+        self._gpio = gpio
+        self.heard: list[tuple[str, bool]] = []
+        self.gone = False
+
+    def renew(self) -> None:
+        if self.gone:
+            raise HardwareError("the sentinel is gone")
+        self.heard.append(("renew", self._any_on()))
+
+    def rest(self) -> None:
+        self.heard.append(("rest", self._any_on()))
+
+    def words(self) -> list[str]:
+        return [word for word, _ in self.heard]
+
+    def _any_on(self) -> bool:
+        return any(self._gpio.level(pin) for name, pin in PINS.items() if name != "master")
+
+
+class Bench:
+    def __init__(self) -> None:
+        self.clock = SimClock(100.0)
+        self.gpio = SimGpio(self.clock)
+        self.journal = Journal(self.gpio)
+        lines = GpioOutputs(self.gpio, "/dev/gpiochip0", PINS, consumer="test")
+        self.bank = RelayBank(lines, self.clock, dead_time_s=0.5, master=True, watch=self.journal)
+        self.clock.add_alarm(self.bank.due_s, self.bank.enforce)
+
+    def drive(self, axis: Axis, way: Direction) -> Direction:
+        return self.bank.drive(axis, way, self.clock() + 0.25)
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+def test_the_first_lease_is_told_before_the_relay_closes(bench: Bench) -> None:
+    bench.drive(AZ, PLUS)
+    assert bench.journal.heard == [("renew", False)]
+    assert bench.gpio.level(22)
+
+
+def test_every_renewal_is_told(bench: Bench) -> None:
+    for _ in range(3):
+        bench.drive(AZ, PLUS)
+        bench.clock.sleep(0.05)
+    assert bench.journal.words() == ["renew"] * 3
+
+
+def test_the_end_is_told_when_the_relay_is_open(bench: Bench) -> None:
+    bench.drive(AZ, PLUS)
+    bench.drive(AZ, OFF)
+    assert bench.journal.heard[-1] == ("rest", False)
+
+
+def test_one_motor_that_goes_on_is_not_the_end(bench: Bench) -> None:
+    bench.drive(AZ, PLUS)
+    bench.drive(EL, PLUS)
+    bench.drive(AZ, OFF)
+    assert "rest" not in bench.journal.words()
+    bench.drive(EL, OFF)
+    assert bench.journal.words().count("rest") == 1
+
+
+def test_an_expired_lease_is_an_end_too(bench: Bench) -> None:
+    bench.drive(AZ, PLUS)
+    bench.clock.sleep(0.3)
+    assert bench.journal.heard[-1] == ("rest", False)
+
+
+def test_all_off_is_an_end(bench: Bench) -> None:
+    bench.drive(AZ, PLUS)
+    bench.bank.off()
+    assert bench.journal.heard[-1] == ("rest", False)
+
+
+def test_the_master_alone_needs_no_watch(bench: Bench) -> None:
+    bench.drive(AZ, PLUS)
+    bench.drive(AZ, OFF)
+    assert bench.gpio.level(26)
+    assert bench.journal.words() == ["renew", "rest"]
+
+
+def test_a_motor_that_waits_out_its_dead_time_is_not_on(bench: Bench) -> None:
+    bench.drive(AZ, PLUS)
+    bench.drive(AZ, MINUS)
+    assert bench.journal.words() == ["renew", "rest"]
+
+
+def test_with_nobody_watching_no_relay_closes(bench: Bench) -> None:
+    bench.journal.gone = True
+    with pytest.raises(HardwareError, match="the sentinel is gone"):
+        bench.drive(AZ, PLUS)
+    assert not bench.gpio.level(22)
+
+
+def test_a_watch_that_goes_away_stops_the_motor_by_its_lease(bench: Bench) -> None:
+    bench.drive(AZ, PLUS)
+    bench.journal.gone = True
+    with pytest.raises(HardwareError):
+        bench.drive(AZ, PLUS)
+    bench.clock.sleep(0.3)
+    assert not bench.gpio.level(22)

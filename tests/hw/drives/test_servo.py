@@ -1,0 +1,300 @@
+"""Two hobby servos on a simulated board, in simulated time: what the drive orders, and where the servos go."""
+
+from __future__ import annotations
+
+import threading
+import time
+from itertools import pairwise
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from firmware_sim.parts.servo import ServoSpec as SimSpec
+from firmware_sim.rotors.servo import ServoAxisSpec, ServoRotor
+from hw.buses.gpio import GpioOutputs
+from hw.buses.i2c import SmbusI2C
+from hw.chips.pca9685 import Pca9685
+from hw.drives.relays import LONGEST_LEASE_S
+from hw.drives.servo import ENABLE, LOOK_S, RETRY_S, ServoDrive
+from hw.drives.servo_axis import ServoSpec
+from hw.ports import Axis, HardwareError
+from hw.safety.guard import PATIENCE_S
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+OE_PIN = 5
+CYCLE_S = 0.05
+SETTLED_S = 180 / 40 + 0.1
+"""The longest way, at the pace the drive is set to."""
+TICK_DEG = 4.88 / 2000 * 180
+
+
+class Bench:
+    """The servos stand at 90° when the power comes, and the drive is told to start at 60° and 10°."""
+
+    def __init__(self, idle_off_s: float | None = None, *, on_the_wire: bool = False) -> None:
+        self.clock = SimClock(100.0)
+        still = SimSpec(jitter_deg=0.0)
+        self.rotor = ServoRotor(
+            ServoAxisSpec(0, servo=still),
+            ServoAxisSpec(1, servo=still),
+            self.clock,
+            self.clock.sleep if on_the_wire else None,
+            enable_pin=OE_PIN,
+        )
+        self.drive = ServoDrive(
+            Pca9685(SmbusI2C(self.rotor.bus, "bus 1"), 0x40, self.clock.sleep),
+            ServoSpec(channel=0, start_deg=60.0),
+            ServoSpec(channel=1, start_deg=10.0),
+            self.clock,
+            enable=GpioOutputs(
+                self.rotor.gpio, "/dev/gpiochip0", {ENABLE: OE_PIN}, consumer="rotator-servos", active_low=True
+            ),
+            idle_off_s=idle_off_s,
+        )
+        self.heard: list[str] = []
+        self.clock.add_alarm(self.drive.due_s, self._guard)
+
+    def _guard(self, now_s: float) -> None:
+        try:
+            self.drive.enforce(now_s)
+        except HardwareError as fault:
+            self.heard.append(str(fault))
+
+    def follow(self, axis: Axis, angle_deg: float, seconds: float, rate_dps: float = 0.0) -> None:
+        for at in range(round(seconds / CYCLE_S)):
+            self.drive.aim(axis, angle_deg + rate_dps * at * CYCLE_S, rate_dps, self.clock() + 0.25)
+            self.clock.sleep(CYCLE_S)
+
+    def settle(self) -> None:
+        self.follow(AZ, 60.0, SETTLED_S)
+        self.follow(EL, 10.0, SETTLED_S)
+
+    def antenna(self, axis: Axis) -> float:
+        return self.rotor.antenna()[list(Axis).index(axis)]
+
+
+# --- the first pulse
+
+
+def test_no_pulse_before_the_first_aim() -> None:
+    bench = Bench()
+    bench.clock.sleep(10.0)
+    bench.drive.hold(AZ)
+    bench.drive.off()
+    bench.clock.sleep(1.0)
+    assert bench.rotor.board.pulse_us(0) is None
+    assert bench.rotor.gpio.level(OE_PIN), "OE is high: off"
+    assert bench.antenna(AZ) == 90.0
+    assert not bench.drive.position_known(AZ)
+
+
+def test_the_first_pulse_is_where_it_was_told_to_start_and_waits_for_the_servo() -> None:
+    bench = Bench()
+    bench.follow(AZ, 120.0, 4.0)
+    assert bench.antenna(AZ) == pytest.approx(60.0, abs=TICK_DEG)
+    assert not bench.drive.position_known(AZ)
+    bench.follow(AZ, 120.0, 3.0)
+    assert bench.drive.position_known(AZ)
+    assert bench.antenna(AZ) == pytest.approx(120.0, abs=TICK_DEG)
+    assert bench.rotor.board.pulse_us(1) is None, "the other axis was not asked to move"
+
+
+def test_outputs_are_enabled_when_the_pulse_is_right_and_not_before() -> None:
+    bench = Bench()
+    pulses_us: list[float | None] = []
+    bench.rotor.gpio.on_edges.append(lambda _at_s, _changes: pulses_us.append(bench.rotor.board.pulse_us(0)))
+    bench.follow(AZ, 90.0, 1.0)
+    assert pulses_us == [pytest.approx(500 + 60 / 180 * 2000, abs=4.88)]
+
+
+# --- motion
+
+
+def test_the_ordered_pulse_never_leaps() -> None:
+    bench = Bench()
+    bench.settle()
+    widths_us = []
+    for _ in range(100):
+        bench.drive.aim(AZ, 180.0, 0.0, bench.clock() + 0.25)
+        bench.clock.sleep(0.02)
+        widths_us.append(bench.rotor.board.pulse_us(0) or 0.0)
+    assert max(abs(after - before) for before, after in pairwise(widths_us)) <= 40 * 0.04 / 180 * 2000 + 4.89
+    assert bench.antenna(AZ) == pytest.approx(60 + 40 * 2.0, abs=2.0)
+
+
+def test_a_moving_target_is_followed_between_orders() -> None:
+    bench = Bench()
+    bench.settle()
+    bench.follow(AZ, 60.0, 10.0, rate_dps=3.0)
+    assert bench.antenna(AZ) == pytest.approx(90.0, abs=0.5)
+    assert bench.drive.sensor(AZ).read() == pytest.approx(90.0, abs=0.1)
+    assert bench.drive.sensor(AZ).source == "modelled"
+
+
+def test_a_course_that_runs_out_is_held_where_it_is() -> None:
+    bench = Bench()
+    bench.settle()
+    bench.drive.aim(AZ, 180.0, 0.0, bench.clock() + 60.0)
+    bench.clock.sleep(10.0)
+    assert bench.antenna(AZ) == pytest.approx(60 + 40 * LONGEST_LEASE_S, abs=2.0)
+    assert bench.rotor.board.pulse_us(0) is not None, "it holds"
+
+
+@pytest.mark.parametrize("stop", ["hold", "off", "an aim that has run out"])
+def test_stop_at_once(stop: str) -> None:
+    bench = Bench()
+    bench.settle()
+    bench.follow(AZ, 180.0, 1.0)
+    at_deg = bench.antenna(AZ)
+    match stop:
+        case "hold":
+            bench.drive.hold(AZ)
+        case "off":
+            bench.drive.off()
+        case _:
+            bench.drive.aim(AZ, 180.0, 0.0, bench.clock())
+    bench.clock.sleep(2.0)
+    assert bench.antenna(AZ) == pytest.approx(at_deg, abs=1.0)
+
+
+def test_nobody_who_stops_waits_for_a_bus_that_hangs() -> None:
+    bench = Bench()
+    bench.settle()
+    bench.drive.aim(AZ, 180.0, 0.0, bench.clock() + 0.5)
+    bench.rotor.inject("bus-hung")
+    guard = threading.Thread(target=bench.drive.enforce, args=(bench.clock() + 0.02,), daemon=True)
+    guard.start()
+    deadline_s = time.monotonic() + 10.0
+    while bench.drive.due_s() is not None:  # until the guard is at the bus
+        assert time.monotonic() < deadline_s
+    stopping = threading.Thread(target=bench.drive.off, daemon=True)
+    stopping.start()
+    stopping.join(timeout=5.0)
+    assert not stopping.is_alive()
+    bench.rotor.clear("bus-hung")
+    guard.join(timeout=5.0)
+    bench.clock.sleep(2.0)
+    assert bench.antenna(AZ) == pytest.approx(60.0, abs=2.0)
+
+
+@pytest.mark.parametrize("fault", ["azimuth-servo-stalled", "azimuth-servo-unpowered"])
+def test_nobody_notices_a_servo_that_does_not_turn(fault: str) -> None:
+    bench = Bench()
+    bench.settle()
+    bench.rotor.inject(fault)
+    bench.follow(AZ, 100.0, 2.0)
+    assert bench.antenna(AZ) == pytest.approx(60.0, abs=TICK_DEG)
+    assert bench.drive.sensor(AZ).read() == 100.0, "which is why it says: modelled"
+
+
+def test_a_late_guard_makes_no_leap() -> None:
+    bench = Bench()
+    bench.settle()
+    bench.drive.aim(AZ, 180.0, 0.0, bench.clock() + 0.5)
+    before_deg = bench.drive.sensor(AZ).read()
+    bench.drive.enforce(bench.clock() + 0.4)
+    assert bench.drive.sensor(AZ).read() - before_deg == pytest.approx(40 * 0.04)
+
+
+@pytest.mark.parametrize("angle_deg", [-1.0, 181.0, 359.0])
+def test_an_angle_outside_the_calibration_is_refused_and_moves_nothing(angle_deg: float) -> None:
+    bench = Bench()
+    bench.settle()
+    with pytest.raises(HardwareError, match=r"azimuth servo: .* outside its calibration table"):
+        bench.drive.aim(AZ, angle_deg, 0.0, bench.clock() + 0.25)
+    bench.clock.sleep(1.0)
+    assert bench.antenna(AZ) == pytest.approx(60.0, abs=TICK_DEG)
+
+
+def test_a_course_that_leads_beyond_the_calibration_ends_at_its_end() -> None:
+    bench = Bench()
+    bench.settle()
+    bench.follow(EL, 0.0, 1.0)
+    bench.drive.aim(EL, 0.0, -10.0, bench.clock() + 0.5)
+    bench.clock.sleep(1.0)
+    assert bench.antenna(EL) == pytest.approx(0.0, abs=TICK_DEG)
+
+
+# --- letting go
+
+
+def test_release_is_limp_and_the_next_aim_is_a_first_one() -> None:
+    bench = Bench()
+    bench.settle()
+    bench.rotor.inject("azimuth-wind-turns")
+    bench.drive.release()
+    bench.clock.sleep(2.0)
+    assert bench.antenna(AZ) == pytest.approx(80.0, abs=TICK_DEG)
+    assert (bench.rotor.board.pulse_us(0), bench.rotor.gpio.level(OE_PIN)) == (None, True)
+    assert not bench.drive.position_known(AZ)
+    bench.follow(AZ, 61.0, SETTLED_S)
+    assert bench.drive.position_known(AZ)
+    assert bench.antenna(AZ) == pytest.approx(61.0, abs=2 * TICK_DEG)
+
+
+def test_an_idle_servo_gets_no_pulses_though_it_is_told_to_stay() -> None:
+    bench = Bench(idle_off_s=5.0)
+    bench.settle()
+    bench.follow(AZ, 60.0, 6.0)
+    assert bench.rotor.board.pulse_us(0) is None
+    assert bench.rotor.gpio.level(OE_PIN)
+    bench.follow(AZ, 62.0, 0.5)
+    assert bench.rotor.board.pulse_us(0) is not None
+    assert bench.antenna(AZ) == pytest.approx(62.0, abs=TICK_DEG), "no wait: it is where it was left"
+
+
+# --- the board
+
+
+@pytest.mark.parametrize("fault", ["board-unpowered", "board-dips"])
+def test_a_board_without_supply_is_told_and_comes_back_without_a_pulse(fault: str) -> None:
+    bench = Bench()
+    bench.settle()
+    bench.rotor.inject(fault)
+    with pytest.raises(HardwareError):
+        bench.follow(AZ, 100.0, LOOK_S + 0.2)
+    assert {AZ, EL} == set(bench.drive.faults())
+    with pytest.raises(HardwareError, match="0x40"):
+        bench.drive.sensor(AZ).read()
+    bench.rotor.clear(fault)
+    bench.clock.sleep(RETRY_S + PATIENCE_S)
+    assert bench.drive.faults() == {}
+    assert bench.rotor.board.pulse_us(0) is None
+    assert not bench.drive.position_known(AZ)
+    bench.follow(AZ, 100.0, SETTLED_S + 2.0)
+    assert bench.antenna(AZ) == pytest.approx(100.0, abs=TICK_DEG)
+
+
+def test_a_board_that_comes_late_is_waited_for() -> None:
+    bench = Bench()
+    bench.rotor.inject("board-unpowered")
+    bench.clock.sleep(5.0)
+    assert len(bench.heard) == pytest.approx(5.0 / RETRY_S, abs=1)
+    bench.rotor.clear("board-unpowered")
+    bench.clock.sleep(RETRY_S)
+    bench.settle()
+    assert bench.antenna(AZ) == pytest.approx(60.0, abs=TICK_DEG)
+    assert bench.rotor.board.early_writes == 0
+
+
+def test_on_a_bus_that_takes_its_time() -> None:
+    bench = Bench(on_the_wire=True)
+    bench.settle()
+    bench.follow(AZ, 100.0, 2.0)
+    assert bench.antenna(AZ) == pytest.approx(100.0, abs=TICK_DEG)
+    assert bench.heard == []
+
+
+@pytest.mark.parametrize(
+    ("azimuth", "said"),
+    [
+        (ServoSpec(channel=1), "azimuth and elevation are both on output 1"),
+        (ServoSpec(channel=0, start_deg=200.0), "azimuth servo: 200.0° is outside"),
+        (ServoSpec(channel=0, pulses_us=((0.0, 500.0),)), "at least two points"),
+    ],
+)
+def test_a_specification_that_contradicts_itself(azimuth: ServoSpec, said: str) -> None:
+    bench = Bench()
+    chip = Pca9685(SmbusI2C(bench.rotor.bus, "bus 1"), 0x40, bench.clock.sleep)
+    with pytest.raises(HardwareError, match=said):
+        ServoDrive(chip, azimuth, ServoSpec(channel=1), bench.clock)

@@ -1,0 +1,262 @@
+"""The drive with its thread and mjbots' library in real time: on the simulated adapter, and on a CAN channel."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
+
+from firmware_sim.moteus.bus import Frame, padded
+from firmware_sim.moteus.motor import Mode
+from firmware_sim.moteus.world import AxisSpec as SimAxis
+from firmware_sim.moteus.world import MoteusWorld
+from hw.moteus.bus import MoteusBus
+from hw.moteus.drive import MoteusDrive
+from hw.moteus.library import CanChannel, SerialPort
+from hw.moteus.orders import AxisSpec
+from hw.ports import Axis, HardwareError
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+DEADLINE_S = 8.0
+
+
+def wait_for(what: Callable[[], bool]) -> float:
+    """Returns how long it took."""
+    started_s = time.monotonic()
+    while not what():
+        assert time.monotonic() - started_s < DEADLINE_S, "it never came"
+        threading.Event().wait(0.005)
+    return time.monotonic() - started_s
+
+
+class Bench:
+    def __init__(self, path: Path) -> None:
+        self.world = MoteusWorld(SimAxis(1), SimAxis(2, rev_per_turn=-1.0, zero_rev=-0.25), time.monotonic)
+        self.adapter = self.world.adapter(path)
+        self.drive = MoteusDrive(AxisSpec(1), AxisSpec(2, rev_per_turn=-1.0, zero_rev=-0.25), time.monotonic)
+        self.bus = MoteusBus(self.drive, SerialPort(str(path)))
+
+    def aim(self, axis: Axis, angle_deg: float, rate_dps: float = 0.0) -> None:
+        self.drive.aim(axis, angle_deg, rate_dps, time.monotonic() + 0.3)
+
+    def answers(self, axis: Axis = AZ) -> bool:
+        return self.complaint(axis) == ""
+
+    def complaint(self, axis: Axis = AZ) -> str:
+        try:
+            self.drive.sensor(axis).read()
+        except HardwareError as error:
+            return str(error)
+        return ""
+
+    def reaches(self, axis: Axis, angle_deg: float) -> Callable[[], bool]:
+        def there() -> bool:
+            self.aim(axis, angle_deg)
+            return abs(self.drive.sensor(axis).read() - angle_deg) < 0.01
+
+        return there
+
+    def mode(self, axis: Axis) -> Mode:
+        self.world.antenna()
+        return self.world.controller(axis.value).motor.mode
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Iterator[Bench]:
+    bench = Bench(tmp_path / "fdcanusb")
+    bench.adapter.plug()
+    bench.bus.start()
+    try:
+        wait_for(lambda: bench.answers(AZ) and bench.answers(EL))
+        yield bench
+    finally:
+        bench.bus.close()
+        bench.adapter.unplug()
+
+
+def test_both_axes_go_where_they_are_aimed(bench: Bench) -> None:
+    wait_for(bench.reaches(AZ, 8.0))
+    wait_for(bench.reaches(EL, 5.0))
+    assert bench.world.antenna() == pytest.approx((8.0, 5.0), abs=0.02)
+
+
+def test_a_ramp_of_3_dps_is_followed_within_a_twentieth_of_a_degree(bench: Bench) -> None:
+    started_s = time.monotonic()
+    errors_deg: list[float] = []
+
+    def followed() -> bool:
+        now_s = time.monotonic()
+        bench.aim(AZ, 3.0 * (now_s - started_s), 3.0)
+        antenna_deg, before_s = bench.world.antenna()[0], time.monotonic()
+        if before_s - started_s > 1.5:
+            errors_deg.append(abs(antenna_deg - 3.0 * (before_s - started_s)))
+        return before_s - started_s > 4.0
+
+    wait_for(followed)
+    errors_deg.sort()
+    print(f"3°/s ramp in real time: median {errors_deg[len(errors_deg) // 2]:.4f}°, worst {errors_deg[-1]:.4f}°")  # noqa: T201
+    assert errors_deg[int(0.95 * len(errors_deg))] < 0.05
+
+
+def test_an_order_does_not_wait_for_the_next_cycle(bench: Bench) -> None:
+    wait_for(bench.reaches(AZ, 0.0))
+    lines = bench.world.lines.transcript
+    took_s = []
+    for _ in range(15):
+        bench.drive.off()
+        lines.clear()
+        wait_for(lambda: sum("8001 01000A0E200000C07F" in line for line in lines) > 2)  # parked: NaN, every 0.08 s
+        lines.clear()
+        bench.aim(AZ, 0.0)
+        took_s.append(wait_for(lambda: any("8001 01000A0E2000000000" in line for line in lines)))
+    assert sorted(took_s)[7] < 0.02
+
+
+def test_parked_it_is_spoken_to_ten_times_a_second_and_its_watchdog_stays_quiet(bench: Bench) -> None:
+    wait_for(bench.reaches(AZ, 1.0))
+    bench.drive.off()
+    lines = bench.world.lines.transcript
+    lines.clear()
+    took_s = wait_for(lambda: sum("can send 8001 01000A" in line for line in lines) >= 15)
+    assert 15 / took_s > 10
+    assert (bench.mode(AZ), bench.drive.faults()) == (Mode.POSITION, {})
+
+
+@pytest.mark.parametrize("mishap", ["adapter-deaf", "lines-dropped", "lines-garbled", "lines-late", "azimuth-silent"])
+def test_a_wire_gone_bad_is_told_and_heals(bench: Bench, mishap: str) -> None:
+    bench.world.inject(mishap)
+    wait_for(lambda: not bench.answers(AZ))
+    assert "azimuth: moteus 1 does not answer" in bench.complaint(AZ)
+    if mishap == "azimuth-silent":
+        assert bench.answers(EL)
+    bench.world.clear(mishap)
+    wait_for(lambda: bench.answers(AZ) and bench.answers(EL))
+
+
+def test_unplugged_and_plugged_in_again(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    wait_for(bench.reaches(AZ, 2.0))
+    bench.world.inject("adapter-unplugged")
+    wait_for(lambda: not bench.answers(AZ))
+    assert "plug" in bench.complaint(AZ)
+    busy_s = time.process_time()
+    wait_for(lambda: bench.mode(AZ) is Mode.TIMEOUT)
+    assert time.process_time() - busy_s < 0.25, "it spins"
+    bench.world.clear("adapter-unplugged")
+    wait_for(lambda: bench.answers(AZ))
+    wait_for(lambda: AZ in bench.drive.faults())
+    assert "stopped by itself" in bench.drive.faults()[AZ]
+    bench.drive.acknowledge(AZ)
+    wait_for(lambda: not bench.drive.faults() and bench.mode(AZ) is Mode.POSITION)
+    wait_for(bench.reaches(AZ, 3.0))
+    assert not [record for record in caplog.records if record.levelname == "ERROR"]
+
+
+def test_closing_decelerates_and_ends_the_thread(bench: Bench) -> None:
+    wait_for(lambda: bench.reaches(AZ, 300.0)() or bench.world.antenna()[0] > 4.0)
+    bench.bus.close()
+    stopped_deg = bench.world.antenna()[0]
+    assert bench.world.controller("azimuth").motor.set_point.velocity_rev_s == pytest.approx(0.0, abs=1e-4)
+    wait_for(lambda: bench.mode(AZ) is Mode.TIMEOUT)
+    assert bench.world.antenna()[0] == pytest.approx(stopped_deg, abs=0.05)
+    assert "moteus" not in [thread.name for thread in threading.enumerate()]
+
+
+def test_closing_at_once_after_an_aim_still_tells_it_to_hold(bench: Bench) -> None:
+    wait_for(bench.reaches(AZ, 0.0))
+    bench.aim(AZ, 300.0)
+    bench.bus.close()
+    wait_for(lambda: bench.mode(AZ) is Mode.TIMEOUT)
+    assert bench.world.antenna()[0] < 0.2, "half a second without a hold would be 2.5°"
+
+
+def test_no_adapter_is_a_sentence_and_it_is_found_when_it_comes(tmp_path: Path) -> None:
+    bench = Bench(tmp_path / "fdcanusb")
+    bench.bus.start()
+    try:
+        wait_for(lambda: "there is no such port: plug the adapter in" in bench.complaint())
+        with pytest.raises(HardwareError, match="there is no such port"):
+            bench.aim(AZ, 10.0)
+        bench.adapter.plug()
+        wait_for(bench.answers)
+    finally:
+        bench.bus.close()
+        bench.adapter.unplug()
+
+
+@contextlib.contextmanager
+def on_a_can_channel(world: MoteusWorld, channel: str) -> Iterator[None]:
+    """The simulated controllers as nodes of python-can's in-process bus."""
+    can = pytest.importorskip("can", reason="python-can is missing: pip install python-can")
+    node = can.Bus(interface="virtual", channel=channel, fd=True)
+    ending = threading.Event()
+
+    def serve() -> None:
+        while not ending.is_set():
+            if message := node.recv(timeout=0.05):
+                for reply in world.can.send(Frame(message.arbitration_id, bytes(message.data))):
+                    node.send(
+                        can.Message(
+                            arbitration_id=reply.arbitration_id,
+                            is_extended_id=reply.arbitration_id > 0x7FF,
+                            data=padded(reply.data),
+                            is_fd=True,
+                            bitrate_switch=True,
+                        )
+                    )
+
+    thread = threading.Thread(target=serve, name="can-node")
+    thread.start()
+    try:
+        yield
+    finally:
+        ending.set()
+        thread.join()
+        node.shutdown()
+
+
+def test_a_can_channel_does_as_well_and_there_the_library_itself_never_gives_up() -> None:
+    world = MoteusWorld(SimAxis(1), SimAxis(2), time.monotonic)
+    drive = MoteusDrive(AxisSpec(1), AxisSpec(2), time.monotonic)
+    bus = MoteusBus(drive, CanChannel("bench", interface="virtual"))
+
+    def reached() -> bool:
+        with contextlib.suppress(HardwareError):
+            drive.aim(AZ, 5.0, 0.0, time.monotonic() + 0.3)
+        return abs(world.antenna()[0] - 5.0) < 0.01
+
+    with on_a_can_channel(world, "bench"):
+        bus.start()
+        try:
+            wait_for(reached)
+            world.inject("elevation-silent")
+            wait_for(lambda: "does not answer" in _complaint(drive, EL))
+            assert _complaint(drive, AZ) == ""
+        finally:
+            bus.close()
+
+
+def _complaint(drive: MoteusDrive, axis: Axis) -> str:
+    try:
+        drive.sensor(axis).read()
+    except HardwareError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="SocketCAN is Linux's")
+def test_no_can_interface_is_a_sentence() -> None:
+    drive = MoteusDrive(AxisSpec(1), AxisSpec(2), time.monotonic)
+    bus = MoteusBus(drive, CanChannel("can77"))
+    bus.start()
+    try:
+        wait_for(lambda: "not connected" not in _complaint(drive, AZ))
+        assert "can77" in _complaint(drive, AZ)
+    finally:
+        bus.close()

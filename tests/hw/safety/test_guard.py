@@ -1,0 +1,183 @@
+"""The guard's thread in real time: whatever else hangs or dies, relays open when their command ends.
+
+Waits for edges with timeouts far longer than anything should take; asserts on the moments the edges themselves carry.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+
+import pytest
+
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.buses.i2c import SimI2CBus
+from hw.buses.gpio import GpioOutputs
+from hw.buses.i2c import SmbusI2C
+from hw.drives.relays import LONGEST_LEASE_S, RelayBank
+from hw.ports import Axis, Direction, HardwareError
+from hw.safety.guard import Guard
+
+PINS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25, "master": 26}
+PATIENCE_S = 20.0
+SLACK_S = 2.0
+"""How late a busy machine may wake a thread."""
+
+
+class FragileLines:
+    """GPIO lines that can be made to fail."""
+
+    def __init__(self, lines: GpioOutputs) -> None:
+        self._lines = lines
+        self.broken = False
+        self.refused = threading.Event()
+
+    def set(self, levels: dict[str, bool]) -> None:
+        if self.broken:
+            self.refused.set()
+            raise HardwareError("GPIO: cannot switch azimuth_cw: Input/output error")
+        self._lines.set(levels)
+
+    def close(self) -> None:
+        self._lines.close()
+
+
+class Bench:
+    def __init__(self, *, master: bool = False) -> None:
+        self.gpio = SimGpio(time.monotonic)
+        self.gpio.on_edges.append(self._see)
+        self.opened = threading.Event()
+        self.lines = FragileLines(GpioOutputs(self.gpio, "/dev/gpiochip0", PINS, consumer="test"))
+        self.bank = RelayBank(self.lines, time.monotonic, dead_time_s=0.05, master=master)
+
+    def _see(self, _now_s: float, changes: Mapping[int, bool]) -> None:
+        if changes.get(PINS["azimuth_cw"]) is False:
+            self.opened.set()
+
+    def drive(self, seconds: float) -> None:
+        self.opened.clear()
+        self.bank.drive(Axis.AZIMUTH, Direction.PLUS, time.monotonic() + seconds)
+
+    def run_once(self) -> None:
+        """A motor ran and rests: from here on only the master is due, in ten seconds."""
+        self.drive(0.1)
+        self.bank.drive(Axis.AZIMUTH, Direction.OFF, time.monotonic())
+
+    def rouse(self) -> None:
+        """Wake whoever still waits for the bank."""
+        self.drive(0.01)
+        self.bank.off()
+
+    def on_for_s(self) -> float:
+        """How long the CW relay was closed the last time."""
+        closed, opened = [edge for edge in self.gpio.edges if edge.offset == PINS["azimuth_cw"]][-2:]
+        assert (closed.level, opened.level) == (True, False)
+        return opened.at_s - closed.at_s
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+@pytest.fixture
+def guard(bench: Bench) -> Iterator[Guard]:
+    guard = Guard(bench.bank, time.monotonic, alarm="CUT THE MOTOR POWER")
+    guard.start()
+    yield guard
+    bench.lines.broken = False
+    guard.stop()
+
+
+@pytest.mark.usefixtures("guard")
+def test_a_hung_bus_holds_no_relay_on(bench: Bench) -> None:
+    bus = SimI2CBus()
+    bus.hang()
+    reading = threading.Event()
+
+    def control() -> None:
+        bench.drive(LONGEST_LEASE_S)
+        reading.set()
+        with pytest.raises(HardwareError):
+            SmbusI2C(bus, "bus 1").write_read(0x48, b"\x00", 2)
+
+    thread = threading.Thread(target=control)
+    thread.start()
+    assert reading.wait(PATIENCE_S)
+    assert bench.opened.wait(PATIENCE_S)
+    assert thread.is_alive(), "the control thread still hangs on the bus"
+    assert bench.on_for_s() <= LONGEST_LEASE_S + SLACK_S
+    bus.release()
+    thread.join(PATIENCE_S)
+    assert not thread.is_alive()
+
+
+@pytest.mark.usefixtures("guard")
+def test_a_line_that_cannot_be_set_is_tried_again_and_said_aloud(
+    bench: Bench, caplog: pytest.LogCaptureFixture
+) -> None:
+    bench.drive(0.05)
+    bench.lines.broken = True
+    assert bench.lines.refused.wait(PATIENCE_S)
+    bench.lines.refused.clear()
+    assert bench.lines.refused.wait(PATIENCE_S), "no second try"
+    bench.lines.broken = False
+    assert bench.opened.wait(PATIENCE_S)
+    assert "CUT THE MOTOR POWER" in caplog.text
+
+
+class MeddledClock:
+    """A clock during whose first reading, between the guard's look and its sleep, somebody else gets a turn."""
+
+    def __init__(self, meddle: Callable[[], None]) -> None:
+        self._meddle: Callable[[], None] | None = meddle
+        self.read = threading.Event()
+
+    def __call__(self) -> float:
+        meddle, self._meddle = self._meddle, None
+        if meddle is not None:
+            meddle()
+            self.read.set()
+        return time.monotonic()
+
+
+def test_a_command_given_just_before_the_guard_falls_asleep_ends_in_time() -> None:
+    bench = Bench(master=True)
+    bench.run_once()
+    clock = MeddledClock(lambda: bench.drive(0.1))
+    guard = Guard(bench.bank, clock)
+    guard.start()
+    try:
+        assert clock.read.wait(PATIENCE_S)
+        assert bench.opened.wait(LONGEST_LEASE_S + SLACK_S)
+    finally:
+        guard.stop()
+        bench.rouse()
+
+
+def test_stopping_the_guard_opens_everything(bench: Bench, guard: Guard) -> None:
+    bench.drive(0.5)
+    guard.stop()
+    assert not any(bench.gpio.level(pin) for pin in PINS.values())
+
+
+def test_after_stop_the_thread_is_gone() -> None:
+    bench = Bench(master=True)
+    bench.run_once()
+    before = set(threading.enumerate())
+    clock = MeddledClock(lambda: None)
+    guard = Guard(bench.bank, clock)
+    guard.start()
+    assert clock.read.wait(PATIENCE_S)
+    try:
+        guard.stop()
+        assert set(threading.enumerate()) <= before
+    finally:
+        bench.rouse()
+
+
+def test_a_guard_that_never_started_still_switches_off(bench: Bench) -> None:
+    bench.drive(0.5)
+    Guard(bench.bank, time.monotonic).stop()
+    assert not any(bench.gpio.level(pin) for pin in PINS.values())

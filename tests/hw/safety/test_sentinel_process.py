@@ -1,0 +1,188 @@
+"""The sentinel's own part, on real pipes and real processes, with simulated lines.
+
+Its life as a process beside the box is tried on a real kernel (tests/kernel).
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.clock import SimClock
+from hw.buses.gpio import GpioOutputs, LinesBusyError
+from hw.drives.relays import LONGEST_LEASE_S
+from hw.ports import HardwareError
+from hw.safety.lines_off import RelayLines, switch_off
+from hw.safety.sentinel_process import SILENCE_S, main, watch
+
+CHIP = "/dev/gpiochip0"
+LINES = RelayLines(CHIP, {"azimuth_cw": 22, "azimuth_ccw": 23}, active_low=False)
+PATIENCE_S = 20.0
+
+
+class Program:
+    """A process that could be the box, the pipe it would write to, and the sentinel's watch in a thread."""
+
+    def __init__(self) -> None:
+        self.process = subprocess.Popen(["sleep", "1000"])
+        self.pidfd = os.pidfd_open(self.process.pid)
+        self.commands, self.pipe = os.pipe()
+        self.off_s: float | None = None
+        self._thread = threading.Thread(target=watch, args=(self.commands, self.pidfd, self._off), name="watch")
+        self._thread.start()
+
+    def says(self, commands: bytes) -> None:
+        os.write(self.pipe, commands)
+
+    def ends(self) -> None:
+        os.close(self.pipe)
+        self.pipe = -1
+
+    def watch_ended(self) -> bool:
+        self._thread.join(PATIENCE_S)
+        return not self._thread.is_alive()
+
+    def alive(self) -> bool:
+        return self.process.poll() is None
+
+    def close(self) -> None:
+        self.process.kill()
+        self.process.wait()
+        if self.pipe >= 0:
+            os.close(self.pipe)
+        self._thread.join(PATIENCE_S)
+        os.close(self.commands)
+        os.close(self.pidfd)
+
+    def _off(self) -> None:
+        self.off_s = time.monotonic()
+
+
+@pytest.fixture
+def program() -> Iterator[Program]:
+    made = Program()
+    yield made
+    made.close()
+
+
+# --- when it acts
+
+
+def test_the_end_of_the_pipe_is_the_end_of_the_program(program: Program) -> None:
+    program.says(b"+-")
+    program.ends()
+    assert program.watch_ended()
+    assert program.off_s is not None
+
+
+def test_it_acts_at_the_end_even_where_it_was_told_that_all_is_off(program: Program) -> None:
+    program.ends()
+    assert program.watch_ended()
+    assert program.off_s is not None
+
+
+def test_silence_with_a_relay_on_ends_the_program_first(program: Program) -> None:
+    begun_s = time.monotonic()
+    program.says(b"+")
+    assert program.watch_ended()
+    assert program.process.wait(PATIENCE_S) == -signal.SIGKILL
+    assert program.off_s is not None
+    assert program.off_s - begun_s >= SILENCE_S
+
+
+def test_a_program_that_runs_is_never_silent_for_so_long() -> None:
+    assert SILENCE_S > LONGEST_LEASE_S
+
+
+def test_silence_with_all_relays_off_is_rest(program: Program) -> None:
+    program.says(b"+")
+    program.says(b"-")
+    program._thread.join(2 * SILENCE_S)
+    assert program.alive()
+    assert program.off_s is None
+
+
+def test_a_farewell_needs_no_action(program: Program) -> None:
+    program.says(b"+-.")
+    assert program.watch_ended()
+    assert program.off_s is None
+    assert program.alive()
+
+
+# --- what it does
+
+
+def test_lines_left_on_by_the_dead_are_switched_off() -> None:
+    clock = SimClock()
+    gpio = SimGpio(clock)
+    dead = GpioOutputs(gpio, CHIP, LINES.offsets, consumer="rotator-relays")
+    dead.set({"azimuth_cw": True})
+    dead.close()
+    switch_off(gpio, LINES, clock, clock.sleep, 1.0)
+    assert not gpio.level(22)
+    assert not gpio.level(23)
+
+
+def test_active_low_relays_are_off_at_high() -> None:
+    clock = SimClock()
+    gpio = SimGpio(clock)
+    levels: list[tuple[int, bool]] = []
+    gpio.on_edges.append(lambda _now_s, changes: levels.extend(changes.items()))
+    switch_off(gpio, RelayLines(CHIP, {"azimuth_cw": 22}, active_low=True), clock, clock.sleep, 1.0)
+    assert (22, True) in levels
+
+
+def test_it_waits_until_the_kernel_has_taken_the_dead_apart() -> None:
+    clock = SimClock()
+    gpio = SimGpio(clock)
+    dying = GpioOutputs(gpio, CHIP, LINES.offsets, consumer="rotator-relays")
+    dying.set({"azimuth_cw": True})
+    due_s: list[float] = [clock() + 0.3]
+
+    def let_go(_now_s: float) -> None:
+        due_s.clear()
+        dying.close()
+
+    clock.add_alarm(lambda: due_s[0] if due_s else None, let_go)
+    switch_off(gpio, LINES, clock, clock.sleep, 1.0)
+    assert not gpio.level(22)
+    assert clock() == pytest.approx(0.3, abs=0.01)
+
+
+def test_lines_that_are_never_let_go_are_told_of() -> None:
+    clock = SimClock()
+    gpio = SimGpio(clock)
+    GpioOutputs(gpio, CHIP, LINES.offsets, consumer="somebody else")
+    with pytest.raises(LinesBusyError, match="azimuth_cw on GPIO22"):
+        switch_off(gpio, LINES, clock, clock.sleep, 1.0)
+
+
+# --- how it is told which lines
+
+
+def test_lines_survive_the_way_as_text() -> None:
+    assert RelayLines.from_json(LINES.to_json()) == LINES
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{}", '{"chip": "x", "offsets": [1], "active_low": false}', "nonsense"])
+def test_any_other_text_is_refused(text: str) -> None:
+    with pytest.raises(HardwareError, match="not a description of relay lines"):
+        RelayLines.from_json(text)
+
+
+def test_without_a_file_there_is_nothing_to_switch_off(tmp_path: Path) -> None:
+    # The program never came so far, or it ran a simulation.
+    assert main(["now", str(tmp_path / "relay-lines.json")]) == 0
+
+
+def test_used_wrongly_it_says_how(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 2
+    assert "watch JSON | now FILE" in capsys.readouterr().err

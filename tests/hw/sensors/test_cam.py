@@ -1,0 +1,277 @@
+"""Counting on paper: a cam of 5° that closes from 0° to 1°, and a motor of 6°/s, moment by moment."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from hw.ports import Direction
+from hw.sensors.cam import Cam
+from hw.sensors.cam_count import CamCount
+
+PLUS, MINUS, OFF = Direction.PLUS, Direction.MINUS, Direction.OFF
+CAM = Cam(spacing_deg=5.0, closed_deg=1.0, closes_at_deg=0.0, speed_dps=6.0, coast_s=0.5)
+
+
+def at(angle_deg: float, *, closed: bool, cam: Cam = CAM) -> CamCount:
+    count = CamCount(cam)
+    assert count.place(0.0, angle_deg, closed=closed)
+    return count
+
+
+# --- the zones
+
+
+@pytest.mark.parametrize(
+    ("angle_deg", "zone"),
+    [(-4.0, -1), (-0.1, -1), (0.0, 0), (0.99, 0), (1.0, 1), (4.9, 1), (5.0, 2), (6.0, 3), (359.9, 143), (360.0, 144)],
+)
+def test_even_zones_are_closed_and_odd_ones_the_gaps_above(angle_deg: float, zone: int) -> None:
+    assert CAM.zone_at(angle_deg) == zone
+    assert CAM.begins_deg(zone) <= angle_deg < CAM.begins_deg(zone + 1)
+
+
+@pytest.mark.parametrize("closes_at_deg", [0.3, 2.5, -1.7, 180.0])
+def test_zones_join_wherever_the_cam_sits(closes_at_deg: float) -> None:
+    cam = Cam(10.0, 2.0, closes_at_deg, 6.0)
+    for zone in range(-10, 80):
+        assert cam.zone_at((cam.begins_deg(zone) + cam.begins_deg(zone + 1)) / 2) == zone
+
+
+# --- the same closure met again from the other side
+
+
+def test_turned_back_inside_a_closure_it_is_where_it_came_from() -> None:
+    count = at(4.5, closed=False)
+    count.drive(0.0, PLUS)
+    count.change(0.20, closed=True)
+    assert (count.zone, count.angle_deg()) == (2, 5.0)
+    count.drive(0.21, OFF)
+    count.drive(0.71, MINUS)
+    count.change(0.90, closed=False)
+    assert (count.zone, count.angle_deg()) == (1, 5.0)
+    assert not count.trouble
+
+
+def test_turned_back_in_the_gap_it_meets_the_same_closure_at_its_other_edge() -> None:
+    count = at(4.5, closed=False)
+    count.drive(0.0, PLUS)
+    count.change(0.20, closed=True)
+    count.change(0.37, closed=False)
+    count.drive(0.40, OFF)
+    count.drive(0.90, MINUS)
+    count.change(1.15, closed=True)
+    assert (count.zone, count.angle_deg()) == (2, 6.0)
+    count.change(1.32, closed=False)
+    assert (count.zone, count.angle_deg()) == (1, 5.0)
+    assert not count.trouble
+
+
+def test_play_shifts_the_edges_of_the_way_back_and_no_count() -> None:
+    count = at(6.5, closed=False, cam=Cam(5.0, 1.0, 0.0, 6.0, play_deg=0.4))
+    count.drive(0.0, MINUS)
+    count.change(0.22, closed=True)
+    assert (count.zone, count.angle_deg()) == (2, pytest.approx(5.6))
+
+
+def test_coasting_it_counts_on_in_the_last_direction() -> None:
+    count = at(4.0, closed=False)
+    count.drive(0.0, PLUS)
+    count.drive(0.2, OFF)
+    count.change(0.3, closed=True)
+    assert (count.zone, count.angle_deg()) == (2, 5.0)
+    count.advance(2.0)
+    assert count.at_rest
+
+
+def test_an_edge_at_the_moment_of_turning_back_is_the_nearer_one() -> None:
+    count = at(4.95, closed=False)
+    count.drive(0.0, MINUS)  # it has hardly begun to move, and plays over the edge above it
+    count.change(0.005, closed=True)
+    assert count.zone == 2
+
+
+# --- between pulses
+
+
+def test_time_tells_where_it_is_but_never_beyond_the_next_pulse() -> None:
+    count = at(1.0, closed=False)
+    count.drive(0.0, PLUS)
+    count.advance(0.5)
+    assert count.angle_deg() == pytest.approx(1.0 + 6.0 * (0.5 - 0.1), abs=0.02)
+    count.advance(1.5)
+    assert count.angle_deg() == 5.0
+
+
+def test_it_learns_how_fast_it_turns() -> None:
+    count = at(0.0, closed=True)
+    count.drive(0.0, PLUS)
+    for closure in range(20):  # at 5°/s
+        count.change(closure + 0.2, closed=False)
+        count.change(closure + 1.0, closed=True)
+    count.change(20.2, closed=False)
+    count.advance(20.6)
+    assert count.angle_deg() == pytest.approx(101.0 + 0.4 * 5.0, abs=0.1)
+
+
+# --- what no rotor does
+
+
+def running() -> CamCount:
+    """At full speed, just closed at 5°, at the moment 2.0 s."""
+    count = at(1.0, closed=False)
+    count.drive(1.2, PLUS)
+    count.change(2.0, closed=True)
+    return count
+
+
+def test_a_pulse_doubled_by_bounce_is_undone() -> None:
+    count = running()
+    count.change(2.04, closed=False)
+    count.change(2.07, closed=True)
+    assert (count.zone, count.trouble) == (2, "")
+    count.change(2.17, closed=False)
+    assert (count.zone, count.angle_deg(), count.trouble) == (3, 6.0, "")
+
+
+def test_a_spark_in_the_gap_is_undone_and_costs_no_angle() -> None:
+    count = running()
+    count.change(2.17, closed=False)
+    count.change(2.57, closed=True)
+    count.change(2.60, closed=False)
+    assert (count.zone, count.trouble) == (3, "")
+    assert count.angle_deg() == pytest.approx(6.0 + 0.43 * 6.0, abs=0.1)
+
+
+def test_a_pulse_missed_is_noticed_at_the_next() -> None:
+    count = running()
+    count.change(2.17, closed=False)
+    count.change(3.67, closed=True)  # 9° later: the one at 10° did not come
+    assert "too late" in count.trouble
+
+
+def test_a_false_closure_too_long_to_be_undone_is_noticed() -> None:
+    count = running()
+    count.change(2.17, closed=False)
+    count.change(2.33, closed=True)  # at 7°: taken for a tremble at 6°, until it stays closed for too long
+    count.change(2.60, closed=False)
+    assert "too late" in count.trouble
+
+
+def test_the_next_closure_far_too_soon_after_a_missed_one_is_noticed() -> None:
+    count = running()
+    count.change(2.17, closed=False)
+    count.drive(2.95, OFF)  # at 11.3°, beyond the closure at 10° that did not come
+    count.drive(3.5, MINUS)
+    count.change(3.7, closed=True)  # now it does, from above
+    assert "too soon" in count.trouble
+
+
+def true_edges(speed_dps: float) -> list[tuple[float, bool, int]]:
+    """From 3° on, turning plus: the moment, what the contact does and the zone entered."""
+    return [((CAM.begins_deg(zone) - 3.0) / speed_dps + 0.115, zone % 2 == 0, zone) for zone in range(2, 40)]
+
+
+@pytest.mark.parametrize("speed_dps", [4.8, 6.0, 7.2])
+@pytest.mark.parametrize("seed", range(40))
+def test_one_false_pulse_anywhere_is_undone_or_noticed(seed: int, speed_dps: float) -> None:
+    chance = random.Random(seed)
+    edges = true_edges(speed_dps)
+    begins_s, lasts_s = chance.uniform(3.0, 12.0), chance.choice([0.02, 0.05, 0.1, 0.2, 0.4])
+    levels = sorted({begins_s, begins_s + lasts_s, *(at_s for at_s, _, _ in edges)})
+    count = at(3.0, closed=False)
+    count.drive(0.0, PLUS)
+    was = False
+    for at_s in levels:
+        closed = [state for edge_s, state, _ in edges if edge_s <= at_s][-1:] == [True]
+        if begins_s <= at_s < begins_s + lasts_s:
+            closed = not closed
+        if closed is not was:
+            was = closed
+            count.change(at_s, closed=closed)
+    assert count.trouble or count.zone == edges[-1][2]
+
+
+@pytest.mark.parametrize("speed_dps", [4.8, 6.0, 7.2])
+@pytest.mark.parametrize("missed", range(6, 30, 2))
+def test_one_pulse_missed_anywhere_is_noticed(missed: int, speed_dps: float) -> None:
+    count = at(3.0, closed=False)
+    count.drive(0.0, PLUS)
+    for at_s, closed, zone in true_edges(speed_dps):
+        if zone not in (missed, missed + 1):
+            count.change(at_s, closed=closed)
+    assert "too late" in count.trouble
+
+
+def test_changes_that_nobody_read_are_noticed() -> None:
+    count = running()
+    count.change(2.9, closed=True, lost=1)
+    assert count.trouble == "1 changes of the contact went unseen"
+
+
+def test_closing_twice_without_opening_is_noticed() -> None:
+    count = running()
+    count.change(2.9, closed=True)
+    assert "unseen" in count.trouble
+
+
+def test_turning_with_no_relay_on_is_noticed() -> None:
+    count = at(3.0, closed=False)
+    count.advance(10.0)
+    count.change(10.5, closed=True)
+    assert count.trouble == "it turns with no relay on"
+
+
+def test_a_contact_that_trembles_at_rest_is_not() -> None:
+    count = at(4.98, closed=False)
+    for second in range(10, 30, 2):
+        count.change(float(second), closed=True)
+        count.change(second + 0.05, closed=False)
+    assert (count.zone, count.trouble) == (1, "")
+    count.change(40.0, closed=True)  # it has crept over the edge
+    assert (count.zone, count.trouble) == (2, "")
+    count.change(50.0, closed=False)  # and on: nobody knows which way
+    assert count.trouble == "it turns with no relay on"
+
+
+def test_three_periods_without_a_pulse() -> None:
+    count = at(100.0, closed=True)
+    count.drive(0.0, PLUS)
+    count.advance(2.4)
+    assert not count.quiet
+    count.advance(2.6)
+    assert count.quiet
+    assert "did not change" in count.trouble
+
+
+def test_three_periods_without_a_pulse_at_the_end_stop_lose_no_count() -> None:
+    count = at(3.0, closed=False, cam=Cam(5.0, 1.0, 0.0, 6.0, low_deg=2.0))
+    count.drive(0.0, MINUS)
+    count.advance(2.6)
+    assert count.quiet
+    assert (count.angle_deg(), count.trouble) == (2.0, "")
+
+
+# --- placing
+
+
+@pytest.mark.parametrize(
+    ("angle_deg", "closed", "believed", "zone"),
+    [
+        (5.5, True, True, 2),
+        (5.1, False, True, 1),
+        (5.9, False, True, 3),
+        (5.5, False, False, 3),  # below the closure or above it? One of them would be off by one
+        (5.3, False, False, 1),
+        (6.3, True, True, 2),
+        (3.5, True, False, 2),
+        (4.9, True, True, 2),
+        (1.2, True, True, 0),
+    ],
+)
+def test_a_place_must_fit_the_contact(angle_deg: float, closed: bool, believed: bool, zone: int) -> None:
+    count = CamCount(CAM)
+    assert count.place(0.0, angle_deg, closed=closed) is believed
+    assert count.zone == zone
+    assert bool(count.trouble) is not believed

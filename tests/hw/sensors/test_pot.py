@@ -1,0 +1,107 @@
+"""A pot as an angle sensor: the wiper's share of the supply, with and without a reference."""
+
+from __future__ import annotations
+
+import pytest
+
+from firmware_sim.buses.i2c import SimI2CBus
+from firmware_sim.chips.ads1115 import Ads1115 as SimAds1115
+from firmware_sim.clock import SimClock
+from hw.buses.i2c import SmbusI2C
+from hw.chips.ads1115 import Ads1115
+from hw.ports import HardwareError
+from hw.sensors.pot import LEAST_REFERENCE_V, REFERENCE_EVERY_S, PotSensor, Reference
+
+WIPER, SUPPLY = 0, 3
+STEP = 125e-6 / 3.0
+
+
+class Bench:
+    """A pot on input 0, its supply on input 3."""
+
+    def __init__(self) -> None:
+        self.clock = SimClock()
+        self.supply_v = 3.3
+        self.share = 0.25
+        self.supply_looks = 0
+        self.wire = SimI2CBus(self.clock.sleep)
+        chip = SimAds1115(self.clock)
+        chip.inputs[WIPER] = lambda: self.share * self.supply_v
+        chip.inputs[SUPPLY] = self._look
+        self.wire.attach(0x48, chip)
+        self.adc = Ads1115(SmbusI2C(self.wire, "bus 1"), 0x48, self.clock.sleep)
+
+    def _look(self) -> float:
+        self.supply_looks += 1
+        return self.supply_v
+
+    def ratiometric(self) -> PotSensor:
+        return PotSensor(self.adc, WIPER, Reference(self.adc, SUPPLY, self.clock))
+
+
+@pytest.fixture
+def bench() -> Bench:
+    return Bench()
+
+
+def test_the_angle_is_measured(bench: Bench) -> None:
+    assert bench.ratiometric().source == "measured"
+
+
+@pytest.mark.parametrize("share", [0.0, 0.05, 0.5, 0.95, 1.0])
+def test_the_reading_is_the_share_of_the_supply(bench: Bench, share: float) -> None:
+    bench.share = share
+    assert PotSensor(bench.adc, WIPER, 3.3).read() == pytest.approx(share, abs=STEP)
+    assert bench.ratiometric().read() == pytest.approx(share, abs=STEP)
+
+
+def test_without_a_reference_a_drooping_supply_looks_like_an_angle(bench: Bench) -> None:
+    pot = PotSensor(bench.adc, WIPER, 3.3)
+    bench.supply_v = 3.0
+    assert pot.read() == pytest.approx(0.25 * 3.0 / 3.3, abs=STEP)
+
+
+def test_with_a_reference_it_does_not(bench: Bench) -> None:
+    pot = bench.ratiometric()
+    pot.read()
+    bench.supply_v = 3.0
+    bench.clock.sleep(REFERENCE_EVERY_S)
+    assert pot.read() == pytest.approx(0.25, abs=STEP)
+
+
+def test_two_pots_on_one_supply_read_it_about_once_a_second(bench: Bench) -> None:
+    reference = Reference(bench.adc, SUPPLY, bench.clock)
+    pots = [PotSensor(bench.adc, WIPER, reference), PotSensor(bench.adc, 1, reference)]
+    for _ in range(100):  # five seconds at 20 Hz
+        for pot in pots:
+            pot.read()
+        bench.clock.sleep(0.05)
+    assert 4 <= bench.supply_looks <= 7
+
+
+def test_a_supply_that_is_missing_is_said_and_not_divided_by(bench: Bench) -> None:
+    pot = bench.ratiometric()
+    bench.supply_v = LEAST_REFERENCE_V / 10
+    with pytest.raises(HardwareError, match=r"the pots' supply reads 0\.05 V on input 3: is it wired\?"):
+        pot.read()
+
+
+def test_a_supply_that_comes_back_is_seen_at_the_next_reading(bench: Bench) -> None:
+    pot = bench.ratiometric()
+    bench.supply_v = 0.0
+    for _ in range(2):
+        with pytest.raises(HardwareError):
+            pot.read()
+    bench.supply_v = 3.3
+    assert pot.read() == pytest.approx(0.25, abs=STEP)
+
+
+def test_a_converter_that_is_gone_is_said_by_the_bus(bench: Bench) -> None:
+    bench.wire.gone.add(0x48)
+    with pytest.raises(HardwareError, match="does not answer"):
+        bench.ratiometric().read()
+
+
+def test_a_supply_may_be_a_whole_number_of_volts(bench: Bench) -> None:
+    bench.supply_v = 3.0
+    assert PotSensor(bench.adc, WIPER, 3).read() == pytest.approx(0.25, abs=STEP)

@@ -1,0 +1,260 @@
+"""Counting the closures of a U-100's cam: the real relay bank, contact driver and counter on a simulated rotor.
+
+What goes wrong is put into the rotor by name, never into the driver.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import random
+import statistics
+
+import pytest
+
+from firmware_sim.parts.motor import MotorSpec
+from firmware_sim.rotors.relay_pulse import U100_MOTOR
+from hw.buses.gpio import GpioContact
+from hw.ports import Axis, Direction, HardwareError
+from hw.sensors.cam import Cam
+from hw.sensors.pulses import PulseCounter
+from tests.hw.sensors.pulse_rig import AZ, CAM, PATH, STANDS_S, PulseRig
+
+PLUS, MINUS = Direction.PLUS, Direction.MINUS
+
+
+# --- angles
+
+
+def test_it_says_how_it_knows() -> None:
+    assert PulseRig().counter.source == "counted"
+
+
+def test_a_long_run_is_followed_all_the_way() -> None:
+    rig = PulseRig(100.0)
+    rig.wait(1.0)
+    for _ in range(400):
+        rig.run(PLUS, 0.1, cycle_s=0.1)
+        assert rig.counter.read() == pytest.approx(rig.shaft_deg, abs=0.5)
+    assert rig.shaft_deg > 330.0
+    assert rig.off_by == 0
+
+
+def test_it_does_not_matter_when_it_is_read() -> None:
+    often, seldom = PulseRig(100.0), PulseRig(100.0)
+    often.move(PLUS, 10.0)
+    seldom.run(PLUS, 10.0, cycle_s=0.39)
+    seldom.wait(STANDS_S, cycle_s=STANDS_S)
+    assert often.counter.zone == seldom.counter.zone
+    assert often.counter.read() == pytest.approx(seldom.counter.read(), abs=0.01)
+
+
+def test_read_late_the_kernel_has_kept_every_moment() -> None:
+    rig = PulseRig(100.0)
+    until_s = rig.clock() + 60.0
+    while rig.clock() < until_s:  # somebody drives, nobody reads
+        rig.bank.drive(AZ, PLUS if rig.clock() < until_s - 30.0 else MINUS, until_s)
+        rig.clock.sleep(0.1)
+    rig.clock.sleep(STANDS_S)
+    assert rig.counter.read() == pytest.approx(rig.shaft_deg, abs=0.5)
+    assert (rig.off_by, rig.counter.trouble) == (0, "")
+
+
+def test_a_change_counts_from_when_it_happened_not_from_when_it_was_told() -> None:
+    rig = PulseRig(100.0, bounce_s=0.0)
+    rig.drive(PLUS, 5.0)
+    errors_deg = []
+    for _ in range(200):  # the debounce of 20 ms is 0.12° at this speed
+        rig.drive(PLUS, 0.01, cycle_s=0.01)
+        errors_deg.append(abs(rig.counter.read() - rig.shaft_deg))
+    assert statistics.median(errors_deg) < 0.02
+    assert max(errors_deg) < 0.13  # until it is told, the next pulse holds the angle back
+
+
+def test_a_lease_that_runs_out_between_two_readings_is_heard() -> None:
+    rig = PulseRig(102.0)
+    rig.bank.drive(AZ, PLUS, rig.clock() + 0.3)
+    rig.clock.sleep(5.0)
+    assert rig.counter.read() == pytest.approx(rig.shaft_deg, abs=0.2)
+    assert rig.shaft_deg == pytest.approx(103.8, abs=0.1)
+    assert rig.counter.at_rest
+
+
+def test_it_is_at_rest_when_it_has_stopped_coasting() -> None:
+    rig = PulseRig()
+    rig.run(PLUS, 1.0)
+    rig.wait(0.3)
+    assert not rig.counter.at_rest
+    rig.wait(0.3)
+    assert rig.counter.at_rest
+
+
+@pytest.mark.parametrize("cut", ["off", "guard"])
+def test_all_off_from_another_thread_is_heard_too(cut: str) -> None:
+    rig = PulseRig(102.0)
+    rig.bank.drive(AZ, PLUS, rig.clock() + 0.4)
+    rig.clock.sleep(0.2)
+    if cut == "off":
+        rig.bank.off()
+    else:
+        rig.bank.enforce(rig.clock() + 1.0)
+    assert rig.wait(5.0) == pytest.approx(rig.shaft_deg, abs=0.2)
+
+
+# --- the same closure from both sides
+
+
+@pytest.mark.parametrize("start_deg", [99.0 + step * 0.13 for step in range(40)])
+def test_back_and_forth_over_a_closure_is_never_off_by_one(start_deg: float) -> None:
+    rig = PulseRig(start_deg)
+    chance = random.Random(int(start_deg * 100))
+    for _ in range(10):
+        rig.move(PLUS, chance.uniform(0.05, 0.5))
+        rig.move(MINUS, chance.uniform(0.05, 0.5))
+        assert (rig.off_by, rig.counter.trouble) == (0, "")
+
+
+@pytest.mark.parametrize(
+    ("spacing_deg", "closed_deg", "play_deg"), [(6.0, 3.0, 0.0), (10.0, 2.0, 0.0), (5.0, 1.0, 0.6), (5.0, 0.4, 0.2)]
+)
+def test_other_cams(spacing_deg: float, closed_deg: float, play_deg: float) -> None:
+    cam = Cam(spacing_deg, closed_deg, 2.5, 6.0, play_deg=play_deg, low_deg=0.0, high_deg=360.0)
+    rig = PulseRig(cam=cam)
+    chance = random.Random(5)
+    for move in range(60):
+        rig.move(PLUS if move % 2 else MINUS, chance.uniform(0.1, 4.0))
+        assert (rig.off_by, rig.counter.trouble) == (0, "")
+        assert rig.counter.read() == pytest.approx(rig.shaft_deg, abs=0.7)
+
+
+# --- what goes wrong
+
+
+def test_closures_that_close_twice_count_once() -> None:
+    rig = PulseRig(30.0)
+    rig.rotor.inject("azimuth-pulses-doubled")
+    rig.move(PLUS, 40.0)
+    rig.move(MINUS, 40.0)
+    assert (rig.off_by, rig.counter.trouble) == (0, "")
+
+
+def test_missed_pulses_are_noticed() -> None:
+    rig = PulseRig(30.0)
+    rig.rotor.inject("azimuth-pulses-missed")
+    rig.move(PLUS, 8.0)
+    assert "too late" in rig.counter.trouble
+
+
+@pytest.mark.parametrize(
+    "fault", ["azimuth-contact-stuck-open", "azimuth-contact-stuck-closed", "azimuth-motor-stalled"]
+)
+def test_no_pulse_for_three_periods_is_told_while_it_is_driven(fault: str) -> None:
+    rig = PulseRig(100.0)
+    rig.rotor.inject(fault)
+    rig.drive(PLUS, 2.4)
+    assert not rig.counter.quiet
+    rig.drive(PLUS, 0.2)
+    assert rig.counter.quiet
+    rig.run(PLUS, 0.1)
+    rig.wait(STANDS_S)
+    assert rig.counter.trouble
+
+
+def test_a_welded_relay_is_turning_with_no_relay_on() -> None:
+    rig = PulseRig(100.0)
+    rig.move(PLUS, 2.0)
+    rig.rotor.inject("azimuth-relay-welded-cw")
+    rig.wait(5.0)
+    assert "no relay on" in rig.counter.trouble
+
+
+def test_a_hand_on_the_mast_is_noticed() -> None:
+    rig = PulseRig(102.0)
+    rig.wait(2.0)
+    rig.rotor.inject("azimuth-hand-turns")
+    rig.wait(5.0)
+    assert "no relay on" in rig.counter.trouble
+
+
+def test_a_minute_of_chatter_that_nobody_reads_is_noticed() -> None:
+    rig = PulseRig(100.0)
+    for change in range(1200):
+        rig.rotor.gpio.drive_input(17, change % 2 == 1)
+        rig.clock.sleep(0.021)
+    rig.wait(0.5)
+    assert "went unseen" in rig.counter.trouble
+
+
+def test_a_motor_much_slower_than_it_is_said_to_be_makes_the_count_doubtful_not_wrong() -> None:
+    rig = PulseRig(100.0, pace=0.5)
+    rig.move(PLUS, 10.0)
+    assert rig.counter.trouble
+
+
+# --- placing
+
+
+def test_before_anybody_has_placed_it_the_count_is_worth_nothing() -> None:
+    rig = PulseRig()
+    fresh = PulseCounter(Axis.ELEVATION, contact(rig, 26), rig.overheard, CAM, rig.clock)
+    assert fresh.trouble == "its place has not been told yet"
+
+
+def test_a_kept_count_goes_on_where_it_was() -> None:
+    rig = PulseRig(100.0)
+    rig.move(PLUS, 7.3)
+    kept_deg = rig.counter.read()
+    rig.contact.close()
+    again = PulseCounter(AZ, contact(rig, 17), rig.overheard, CAM, rig.clock)
+    assert again.place(kept_deg)
+    assert again.zone == rig.rotor.azimuth.contact.zone
+    assert again.read() == kept_deg
+
+
+def test_a_kept_count_that_the_contact_contradicts_is_not_believed() -> None:
+    rig = PulseRig(100.8)  # on a closure
+    assert not rig.counter.place(103.0)
+    assert rig.counter.trouble == "the contact is closed, which it is not at 103.0°"
+
+
+def test_a_debounce_that_would_swallow_closures_is_refused() -> None:
+    rig = PulseRig()
+    narrow = dataclasses.replace(CAM, closed_deg=0.15)
+    with pytest.raises(HardwareError, match="a debounce of 20 ms swallows closures that last 25 ms"):
+        PulseCounter(Axis.ELEVATION, contact(rig, 26), rig.overheard, narrow, rig.clock)
+
+
+# --- the promise
+
+
+@pytest.mark.parametrize(
+    ("seed", "motor", "pace", "play_deg"),
+    [
+        (1, U100_MOTOR, 1.0, 0.0),
+        (2, dataclasses.replace(U100_MOTOR, lag_s=0.14), 0.85, 0.3),
+        (3, dataclasses.replace(U100_MOTOR, lag_s=0.05), 1.2, 0.2),
+        (4, dataclasses.replace(U100_MOTOR, relay_delay_s=0.005), 1.1, 0.0),
+    ],
+    ids=["as configured", "slower, coasts longer", "faster, coasts less", "solid-state relays"],
+)
+def test_ten_thousand_moves_with_coast_bounce_and_reversals(
+    seed: int, motor: MotorSpec, pace: float, play_deg: float
+) -> None:
+    """2500 moves on each of four rotors that are not quite what the configuration says of them."""
+    rig = PulseRig(motor=motor, pace=pace, cam=dataclasses.replace(CAM, play_deg=play_deg), seed=seed)
+    chance = random.Random(seed)
+    compared = 0
+    for _ in range(2500):
+        direction = chance.choice([PLUS, MINUS])
+        if not 40.0 < rig.shaft_deg < 320.0:
+            direction = PLUS if rig.shaft_deg < 180.0 else MINUS
+        rig.run(direction, chance.choice([chance.uniform(0.02, 0.4), chance.uniform(0.1, 3.0)]), cycle_s=0.2)
+        if chance.random() < 0.5:  # else the next order comes while it still coasts
+            reading_deg = rig.wait(STANDS_S, cycle_s=0.4)
+            assert (rig.off_by, rig.counter.trouble) == (0, "")
+            assert reading_deg == pytest.approx(rig.shaft_deg, abs=1.5)
+            compared += 1
+    assert compared > 1000
+
+
+def contact(rig: PulseRig, pin: int) -> GpioContact:
+    return GpioContact(rig.rotor.gpio, PATH, pin, consumer="test")

@@ -1,0 +1,34 @@
+"""docs/protocols.md lists PstRotator's tags that the program knows, with its answers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from rotator.protocols import pstrotator
+from rotator.protocols.reference.datagrams import pstrotator_table
+
+PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
+
+
+def test_page_holds_the_table() -> None:
+    """If this fails, paste what pstrotator_table() of rotator.protocols.reference.datagrams returns."""
+    page = PAGE.read_text(encoding="utf-8")
+    between = page.split("<!-- pstrotator: begin -->\n")[1].split("<!-- pstrotator: end -->\n")[0]
+    assert between == f"\n{pstrotator_table()}\n"
+
+
+def test_every_tag_has_its_row() -> None:
+    assert [row.split("`")[1] for row in pstrotator_table().splitlines()[2:]] == [tag.text for tag in pstrotator.TAGS]
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        r"| `AZ?` | Read azimuth | `<PST>AZ?</PST>` | `AZ:235.0\r` |",
+        "| `PARK` | 1: go to the park position | `<PST><PARK>1</PARK></PST>` | nothing |",
+    ],
+)
+def test_row(row: str) -> None:
+    assert row in pstrotator_table()

@@ -1,0 +1,65 @@
+"""docs/protocols.md lists the programs that the box is meant for; what each says, the protocol named for it takes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+from rotator.assembly.links import session_maker
+from rotator.config.links import Link, ProtocolName
+from rotator.orders import Order
+from rotator.protocols.reference.programs import PROGRAMS, Program, programs_table
+from rotator.status import AxisStatus, Status
+
+PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
+PLACES: dict[str, dict[str, str]] = {
+    "pstrotator": {"udp": "127.0.0.1:12000"},
+    "n1mm": {"udp": "127.0.0.1:12040", "rotor_name": "mast"},
+    "macdoppler": {"udp": "127.0.0.1:9932"},
+    "wsjtx": {"file": "azel.dat"},
+}
+QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B")
+
+
+class Notebook:
+    """A box at 235/25 that writes down its orders."""
+
+    def __init__(self) -> None:
+        self.orders: list[Order] = []
+
+    def status(self) -> Status:
+        return Status(0.0, AxisStatus(0, 450, 235.0), AxisStatus(0, 180, 25.0))
+
+    def order(self, order: Order) -> None:
+        self.orders.append(order)
+
+
+def test_the_page_holds_the_table() -> None:
+    """If this fails, paste what rotator.protocols.reference.programs.programs_table() returns."""
+    between = (
+        PAGE.read_text(encoding="utf-8").split("<!-- programs: begin -->\n")[1].split("<!-- programs: end -->\n")[0]
+    )
+    assert between == f"\n{programs_table()}\n"
+
+
+def test_every_protocol_has_its_program() -> None:
+    named = {protocol for program in PROGRAMS for protocol in program.protocols}
+    # Levels of one standard, one-axis forms and the box's own question have their sections on the page.
+    assert set(get_args(ProtocolName)) - named == {"easycomm1", "easycomm3", "rot1prog", "rotctld-follow"}
+
+
+@pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.name)
+def test_what_it_says_is_understood(program: Program) -> None:
+    protocol = program.protocols[0]
+    for said in program.says:
+        box = Notebook()
+        place = PLACES.get(protocol, {"pty": "run/test"})
+        session = session_maker(Link.model_validate({"protocol": protocol, **place}), box)
+        if protocol == "wsjtx":
+            session.receive(b"18:03:21,123.4,045.6,Moon\n")  # only a file that goes on is followed
+        replies = b"".join([*session.receive(said), *session.idle()])
+        assert b"?>" not in replies
+        assert b"RPRT -" not in replies
+        assert bool(box.orders) is not said.startswith(QUESTIONS), f"{said!r}: {box.orders}"

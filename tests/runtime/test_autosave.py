@@ -1,0 +1,153 @@
+"""What a running box finds out ends in its files: a calibration taken over a link, and what its motors have taught."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from hw.ports import Axis
+from rotator.assembly.settings import build_controller, build_learnt, build_offsets
+from rotator.assembly.station import Station
+from rotator.config.load import load
+from rotator.orders import Aim, Calibrate, Order, Source
+from rotator.runtime.autosave import Keeper
+from rotator.runtime.loop import ControlLoop
+from rotator.status import LearntMotor
+
+STATION = """
+[azimuth]
+offset_deg = 12
+[elevation]
+calibration = [[0.05, 0], [0.5, 90], [0.95, 180]]
+[mount]
+north = "magnetic"
+declination_deg = -4
+[sim]
+bus_takes_time = false
+[state]
+path = "{state}"
+"""
+AS_SAID = (LearntMotor(6.0, 6.0 * 0.17),) * 2
+
+
+class Running:
+    """A box without links, as the app puts it together, in simulated time."""
+
+    def __init__(self, path: Path, keep_in: Path | None) -> None:
+        config = load(path)
+        self.clock = SimClock()
+        station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
+        learnt = build_learnt(config)
+        controller = build_controller(config, learnt.load())
+        self.loop = ControlLoop(controller, station.rotor, self.clock, 0.05)
+        self.keeper = Keeper(self.loop, keep_in, build_offsets(config), learnt)
+        self.begun_with = self.loop.status.azimuth.learnt
+        self.run(0.5)
+
+    def run(self, seconds: float, *orders: Order) -> None:
+        for order in orders:
+            self.loop.post(Source("test"), order)
+        for _ in range(round(seconds / 0.05)):
+            self.clock.sleep(0.05)
+            self.loop.cycle()
+
+    def turn_about(self) -> None:
+        for azimuth_deg, elevation_deg in ((180, 60), (90, 10), (200, 70)):
+            self.run(40.0, Aim(azimuth_deg, elevation_deg))
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    path = tmp_path / "station.toml"
+    path.write_text(STATION.format(state=tmp_path / "var" / "state.json"))
+    return path
+
+
+def test_what_the_motors_taught_is_there_the_next_time(path: Path) -> None:
+    first = Running(path, path)
+    assert first.begun_with == AS_SAID
+    first.turn_about()
+    first.keeper.close()
+    assert Running(path, path).begun_with == first.loop.status.azimuth.learnt != AS_SAID
+
+
+def test_a_box_that_has_not_turned_writes_nothing(path: Path) -> None:
+    box = Running(path, path)
+    box.run(5.0)
+    box.keeper.close()
+    assert not (path.parent / "var").exists()
+
+
+def test_other_figures_in_the_file_begin_anew(path: Path) -> None:
+    first = Running(path, path)
+    first.turn_about()
+    first.keeper.close()
+    path.write_text(path.read_text().replace("[azimuth]", "[azimuth]\nspeed_dps = 5.0"))
+    assert Running(path, path).begun_with == (LearntMotor(5.0, 5.0 * 0.17),) * 2
+
+
+def test_a_state_that_cannot_be_written_ends_in_the_log(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    (path.parent / "var").write_text("a file where a folder should be")
+    box = Running(path, path)
+    box.turn_about()
+    box.keeper.close()
+    assert "cannot be kept" in caplog.text
+
+
+def calibrate_low(box: Running, axis: Axis) -> None:
+    box.run(2.0, Calibrate(axis, high_end=False))
+    box.keeper.keep_calibrations()
+
+
+def test_a_calibration_from_a_link_is_saved_on_the_rotors_own_scale(path: Path) -> None:
+    # Offset and declination add 8°: the box works from 8° to 458°, the file keeps 0 to 450.
+    box = Running(path, path)
+    assert box.loop.status.azimuth.max_deg == 458.0
+    calibrate_low(box, Axis.AZIMUTH)
+    assert box.loop.status.azimuth.angle_deg == pytest.approx(8.0, abs=0.5)
+    points = load(path).azimuth.calibration
+    assert points is not None
+    assert [angle_deg for _, angle_deg in points] == [0.0, 450.0]
+    assert points[0][0] == pytest.approx(0.25, abs=0.002)
+
+
+def test_after_a_restart_it_says_the_same(path: Path) -> None:
+    box = Running(path, path)
+    calibrate_low(box, Axis.AZIMUTH)
+    again = Running(path, path)
+    assert again.loop.status.azimuth.calibration == tuple(
+        (pytest.approx(raw, abs=1e-5), angle_deg) for raw, angle_deg in box.loop.status.azimuth.calibration or ()
+    )
+
+
+def test_the_points_between_move_along(path: Path) -> None:
+    box = Running(path, path)
+    calibrate_low(box, Axis.ELEVATION)
+    points = load(path).elevation.calibration
+    assert points is not None
+    assert [angle_deg for _, angle_deg in points] == [0.0, 90.0, 180.0]
+
+
+def test_what_was_taken_in_the_last_second_is_kept_too(path: Path) -> None:
+    box = Running(path, path)
+    box.run(2.0, Calibrate(Axis.AZIMUTH, high_end=False))
+    box.keeper.close()
+    assert load(path).azimuth.calibration is not None
+
+
+def test_without_a_file_it_is_said(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    before = path.read_text()
+    calibrate_low(Running(path, None), Axis.AZIMUTH)
+    assert "run with --config to keep it" in caplog.text
+    assert path.read_text() == before
+
+
+def test_a_file_that_is_gone_is_said(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level(logging.INFO)
+    box = Running(path, path)
+    path.unlink()
+    calibrate_low(box, Axis.AZIMUTH)
+    assert "azimuth: calibration cannot be saved" in caplog.text

@@ -1,0 +1,177 @@
+"""One connection's door to the box: who may order, how fast, and what the log hears of it."""
+
+from __future__ import annotations
+
+import logging
+import re
+from collections.abc import Iterator
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from hw.ports import Axis, Direction
+from rotator.assembly.settings import build_controller, build_mount
+from rotator.assembly.station import Station
+from rotator.config.load import parse
+from rotator.orders import Aim, Calibrate, Jog, Order, Park, Source, Speed, Stop
+from rotator.protocols.gs232 import Dialect
+from rotator.protocols.gs232_session import Gs232Session
+from rotator.protocols.rotctld_session import RotctldSession
+from rotator.runtime.client import MOST_PER_S, Door, Rights
+from rotator.runtime.log_limit import Seldom
+from rotator.runtime.loop import ControlLoop
+
+CONFIG = parse("[azimuth]\nmax_deg = 310\n", "bench")
+
+
+class Inbox(ControlLoop):
+    """The control loop, and a note of how each order came to it: from which connection, and whether it can wait."""
+
+    posted: list[tuple[int, Order, bool]]
+
+    def post(self, source: Source, order: Order, *, can_wait: bool = False) -> None:
+        self.posted.append((source.connection, order, can_wait))
+        super().post(source, order, can_wait=can_wait)
+
+
+class Bench:
+    """A box with azimuth 0 to 310, at 235/25 in simulated time, which acts when told."""
+
+    def __init__(self) -> None:
+        self.clock = SimClock()
+        self.station = Station(CONFIG, self.clock, self.clock.sleep, (235.0, 25.0))
+        self.loop = Inbox(build_controller(CONFIG), self.station.rotor, self.clock, 0.05)
+        self.loop.posted = []
+        self.complaints = Seldom(self.clock)
+        self.loop.cycle()
+
+    def door(self, connection: int = 1, **rights: int) -> Door:
+        return Door(
+            self.loop,
+            build_mount(CONFIG),
+            Source("link", connection),
+            rights=Rights(**rights),  # type: ignore[arg-type]
+            complaints=self.complaints,
+            clock=self.clock,
+        )
+
+    def drives(self) -> tuple[int, int]:
+        assert self.station.world is not None
+        self.loop.act()
+        return self.station.world.drives()
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    bench = Bench()
+    yield bench
+    bench.station.close()
+
+
+# --- read_only
+
+
+@pytest.mark.parametrize("order", [Aim(10, 10), Jog(Axis.AZIMUTH, Direction.PLUS), Stop(), Park(), Speed(1),
+                                   Calibrate(Axis.AZIMUTH, high_end=True)])  # fmt: skip
+def test_a_read_only_link_gives_no_orders_not_even_a_stop(bench: Bench, order: Order) -> None:
+    owner, visitor = bench.door(1), bench.door(2, read_only=True)
+    owner.order(Aim(300, 25))
+    assert bench.drives() == (1, 0)
+    refused = visitor.order(order)
+    assert refused is not None
+    assert refused.forbidden
+    assert bench.drives() == (1, 0)
+    assert visitor.status() is bench.loop.status
+
+
+def test_each_protocol_refuses_in_its_own_words(bench: Bench) -> None:
+    door = bench.door(read_only=True)
+    assert Gs232Session(door, Dialect.B).receive(b"W100 020\rS\rC2\r") == [b"?>\r\n", b"?>\r\n", b"AZ=235  EL=025\r\n"]
+    rotctld = RotctldSession(door)
+    assert rotctld.receive(b"P 100 20\nS\nK\nM CW 50\nR 1\n") == [b"RPRT -9\n"] * 5
+    assert rotctld.receive(b"+S\n") == [b"stop:\nRPRT -9\n"]
+    # What cannot be reached is the order's own fault, and has a number of its own.
+    assert RotctldSession(bench.door()).receive(b"P 330 20\n") == [b"RPRT -1\n"]
+
+
+def test_the_log_says_so_once_whoever_comes_again(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    for connection in range(1, 101):
+        bench.door(connection, read_only=True).order(Aim(10, 10))
+    (record,) = caplog.records
+    assert record.message == "link#1: refused: the link is read_only, and takes no orders (Aim)"
+
+
+def test_a_program_that_repeats_a_refused_order_does_not_fill_the_log(
+    bench: Bench, caplog: pytest.LogCaptureFixture
+) -> None:
+    door = bench.door()
+    for _ in range(20 * 61):
+        assert door.order(Aim(330, 10)) is not None
+        bench.clock.sleep(0.05)
+    first, second = (record.message for record in caplog.records)
+    assert first.startswith("link#1: refused: ")
+    assert re.fullmatch(re.escape(first) + r" \((1199|1200) more of the kind before\)", second)
+
+
+# --- most_per_s
+
+
+def test_what_exceeds_waits_for_the_cycle_and_the_newest_wins(bench: Bench) -> None:
+    door = bench.door(most_per_s=10)
+    for _ in range(10):
+        assert door.order(Aim(300, 25)) is None
+    for azimuth_deg in range(1000):
+        assert door.order(Aim(azimuth_deg % 200, 25)) is None
+    assert [can_wait for _, _, can_wait in bench.loop.posted] == [False] * 10 + [True] * 1000
+    assert bench.drives() == (-1, 0)
+    assert bench.loop.status.wanted_azimuth_deg == 199
+
+
+def test_a_stop_is_never_too_much(bench: Bench) -> None:
+    door = bench.door(most_per_s=1)
+    for _ in range(50):
+        door.order(Aim(300, 25))
+    assert bench.drives() == (1, 0)
+    for _ in range(50):
+        door.order(Aim(300, 25))
+    door.order(Stop())
+    assert bench.loop.posted[-1] == (1, Stop(), False)
+    assert bench.drives() == (0, 0)
+
+
+def test_two_axes_are_two_kinds(bench: Bench) -> None:
+    door = bench.door(most_per_s=1)
+    door.order(Speed(1))
+    for direction in (Direction.MINUS, Direction.PLUS):
+        for axis in Axis:
+            door.order(Jog(axis, direction))
+    assert bench.drives() == (1, 1)
+
+
+def test_nobody_pays_for_another_connection(bench: Bench) -> None:
+    flood, other = bench.door(1, most_per_s=5), bench.door(2, most_per_s=5)
+    for _ in range(100):
+        flood.order(Aim(100, 25))
+    other.order(Aim(300, 25))
+    assert bench.loop.posted[-2:] == [(1, Aim(100, 25), True), (2, Aim(300, 25), False)]
+
+
+def test_a_real_program_never_reaches_it(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    """Twenty orders a second, four times what the fastest one is known to send."""
+    door = bench.door(most_per_s=MOST_PER_S)
+    for _ in range(600):
+        door.order(Aim(300, 25))
+        bench.clock.sleep(0.05)
+        bench.loop.cycle()
+    assert not any(can_wait for _, _, can_wait in bench.loop.posted)
+    assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []
+
+
+def test_it_is_told_once(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    door = bench.door(most_per_s=10)
+    for _ in range(1000):
+        door.order(Aim(300, 25))
+    (record,) = caplog.records
+    assert record.message == (
+        "link#1: more than 10 orders a second: of those beyond, only the newest of each kind counts"
+    )
