@@ -22,16 +22,16 @@ from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.links.console import ConsoleSocket, console_path
 from rotator.monitor.socket import MonitorSocket
-from rotator.monitor.tap import Tape
+from rotator.monitor.tap import Tap
 from rotator.orders import Source
 from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
-from rotator.runtime.autosave import Keeper
-from rotator.runtime.client import Door
+from rotator.runtime.autosave import Autosave
+from rotator.runtime.client import Client
 from rotator.runtime.display import DisplayThread
 from rotator.runtime.engine import Engine, process_end
 from rotator.runtime.loop import ControlLoop
-from rotator.runtime.service_manager import Supervisor, runtime_folder
+from rotator.runtime.service_manager import ServiceManager, runtime_folder
 from rotator.store import counts, knobs
 from rotator.views import lcd
 
@@ -57,7 +57,7 @@ class App:
     def __init__(self, config: Config, path: Path | None = None, station: Station | None = None) -> None:
         self.config = config
         self.station = station or open_station(config)
-        self._supervisor = Supervisor(os.environ, time.monotonic)
+        self._supervisor = ServiceManager(os.environ, time.monotonic)
         mount = build_mount(config)
         learnt = build_learnt(config)
         self.loop = ControlLoop(
@@ -67,17 +67,17 @@ class App:
             1 / config.control.rate_hz,
             after_good_step=self._sign_of_life,
         )
-        self.console = Door(self.loop, mount, Source("console"))
+        self.console = Client(self.loop, mount, Source("console"))
         people = itertools.count(1)
         self._people = ConsoleSocket(
             console_path(monitor_path(config, os.environ)),
-            lambda: ConsoleSession(Door(self.loop, mount, Source("console", next(people)))),
+            lambda: ConsoleSession(Client(self.loop, mount, Source("console", next(people)))),
         )
-        self._tape = Tape(datetime.now, lambda: self.loop.status)
-        self.links = build_links(config.link, self.loop, mount, self._tape)
+        self._tap = Tap(datetime.now, lambda: self.loop.status)
+        self.links = build_links(config.link, self.loop, mount, self._tap)
         self._panel = self._fit_panel()
         self._engine = Engine(self.loop, self.station.rotor)
-        self._keeper = Keeper(self.loop, path, build_offsets(config), learnt)
+        self._autosave = Autosave(self.loop, path, build_offsets(config), learnt)
 
     def lcd_rows(self, now_s: float) -> tuple[str, str]:
         return lcd.rows(self.loop.status, now_s)
@@ -101,10 +101,10 @@ class App:
                 display.start()
             if self._panel:
                 self._panel.start()
-            watching = MonitorSocket(monitor_path(self.config, os.environ), self._tape.listeners, self._tape.greeting)
+            watching = MonitorSocket(monitor_path(self.config, os.environ), self._tap.listeners, self._tap.greeting)
             beside.append(asyncio.create_task(watching.run(), name="monitor"))
             beside.append(asyncio.create_task(self._people.run(), name="console"))
-            tasks.append(asyncio.create_task(self._keeper.run()))
+            tasks.append(asyncio.create_task(self._autosave.run()))
             tasks.append(asyncio.create_task(stop.wait()))
             self._supervisor.ready()
             ending: list[asyncio.Future[Any]] = [ended, *tasks]
@@ -122,7 +122,7 @@ class App:
             if display:
                 await asyncio.to_thread(display.stop)
             await asyncio.to_thread(self.station.close)
-            await asyncio.to_thread(self._keeper.close)
+            await asyncio.to_thread(self._autosave.close)
             self._supervisor.close()
         for outcome in outcomes:
             if isinstance(outcome, Exception):
@@ -142,7 +142,7 @@ class App:
             knobs=None if simulated else Path(self.config.state.path).with_name(knobs.FILE_NAME),
             pulses=self.station.rotor.closed_contacts,
         )
-        self._tape.on_data = panel.heard
+        self._tap.on_data = panel.heard
         return panel
 
     def _sign_of_life(self) -> None:

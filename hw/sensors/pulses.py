@@ -26,7 +26,7 @@ class _Driven:
     direction: Direction
 
 
-class OverheardLines:
+class TappedLines:
     """The motor relays' lines, with a note of every change and its moment: who counts must know exactly.
 
     It stands between the relay bank and the lines, so that nothing is switched unheard: commands that expire, `off` of
@@ -73,7 +73,7 @@ class PulseCounter:
         self,
         axis: Axis,
         contact: ContactInput,
-        lines: OverheardLines,
+        lines: TappedLines,
         cam: Cam,
         clock: Callable[[], float],
         *,

@@ -23,7 +23,7 @@ from rotator.links.serial import SerialLink
 from rotator.links.tcp import TcpLink
 from rotator.links.udp import Report, UdpLink
 from rotator.links.wire import Wire
-from rotator.monitor.tap import Overheard, OverheardInquiry, Tape
+from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import Way
 from rotator.orders import Source
 from rotator.protocols.dcu1 import Dcu1Session
@@ -41,8 +41,8 @@ from rotator.protocols.session import Box, Inquiry, Session
 from rotator.protocols.spid import Model
 from rotator.protocols.spid_session import SpidSession
 from rotator.protocols.wsjtx import WsjtxSession
-from rotator.runtime.client import Door, Rights
-from rotator.runtime.log_limit import Seldom
+from rotator.runtime.client import Client, Rights
+from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
 
 log = logging.getLogger(__name__)
@@ -99,7 +99,7 @@ def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _
 _BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01")
 
 
-def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tape: Tape) -> list[RunningLink]:
+def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap) -> list[RunningLink]:
     """Each with a name of its own, for a source is known by it: the second gs232b is gs232b-2."""
     built: list[RunningLink] = []
     given = {link.name for link in links}
@@ -109,32 +109,32 @@ def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tape: Ta
         names = (plain if number == 1 else f"{plain}-{number}" for number in itertools.count(1))
         name = next(name for name in names if name not in taken and (name == link.name or name not in given))
         taken.add(name)
-        tape.link(name, link.model_dump(exclude_unset=True))
-        built.append(_build(link, Wire(name, link.protocol, link.where), loop, mount, tape))
+        tap.link(name, link.model_dump(exclude_unset=True))
+        built.append(_build(link, Wire(name, link.protocol, link.where), loop, mount, tap))
     return built
 
 
-def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tape: Tape) -> RunningLink:
+def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tap: Tap) -> RunningLink:
     connections = itertools.count(1)
-    rights, complaints = Rights(link.read_only, link.most_per_s), Seldom(time.monotonic)
+    rights, complaints = Rights(link.read_only, link.most_per_s), LogLimit(time.monotonic)
 
-    remarks = Seldom(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
+    remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
 
     def remark(text: str) -> None:
         if told := remarks.tell(text):
             log.info("%s: %s", wire.name, told)
 
-    def connection() -> tuple[Source, Door]:
+    def connection() -> tuple[Source, Client]:
         source = Source(wire.name, next(connections))
-        return source, Door(loop, mount, source, rights=rights, complaints=complaints)
+        return source, Client(loop, mount, source, rights=rights, complaints=complaints)
 
     def session() -> Session:
-        source, door = connection()
-        return Overheard(session_maker(link, door, remark), tape, source, text=link.protocol not in _BINARY)
+        source, client = connection()
+        return TappedSession(session_maker(link, client, remark), tap, source, text=link.protocol not in _BINARY)
 
     def follower() -> Inquiry:
-        source, door = connection()
-        return OverheardInquiry(RotctldFollower(door, link.poll_s), tape, source)
+        source, client = connection()
+        return TappedInquiry(RotctldFollower(client, link.poll_s), tap, source)
 
     if link.pty is not None:
         return PtyLink(wire, Path(link.pty), session)
@@ -150,7 +150,7 @@ def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tape: Tape) 
             port,
             session,
             answer_port=port + ANSWERS_ABOVE if link.protocol == "pstrotator" else None,
-            report=_report(link, Source(wire.name), loop, mount, tape),
+            report=_report(link, Source(wire.name), loop, mount, tap),
             allowed=Allowed(link.allow),
         )
     if link.protocol == FOLLOW:
@@ -158,15 +158,15 @@ def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tape: Tape) 
     return TcpLink(wire, host, port, session, allowed=Allowed(link.allow), most_clients=link.most_clients)
 
 
-def _report(link: Link, source: Source, loop: ControlLoop, mount: Mount, tape: Tape) -> Report | None:
+def _report(link: Link, source: Source, loop: ControlLoop, mount: Mount, tap: Tap) -> Report | None:
     """What a link says by itself; None: nothing."""
     if link.status_to is None or link.rotor_name is None:
         return None
-    reporter = N1mmReport(Door(loop, mount, source), link.rotor_name)
+    reporter = N1mmReport(Client(loop, mount, source), link.rotor_name)
 
     def due(now_s: float) -> bytes | None:
         said = reporter.due(now_s)
-        tape.note(source, Way.OUT, said or b"", text=True)
+        tap.note(source, Way.OUT, said or b"", text=True)
         return said
 
     return Report(address(link.status_to), due)

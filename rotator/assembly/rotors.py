@@ -10,8 +10,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from firmware_sim.moteus.world import MoteusWorld
 from firmware_sim.rotors.digipot import DigipotRotor
+from firmware_sim.rotors.moteus import MoteusWorld
 from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus, real_spidev
 from hw.chips.ads1115 import Ads1115
 from hw.chips.as5600 import As5600
@@ -30,7 +30,7 @@ from hw.moteus.orders import AxisSpec as MoteusAxisSpec
 from hw.ports import AngleSensor, Axis, LeaseWatch, OutputLines
 from hw.sensors.cam import Cam
 from hw.sensors.pot import PotSensor, Reference
-from hw.sensors.pulses import OverheardLines, PulseCounter
+from hw.sensors.pulses import PulseCounter, TappedLines
 from rotator.assembly.board import Board
 from rotator.assembly.panel import limit_switches
 from rotator.assembly.settings import build_offsets, own_points
@@ -38,7 +38,7 @@ from rotator.config.model import Config
 from rotator.control.axis.calibration_table import Calibration
 from rotator.rotors.boxes import FollowedBox
 from rotator.rotors.counted import CountedAxis, CountedRotor
-from rotator.rotors.keeper import Keeper, at_once
+from rotator.rotors.counts_writer import CountsWriter, at_once
 from rotator.rotors.moteus import MoteusRotor
 from rotator.rotors.port import Rotor
 from rotator.rotors.positioned import PositionedRotor
@@ -105,24 +105,29 @@ class Assembly:
 
     def _relay_pulse(self, lines: OutputLines) -> CountedRotor:
         config, clock = self._config, self._board.clock
-        overheard = OverheardLines(lines, clock)
+        tapped = TappedLines(lines, clock)
         counting = [axis for axis in Axis if config.counts(axis)]
-        keeper: Keeper | None = None
+        counts_writer: CountsWriter | None = None
         if self._counts and counting:
             cams = {axis: getattr(config.pulses, axis.value).model_dump(exclude={"contact"}) for axis in counting}
-            keeper = Keeper(CountsFile(self._counts, cams), at_once if self._in_step else None)
-        kept = keeper.load() if keeper else {}
+            counts_writer = CountsWriter(CountsFile(self._counts, cams), at_once if self._in_step else None)
+        kept = counts_writer.load() if counts_writer else {}
         axes: dict[Axis, CountedAxis] = {}
         for axis in counting:
             axes[axis] = CountedAxis(
-                axis, self._counter(axis, overheard), keeper, clock, master=config.relays.master is not None
+                axis, self._counter(axis, tapped), counts_writer, clock, master=config.relays.master is not None
             )
             axes[axis].begin(kept.get(axis, Place(Standing.KNOWN, self._start_deg(axis))))
         return CountedRotor(
-            self._bank(overheard), self._sensors(dict(axes)), axes, self._shift, ends=self._ends, keeper=keeper
+            self._bank(tapped),
+            self._sensors(dict(axes)),
+            axes,
+            self._shift,
+            ends=self._ends,
+            counts_writer=counts_writer,
         )
 
-    def _counter(self, axis: Axis, overheard: OverheardLines) -> PulseCounter:
+    def _counter(self, axis: Axis, tapped: TappedLines) -> PulseCounter:
         config, limits = self._config, self._config.axis(axis)
         pulses, table = config.pulses, getattr(config.pulses, axis.value)
         contact = self._board.contact(
@@ -142,7 +147,7 @@ class Assembly:
             low_deg=table.home_deg,
             high_deg=limits.max_deg,
         )
-        return PulseCounter(axis, contact, overheard, cam, self._board.clock, debounce_s=pulses.debounce_s)
+        return PulseCounter(axis, contact, tapped, cam, self._board.clock, debounce_s=pulses.debounce_s)
 
     # --- motors that go to an angle
 

@@ -9,14 +9,14 @@ from collections.abc import Callable
 from typing import Any
 
 from firmware_sim.arduino.station import ArduinoStation
-from firmware_sim.moteus.world import AxisSpec as MoteusAxisSpec
-from firmware_sim.moteus.world import MoteusWorld
 from firmware_sim.panel import PanelSpec
 from firmware_sim.parts.contact import ContactSpec
 from firmware_sim.parts.motor import MotorSpec
 from firmware_sim.parts.pot import PotSpec
 from firmware_sim.parts.servo import ServoSpec
 from firmware_sim.rotors.digipot import BoxSpec, DigipotRotor
+from firmware_sim.rotors.moteus import AxisSpec as MoteusAxisSpec
+from firmware_sim.rotors.moteus import MoteusWorld
 from firmware_sim.rotors.relay_pot import AxisSpec, World, WorldSpec
 from firmware_sim.rotors.relay_pulse import PulseAxisSpec, PulseRotor
 from firmware_sim.rotors.rotor import LcdSpec, SimRotor

@@ -14,7 +14,7 @@ from typing import cast
 from rotator.links.allowed import Allowed
 from rotator.links.wire import Conversation, LinkError, Wire, reason
 from rotator.protocols.session import Session
-from rotator.runtime.log_limit import Seldom
+from rotator.runtime.log_limit import LogLimit
 
 log = logging.getLogger(__name__)
 
@@ -43,7 +43,7 @@ class TcpLink:
         self.clients: set[_Client] = set()
         self._host = host
         self._port = port
-        self._complaints = Seldom(time.monotonic)
+        self._complaints = LogLimit(time.monotonic)
         self._server: asyncio.Server | None = None
 
     async def open(self) -> None:

@@ -19,7 +19,7 @@ from typing import Any
 from rotator.links.allowed import Allowed
 from rotator.links.wire import Conversation, LinkError, Wire, reason
 from rotator.protocols.session import Session
-from rotator.runtime.log_limit import Seldom
+from rotator.runtime.log_limit import LogLimit
 
 log = logging.getLogger(__name__)
 
@@ -71,7 +71,7 @@ class UdpLink:
         self._report = report
         self._allowed = allowed
         self._clock = clock
-        self._complaints = Seldom(clock)
+        self._complaints = LogLimit(clock)
         self._senders: dict[str, _Sender] = {}
         self._transport: asyncio.DatagramTransport | None = None
 

@@ -18,7 +18,7 @@ MOVED_DEG = 1.0
 MOVED_EVERY_S = 1.0
 
 
-class Tape:
+class Tap:
     """Makes lines of what goes over the links, and hands each to `listeners`. Costs nothing while there are none.
 
     `clock` is the time of day. Whose orders the antenna obeys is told when that changes; where it points with it, and
@@ -87,12 +87,12 @@ class Tape:
         return moved_deg >= MOVED_DEG and (moment - self._at_told).total_seconds() >= MOVED_EVERY_S
 
 
-class Overheard:
-    """A session, and `tape` has every byte of it. `text`: its bytes are characters."""
+class TappedSession:
+    """A session, and `tap` has every byte of it. `text`: its bytes are characters."""
 
-    def __init__(self, session: Session, tape: Tape, source: Source, *, text: bool = True) -> None:
+    def __init__(self, session: Session, tap: Tap, source: Source, *, text: bool = True) -> None:
         self._session = session
-        self._tape = tape
+        self._tap = tap
         self._source = source
         self._text = text
 
@@ -105,7 +105,7 @@ class Overheard:
         return self._session.closed
 
     def receive(self, data: bytes) -> list[bytes]:
-        self._tape.note(self._source, Way.IN, data, text=self._text)
+        self._tap.note(self._source, Way.IN, data, text=self._text)
         return self._said(self._session.receive(data))
 
     def idle(self) -> list[bytes]:
@@ -113,16 +113,16 @@ class Overheard:
 
     def _said(self, replies: list[bytes]) -> list[bytes]:
         for reply in replies:
-            self._tape.note(self._source, Way.OUT, reply, text=self._text)
+            self._tap.note(self._source, Way.OUT, reply, text=self._text)
         return replies
 
 
-class OverheardInquiry:
+class TappedInquiry:
     """The same of an inquiry: here the box speaks first."""
 
-    def __init__(self, inquiry: Inquiry, tape: Tape, source: Source) -> None:
+    def __init__(self, inquiry: Inquiry, tap: Tap, source: Source) -> None:
         self._inquiry = inquiry
-        self._tape = tape
+        self._tap = tap
         self._source = source
 
     @property
@@ -131,9 +131,9 @@ class OverheardInquiry:
 
     def ask(self) -> bytes:
         question = self._inquiry.ask()
-        self._tape.note(self._source, Way.OUT, question, text=True)
+        self._tap.note(self._source, Way.OUT, question, text=True)
         return question
 
     def receive(self, data: bytes) -> bool:
-        self._tape.note(self._source, Way.IN, data, text=True)
+        self._tap.note(self._source, Way.IN, data, text=True)
         return self._inquiry.receive(data)

@@ -26,7 +26,7 @@ from rotator.protocols.rotctld import encode as encode_request
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
 from rotator.rehearsal.passes import Pass
-from rotator.runtime.client import Door
+from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
 
@@ -92,8 +92,8 @@ class BoxPlant:
         assert station.world is not None, "a rehearsal is always simulated"
         self.world: SimRotor = station.world
         self._loop = ControlLoop(build_controller(config), station.rotor, clock, self._period_s)
-        door = Door(self._loop, build_mount(config), Source(via), clock=clock)
-        self._session: Session = RotctldSession(door) if via == "rotctld" else Gs232Session(door, Dialect.B)
+        client = Client(self._loop, build_mount(config), Source(via), clock=clock)
+        self._session: Session = RotctldSession(client) if via == "rotctld" else Gs232Session(client, Dialect.B)
         self._encode = _rotctld_order if via == "rotctld" else _gs232_order
 
     @property

@@ -17,7 +17,7 @@ from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand, Place, Run
 from rotator.control.sky.offsets import Offsets
 from rotator.rotors.common import Ends, no_switches
-from rotator.rotors.keeper import Keeper
+from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.relays import RelayRotor
 from rotator.status import Fault
 from rotator.store import counts
@@ -38,14 +38,14 @@ class CountedAxis:
         self,
         axis: Axis,
         counter: PulseCounter,
-        keeper: Keeper | None,
+        counts_writer: CountsWriter | None,
         clock: Callable[[], float],
         *,
         master: bool = False,
     ) -> None:
         self._axis = axis
         self._counter = counter
-        self._keeper = keeper
+        self._counts_writer = counts_writer
         self._clock = clock
         self._master = master
         self._lock = threading.Lock()
@@ -89,14 +89,14 @@ class CountedAxis:
 
     def may_start(self) -> bool:
         """Whether its motor may be switched on now."""
-        return self._keeper is None or self._keeper.may_start(self._axis)
+        return self._counts_writer is None or self._counts_writer.may_start(self._axis)
 
     def place(self, angle_deg: float) -> None:
         """It stands there, on the rotor's own scale, says its end stop or a person. Raises HardwareError."""
         with self._lock:
             self._place(angle_deg)
-            if self._keeper and not self._counter.trouble:
-                self._keeper.homed(self._axis, angle_deg)
+            if self._counts_writer and not self._counter.trouble:
+                self._counts_writer.homed(self._axis, angle_deg)
 
     def _place(self, angle_deg: float) -> None:
         self._counter.place(angle_deg)
@@ -104,7 +104,7 @@ class CountedAxis:
         self._scale += 1
 
     def _fault(self) -> Fault | None:
-        unkept = self._keeper.trouble(self._axis) if self._keeper else ""
+        unkept = self._counts_writer.trouble(self._axis) if self._counts_writer else ""
         if unkept:
             return Fault("count not kept", self._axis, f"it does not move: {unkept}", passing=True)
         if self._counter.turning:
@@ -115,17 +115,17 @@ class CountedAxis:
         return None
 
     def _keep(self, angle_deg: float) -> None:
-        if self._keeper is None or self._doubt:
+        if self._counts_writer is None or self._doubt:
             return
         if self._counter.trouble:
             if not self._lost:
-                self._keeper.lost(self._axis)
+                self._counts_writer.lost(self._axis)
             self._lost = True
             return
         now_s = self._clock()
         if self._counter.at_rest and now_s - self._told_s >= KEEP_EVERY_S:
             self._told_s = now_s
-            self._keeper.rests(now_s, self._axis, angle_deg)
+            self._counts_writer.rests(now_s, self._axis, angle_deg)
 
 
 class CountedRotor(RelayRotor):
@@ -139,12 +139,12 @@ class CountedRotor(RelayRotor):
         shift: Offsets,
         *,
         ends: Ends = no_switches,
-        keeper: Keeper | None = None,
+        counts_writer: CountsWriter | None = None,
     ) -> None:
         super().__init__(bank, sensors, ends)
         self._axes = axes
         self._shift = shift
-        self._keeper = keeper
+        self._counts_writer = counts_writer
 
     def condition(self, axis: Axis) -> Condition:
         if axis not in self._axes:
@@ -172,5 +172,5 @@ class CountedRotor(RelayRotor):
         try:
             super().close()
         finally:
-            if self._keeper:
-                self._keeper.close()
+            if self._counts_writer:
+                self._counts_writer.close()

@@ -22,7 +22,7 @@ CALIBRATIONS_EVERY_S = 1.0
 LEARNT_EVERY_S = 600.0
 
 
-class Keeper:
+class Autosave:
     """`path`: the configuration file, if there is one. `run` while the box runs, `close` when its loop has ended."""
 
     def __init__(self, loop: ControlLoop, path: Path | None, offsets: Offsets, learnt: LearntFile) -> None:

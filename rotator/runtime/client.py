@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount
 from rotator.orders import Order, Refusal, Source, Stop
-from rotator.runtime.log_limit import Seldom
+from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
 
@@ -32,7 +32,7 @@ class Rights:
     """Orders a second from one connection that take effect at once."""
 
 
-class Door:
+class Client:
     """`complaints` is shared by the connections of a link, so that one that comes anew each time is no news."""
 
     def __init__(
@@ -42,14 +42,14 @@ class Door:
         source: Source,
         *,
         rights: Rights = Rights(),
-        complaints: Seldom | None = None,
+        complaints: LogLimit | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._loop = loop
         self._mount = mount
         self._source = source
         self._rights = rights
-        self._complaints = complaints or Seldom(clock)
+        self._complaints = complaints or LogLimit(clock)
         self._clock = clock
         self._left = float(rights.most_per_s)
         self._counted_s = clock()

@@ -12,7 +12,7 @@ MOST = 5
 """Different complaints a minute that are told in full: the angles of a moving target make each one different."""
 
 
-class Seldom:
+class LogLimit:
     """`clock` gives seconds."""
 
     def __init__(self, clock: Callable[[], float], every_s: float = EVERY_S, most: int = MOST) -> None:

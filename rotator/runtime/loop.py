@@ -16,7 +16,7 @@ from rotator.control.axis.sensing import Reading
 from rotator.control.controller import Controller
 from rotator.orders import Jog, Order, Source
 from rotator.rotors.port import Rotor
-from rotator.runtime.log_limit import Seldom
+from rotator.runtime.log_limit import LogLimit
 from rotator.status import Status
 
 log = logging.getLogger(__name__)
@@ -55,7 +55,7 @@ class ControlLoop:
         self._late_s = 0.0
         self._supply_cut = False
         self._noticed: dict[Axis, tuple[str, ...]] = dict.fromkeys(Axis, ())
-        self._movers = Seldom(clock)
+        self._movers = LogLimit(clock)
         self.status: Status = controller.status(clock(), dict.fromkeys(Axis, Direction.OFF))
         """The latest status; replaced whole, never changed."""
 

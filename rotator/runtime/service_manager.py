@@ -22,7 +22,7 @@ def runtime_folder(environment: Mapping[str, str]) -> Path | None:
     return Path(folder) if folder else None
 
 
-class Supervisor:
+class ServiceManager:
     """`environment` is the process's; `clock` gives seconds. May be used from any thread."""
 
     def __init__(self, environment: Mapping[str, str], clock: Callable[[], float]) -> None:

@@ -13,7 +13,7 @@ from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.config.load import parse
-from rotator.monitor.tap import Tape
+from rotator.monitor.tap import Tap
 from rotator.orders import Aim, Order
 from rotator.protocols.reference.gs232 import Example
 from rotator.runtime.loop import ControlLoop
@@ -111,10 +111,10 @@ def test_each_link_has_a_name_of_its_own() -> None:
     clock = SimClock()
     station = Station(config, clock, clock.sleep)
     loop = ControlLoop(build_controller(config), station.rotor, clock, 0.05)
-    tape = Tape(datetime.now, lambda: loop.status)
-    links = build_links(config.link, loop, build_mount(config), tape)
+    tap = Tap(datetime.now, lambda: loop.status)
+    links = build_links(config.link, loop, build_mount(config), tap)
     station.close()
     assert [running.wire.name for running in links] == ["gs232b", "gs232b-3", "gs232b-4", "gs232b-2"]
-    assert [line.split()[2] for line in tape.greeting() if line.startswith("# link")] == [
+    assert [line.split()[2] for line in tap.greeting() if line.startswith("# link")] == [
         running.wire.name for running in links
     ]

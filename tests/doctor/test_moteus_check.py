@@ -9,7 +9,7 @@ from typing import NoReturn
 
 import pytest
 
-from firmware_sim.moteus.world import AxisSpec, MoteusWorld
+from firmware_sim.rotors.moteus import AxisSpec, MoteusWorld
 from hw.ports import Axis, HardwareError
 from rotator.config.load import parse
 from rotator.doctor.chips import Heard, ask_controllers

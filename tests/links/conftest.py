@@ -24,7 +24,7 @@ from rotator.orders import Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
-from rotator.runtime.client import Door
+from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 
 PATIENCE_S = 30.0
@@ -48,10 +48,10 @@ class Bench:
         return self.station.world.drives()
 
     def gs232(self, dialect: Dialect = Dialect.B) -> Gs232Session:
-        return Gs232Session(Door(self.loop, self.mount, Source("gs232", 1)), dialect)
+        return Gs232Session(Client(self.loop, self.mount, Source("gs232", 1)), dialect)
 
     def rotctld(self) -> RotctldSession:
-        return RotctldSession(Door(self.loop, self.mount, Source("rotctld", 1)))
+        return RotctldSession(Client(self.loop, self.mount, Source("rotctld", 1)))
 
 
 class Ear:

@@ -16,7 +16,7 @@ from rotator.links.asking import AskingLink
 from rotator.links.wire import Wire
 from rotator.orders import Source
 from rotator.protocols.rotctld_follow import RotctldFollower
-from rotator.runtime.client import Door
+from rotator.runtime.client import Client
 
 PATIENCE_S = 30.0
 Running = Callable[[AskingLink], Any]
@@ -85,7 +85,7 @@ def port() -> int:
 @pytest.fixture
 def link(wire: Wire, port: int, bench: Any) -> AskingLink:
     def follower() -> RotctldFollower:
-        return RotctldFollower(Door(bench.loop, bench.mount, Source("follow", 1)), 1.0)
+        return RotctldFollower(Client(bench.loop, bench.mount, Source("follow", 1)), 1.0)
 
     return AskingLink(wire, "127.0.0.1", port, follower, every_s=0.01, silence_s=0.3, retry_s=0.01)
 
@@ -109,7 +109,7 @@ def test_it_follows_what_changes(link: AskingLink, port: int, running: Running, 
 def test_it_asks_no_faster_than_it_is_told_to(wire: Wire, port: int, bench: Any, running: Running) -> None:
     async def talk() -> None:
         clock = asyncio.get_running_loop().time
-        follower = RotctldFollower(Door(bench.loop, bench.mount, Source("follow", 1)), 1.0)
+        follower = RotctldFollower(Client(bench.loop, bench.mount, Source("follow", 1)), 1.0)
         slow = AskingLink(wire, "127.0.0.1", port, lambda: follower, every_s=0.05)
         async with listening(port, Server()) as server, running(slow):
             await server.questions(1)

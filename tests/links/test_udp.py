@@ -15,7 +15,7 @@ from rotator.links.udp import FORGOTTEN_AFTER_S, MOST_BYTES, MOST_SENDERS, Repor
 from rotator.links.wire import LinkError, Wire
 from rotator.orders import Source
 from rotator.protocols.pstrotator import PstRotatorSession
-from rotator.runtime.client import Door
+from rotator.runtime.client import Client
 
 PATIENCE_S = 30.0
 Running = Callable[[UdpLink], Any]
@@ -78,7 +78,7 @@ class Sessions:
 
     def __call__(self) -> PstRotatorSession:
         self.made += 1
-        return PstRotatorSession(Door(self.bench.loop, self.bench.mount, Source("pst", self.made)))
+        return PstRotatorSession(Client(self.bench.loop, self.bench.mount, Source("pst", self.made)))
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from datetime import datetime, timedelta
 
 import pytest
 
-from rotator.monitor.tap import Overheard, OverheardInquiry, Tape
+from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import Way
 from rotator.orders import Source
 from rotator.protocols.gs232 import Dialect
@@ -21,15 +21,15 @@ GS232, ROTCTLD = Source("gs232b", 1), Source("rotctld", 3)
 
 
 class Room:
-    """A tape, what is told, and the hands of the clock."""
+    """A tap, what is told, and the hands of the clock."""
 
     def __init__(self) -> None:
         self.now = datetime(2026, 11, 21, 23, 59, 58)
         self.status: Status = Example().status()
         self.asked = 0
         self.told: list[str] = []
-        self.tape = Tape(lambda: self.now, self._status)
-        self.tape.link("gs232b", {"protocol": "gs232b", "pty": "run/gs232"})
+        self.tap = Tap(lambda: self.now, self._status)
+        self.tap.link("gs232b", {"protocol": "gs232b", "pty": "run/gs232"})
 
     def _status(self) -> Status:
         self.asked += 1
@@ -48,13 +48,13 @@ def room() -> Room:
 
 
 def listen(room: Room) -> None:
-    room.told += room.tape.greeting()
-    room.tape.listeners.append(room.told.append)
+    room.told += room.tap.greeting()
+    room.tap.listeners.append(room.told.append)
 
 
 def test_every_piece_with_its_time_and_source(room: Room) -> None:
     listen(room)
-    session = Overheard(Gs232Session(Example(), Dialect.B), room.tape, GS232)
+    session = TappedSession(Gs232Session(Example(), Dialect.B), room.tap, GS232)
     assert session.receive(b"C") == []
     assert session.receive(b"2\rB\r") == [b"AZ=235  EL=025\r\n", b"EL=025\r\n"]
     assert room.told[1:] == [
@@ -70,7 +70,7 @@ def test_every_piece_with_its_time_and_source(room: Room) -> None:
 
 def test_an_answer_to_silence_and_a_connection_that_ends(room: Room) -> None:
     listen(room)
-    session = Overheard(RotctldSession(Example()), room.tape, ROTCTLD)
+    session = TappedSession(RotctldSession(Example()), room.tap, ROTCTLD)
     assert session.idle_s == RotctldSession.idle_s
     session.receive(b"p")
     assert session.idle() == [b"235.00\n25.00\n"]
@@ -86,7 +86,7 @@ def test_an_answer_to_silence_and_a_connection_that_ends(room: Room) -> None:
 
 def test_where_the_box_asks_it_speaks_first(room: Room) -> None:
     listen(room)
-    inquiry = OverheardInquiry(RotctldFollower(Example(), 0.1), room.tape, Source("follow", 1))
+    inquiry = TappedInquiry(RotctldFollower(Example(), 0.1), room.tap, Source("follow", 1))
     assert inquiry.ask() == b"p\n"
     assert inquiry.receive(b"RPRT -6\n")
     assert inquiry.trouble == "answers 'RPRT -6' for a position"
@@ -98,7 +98,7 @@ def test_who_moves_it_and_where_it_is_while_it_turns(room: Room) -> None:
     room.told.clear()
 
     def poll() -> None:
-        room.tape.note(GS232, Way.IN, b"C2\r", text=True)
+        room.tap.note(GS232, Way.IN, b"C2\r", text=True)
 
     for _ in range(20):
         poll()
@@ -119,20 +119,20 @@ def test_who_moves_it_and_where_it_is_while_it_turns(room: Room) -> None:
 
 def test_a_new_day_is_said(room: Room) -> None:
     listen(room)
-    room.tape.note(GS232, Way.IN, b"C2\r", text=True)
+    room.tap.note(GS232, Way.IN, b"C2\r", text=True)
     room.wait(3)
-    room.tape.note(GS232, Way.IN, b"C2\r", text=True)
+    room.tap.note(GS232, Way.IN, b"C2\r", text=True)
     assert room.told[-2:] == ["# 2026-11-22", r"00:00:01.000 gs232b#1 > C2\r"]
 
 
 def test_a_position_that_is_not_known_is_not_told(room: Room) -> None:
     room.status = replace(room.status, azimuth=replace(room.status.azimuth, angle_deg=None))
     listen(room)
-    room.tape.note(GS232, Way.IN, b"C2\r", text=True)
+    room.tap.note(GS232, Way.IN, b"C2\r", text=True)
     assert not [line for line in room.told if line.startswith("# at")]
 
 
 def test_nobody_listens_and_nothing_is_asked(room: Room) -> None:
-    session = Overheard(Gs232Session(Example(), Dialect.B), room.tape, GS232)
+    session = TappedSession(Gs232Session(Example(), Dialect.B), room.tap, GS232)
     session.receive(b"C2\r")
     assert room.asked == 0

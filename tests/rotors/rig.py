@@ -1,4 +1,4 @@
-"""Every kind of rotor as it is shipped, in simulated time: its station, the control loop and doors, run by hand.
+"""Every kind of rotor as it is shipped, in simulated time: its station, the control loop and clients, run by hand.
 
 Knows the shipped configurations and what each kind can do. Knows nothing of what a test is after. Angles are degrees as
 the box reports them; what the simulated rotor shows on its own scale is shifted by as much as the file says.
@@ -24,7 +24,7 @@ from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.orders import Aim, Order, Source
-from rotator.runtime.client import Door
+from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 from rotator.status import AxisStatus, Status
 
@@ -126,8 +126,8 @@ class Box:
         """Where the shaft really is, before the play of the gears."""
         return self.world.shafts()[list(Axis).index(axis)] + self._shift.of(axis)
 
-    def door(self, source: Source = LINK) -> Door:
-        return Door(self.loop, build_mount(self.config), source, clock=self.clock)
+    def client(self, source: Source = LINK) -> Client:
+        return Client(self.loop, build_mount(self.config), source, clock=self.clock)
 
     def order(self, *orders: Order, by: Source = LINK) -> None:
         for order in orders:

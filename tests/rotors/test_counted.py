@@ -13,7 +13,7 @@ from rotator.control.commands import Place as Placed
 from rotator.control.commands import Run
 from rotator.control.sky.offsets import Offsets
 from rotator.rotors.counted import CountedAxis, CountedRotor
-from rotator.rotors.keeper import Keeper, at_once
+from rotator.rotors.counts_writer import CountsWriter, at_once
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing
 
 MINUS, OFF, PLUS = Direction
@@ -30,11 +30,13 @@ class Mast:
         file = CountsFile(path, CAMS)
         if kept.standing is Standing.KNOWN:
             file.home(AZ, kept.angle_deg)
-        self.keeper = Keeper(file, at_once)
-        self.axis = CountedAxis(AZ, self.rig.counter, self.keeper, self.rig.clock)
+        self.counts_writer = CountsWriter(file, at_once)
+        self.axis = CountedAxis(AZ, self.rig.counter, self.counts_writer, self.rig.clock)
         self.axis.begin(kept)
         bank: RelayBank = self.rig.bank
-        self.rotor = CountedRotor(bank, {AZ: self.axis}, {AZ: self.axis}, Offsets(offset_deg), keeper=self.keeper)
+        self.rotor = CountedRotor(
+            bank, {AZ: self.axis}, {AZ: self.axis}, Offsets(offset_deg), counts_writer=self.counts_writer
+        )
 
     def run(self, way: Direction, seconds: float) -> None:
         until_s = self.rig.clock() + seconds

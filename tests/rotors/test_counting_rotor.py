@@ -51,7 +51,7 @@ def test_fresh_from_the_box_it_wants_homing(new_box: NewBox, counts: Path) -> No
     box = new_box(U100, counts=counts)
     box.run(1.0)
     assert box.axis(AZ).uncalibrated == "homing (nobody has yet)"
-    refused = box.door().order(Aim(120.0, 40.0))
+    refused = box.client().order(Aim(120.0, 40.0))
     assert refused is not None
     assert refused.reason.startswith("UNCALIBRATED: azimuth needs homing (nobody has yet)")
     homed(box)

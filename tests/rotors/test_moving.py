@@ -177,9 +177,9 @@ def test_no_order_leads_beyond_the_limits(box: Box) -> None:
             beyond_deg.append(max(shaft_deg - limits[axis].max_deg, limits[axis].min_deg - shaft_deg))
 
     box.clock.every(0.05, look)
-    door = box.door()
+    client = box.client()
     for order in (Aim(limits[AZ].max_deg, 300.0), Aim(0.0, -30.0), Aim(720.0, 20.0)):
-        door.order(order)
+        client.order(order)
         box.until_it_stands()
     assert max(beyond_deg) <= max(0.5, box.kind.trembles_deg)
 

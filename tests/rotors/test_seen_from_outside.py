@@ -29,7 +29,7 @@ def near(box: Box, axis: Axis, angle_deg: float) -> bool:
 
 
 def test_a_gs232_program_points_reads_turns_and_stops(box: Box) -> None:
-    session = Gs232Session(box.door(), Dialect.B)
+    session = Gs232Session(box.client(), Dialect.B)
     assert session.receive(b"W130 050\r") == []
     box.until_it_stands()
     answer = session.receive(b"C2\r")[0].decode("ascii")
@@ -51,7 +51,7 @@ def test_a_gs232_program_points_reads_turns_and_stops(box: Box) -> None:
 
 
 def test_a_rotctld_program_points_reads_stops_and_parks(box: Box) -> None:
-    session = RotctldSession(box.door())
+    session = RotctldSession(box.client())
     assert session.receive(b"P 130.5 50.25\n") == [b"RPRT 0\n"]
     box.until_it_stands()
     azimuth, elevation = session.receive(b"p\n")[0].decode("ascii").split()
@@ -69,7 +69,7 @@ def test_a_rotctld_program_points_reads_stops_and_parks(box: Box) -> None:
 def test_what_the_rotor_cannot_reach_is_refused_in_the_program_s_words(box: Box) -> None:
     limits = box.axis(AZ)
     reached = limits.max_deg - limits.min_deg >= 360.0 or box.config.mount.flip != "off"
-    answer = RotctldSession(box.door()).receive(b"P 270 20\n")[0]
+    answer = RotctldSession(box.client()).receive(b"P 270 20\n")[0]
     assert (answer == b"RPRT 0\n") is reached
 
 
@@ -90,8 +90,8 @@ def test_the_display_shows_what_the_status_says(kind: Kind, new_box: NewBox) -> 
 
     box.run(1.0)
     assert shown() == ["SAT A:--- E:---", f"SIM A:090 E:{kind.start_deg[1]:03.0f}"]
-    box.door().order(Jog(AZ, Direction.PLUS, 0.5))
-    Gs232Session(box.door(), Dialect.B).receive(b"W130 050\r")
+    box.client().order(Jog(AZ, Direction.PLUS, 0.5))
+    Gs232Session(box.client(), Dialect.B).receive(b"W130 050\r")
     box.until_it_stands()
     upper, lower = shown()
     assert upper == "SAT A:130 E:050"
@@ -121,7 +121,7 @@ def test_the_status_has_the_same_shape_for_all(box: Box) -> None:
 
 
 def test_homing_is_for_those_that_count(box: Box) -> None:
-    refused = box.door(PERSON).order(Home(AZ))
+    refused = box.client(PERSON).order(Home(AZ))
     assert (refused is None) is (box.kind.source == "counted")
     if refused is not None:
         assert "there is no end stop to be found" in refused.reason

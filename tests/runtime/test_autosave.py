@@ -13,7 +13,7 @@ from rotator.assembly.settings import build_controller, build_learnt, build_offs
 from rotator.assembly.station import Station
 from rotator.config.load import load
 from rotator.orders import Aim, Calibrate, Order, Source
-from rotator.runtime.autosave import Keeper
+from rotator.runtime.autosave import Autosave
 from rotator.runtime.loop import ControlLoop
 from rotator.status import LearntMotor
 
@@ -43,7 +43,7 @@ class Running:
         learnt = build_learnt(config)
         controller = build_controller(config, learnt.load())
         self.loop = ControlLoop(controller, station.rotor, self.clock, 0.05)
-        self.keeper = Keeper(self.loop, keep_in, build_offsets(config), learnt)
+        self.autosave = Autosave(self.loop, keep_in, build_offsets(config), learnt)
         self.begun_with = self.loop.status.azimuth.learnt
         self.run(0.5)
 
@@ -70,21 +70,21 @@ def test_what_the_motors_taught_is_there_the_next_time(path: Path) -> None:
     first = Running(path, path)
     assert first.begun_with == AS_SAID
     first.turn_about()
-    first.keeper.close()
+    first.autosave.close()
     assert Running(path, path).begun_with == first.loop.status.azimuth.learnt != AS_SAID
 
 
 def test_a_box_that_has_not_turned_writes_nothing(path: Path) -> None:
     box = Running(path, path)
     box.run(5.0)
-    box.keeper.close()
+    box.autosave.close()
     assert not (path.parent / "var").exists()
 
 
 def test_other_figures_in_the_file_begin_anew(path: Path) -> None:
     first = Running(path, path)
     first.turn_about()
-    first.keeper.close()
+    first.autosave.close()
     path.write_text(path.read_text().replace("[azimuth]", "[azimuth]\nspeed_dps = 5.0"))
     assert Running(path, path).begun_with == (LearntMotor(5.0, 5.0 * 0.17),) * 2
 
@@ -93,13 +93,13 @@ def test_a_state_that_cannot_be_written_ends_in_the_log(path: Path, caplog: pyte
     (path.parent / "var").write_text("a file where a folder should be")
     box = Running(path, path)
     box.turn_about()
-    box.keeper.close()
+    box.autosave.close()
     assert "cannot be kept" in caplog.text
 
 
 def calibrate_low(box: Running, axis: Axis) -> None:
     box.run(2.0, Calibrate(axis, high_end=False))
-    box.keeper.keep_calibrations()
+    box.autosave.keep_calibrations()
 
 
 def test_a_calibration_from_a_link_is_saved_on_the_rotors_own_scale(path: Path) -> None:
@@ -134,7 +134,7 @@ def test_the_points_between_move_along(path: Path) -> None:
 def test_what_was_taken_in_the_last_second_is_kept_too(path: Path) -> None:
     box = Running(path, path)
     box.run(2.0, Calibrate(Axis.AZIMUTH, high_end=False))
-    box.keeper.close()
+    box.autosave.close()
     assert load(path).azimuth.calibration is not None
 
 

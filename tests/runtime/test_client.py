@@ -1,4 +1,4 @@
-"""One connection's door to the box: who may order, how fast, and what the log hears of it."""
+"""One connection's client to the box: who may order, how fast, and what the log hears of it."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from rotator.orders import Aim, Calibrate, Jog, Order, Park, Source, Speed, Stop
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
-from rotator.runtime.client import MOST_PER_S, Door, Rights
-from rotator.runtime.log_limit import Seldom
+from rotator.runtime.client import MOST_PER_S, Client, Rights
+from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
 
 CONFIG = parse("[azimuth]\nmax_deg = 310\n", "bench")
@@ -42,11 +42,11 @@ class Bench:
         self.station = Station(CONFIG, self.clock, self.clock.sleep, (235.0, 25.0))
         self.loop = Inbox(build_controller(CONFIG), self.station.rotor, self.clock, 0.05)
         self.loop.posted = []
-        self.complaints = Seldom(self.clock)
+        self.complaints = LogLimit(self.clock)
         self.loop.cycle()
 
-    def door(self, connection: int = 1, **rights: int) -> Door:
-        return Door(
+    def client(self, connection: int = 1, **rights: int) -> Client:
+        return Client(
             self.loop,
             build_mount(CONFIG),
             Source("link", connection),
@@ -74,7 +74,7 @@ def bench() -> Iterator[Bench]:
 @pytest.mark.parametrize("order", [Aim(10, 10), Jog(Axis.AZIMUTH, Direction.PLUS), Stop(), Park(), Speed(1),
                                    Calibrate(Axis.AZIMUTH, high_end=True)])  # fmt: skip
 def test_a_read_only_link_gives_no_orders_not_even_a_stop(bench: Bench, order: Order) -> None:
-    owner, visitor = bench.door(1), bench.door(2, read_only=True)
+    owner, visitor = bench.client(1), bench.client(2, read_only=True)
     owner.order(Aim(300, 25))
     assert bench.drives() == (1, 0)
     refused = visitor.order(order)
@@ -85,18 +85,22 @@ def test_a_read_only_link_gives_no_orders_not_even_a_stop(bench: Bench, order: O
 
 
 def test_each_protocol_refuses_in_its_own_words(bench: Bench) -> None:
-    door = bench.door(read_only=True)
-    assert Gs232Session(door, Dialect.B).receive(b"W100 020\rS\rC2\r") == [b"?>\r\n", b"?>\r\n", b"AZ=235  EL=025\r\n"]
-    rotctld = RotctldSession(door)
+    client = bench.client(read_only=True)
+    assert Gs232Session(client, Dialect.B).receive(b"W100 020\rS\rC2\r") == [
+        b"?>\r\n",
+        b"?>\r\n",
+        b"AZ=235  EL=025\r\n",
+    ]
+    rotctld = RotctldSession(client)
     assert rotctld.receive(b"P 100 20\nS\nK\nM CW 50\nR 1\n") == [b"RPRT -9\n"] * 5
     assert rotctld.receive(b"+S\n") == [b"stop:\nRPRT -9\n"]
     # What cannot be reached is the order's own fault, and has a number of its own.
-    assert RotctldSession(bench.door()).receive(b"P 330 20\n") == [b"RPRT -1\n"]
+    assert RotctldSession(bench.client()).receive(b"P 330 20\n") == [b"RPRT -1\n"]
 
 
 def test_the_log_says_so_once_whoever_comes_again(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
     for connection in range(1, 101):
-        bench.door(connection, read_only=True).order(Aim(10, 10))
+        bench.client(connection, read_only=True).order(Aim(10, 10))
     (record,) = caplog.records
     assert record.message == "link#1: refused: the link is read_only, and takes no orders (Aim)"
 
@@ -104,9 +108,9 @@ def test_the_log_says_so_once_whoever_comes_again(bench: Bench, caplog: pytest.L
 def test_a_program_that_repeats_a_refused_order_does_not_fill_the_log(
     bench: Bench, caplog: pytest.LogCaptureFixture
 ) -> None:
-    door = bench.door()
+    client = bench.client()
     for _ in range(20 * 61):
-        assert door.order(Aim(330, 10)) is not None
+        assert client.order(Aim(330, 10)) is not None
         bench.clock.sleep(0.05)
     first, second = (record.message for record in caplog.records)
     assert first.startswith("link#1: refused: ")
@@ -117,39 +121,39 @@ def test_a_program_that_repeats_a_refused_order_does_not_fill_the_log(
 
 
 def test_what_exceeds_waits_for_the_cycle_and_the_newest_wins(bench: Bench) -> None:
-    door = bench.door(most_per_s=10)
+    client = bench.client(most_per_s=10)
     for _ in range(10):
-        assert door.order(Aim(300, 25)) is None
+        assert client.order(Aim(300, 25)) is None
     for azimuth_deg in range(1000):
-        assert door.order(Aim(azimuth_deg % 200, 25)) is None
+        assert client.order(Aim(azimuth_deg % 200, 25)) is None
     assert [can_wait for _, _, can_wait in bench.loop.posted] == [False] * 10 + [True] * 1000
     assert bench.drives() == (-1, 0)
     assert bench.loop.status.wanted_azimuth_deg == 199
 
 
 def test_a_stop_is_never_too_much(bench: Bench) -> None:
-    door = bench.door(most_per_s=1)
+    client = bench.client(most_per_s=1)
     for _ in range(50):
-        door.order(Aim(300, 25))
+        client.order(Aim(300, 25))
     assert bench.drives() == (1, 0)
     for _ in range(50):
-        door.order(Aim(300, 25))
-    door.order(Stop())
+        client.order(Aim(300, 25))
+    client.order(Stop())
     assert bench.loop.posted[-1] == (1, Stop(), False)
     assert bench.drives() == (0, 0)
 
 
 def test_two_axes_are_two_kinds(bench: Bench) -> None:
-    door = bench.door(most_per_s=1)
-    door.order(Speed(1))
+    client = bench.client(most_per_s=1)
+    client.order(Speed(1))
     for direction in (Direction.MINUS, Direction.PLUS):
         for axis in Axis:
-            door.order(Jog(axis, direction))
+            client.order(Jog(axis, direction))
     assert bench.drives() == (1, 1)
 
 
 def test_nobody_pays_for_another_connection(bench: Bench) -> None:
-    flood, other = bench.door(1, most_per_s=5), bench.door(2, most_per_s=5)
+    flood, other = bench.client(1, most_per_s=5), bench.client(2, most_per_s=5)
     for _ in range(100):
         flood.order(Aim(100, 25))
     other.order(Aim(300, 25))
@@ -158,9 +162,9 @@ def test_nobody_pays_for_another_connection(bench: Bench) -> None:
 
 def test_a_real_program_never_reaches_it(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
     """Twenty orders a second, four times what the fastest one is known to send."""
-    door = bench.door(most_per_s=MOST_PER_S)
+    client = bench.client(most_per_s=MOST_PER_S)
     for _ in range(600):
-        door.order(Aim(300, 25))
+        client.order(Aim(300, 25))
         bench.clock.sleep(0.05)
         bench.loop.cycle()
     assert not any(can_wait for _, _, can_wait in bench.loop.posted)
@@ -168,9 +172,9 @@ def test_a_real_program_never_reaches_it(bench: Bench, caplog: pytest.LogCapture
 
 
 def test_it_is_told_once(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
-    door = bench.door(most_per_s=10)
+    client = bench.client(most_per_s=10)
     for _ in range(1000):
-        door.order(Aim(300, 25))
+        client.order(Aim(300, 25))
     (record,) = caplog.records
     assert record.message == (
         "link#1: more than 10 orders a second: of those beyond, only the newest of each kind counts"

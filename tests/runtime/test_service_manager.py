@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from firmware_sim.clock import SimClock
-from rotator.runtime.service_manager import Supervisor
+from rotator.runtime.service_manager import ServiceManager
 
 
 class Manager:
@@ -48,7 +48,7 @@ def clock() -> SimClock:
 
 
 def test_ready_and_stopping(manager: Manager, clock: SimClock) -> None:
-    supervisor = Supervisor({"NOTIFY_SOCKET": str(manager.path)}, clock)
+    supervisor = ServiceManager({"NOTIFY_SOCKET": str(manager.path)}, clock)
     supervisor.ready()
     supervisor.stopping()
     supervisor.close()
@@ -56,7 +56,7 @@ def test_ready_and_stopping(manager: Manager, clock: SimClock) -> None:
 
 
 def test_four_signs_of_life_in_the_time_allowed(manager: Manager, clock: SimClock) -> None:
-    supervisor = Supervisor({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
+    supervisor = ServiceManager({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
     for _ in range(100):  # five seconds of a control loop at 20 Hz
         supervisor.alive()
         clock.sleep(0.05)
@@ -65,7 +65,7 @@ def test_four_signs_of_life_in_the_time_allowed(manager: Manager, clock: SimCloc
 
 
 def test_no_step_no_sign_of_life(manager: Manager, clock: SimClock) -> None:
-    supervisor = Supervisor({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
+    supervisor = ServiceManager({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
     clock.sleep(60.0)
     supervisor.close()
     assert manager.heard() == []
@@ -73,7 +73,7 @@ def test_no_step_no_sign_of_life(manager: Manager, clock: SimClock) -> None:
 
 @pytest.mark.parametrize("asked", [{}, {"WATCHDOG_USEC": "soon"}, {"WATCHDOG_USEC": "5000000", "WATCHDOG_PID": "1"}])
 def test_without_a_watchdog_of_ours_it_is_silent(manager: Manager, clock: SimClock, asked: dict[str, str]) -> None:
-    supervisor = Supervisor({"NOTIFY_SOCKET": str(manager.path), **asked}, clock)
+    supervisor = ServiceManager({"NOTIFY_SOCKET": str(manager.path), **asked}, clock)
     supervisor.alive()
     supervisor.close()
     assert manager.heard() == []
@@ -83,14 +83,14 @@ def test_a_socket_without_a_file(clock: SimClock) -> None:
     name = f"rotator-test-{os.getpid()}"
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as listening:
         listening.bind("\0" + name)
-        supervisor = Supervisor({"NOTIFY_SOCKET": "@" + name}, clock)
+        supervisor = ServiceManager({"NOTIFY_SOCKET": "@" + name}, clock)
         supervisor.ready()
         supervisor.close()
         assert listening.recv(100) == b"READY=1"
 
 
 def test_without_a_service_manager_nothing_happens(clock: SimClock) -> None:
-    supervisor = Supervisor({}, clock)
+    supervisor = ServiceManager({}, clock)
     supervisor.ready()
     supervisor.alive()
     supervisor.leave("lines", "text")
@@ -98,13 +98,13 @@ def test_without_a_service_manager_nothing_happens(clock: SimClock) -> None:
 
 
 def test_a_service_manager_that_has_gone_stops_nothing(tmp_path: Path, clock: SimClock) -> None:
-    supervisor = Supervisor({"NOTIFY_SOCKET": str(tmp_path / "nobody")}, clock)
+    supervisor = ServiceManager({"NOTIFY_SOCKET": str(tmp_path / "nobody")}, clock)
     supervisor.ready()
     supervisor.close()
 
 
 def test_it_leaves_word_in_the_folder_that_it_was_given(tmp_path: Path, clock: SimClock) -> None:
-    supervisor = Supervisor({"RUNTIME_DIRECTORY": f"{tmp_path}:/elsewhere"}, clock)
+    supervisor = ServiceManager({"RUNTIME_DIRECTORY": f"{tmp_path}:/elsewhere"}, clock)
     supervisor.leave("relay-lines.json", json.dumps({"chip": "/dev/gpiochip0"}))
     supervisor.close()
     assert json.loads((tmp_path / "relay-lines.json").read_text()) == {"chip": "/dev/gpiochip0"}

@@ -21,7 +21,7 @@ from rotator.config.load import parse
 from rotator.orders import Mode, Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
-from rotator.runtime.client import Door
+from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 
 MANUAL, PARK, AUTO, JOG = range(4)
@@ -77,7 +77,7 @@ class Shack:
             self.clock,
             pulses=self.station.rotor.closed_contacts,
         )
-        self._pc = Gs232Session(Door(self.loop, build_mount(config), Source("gs232", 1), clock=self.clock), Dialect.B)
+        self._pc = Gs232Session(Client(self.loop, build_mount(config), Source("gs232", 1), clock=self.clock), Dialect.B)
         if not calibrate:
             self.turn_mode(AUTO)
 

@@ -16,7 +16,7 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 import moteus
 
 from firmware_sim.clock import SimClock
-from firmware_sim.moteus.world import AxisSpec, MoteusWorld
+from firmware_sim.rotors.moteus import AxisSpec, MoteusWorld
 
 
 def on_the_adapter(tmp_path: Path, talk: Callable[[Any], Awaitable[None]]) -> MoteusWorld:

@@ -15,8 +15,8 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 
 from firmware_sim.moteus.bus import Frame, padded
 from firmware_sim.moteus.motor import Mode
-from firmware_sim.moteus.world import AxisSpec as SimAxis
-from firmware_sim.moteus.world import MoteusWorld
+from firmware_sim.rotors.moteus import AxisSpec as SimAxis
+from firmware_sim.rotors.moteus import MoteusWorld
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import CanChannel, SerialPort

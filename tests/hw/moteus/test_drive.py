@@ -14,8 +14,8 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 
 from firmware_sim.clock import SimClock
 from firmware_sim.moteus.motor import Mode, Settings
-from firmware_sim.moteus.world import FAULT_CODES, MoteusWorld
-from firmware_sim.moteus.world import AxisSpec as SimAxis
+from firmware_sim.rotors.moteus import FAULT_CODES, MoteusWorld
+from firmware_sim.rotors.moteus import AxisSpec as SimAxis
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import ERRAND_S, STALE_S
 from hw.moteus.drive import MoteusDrive

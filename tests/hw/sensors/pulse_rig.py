@@ -13,7 +13,7 @@ from hw.buses.gpio import GpioContact, GpioOutputs
 from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction
 from hw.sensors.cam import Cam
-from hw.sensors.pulses import OverheardLines, PulseCounter
+from hw.sensors.pulses import PulseCounter, TappedLines
 
 PATH = "/dev/gpiochip0"
 RELAYS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25}
@@ -48,11 +48,11 @@ class PulseRig:
         self.rotor.azimuth.motor.pace = pace
         self.cam = cam
         self._lines = GpioOutputs(self.rotor.gpio, PATH, RELAYS, consumer="rotator-relays")
-        self.overheard = OverheardLines(self._lines, self.clock)
-        self.bank = RelayBank(self.overheard, self.clock, dead_time_s=0.5)
+        self.tapped = TappedLines(self._lines, self.clock)
+        self.bank = RelayBank(self.tapped, self.clock, dead_time_s=0.5)
         self.clock.add_alarm(self.bank.due_s, self.bank.enforce)
         self.contact = GpioContact(self.rotor.gpio, PATH, CONTACT_PIN, consumer="rotator-azimuth")
-        self.counter = PulseCounter(AZ, self.contact, self.overheard, cam, self.clock)
+        self.counter = PulseCounter(AZ, self.contact, self.tapped, cam, self.clock)
         self.placed = self.counter.place(start_deg)
 
     @property

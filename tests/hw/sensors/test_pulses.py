@@ -195,7 +195,7 @@ def test_a_motor_much_slower_than_it_is_said_to_be_makes_the_count_doubtful_not_
 
 def test_before_anybody_has_placed_it_the_count_is_worth_nothing() -> None:
     rig = PulseRig()
-    fresh = PulseCounter(Axis.ELEVATION, contact(rig, 26), rig.overheard, CAM, rig.clock)
+    fresh = PulseCounter(Axis.ELEVATION, contact(rig, 26), rig.tapped, CAM, rig.clock)
     assert fresh.trouble == "its place has not been told yet"
 
 
@@ -204,7 +204,7 @@ def test_a_kept_count_goes_on_where_it_was() -> None:
     rig.move(PLUS, 7.3)
     kept_deg = rig.counter.read()
     rig.contact.close()
-    again = PulseCounter(AZ, contact(rig, 17), rig.overheard, CAM, rig.clock)
+    again = PulseCounter(AZ, contact(rig, 17), rig.tapped, CAM, rig.clock)
     assert again.place(kept_deg)
     assert again.zone == rig.rotor.azimuth.contact.zone
     assert again.read() == kept_deg
@@ -220,7 +220,7 @@ def test_a_debounce_that_would_swallow_closures_is_refused() -> None:
     rig = PulseRig()
     narrow = dataclasses.replace(CAM, closed_deg=0.15)
     with pytest.raises(HardwareError, match="a debounce of 20 ms swallows closures that last 25 ms"):
-        PulseCounter(Axis.ELEVATION, contact(rig, 26), rig.overheard, narrow, rig.clock)
+        PulseCounter(Axis.ELEVATION, contact(rig, 26), rig.tapped, narrow, rig.clock)
 
 
 # --- the promise

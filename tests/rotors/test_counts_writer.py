@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.rotors.keeper import Keeper, at_once
+from rotator.rotors.counts_writer import CountsWriter, at_once
 from rotator.store.counts import CountsFile, Place, Standing
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -56,90 +56,90 @@ def standing(path: Path, axis: Axis = AZ) -> Standing:
 
 def test_what_was_kept_is_there_before_anything_else(path: Path) -> None:
     known(path)
-    assert Keeper(CountsFile(path, CAMS), at_once).load()[AZ] == Place(Standing.KNOWN, 100.0)
+    assert CountsWriter(CountsFile(path, CAMS), at_once).load()[AZ] == Place(Standing.KNOWN, 100.0)
 
 
 def test_a_motor_waits_until_the_file_says_that_it_moves(path: Path, disk: SlowDisk) -> None:
-    keeper = Keeper(known(path), disk)
-    assert [keeper.may_start(AZ) for _ in range(3)] == [False] * 3, "asked once, and then waited for"
+    counts_writer = CountsWriter(known(path), disk)
+    assert [counts_writer.may_start(AZ) for _ in range(3)] == [False] * 3, "asked once, and then waited for"
     assert len(disk.jobs) == 1
     assert standing(path) is Standing.KNOWN
     disk.work()
     assert standing(path) is Standing.LOST, "moving, when it is read again"
-    assert keeper.may_start(AZ)
+    assert counts_writer.may_start(AZ)
     assert standing(path, EL) is Standing.KNOWN
-    assert keeper.trouble(AZ) == ""
+    assert counts_writer.trouble(AZ) == ""
 
 
 def test_the_mark_stays_while_it_goes_from_step_to_step(path: Path, disk: SlowDisk) -> None:
-    keeper = Keeper(known(path), disk)
-    keeper.may_start(AZ)
+    counts_writer = CountsWriter(known(path), disk)
+    counts_writer.may_start(AZ)
     disk.work()
-    assert [keeper.may_start(AZ) for _ in range(5)] == [True] * 5
+    assert [counts_writer.may_start(AZ) for _ in range(5)] == [True] * 5
     assert disk.jobs == []
 
 
 def test_after_a_rest_the_file_is_asked_again(path: Path, disk: SlowDisk) -> None:
-    keeper = Keeper(known(path), disk)
-    keeper.may_start(AZ)
+    counts_writer = CountsWriter(known(path), disk)
+    counts_writer.may_start(AZ)
     disk.work()
-    keeper.rests(50.0, AZ, 120.0)
-    assert not keeper.may_start(AZ), "the rest may be on its way to the disk"
+    counts_writer.rests(50.0, AZ, 120.0)
+    assert not counts_writer.may_start(AZ), "the rest may be on its way to the disk"
     disk.work()
-    assert keeper.may_start(AZ)
+    assert counts_writer.may_start(AZ)
     assert standing(path) is Standing.LOST
 
 
 def test_a_rest_of_some_seconds_is_kept(path: Path) -> None:
-    keeper = Keeper(known(path), at_once)
-    keeper.may_start(AZ)
+    counts_writer = CountsWriter(known(path), at_once)
+    counts_writer.may_start(AZ)
     for moment_s in (100.0, 101.0, 102.5):
-        keeper.rests(moment_s, AZ, 123.0)
+        counts_writer.rests(moment_s, AZ, 123.0)
     assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 123.0)
 
 
 def test_a_file_that_cannot_be_written_refuses_and_says_why(path: Path, disk: SlowDisk) -> None:
-    keeper = Keeper(known(path), disk)
+    counts_writer = CountsWriter(known(path), disk)
     path.unlink()
     path.mkdir()
-    assert not keeper.may_start(AZ)
-    assert keeper.trouble(AZ) == "", "nothing is known yet"
+    assert not counts_writer.may_start(AZ)
+    assert counts_writer.trouble(AZ) == "", "nothing is known yet"
     disk.work()
-    assert "directory" in keeper.trouble(AZ)
-    assert keeper.trouble(EL) == "", "nobody has asked for the other"
-    assert not keeper.may_start(AZ)
+    assert "directory" in counts_writer.trouble(AZ)
+    assert counts_writer.trouble(EL) == "", "nobody has asked for the other"
+    assert not counts_writer.may_start(AZ)
     path.rmdir()
     disk.work()
-    assert keeper.may_start(AZ)
-    assert keeper.trouble(AZ) == ""
+    assert counts_writer.may_start(AZ)
+    assert counts_writer.trouble(AZ) == ""
 
 
 def test_what_is_lost_anyway_may_move_whatever_the_disk_does(path: Path) -> None:
     file = known(path)
-    keeper = Keeper(file, at_once)
-    keeper.lost(AZ)
+    counts_writer = CountsWriter(file, at_once)
+    counts_writer.lost(AZ)
     assert standing(path) is Standing.LOST
     path.unlink()
     path.mkdir()
-    assert keeper.may_start(AZ)
+    assert counts_writer.may_start(AZ)
 
 
 def test_homed_it_is_known_again(path: Path) -> None:
-    keeper = Keeper(known(path), at_once)
-    keeper.lost(AZ)
-    keeper.homed(AZ, 0.0)
+    counts_writer = CountsWriter(known(path), at_once)
+    counts_writer.lost(AZ)
+    counts_writer.homed(AZ, 0.0)
     assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 0.0)
 
 
 def test_in_real_time_a_thread_of_its_own_writes_and_ends(path: Path) -> None:
-    keeper = Keeper(known(path))
+    counts_writer = CountsWriter(known(path))
     give_up = threading.Event()
     for _ in range(round(PATIENCE_S / 0.005)):
-        if keeper.may_start(AZ):
+        if counts_writer.may_start(AZ):
             break
         give_up.wait(0.005)
     assert standing(path) is Standing.LOST
-    keeper.rests(100.0, AZ, 130.0)
-    keeper.close()
+    counts_writer.rests(100.0, AZ, 130.0)
+    counts_writer.close()
     assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 130.0), "close writes what stands"
     assert not [thread for thread in threading.enumerate() if thread.name.startswith("counts")]

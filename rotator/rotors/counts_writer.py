@@ -29,7 +29,7 @@ class Mark(Enum):
     REFUSED = "the file cannot be written"
 
 
-class Keeper:
+class CountsWriter:
     """`later`: how the file is written; None: by a thread of its own, which `close` ends."""
 
     def __init__(self, file: CountsFile, later: Later | None = None) -> None:
