@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from tests.hw.pulse_rig import AZ, CYCLE_S, STANDS_S, PulseRig
 
 from hw.drives.relays import RelayBank
 from hw.ports import Direction
@@ -15,6 +14,7 @@ from rotator.control.sky.offsets import Offsets
 from rotator.rotors.counted import CountedAxis, CountedRotor
 from rotator.rotors.counts_writer import CountsWriter, at_once
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing
+from tests.hw.sensors.pulse_rig import AZ, CYCLE_S, STANDS_S, PulseRig
 
 MINUS, OFF, PLUS = Direction
 CAMS = {AZ: {"spacing_deg": 5.0}}
