@@ -109,6 +109,16 @@ class I2CBus(Protocol):
         """Read `count` bytes from each register, in that order, in one transfer. Raises HardwareError."""
 
 
+class AnalogInputs(Protocol):
+    """The inputs of an analog-to-digital converter, by number from 0."""
+
+    def volts(self, channel: int) -> float:
+        """Volts at this input against ground, converted now. May take milliseconds.
+
+        Raises HardwareError when the converter does not answer; the next call tries again.
+        """
+
+
 class PositionedDrive(Protocol):
     """Motors that go to an angle by themselves. Angles are degrees on the rotor's own scale."""
 

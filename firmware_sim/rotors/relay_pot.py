@@ -1,7 +1,7 @@
-"""A simulated rotor of relays and pots, and the converter through which a program reads it.
+"""A simulated rotor of relays and pots.
 
-Knows what is wired where, and its faults by name. Knows no driver: it offers a bus in the shape of smbus2 and lines in
-the shape of gpiod, and the rest is physics.
+Knows what is wired where, and its faults by name. Knows no driver and no converter: it offers lines in the shape of
+gpiod and the volts at the wipers, and the rest is physics.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from firmware_sim.chips.ads1115 import Ads1115
 from firmware_sim.faults import SimFault
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.parts.pot import PotFault, PotSpec, SimPot
@@ -28,7 +27,6 @@ class AxisSpec:
     start_deg: float
     plus_pin: int
     minus_pin: int
-    adc_channel: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +35,6 @@ class WorldSpec:
     elevation: AxisSpec
     relays_active_low: bool = False
     master_pin: int | None = None
-    adc_address: int = 0x48
-    reference_channel: int | None = None
     pot_supply_v: float = 3.3
 
 
@@ -66,12 +62,10 @@ class World(GearedRotor):
         self.azimuth = SimAxis(spec.azimuth, spec.pot_supply_v, clock())
         self.elevation = SimAxis(spec.elevation, spec.pot_supply_v, clock())
         self.relay_starts: int = 0
-        adc = Ads1115(clock, vdd_v=max(3.3, spec.pot_supply_v))
-        for axis in (self.azimuth, self.elevation):
-            adc.inputs[axis.spec.adc_channel] = lambda axis=axis: self._wiper_v(axis)  # type: ignore[misc]
-        if spec.reference_channel is not None:
-            adc.inputs[spec.reference_channel] = lambda: spec.pot_supply_v
-        self.bus.attach(spec.adc_address, adc)
+        self.wipers = {
+            "azimuth": lambda: self._wiper_v(self.azimuth),
+            "elevation": lambda: self._wiper_v(self.elevation),
+        }
         self.gpio.on_edges.append(self._relays_changed)
         self.faults = self._fault_table()
         if spec.master_pin is not None:
@@ -112,7 +106,6 @@ class World(GearedRotor):
 
     def _fault_table(self) -> dict[str, SimFault]:
         table = {
-            "adc-gone": self._gone(self._spec.adc_address),
             "bus-hung": SimFault(self.bus.hang, self.bus.release),
         }
         for name, axis, plus, minus in (

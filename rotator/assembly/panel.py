@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from hw.buses.gpio import GpioInputs
 from hw.chips.ads1115 import Ads1115
 from hw.chips.pca9685 import Pca9685
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
@@ -31,8 +30,7 @@ def limit_switches(config: Config, board: Board) -> Ends:
     """What the limit switches forbid; those that cannot be read forbid all they could."""
     if not config.limits.switches:
         return no_switches
-    inputs = GpioInputs(board.gpio, board.chip(), config.limits.switches, consumer="rotator-limits")
-    board.opened.callback(inputs.close)
+    inputs = board.inputs("rotator-limits", config.limits.switches)
     switches = LimitSwitches(inputs, config.limits.switches)
 
     def ends(axis: Axis) -> frozenset[Direction]:
@@ -47,10 +45,7 @@ def limit_switches(config: Config, board: Board) -> Ends:
 def panel_parts(config: Config, board: Board) -> PanelParts:
     """The panel's own chips and lines. Raises HardwareError where a line cannot be taken."""
     table = config.panel
-    switches = None
-    if table.switches:
-        switches = GpioInputs(board.gpio, board.chip(), table.switches, consumer="rotator-panel")
-        board.opened.callback(switches.close)
+    switches = board.inputs("rotator-panel", table.switches) if table.switches else None
     outputs = None
     if table.uses_outputs:
         bus = board.bus(table.outputs_bus)

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from hw.ports import Axis
-from rotator.assembly.simulation import SIM_CALIBRATION_RAW
+from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
@@ -93,8 +93,8 @@ def build_controller(
                 calibration,
                 undone,
                 source(config, which),
-                near_deg(config, which),
-                getattr(config.moteus, which.value).accel_limit_dps2 if config.rotor.type == "moteus" else None,
+                COMING_DEG + config.kind.slack_deg(which),
+                config.kind.accel_dps2(which),
             )
         known = (learnt or {}).get(which)
         return AxisSettings(
@@ -110,7 +110,7 @@ def build_controller(
             rest_s=table.rest_s,
             master=config.relays.master is not None,
             learnt=known and (motor(known[0]), motor(known[1])),
-            homing=homing(config, which, shift) if config.counts(which) else None,
+            homing=homing(config, which, shift),
         )
 
     return Controller(
@@ -151,28 +151,18 @@ def own_points(config: Config, axis: Axis) -> Points | None:
 
 
 def source(config: Config, axis: Axis) -> str:
-    """How the axis's angle is known: measured, counted or modelled."""
-    if config.counts(axis):
-        return "counted"
-    own = config.axis(axis).sensor.kind == "own"
-    return "modelled" if own and config.rotor.type in ("servo", "digipot") else "measured"
+    """How the angle of the axis is known: measured, counted or modelled."""
+    return config.angle(axis).source
 
 
-def near_deg(config: Config, axis: Axis) -> float:
-    """How far from its place a motor that goes there by itself may come to rest."""
-    if config.rotor.type != "digipot":
-        return COMING_DEG
-    table = getattr(config.digipot, axis.value)
-    (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
-    return float(COMING_DEG + table.dead_band_deg + abs((high_deg - low_deg) / (high_step - low_step)))
-
-
-def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings:
-    """How to find the end stop of an axis that counts."""
-    table, cam = config.axis(axis), getattr(config.pulses, axis.value)
+def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | None:
+    """How to find the end stop of an axis that counts; None: it does not count."""
+    table, stop = config.axis(axis), config.end_stop(axis)
+    if stop is None:
+        return None
     return HomingSettings(
-        period_s=cam.spacing_deg / table.speed_dps,
+        period_s=stop.spacing_deg / table.speed_dps,
         travel_s=(table.max_deg - table.min_deg) / table.speed_dps,
-        coast_s=cam.coast_s,
-        home_deg=cam.home_deg + shift.of(axis),
+        coast_s=stop.coast_s,
+        home_deg=stop.home_deg + shift.of(axis),
     )

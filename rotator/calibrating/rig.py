@@ -208,7 +208,9 @@ def _guide(config: Config, axis: Axis) -> Asking:
             settle_s=0.0 if config.rotor.switched else SETTLE_S,
         )
         shift_deg = build_offsets(config).of(axis)
-        return DegreesGuide(known, Kind(config.rotor.type, source(config, axis), shift_deg, _warning(config, axis)))
+        return DegreesGuide(
+            known, Kind(config.rotor.type, source(config, axis), shift_deg, config.kind.first_move(axis))
+        )
     if not config.rotor.switched:
         raise HardwareError(
             f"{axis.value}: this rotor is told angles, so it can be turned only when its {table.sensor.kind} is "
@@ -221,17 +223,9 @@ def _guide(config: Config, axis: Axis) -> Asking:
 
 def _reach_deg(config: Config, axis: Axis) -> tuple[float, float]:
     """Where its limits can be, on the rotor's own scale."""
-    low_deg, high_deg = SCALES_DEG[axis]
-    match config.rotor.type:
-        case "servo":
-            points = getattr(config.servo, axis.value).pulses_us
-        case "digipot":
-            points = getattr(config.digipot, axis.value).steps
-        case "relay-pulse" if config.counts(axis):
-            return getattr(config.pulses, axis.value).home_deg, high_deg
-        case _:
-            return low_deg, high_deg
-    return min(angle for angle, _ in points), max(angle for angle, _ in points)
+    low_deg, high_deg = config.reach_deg(axis)
+    lowest_deg, highest_deg = SCALES_DEG[axis]
+    return lowest_deg if low_deg is None else low_deg, highest_deg if high_deg is None else high_deg
 
 
 def _unlimited(config: Config, axis: Axis) -> Config:
@@ -241,18 +235,3 @@ def _unlimited(config: Config, axis: Axis) -> Config:
     low_deg, high_deg = _reach_deg(config, axis)
     table = config.axis(axis).model_copy(update={"min_deg": low_deg, "max_deg": high_deg})
     return config.model_copy(update={axis.value: table})
-
-
-def _warning(config: Config, axis: Axis) -> str:
-    match config.rotor.type:
-        case "servo":
-            start_deg = config.servo.azimuth.start_deg if axis is Axis.AZIMUTH else config.servo.elevation.start_deg
-            return (
-                f"With its first pulse, that of the first press, the servo runs to {start_deg:g}°, as fast as it can: "
-                "keep clear. When it stands, press again."
-            )
-        case "digipot":
-            start_deg = config.digipot.azimuth.start_deg if axis is Axis.AZIMUTH else config.digipot.elevation.start_deg
-            return f"It is taken to stand at {start_deg:g}° (start_deg); if it does not, its first move goes there."
-        case _:
-            return ""

@@ -17,7 +17,7 @@ import click
 
 from rotator.config.load import load
 from rotator.setup import gadget, pins, tree, usb_serial
-from rotator.setup.plan import Plan, SetupError, diff
+from rotator.setup.plan import ChangeSet, SetupError, diff
 
 SETTINGS = Path("etc/rotator/rotator.toml")
 INSTALLED = Path("opt/rotator/current/bin/rotator")
@@ -106,7 +106,7 @@ def _refuse_overlay(command_line: str) -> None:
         )
 
 
-def _propose(plan: Plan, *, yes: bool, today: Callable[[], date] = date.today) -> None:
+def _propose(plan: ChangeSet, *, yes: bool, today: Callable[[], date] = date.today) -> None:
     for note in plan.notes:
         click.echo(note)
     if not plan.changes:

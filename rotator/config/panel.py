@@ -9,6 +9,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
+from rotator.config.i2c import I2CChip
 from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus, Table
 
 Output = Annotated[int, Field(ge=0, le=15)]
@@ -129,6 +130,15 @@ class PanelTable(Table):
     @property
     def uses_outputs(self) -> bool:
         return bool(self.meters or self.lamps)
+
+    def chips(self) -> list[I2CChip]:
+        """Its own converter and its output board, those that are fitted."""
+        used = []
+        if self.uses_adc:
+            used.append(I2CChip(self.adc_bus, self.adc_address, "panel.adc_address", "ADS1115"))
+        if self.uses_outputs:
+            used.append(I2CChip(self.outputs_bus, self.outputs_address, "panel.outputs_address", "PCA9685"))
+        return used
 
     @property
     def fitted(self) -> bool:

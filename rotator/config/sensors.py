@@ -9,6 +9,8 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
+from rotator.config.angle import Angle
+from rotator.config.i2c import I2CChip
 from rotator.config.table import I2CAddress, I2CBus, Table
 
 Arrow = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
@@ -32,9 +34,17 @@ class SensorTable(Table):
     """MPU6050: how many readings are averaged, within 0.3 s."""
 
     @property
-    def in_degrees(self) -> bool:
-        """Whether its readings are degrees already, on the rotor's own scale."""
-        return self.kind == "mpu6050"
+    def angle(self) -> Angle | None:
+        """How its angle is known; None: as the kind of rotor says."""
+        match self.kind:
+            case "own":
+                return None
+            case "pot":
+                return Angle("measured", in_degrees=False, pot=True)
+            case "as5600":
+                return Angle("measured", in_degrees=False)
+            case "mpu6050":
+                return Angle("measured", by="told by gravity")
 
     @property
     def i2c(self) -> tuple[int, int] | None:
@@ -43,6 +53,10 @@ class SensorTable(Table):
         if self.kind not in usual:
             return None
         return self.bus, usual[self.kind] if self.address is None else self.address
+
+    def chips(self, key: str) -> list[I2CChip]:
+        """Its chip, where it has one of its own; `key` names its address in the file."""
+        return [I2CChip(*self.i2c, key, self.kind.upper())] if self.i2c else []
 
     @model_validator(mode="after")
     def _stands(self) -> SensorTable:
@@ -63,3 +77,7 @@ class CompassTable(Table):
     """How the board lies, by the data sheet's names; P1: flat, chip up."""
     offset_deg: float = Field(0.0, ge=-180, le=180)
     """Where the boom points, clockwise, as seen from the compass's own forward."""
+
+    def chips(self) -> list[I2CChip]:
+        """Its chip, where there is one."""
+        return [I2CChip(self.bus, self.address, "compass.address", "BNO055")] if self.kind == "bno055" else []

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rotator.config.kinds.kind import OffLine
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
 from rotator.doctor.wires import gpios
 from rotator.setup.boot_config import Setting, parameters, pins, settings
 from rotator.setup.pi import known
-from rotator.setup.pins import PULLED_UP, OffLine, closing, off_lines
+from rotator.setup.pins import PULLED_UP, closing, off_lines
 
 CONFIG_TXT = ("/boot/firmware/config.txt", "/boot/config.txt")
 """Where it is since Debian 12, and where it was before."""
@@ -75,8 +76,8 @@ def boot_pins(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def _on(line: OffLine) -> bool:
-    """Whether it is on at the high level."""
-    return line.off == "dl"
+    """The level at which it is on: True is high."""
+    return not line.off_high
 
 
 def in_effect(machine: Machine) -> list[Setting]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from rotator.assembly.chips import simulated_chips
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.doctor import (
@@ -27,7 +28,6 @@ from rotator.doctor import (
     switches,
     wires,
 )
-from rotator.doctor.chips import simulated_chips
 from rotator.doctor.finding import Check, Finding, skipped, wrong
 from rotator.doctor.machine import Machine
 

@@ -23,7 +23,7 @@ def keeps_counts(config: Config) -> bool:
 def counts(machine: Machine, config: Config) -> Iterator[Finding]:
     path = Path(config.state.path).with_name(FILE_NAME)
     counting = [axis for axis in Axis if config.counts(axis)]
-    cams = {axis: getattr(config.pulses, axis.value).model_dump(exclude={"contact"}) for axis in counting}
+    cams = config.pulses.cams(counting)
     text = machine.text(path)
     if text is None and machine.at(path).exists():
         yield wrong(f"{path} cannot be read", f"sudo rotator doctor can; or sudo chown {machine.user} {path}")

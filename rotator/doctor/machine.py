@@ -14,7 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from rotator.doctor.chips import Chips, real_chips
+from rotator.assembly.chips import Chips, real_chips
 
 PATIENCE_S = 5.0
 """A program that has not answered by then is taken for one that does not answer."""

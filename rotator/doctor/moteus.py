@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from pathlib import PurePath
 
 from hw.ports import Axis, HardwareError
+from rotator.assembly.chips import Heard
 from rotator.config.model import Config
-from rotator.doctor.chips import Heard
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.links import serial_port
 from rotator.doctor.machine import Machine
@@ -52,7 +52,7 @@ def controllers(machine: Machine, config: Config) -> Iterator[Finding]:
         yield wrong(str(fault), LIBRARY)
         return
     for axis in Axis:
-        yield _controller(axis.value, getattr(config.moteus, axis.value).id, heard[axis])
+        yield _controller(axis.value, config.moteus.of(axis).id, heard[axis])
     if config.rotor.hardware == "pi":
         yield skipped(
             "servo.timeout_mode, servopos.position_min and position_max cannot be asked for from here",

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hw.ports import Axis, HardwareError
+from rotator.assembly.chips import Bus, Chips
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
-from rotator.doctor.chips import Bus, Chips
 from rotator.doctor.finding import Finding, fine, refused, skipped, warn, wrong
 from rotator.doctor.machine import Machine
 from rotator.doctor.wires import running
@@ -52,7 +52,7 @@ def _angle(chips: Chips, number: int, address: int, config: Config, axis: Axis) 
     table = config.axis(axis)
     with chips.bus(number) as bus:
         try:
-            read = chips.sensor(bus, address, config, axis).read()
+            read = chips.sensor(bus, config, axis).read()
         except HardwareError as fault:
             return refused(axis.value, fault)
     if table.sensor.kind == "mpu6050":

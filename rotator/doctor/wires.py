@@ -21,8 +21,7 @@ MONITOR = "monitor"
 
 def lines(config: Config) -> dict[int, str]:
     """The GPIOs that the box takes, with their keys: not those of the kernel's own SPI."""
-    is_spi = config.rotor.type == "digipot" and config.digipot.spi == "kernel"
-    kernels = ("digipot.azimuth.select", "digipot.elevation.select", "digipot.sck", "digipot.si") if is_spi else ()
+    kernels = {key for use in config.spi() if use.kernel for _, key in use.lines}
     return {pin: key for pin, key in config.pins() if key not in kernels}
 
 

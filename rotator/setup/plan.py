@@ -39,7 +39,7 @@ class Change:
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class ChangeSet:
     changes: tuple[Change, ...]
     """Only those that change something."""
     notes: tuple[str, ...] = ()

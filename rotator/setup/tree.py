@@ -13,7 +13,7 @@ from datetime import date
 from pathlib import Path
 
 from rotator.setup.pi import Pi, known
-from rotator.setup.plan import Change, Content, Link, Plan, SetupError
+from rotator.setup.plan import Change, ChangeSet, Content, Link, SetupError
 from rotator.store.whole import NEW, write_whole
 
 OVERLAYS = ("overlayroot=tmpfs", "boot=overlay")
@@ -56,7 +56,7 @@ def _content(path: Path) -> Content:
         raise SetupError(_sentence(path, fault)) from fault
 
 
-def hindrance(plan: Plan) -> str | None:
+def hindrance(plan: ChangeSet) -> str | None:
     """Why the plan could not be carried out, before anything is tried."""
     for change in plan.changes:
         folder = next(each for each in change.path.resolve().parents if each.is_dir())
@@ -67,7 +67,7 @@ def hindrance(plan: Plan) -> str | None:
     return None
 
 
-def carry_out(plan: Plan, today: date) -> list[Path]:
+def carry_out(plan: ChangeSet, today: date) -> list[Path]:
     """Do it all, and return the copies made of a person's files. Raises SetupError; then all is as it was."""
     done: list[Change] = []
     copies: list[Path] = []

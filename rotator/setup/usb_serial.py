@@ -13,7 +13,7 @@ from pathlib import Path
 from rotator.setup import boot_config, link
 from rotator.setup.blocks import Block
 from rotator.setup.pi import Pi
-from rotator.setup.plan import Change, Content, Files, Link, Plan, SetupError, changes
+from rotator.setup.plan import Change, ChangeSet, Content, Files, Link, SetupError, changes
 
 OVERLAY = "dtoverlay=dwc2,dr_mode=peripheral"
 BLOCK = Block("rotator setup usb-serial", re.compile(r"\[all\]|" + re.escape(OVERLAY)))
@@ -80,7 +80,7 @@ WantedBy=multi-user.target
 """
 
 
-def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: str) -> Plan:
+def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: str) -> ChangeSet:
     """Raises SetupError where the Pi cannot, or where something else has the port."""
     if pi is None:
         raise SetupError("this is no Raspberry Pi that is known here: only one can be made a COM port this way")
@@ -103,10 +103,10 @@ def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: s
     ]
     if remark:
         notes.append(f"{places.settings}: {remark}")
-    return Plan(wanted, tuple(notes))
+    return ChangeSet(wanted, tuple(notes))
 
 
-def undone(files: Files, places: Places) -> Plan:
+def undone(files: Files, places: Places) -> ChangeSet:
     """Takes out what `plan` puts in, and nothing else."""
     before = _text(files, places.boot_config)
     text = _text(files, places.settings) if files[places.settings] is not None else None
@@ -116,7 +116,7 @@ def undone(files: Files, places: Places) -> Plan:
         *(Change(places.root / path, files[places.root / path], None) for path in (WANTED, UNIT, *GETTYS)),
         Change(places.settings, files[places.settings], settings, copied=True),
     )
-    return Plan(wanted, (f"{places.settings}: {remark}",) if remark else ())
+    return ChangeSet(wanted, (f"{places.settings}: {remark}",) if remark else ())
 
 
 def boot_text(text: str, pi: Pi) -> str:

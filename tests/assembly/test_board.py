@@ -13,7 +13,7 @@ from firmware_sim.rotors.rotor import SimRotor
 from hw.buses.gpio import LinesBusyError
 from hw.ports import HardwareError
 from rotator.assembly.board import Board
-from rotator.assembly.simulation import Plan
+from rotator.assembly.simulation import SimulatedStation
 from rotator.config.model import Config
 
 PINS = {"one": 17, "two": 27}
@@ -22,7 +22,7 @@ PINS = {"one": 17, "two": 27}
 @pytest.fixture
 def world() -> SimRotor:
     clock = SimClock()
-    return Plan(Config(), clock, None, (0.0, 0.0)).build()
+    return SimulatedStation(Config(), clock, None, (0.0, 0.0)).build()
 
 
 @pytest.fixture

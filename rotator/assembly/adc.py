@@ -1,0 +1,62 @@
+"""The converter that reads the pots, real or simulated: which driver and which simulated chip each kind takes.
+
+Part of the composition root. Decides nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from firmware_sim.chips.ads1115 import Ads1115 as SimAds1115
+from firmware_sim.rotors.rotor import SimRotor
+from hw.chips.ads1115 import Ads1115
+from hw.ports import AnalogInputs, Axis
+from hw.sensors.pot import PotSensor, Reference
+from rotator.assembly.buses import Buses
+from rotator.config.adc import Adc
+from rotator.config.model import Config
+
+ADS1115_RANGE_V, ADS1115_WIDEST_RANGE_V = 4.096, 6.144
+
+
+@dataclass(frozen=True, slots=True)
+class Converter:
+    """An opened converter, with the supply of the pots: volts, or the input at which they are measured."""
+
+    inputs: AnalogInputs
+    answers: Callable[[], bool]
+    """Whether the chip is there. Raises HardwareError where its bus cannot be asked."""
+    supply: Reference | float
+
+    def pot(self, channel: int) -> PotSensor:
+        return PotSensor(self.inputs, channel, self.supply)
+
+    def supply_v(self) -> float:
+        """Raises HardwareError where it is measured and cannot be."""
+        return self.supply.volts() if isinstance(self.supply, Reference) else self.supply
+
+
+def open_adc(table: Adc, buses: Buses, *, widest: bool = False) -> Converter:
+    """`widest`: with the widest range of the chip, so that a pot on too high a supply is seen as it is.
+
+    Raises HardwareError.
+    """
+    bus = buses.bus(table.bus)
+    range_v = ADS1115_WIDEST_RANGE_V if widest or table.supply_v > ADS1115_RANGE_V else ADS1115_RANGE_V
+    inputs = Ads1115(bus, table.address, buses.sleep, rate_sps=table.rate_sps, full_scale_v=range_v)
+    channel = table.reference_channel
+    supply = table.supply_v if channel is None else Reference(inputs, channel, buses.clock)
+    return Converter(inputs, lambda: bus.answers(table.address), supply)
+
+
+def simulate_adc(config: Config, rotor: SimRotor, clock: Callable[[], float]) -> None:
+    """Wire the simulated converter to the simulated pots and to their supply."""
+    table = config.adc
+    chip = SimAds1115(clock, vdd_v=max(3.3, table.supply_v))
+    rotor.wire_i2c("adc", table.address, chip)
+    for axis in Axis:
+        if config.has_pot(axis):
+            chip.inputs[table.channel(axis)] = rotor.wipers[axis.value]
+    if table.reference_channel is not None:
+        chip.inputs[table.reference_channel] = lambda: table.supply_v
