@@ -84,8 +84,10 @@ def pots(machine: Machine, config: Config) -> Iterator[Finding]:
         with machine.chips.converter(config) as converter:
             if converter.answers():
                 yield from _readings(converter, config)
-            else:
+            elif config.adc.chips():  # the check of the I2C devices explains it
                 yield skipped("the converter does not answer")
+            else:
+                yield wrong("the converter does not answer", config.adc.suspicion)
     except HardwareError:
         yield skipped("the bus cannot be asked")
 

@@ -85,7 +85,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
         moteus.controllers, on_chips=True, concerns=moteus.is_moteus,
     ),
     Check(
-        "SPI", "the kernel's, where digital pots hang on it: the package spidev, and both devices",
+        "SPI", "the kernel's, where chips hang on it: the package spidev, and their devices",
         outputs.spi, on_chips=True, concerns=outputs.uses_spi,
     ),
     Check(
