@@ -54,6 +54,6 @@ class Adc(Table):
         """The converter, where it is on an I2C bus."""
         return [I2CChip(self.bus, self.address, "adc.address", "ADS1115")]
 
-    def spi(self) -> list[SpiUse]:
+    def spi_uses(self) -> list[SpiUse]:
         """The converter, where it is on SPI."""
         return []

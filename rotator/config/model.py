@@ -185,13 +185,13 @@ class Config(Table):
     def uses_adc(self) -> bool:
         return any(self.has_pot(axis) for axis in Axis)
 
-    def spi(self) -> list[SpiUse]:
+    def spi_uses(self) -> list[SpiUse]:
         """Every use of SPI."""
-        return self.kind.spi() + (self.adc.spi() if self.uses_adc else [])
+        return self.kind.spi_uses() + (self.adc.spi_uses() if self.uses_adc else [])
 
     def pins(self) -> list[tuple[int, str]]:
         """Every GPIO in use, with the key that names it."""
-        used = [*spi_lines(self.spi()), *self.kind.pins()]
+        used = [*spi_lines(self.spi_uses()), *self.kind.pins()]
         used += [(pin, f"panel.{key}") for key, pin in self.panel.switches.items()]
         used += [(pin, f"limits.{key}") for key, pin in self.limits.switches.items()]
         used += [(pin, f"lcd.{key}") for key, pin in self.lcd.lines.items()]

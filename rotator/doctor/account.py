@@ -40,7 +40,7 @@ def _needed(config: Config) -> set[str]:
     needs = {
         "gpio": on_a_pi and bool(config.pins()),
         "i2c": on_a_pi and bool(config.chips()),
-        "spi": on_a_pi and any(use.kernel for use in config.spi()),
+        "spi": on_a_pi and any(use.kernel for use in config.spi_uses()),
         "dialout": serial or (on_a_pi and config.kind.serial_port() is not None),
     }
     return {group for group, needed in needs.items() if needed}

@@ -72,11 +72,11 @@ def _board(name: str, board: OutputBoard, *, is_running: bool | None) -> Finding
 
 
 def uses_spi(config: Config) -> bool:
-    return any(use.kernel for use in config.spi())
+    return any(use.kernel for use in config.spi_uses())
 
 
 def spi(machine: Machine, config: Config) -> Iterator[Finding]:
-    uses = [use for use in config.spi() if use.kernel]
+    uses = [use for use in config.spi_uses() if use.kernel]
     try:
         machine.chips.spidev()
     except HardwareError as fault:

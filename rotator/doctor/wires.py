@@ -21,7 +21,7 @@ MONITOR = "monitor"
 
 def lines(config: Config) -> dict[int, str]:
     """The GPIOs that the box takes, with their keys: not those of the kernel's own SPI."""
-    kernels = {key for use in config.spi() if use.kernel for _, key in use.lines}
+    kernels = {key for use in config.spi_uses() if use.kernel for _, key in use.lines}
     return {pin: key for pin, key in config.pins() if key not in kernels}
 
 

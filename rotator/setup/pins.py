@@ -81,7 +81,7 @@ def _uses_header_i2c(config: Config) -> bool:
 
 
 def _kernel_spi(config: Config) -> list[SpiUse]:
-    return [use for use in config.spi() if use.kernel]
+    return [use for use in config.spi_uses() if use.kernel]
 
 
 def _refuse(config: Config) -> None:

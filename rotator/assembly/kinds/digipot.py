@@ -20,7 +20,7 @@ from rotator.rotors.positioned import PositionedRotor
 
 def build(parts: Assembly, lines: OutputLines | None) -> PositionedRotor:
     config = parts.config
-    (use,) = config.kind.spi()
+    (use,) = config.kind.spi_uses()
     spi = parts.board.spi(use)
 
     def box(axis: Axis) -> tuple[Mcp41010, BoxSpec]:

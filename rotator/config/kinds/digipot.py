@@ -68,7 +68,7 @@ class DigipotKind(Kind):
     def pins(self) -> list[tuple[int, str]]:
         return [(line.pin, line.key) for line in self.off_lines()]
 
-    def spi(self) -> list[SpiUse]:
+    def spi_uses(self) -> list[SpiUse]:
         table = self.digipot
         selects = {f"{axis.value}.select": table.of(axis).select for axis in Axis}
         wires = {"sck": table.sck, "si": table.si}

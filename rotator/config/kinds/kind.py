@@ -67,7 +67,7 @@ class Kind:
         """The I2C chips of its drive."""
         return []
 
-    def spi(self) -> list[SpiUse]:
+    def spi_uses(self) -> list[SpiUse]:
         """The SPI chips of its drive."""
         return []
 
