@@ -217,5 +217,5 @@ def simulated_chips(config: Config) -> Chips:
         time.monotonic,
         time.sleep,
         lambda config: ask_in_step(config, world().transport(), time.monotonic),
-        lambda: None,
+        lambda: world().spidev,
     )

@@ -112,7 +112,7 @@ class Pi:
             clock,
             clock.sleep,
             lambda config: ask_in_step(config, world.transport(), clock),
-            lambda: None,
+            lambda: world.spidev,
         )
         self.machine = replace(self.machine, chips=chips)
 
