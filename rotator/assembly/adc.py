@@ -8,14 +8,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from firmware_sim.buses.spi import wire_spi
 from firmware_sim.chips.ads1115 import Ads1115 as SimAds1115
+from firmware_sim.chips.mcp3208 import Mcp3208 as SimMcp3208
+from firmware_sim.faults import SimFault
 from firmware_sim.rotors.rotor import SimRotor
 from hw.chips.ads1115 import Ads1115
+from hw.chips.mcp3208 import Mcp3208
 from hw.ports import AnalogInputs, Axis
 from hw.sensors.pot import PotSensor, Reference
 from rotator.assembly.buses import Buses
 from rotator.config.adc import Adc
 from rotator.config.model import Config
+from rotator.config.spi import KERNEL_SELECTS
 
 ADS1115_RANGE_V, ADS1115_WIDEST_RANGE_V = 4.096, 6.144
 
@@ -42,6 +47,14 @@ def open_adc(table: Adc, buses: Buses, *, widest: bool = False) -> Converter:
 
     Raises HardwareError.
     """
+    match table.kind:
+        case "ads1115":
+            return _ads1115(table, buses, widest=widest)
+        case "mcp3208":
+            return _mcp3208(table, buses)
+
+
+def _ads1115(table: Adc, buses: Buses, *, widest: bool) -> Converter:
     bus = buses.bus(table.bus)
     range_v = ADS1115_WIDEST_RANGE_V if widest or table.supply_v > ADS1115_RANGE_V else ADS1115_RANGE_V
     inputs = Ads1115(bus, table.address, buses.sleep, rate_sps=table.rate_sps, full_scale_v=range_v)
@@ -50,13 +63,39 @@ def open_adc(table: Adc, buses: Buses, *, widest: bool = False) -> Converter:
     return Converter(inputs, lambda: bus.answers(table.address), supply)
 
 
+def _mcp3208(table: Adc, buses: Buses) -> Converter:
+    (use,) = table.spi_uses()
+    # VREF is the supply of the pots: the reading is a share of it, whatever it really is.
+    inputs = Mcp3208(buses.spi(use), "select", table.supply_v, None if use.kernel else buses.clock)
+    return Converter(inputs, inputs.answers, table.supply_v)
+
+
 def simulate_adc(config: Config, rotor: SimRotor, clock: Callable[[], float]) -> None:
     """Wire the simulated converter to the simulated pots and to their supply."""
     table = config.adc
-    chip = SimAds1115(clock, vdd_v=max(3.3, table.supply_v))
-    rotor.wire_i2c("adc", table.address, chip)
+    match table.kind:
+        case "ads1115":
+            chip: SimAds1115 | SimMcp3208 = _wire_ads1115(table, rotor, clock)
+        case "mcp3208":
+            chip = _wire_mcp3208(table, rotor)
     for axis in Axis:
         if config.has_pot(axis):
             chip.inputs[table.channel(axis)] = rotor.wipers[axis.value]
     if table.reference_channel is not None:
         chip.inputs[table.reference_channel] = lambda: table.supply_v
+
+
+def _wire_ads1115(table: Adc, rotor: SimRotor, clock: Callable[[], float]) -> SimAds1115:
+    chip = SimAds1115(clock, vdd_v=max(3.3, table.supply_v))
+    rotor.wire_i2c("adc", table.address, chip)
+    return chip
+
+
+def _wire_mcp3208(table: Adc, rotor: SimRotor) -> SimMcp3208:
+    chip = SimMcp3208(table.supply_v)
+    if table.spi == "kernel":
+        rotor.spidev.chips[0, KERNEL_SELECTS.get(table.select, -1)] = chip
+    else:
+        wire_spi(rotor.gpio, chip, select=table.select, sck=table.sck, si=table.si, so=table.so)
+    rotor.faults["adc-gone"] = SimFault(lambda: setattr(chip, "gone", True), lambda: setattr(chip, "gone", False))
+    return chip

@@ -109,7 +109,7 @@ class Config(Table):
     relays: Relays = Relays()
     """The motor relays. Numbers are GPIO (BCM), not pins of the header."""
     adc: Adc = Adc()
-    """The ADS1115 that reads the pots."""
+    """The converter that reads the pots."""
     panel: PanelTable = PanelTable()
     """A front panel. What is left out is not fitted."""
     limits: LimitsTable = LimitsTable()
