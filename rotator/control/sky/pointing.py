@@ -7,7 +7,7 @@ nothing of who asks, of faults, or of how an axis reaches its goal.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rotator.control.sky.mount import ZENITH_DEG, Mount
 from rotator.control.sky.plan import OFFSETS_S, Path
@@ -31,6 +31,10 @@ class AimGoal:
     target_deg: float
     tolerance_deg: float
     path: Path | None = None
+
+    def standing(self) -> AimGoal:
+        """The same target without its path."""
+        return self if self.path is None else replace(self, path=None)
 
 
 Goals = tuple[AimGoal, AimGoal | None]
