@@ -66,14 +66,14 @@ class Status:
     """The direction last ordered, as ordered: what the display calls SAT."""
     wanted_elevation_deg: float | None = None
     latched: str = ""
-    """Who pressed a stop that only a person releases; empty: nobody."""
+    """The source of a stop that only a person releases; empty: there is none."""
     controlled_by: str = ""
     timed_point: int = 0
     timed_points: int = 0
     simulated: bool = False
     speed_level: int = 4
     mode: Mode = Mode.AUTO
-    """What a front panel's switch says; without one, AUTO."""
+    """The position of the front panel's mode switch; without one, AUTO."""
     cycle_late_s: float = 0.0
     """How late the last control cycle was."""
 

@@ -15,15 +15,15 @@ from rotator.control.axis.calibration_table import Calibration
 from rotator.faults import Fault, FaultKind, Notice
 
 BAD_FOR_S = 0.1
-"""A fault needs this long of bad readings (three at 20 Hz); the very first stops the motor."""
+"""Bad readings are a fault after this time (three readings at 20 Hz). The first one stops the motor."""
 STALE_S = 0.2
-"""A reading older than this says nothing of where the antenna is now."""
+"""A reading older than this does not show where the antenna is now."""
 JUMP_DEG = 5.0
 JUMPS = 3
 JUMPS_WITHIN_S = 0.3
-"""A spark is two jumps, out and back: one more as soon as that, and the wire is loose."""
+"""A spark is two jumps, out and back. One more jump within this time means a loose wire."""
 UNCALIBRATED_SPAN_DEG = 360.0
-"""What a pot's whole range is taken for where nobody has measured it."""
+"""A pot's whole range counts as so many degrees until it is calibrated."""
 
 
 @dataclass(frozen=True, slots=True)
