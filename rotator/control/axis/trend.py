@@ -101,7 +101,7 @@ class Trend:
         self._strays = []
 
     def _note_noise(self) -> None:
-        """Follow the median of the bend of three readings in a row. Sparks and starting motors hardly change a median."""
+        """Follow the median of the bend of three readings in a row: sparks and starting motors hardly change it."""
         if len(self._kept) < 3:
             return
         bend_deg = abs(self._kept[-1][1] - 2.0 * self._kept[-2][1] + self._kept[-3][1])
