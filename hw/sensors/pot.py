@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from hw.ports import AnalogInputs, HardwareError
+from hw.ports import AnalogInputs, AngleSource, HardwareError
 
 REFERENCE_EVERY_S = 1.0
 """A supply drifts slowly; reading it with every cycle would double the time on the bus."""
@@ -39,7 +39,7 @@ class Reference:
 class PotSensor:
     """`supply`: volts across the pot, or the input at which they are measured."""
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, adc: AnalogInputs, channel: int, supply: Reference | float) -> None:
         self._adc = adc

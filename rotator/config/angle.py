@@ -1,14 +1,13 @@
 """How the angle of an axis is known.
 
-Knows the three sources of an angle and what follows for its readings. Knows no sensor and no kind of rotor.
+Knows what follows from the source of an angle for its readings. Knows no sensor and no kind of rotor.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
-AngleSource = Literal["measured", "counted", "modelled"]
+from hw.ports import AngleSource
 
 
 @dataclass(frozen=True, slots=True)

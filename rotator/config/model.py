@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.config.adc import Adc
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable, Azimuth, Elevation
@@ -166,7 +166,7 @@ class Config(Table):
 
     def counts(self, axis: Axis) -> bool:
         """Whether this axis is where the count of its contact says."""
-        return self.angle(axis).source == "counted"
+        return self.angle(axis).source is AngleSource.COUNTED
 
     def in_degrees(self, axis: Axis) -> bool:
         """Whether the readings of this axis are degrees on the rotor's own scale, and need no calibration."""

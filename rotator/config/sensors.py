@@ -9,6 +9,7 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
+from hw.ports import AngleSource
 from rotator.config.angle import Angle
 from rotator.config.i2c import I2CChip
 from rotator.config.table import I2CAddress, I2CBus, Table
@@ -40,11 +41,11 @@ class SensorTable(Table):
             case "own":
                 return None
             case "pot":
-                return Angle("measured", in_degrees=False, pot=True)
+                return Angle(AngleSource.MEASURED, in_degrees=False, pot=True)
             case "as5600":
-                return Angle("measured", in_degrees=False)
+                return Angle(AngleSource.MEASURED, in_degrees=False)
             case "mpu6050":
-                return Angle("measured", by="told by gravity")
+                return Angle(AngleSource.MEASURED, by="told by gravity")
 
     @property
     def i2c(self) -> tuple[int, int] | None:

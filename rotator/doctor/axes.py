@@ -43,7 +43,7 @@ def _set_up(config: Config, axis: Axis) -> Finding:
     if lacks:
         keys = [f"{name}.{key}" for key in ("min_deg", "max_deg", *(() if angle.in_degrees else ("calibration",)))]
         return wrong(
-            f"{name} is not set up, and obeys short presses only: it lacks {', '.join(lacks)}",
+            f"{name} is not set up, and obeys short presses only: it lacks {', '.join(each.text for each in lacks)}",
             f"rotator calibrate {name} --config FILE leads you through it, or write {', '.join(keys)} and "
             f"{name}.direction_checked yourself.",
         )

@@ -11,7 +11,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable
 from rotator.config.kinds.kind import Kind, OffLine, Usual
@@ -57,7 +57,7 @@ class Digipot(PerAxis, Table):
 class DigipotKind(Kind):
     digipot: Digipot
 
-    own = Angle("modelled", by="modelled")
+    own = Angle(AngleSource.MODELLED, by="modelled")
     usual: ClassVar[Usual] = {
         "azimuth": {"max_deg": 360.0},
         "elevation": {"max_deg": 90.0, "speed_dps": 6.0},

@@ -51,6 +51,8 @@ class Kind:
 
     switched: ClassVar[bool] = False
     """Its motors are only on or off, by relays."""
+    confirmable: ClassVar[bool] = False
+    """After power-on its drive has to hear from a person where the antenna points."""
     own: ClassVar[Angle]
     """How an angle is known where the file names no other sensor."""
     usual: ClassVar[Usual] = {}

@@ -10,7 +10,7 @@ from typing import ClassVar
 
 from pydantic import Field, model_validator
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.config.angle import Angle
 from rotator.config.kinds.kind import Kind, Usual
 from rotator.config.table import PerAxis, Table
@@ -66,7 +66,8 @@ class Moteus(PerAxis, Table):
 class MoteusKind(Kind):
     moteus: Moteus
 
-    own = Angle("measured", by="told by its controller")
+    confirmable = True
+    own = Angle(AngleSource.MEASURED, by="told by its controller")
     usual: ClassVar[Usual] = {
         axis: {"speed_dps": 30.0} for axis in ("azimuth", "elevation", "sim.azimuth", "sim.elevation")
     }

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from hw.ports import AngleSource
 from rotator.config.angle import Angle
 from rotator.config.devices import Relays
 from rotator.config.kinds.kind import Kind, OffLine
@@ -17,7 +18,7 @@ class RelayPot(Kind):
     relays: Relays
 
     switched = True
-    own = Angle("measured", in_degrees=False, pot=True)
+    own = Angle(AngleSource.MEASURED, in_degrees=False, pot=True)
 
     def pins(self) -> list[tuple[int, str]]:
         return [(pin, f"relays.{key}") for key, pin in self.relays.outputs.items()]

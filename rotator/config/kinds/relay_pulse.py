@@ -11,7 +11,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable
 from rotator.config.devices import Relays
@@ -71,7 +71,7 @@ class RelayPulse(Kind):
     pulses: Pulses
 
     switched = True
-    own = Angle("counted", by="counted")
+    own = Angle(AngleSource.COUNTED, by="counted")
     usual: ClassVar[Usual] = {
         "azimuth": {"coast_s": 0.1},
         "elevation": {"speed_dps": 6.0, "coast_s": 0.1},

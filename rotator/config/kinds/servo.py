@@ -11,7 +11,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable
 from rotator.config.i2c import I2CChip
@@ -57,7 +57,7 @@ class Servo(PerAxis, Table):
 class ServoKind(Kind):
     servo: Servo
 
-    own = Angle("modelled", by="modelled")
+    own = Angle(AngleSource.MODELLED, by="modelled")
     usual: ClassVar[Usual] = {
         "azimuth": {"max_deg": 180.0, "speed_dps": 60.0},
         "elevation": {"speed_dps": 60.0},
