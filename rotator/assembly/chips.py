@@ -38,7 +38,7 @@ EXTERNAL_CLOCK = 1 << 6
 
 @dataclass(frozen=True, slots=True)
 class OutputBoard:
-    """What a PCA9685 says of itself, in MODE1 and PRE_SCALE."""
+    """The registers MODE1 and PRE_SCALE of a PCA9685."""
 
     mode: int
     prescale: int
@@ -122,19 +122,19 @@ def heard(drive: MoteusDrive, axis: Axis) -> Heard:
 
 @dataclass(frozen=True, slots=True)
 class Chips:
-    """`clock` and `sleep` are the seconds of the converter's conversions."""
+    """The ways to the chips. `clock` and `sleep` are for the conversions of the chips."""
 
     gpio: Callable[[], Any]
-    """The gpiod package, or anything of its shape. Raises HardwareError where it is missing or the wrong one."""
+    """The gpiod package, or an object of its shape. Raises HardwareError where it is missing or the wrong one."""
     paths: list[str] | None
-    """The GPIO chips there are; None: whatever stands in /dev."""
+    """The paths of the GPIO chips; None: those in /dev."""
     open_bus: Callable[[int], SmbusI2C]
     clock: Callable[[], float]
     sleep: Callable[[float], None]
     moteus: Callable[[Config], Mapping[Axis, Heard]] = ask_controllers
     """Asks both controllers how they are. Raises HardwareError where the package is missing."""
     spidev: Callable[[], Any] = real_spidev
-    """The spidev package, or anything of its shape. Raises HardwareError where it is missing."""
+    """The spidev package, or an object of its shape. Raises HardwareError where it is missing."""
 
     def header(self, config: Config) -> str:
         """The path of the chip with the relays. Raises HardwareError."""

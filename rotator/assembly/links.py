@@ -1,6 +1,6 @@
-"""The switchboard of the composition root: from a `[[link]]` table to a running link that speaks its protocol.
+"""The links of the composition root: from a `[[link]]` table to a running link that speaks its protocol.
 
-Knows which class carries the bytes of which place, and which one speaks which protocol. Moves nothing itself.
+Knows which class carries the bytes of which place, and which class speaks which protocol. Moves no byte.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ from rotator.runtime.loop import ControlLoop
 log = logging.getLogger(__name__)
 
 MOST_REMARKS = 20
-"""On one link: what a program asks for and the box has not is told once, and not without end."""
+"""On one link: a request that the box cannot serve is logged once, and not without end."""
 
 
 class RunningLink(Protocol):
@@ -60,7 +60,7 @@ class RunningLink(Protocol):
 
 
 def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _text: None) -> Session:
-    """A fresh conversation on a link, in its protocol. `remark` takes what the log should know of what is asked."""
+    """A new session on a link, in its protocol. `remark` takes the session's lines for the log."""
     match link.protocol:
         case "gs232a" | "gs232b":
             return Gs232Session(
@@ -100,7 +100,7 @@ _BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01")
 
 
 def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap) -> list[RunningLink]:
-    """Each with a name of its own, for a source is known by it: the second gs232b is gs232b-2."""
+    """The links, each with a name of its own, because it names a source: the second gs232b is gs232b-2."""
     built: list[RunningLink] = []
     given = {link.name for link in links}
     taken: set[str] = set()
@@ -159,7 +159,7 @@ def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tap: Tap) ->
 
 
 def _report(link: Link, source: Source, loop: ControlLoop, mount: Mount, tap: Tap) -> Report | None:
-    """What a link says by itself; None: nothing."""
+    """The lines that a link sends by itself; None: it sends none."""
     if link.status_to is None or link.rotor_name is None:
         return None
     reporter = N1mmReport(Client(loop, mount, source), link.rotor_name)

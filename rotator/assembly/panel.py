@@ -1,6 +1,6 @@
 """A front panel and limit switches, from their tables of the file to drivers: their share of the composition root.
 
-Knows what is wired where. Decides nothing: what a switch means is the panel's, what a limit forbids the axis's.
+Knows what is wired where. Decides nothing: the panel knows what a switch means, the axis what a limit forbids.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ METER_HZ = 1000.0
 
 
 def limit_switches(config: Config, board: Board) -> Ends:
-    """What the limit switches forbid; those that cannot be read forbid all they could."""
+    """The directions that the limit switches block; a switch that cannot be read blocks its direction."""
     if not config.limits.switches:
         return no_switches
     inputs = board.inputs("rotator-limits", config.limits.switches)
@@ -65,7 +65,7 @@ def _inputs(config: Config, board: Board) -> dict[str, AngleSensor]:
     table = config.panel
     if not table.uses_adc:
         return {}
-    # A converter of the panel's own: two threads on one would read each other's channel.
+    # The panel has a converter of its own: two threads on one would read each other's channel.
     adc = Ads1115(board.bus(table.adc_bus), table.adc_address, board.sleep)
     supply = table.supply_v if table.reference is None else Reference(adc, table.reference, board.clock)
     return {name: PotSensor(adc, channel, supply) for name, channel in table.inputs.items()}

@@ -1,4 +1,4 @@
-"""From a configuration to what decides: mount, calibrations, controller, and what earlier runs have learnt.
+"""From a configuration to the controller: mount, calibrations, and what earlier runs have learnt.
 
 Part of the composition root. Knows which key of the file is which setting. Knows no hardware.
 """
@@ -45,7 +45,7 @@ def build_mount(config: Config) -> Mount:
 
 
 def build_learnt(config: Config) -> LearntFile:
-    """The file of what the motors taught; figures learnt under another description of the motor do not count."""
+    """The file with the learnt motors; figures learnt under another description of the motor do not count."""
 
     def begun(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
         said: dict[str, object] = {"hardware": config.rotor.hardware}
@@ -132,14 +132,14 @@ EVERYTHING = (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK)
 
 
 def missing(table: AxisTable, *, calibrated: bool) -> tuple[Missing, ...]:
-    """What a person has still to do before an axis of real hardware may be aimed."""
+    """What an axis of real hardware lacks before it may be aimed."""
     said = table.model_fields_set
     done = (calibrated, {"min_deg", "max_deg"} <= said, table.direction_checked)
     return tuple(name for name, is_done in zip(EVERYTHING, done, strict=True) if not is_done)
 
 
 def own_points(config: Config, axis: Axis) -> Points | None:
-    """The axis's calibration on the rotor's own scale; None: nobody has made one, and it needs one."""
+    """The calibration of the axis on the rotor's own scale; None: it needs one, and the file has none."""
     table = config.axis(axis)
     if config.in_degrees(axis):
         return (table.min_deg, table.min_deg), (table.max_deg, table.max_deg)

@@ -25,7 +25,7 @@ from rotator.config.sim import SimAxisTable
 LIMIT_BEYOND_DEG = 1.0
 """A limit switch opens between the end of the range and the stop."""
 AUTO = 2
-"""The simulated panel's mode switch, as it counts its bits."""
+"""The position AUTO of the simulated mode switch: 2 × MSB + LSB."""
 
 
 class SimulatedStation:
@@ -135,7 +135,7 @@ def arduino_station(
 
 
 def _mounted(forward: str, up: str) -> Callable[[float, float], tuple[float, float, float]]:
-    """What a board feels on each of its arrows, mounted so, given gravity along the boom and across it."""
+    """The gravity on each of a board's axes, mounted so, from the gravity along the boom and across it."""
 
     def board_g(along_g: float, across_g: float) -> tuple[float, float, float]:
         felt = dict.fromkeys("xyz", 0.0)

@@ -1,7 +1,7 @@
 """What the configuration file may say: every key, its default, its bounds. The only place where defaults live.
 
-Knows the file's tables, and which of them are in use together; the bigger ones have files of their own beside this.
-Knows no file, no hardware and nothing of what the program makes of the values.
+Knows the tables, and what does not go together; the bigger tables have files of their own beside this, and the kinds of
+rotor in `kinds/`. Knows no file on a disk, no hardware, and no use of the values.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class MountTable(Table):
 
 class StateTable(Table):
     path: str = Field("run/state.json", min_length=1)
-    """Where the box keeps what it has learnt of its motors; on a Pi `/var/lib/rotator/state.json` is the place."""
+    """The file in which the box keeps what it has learnt of its motors; on a Pi `/var/lib/rotator/state.json`."""
 
 
 class MonitorTable(Table):
@@ -83,7 +83,7 @@ class Control(Table):
 
 class Config(Table):
     rotor: Rotor = Rotor()
-    """What turns and how it is reached."""
+    """The kind of rotor, real or simulated."""
     azimuth: Azimuth = Azimuth()
     """The azimuth axis, in degrees on the rotor's own scale."""
     elevation: Elevation = Elevation()
@@ -93,9 +93,9 @@ class Config(Table):
     control: Control = Control()
     """The control loop."""
     state: StateTable = StateTable()
-    """What the box remembers from one run to the next."""
+    """The memory of the box from one run to the next."""
     monitor: MonitorTable = MonitorTable()
-    """Watching what goes over the links."""
+    """The monitor of the bytes on the links."""
     pulses: Pulses = Pulses()
     """Rotor type relay-pulse: contacts that are counted, as on the Alliance U-100."""
     moteus: Moteus = Moteus()

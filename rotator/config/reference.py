@@ -1,6 +1,6 @@
 """The key table of docs/configuration.md, made from the model, so that the page cannot drift from the program.
 
-Knows Markdown and what a person calls the kinds of value. Knows no key: those are the model's.
+Knows Markdown and the names of the kinds of value. Knows no key: those are in the model.
 """
 
 from __future__ import annotations
@@ -87,12 +87,12 @@ def _row(heading: str, key: str, field: FieldInfo) -> tuple[str, ...]:
 
 def _described(what: str, field: FieldInfo) -> str:
     if not field.description:
-        raise ValueError(f"{what} says nothing of itself: write a docstring below it")
+        raise ValueError(f"{what} has no description: write a docstring below it")
     return " ".join(field.description.split())
 
 
 def _bare(kind: Any, limits: list[Any]) -> tuple[Any, list[Any]]:
-    """A key's kind without `| None` and without annotations; those join the limits."""
+    """The type of a key without `| None` and without annotations; those join the limits."""
     if get_origin(kind) in (Union, UnionType):
         (kind,) = (each for each in get_args(kind) if each is not NoneType)
         return _bare(kind, limits)
@@ -102,7 +102,7 @@ def _bare(kind: Any, limits: list[Any]) -> tuple[Any, list[Any]]:
             limits = limits + (list(note.metadata) if isinstance(note, FieldInfo) else [note])
         return _bare(kind, limits)
     if get_origin(kind) is list:
-        # What is said of the list's items is no limit of the list.
+        # A limit of the items is no limit of the list.
         return list[_bare(get_args(kind)[0], [])[0]], limits  # type: ignore[misc]
     return kind, limits
 

@@ -1,6 +1,6 @@
-"""The tables of what tells where an axis stands, and of the compass that tells where north is.
+"""The tables of the angle sensors, and of the compass that finds north.
 
-Knows the file's words for them. Knows no chip.
+Knows the words of the file for them. Knows no chip.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ Arrow = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
 
 class SensorTable(Table):
     kind: Literal["own", "pot", "as5600", "mpu6050"] = "own"
-    """What tells the angle: `own` is what the rotor brings (a pot where there are relays, the count, the controller,
-    or a model); else a pot on the ADC, a magnet over an AS5600, or gravity by an MPU6050 on the boom (elevation)."""
+    """The sensor: `own` is that of the kind of rotor (a pot where there are relays, the count, the controller, or a
+    model); else a pot on the converter, a magnet over an AS5600, or gravity by an MPU6050 on the boom (elevation)."""
     bus: I2CBus = 1
     """AS5600, MPU6050: the N of /dev/i2c-N; the header's bus is 1."""
     address: I2CAddress | None = None

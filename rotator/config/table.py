@@ -1,6 +1,6 @@
 """What every table of the configuration file has in common.
 
-Knows how strict the file is, and the kinds of value that several tables use. Knows no key.
+Knows how strictly the file is checked, and the types of value that several tables use. Knows no key.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The checks of what the program may touch: its user's groups, and the folder in which it keeps what it learns.
+"""The checks of the program's rights: the groups of its user, and the folder of its state file.
 
 Knows which group owns which device on Debian and Raspberry Pi OS. Changes neither group nor folder.
 """
@@ -30,7 +30,7 @@ def groups(machine: Machine, config: Config) -> Iterator[Finding]:
             yield fine("root needs none")
         return
     person = _membership(machine, machine.user, needed)
-    # Where the service runs the box, the person needs the groups for `rotator calibrate` only.
+    # Where the service runs the box, the user needs the groups for `rotator calibrate` only.
     yield person if person.ok or unit is None else warn(person.found, person.advice)
 
 

@@ -1,6 +1,6 @@
-"""The checks of the configuration: does it load, and is there all that an axis needs before it may be aimed.
+"""The checks of the configuration: whether it loads, and whether each axis is commissioned.
 
-Knows what a person has to do once. Knows no hardware.
+Knows the words for what an axis lacks. Knows no hardware.
 """
 
 from __future__ import annotations

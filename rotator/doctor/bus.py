@@ -1,7 +1,7 @@
-"""The checks of the I2C bus: the adapter, the devices on it, and what the pots read.
+"""The checks of the I2C bus, of the devices on it, and of the pots.
 
-Knows which addresses such devices have, and what a reading outside the window means. While the box is running it reads
-no pot: starting a conversion would spoil one of the box's own.
+Knows what a reading outside the window means. While the box is running it reads no pot: a conversion started here would
+spoil one of the box's own.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from rotator.doctor.wires import running
 
 SAMPLES = 20
 UNSTEADY = 0.02
-"""Of the supply, from the least to the most of the samples: an antenna at rest, or turning, gives far less."""
+"""Share of the supply between the least and the greatest sample. An antenna at rest, or turning, gives far less."""
 AT_RAIL = 0.01
 
 WIRING = "Check its power, SDA and SCL, and that the two are not swapped."

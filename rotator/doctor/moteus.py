@@ -1,7 +1,7 @@
-"""The check of the moteus controllers: the library, the adapter, and what both controllers say of themselves.
+"""The check of the moteus controllers: the library, the adapter, and the state of both controllers.
 
-Knows what an answer means to somebody who has yet to switch the motors on. Sends no order but to answer. While the box
-is running it does not ask: two programs at one adapter take each other's answers.
+Knows what their answers mean for a user. Sends queries and no order. While the box is running it does not ask: two
+programs at one adapter take each other's answers.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from rotator.doctor.machine import Machine
 from rotator.doctor.wires import running
 
 LEAST_V = 10.0
-"""Of a moteus r4.11, and of the smaller ones."""
+"""The least supply of a moteus r4.11, and of the smaller ones."""
 CAN_FD_MTU = "72"
 UP = 1
 """The bit of an interface's flags in /sys/class/net."""

@@ -1,6 +1,6 @@
-"""The checks of chips that are told and tell nothing: a PCA9685 of servos or panel, digital pots on the kernel's SPI.
+"""The checks of a PCA9685 of servos or panel, and of the kernel's SPI.
 
-Knows what such a chip looks like before and after the box has started. Tells none of them anything.
+Knows the registers of a PCA9685 before and after the box has started. Writes to no chip.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The checks of the sensors that are chips of their own: magnet, gravity, compass.
 
-Knows what each must read to be believed. Knows no register: those are the drivers'.
+Knows which readings are plausible. Knows no register: those are in the drivers.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def sensors(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def _at(chips: Chips, number: int, address: int, name: str) -> Finding | None:
-    """Why it cannot be read, which the check of the I2C devices explains; None: it can."""
+    """Why it cannot be read; the check of the I2C devices explains it. None: it can be read."""
     try:
         with chips.bus(number) as bus:
             return None if bus.answers(address) else skipped(f"{name} does not answer")

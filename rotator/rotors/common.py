@@ -1,4 +1,4 @@
-"""What all kinds of rotor share: where limit switches stand, and how a drive is guarded.
+"""What all kinds of rotor share: limit switches, and the guard of a drive.
 
 Knows threads and alarms. Knows no kind of rotor.
 """
@@ -15,7 +15,7 @@ from rotator.control.commands import Errand
 from rotator.rotors.port import AddAlarm
 
 Ends = Callable[[Axis], frozenset[Direction]]
-"""The ways in which the limit switches let an axis go no further."""
+"""The directions that the limit switches of an axis block now."""
 
 
 def no_switches(_axis: Axis) -> frozenset[Direction]:
@@ -23,7 +23,7 @@ def no_switches(_axis: Axis) -> frozenset[Direction]:
 
 
 class PlainRotor:
-    """What most kinds have not: a supply that can be switched, contacts that are counted."""
+    """The answers of a kind without a switched supply and without counted contacts."""
 
     def closed_contacts(self) -> frozenset[Axis]:
         return frozenset()
@@ -36,7 +36,7 @@ class PlainRotor:
 
 
 class GuardedRotor(PlainRotor):
-    """A drive whose commands expire, with whoever sees to that: a thread, or the alarms of a simulated clock."""
+    """A drive whose commands expire. A guard thread, or the alarms of a simulated clock, sees to that."""
 
     def __init__(
         self, drive: Expiring, sensors: Mapping[Axis, AngleSensor], ends: Ends = no_switches, *, alarm: str = ""
@@ -50,7 +50,7 @@ class GuardedRotor(PlainRotor):
         return Condition(ends=self._ends(axis))
 
     def run(self, errand: Errand) -> None:
-        """Nothing here has to be told; a kind that has says so."""
+        """No errand concerns this drive; a kind with errands overrides this."""
 
     def off(self) -> None:
         self._drive.off()

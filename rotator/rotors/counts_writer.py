@@ -1,7 +1,7 @@
-"""Keeps the counts of a rotor's axes in their file without ever making the control thread wait for a disk.
+"""Writes the counts of a rotor's axes to their file; the control thread never waits for the disk.
 
-Knows that a motor may start only when the file says that its axis moves, and that writing may take a second. The file
-belongs to one thread; nobody else touches it.
+Knows that a motor may start only when the file marks its axis as moving, and that writing may take a second. Only one
+thread touches the file.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from hw.ports import Axis
 from rotator.store.counts import CountsFile, Place
 
 Later = Callable[[Callable[[], None]], object]
-"""Does something soon, and everything in turn."""
+"""Runs jobs soon, one after the other."""
 
 
 def at_once(job: Callable[[], None]) -> None:
-    """For simulated time, where nobody waits for a disk."""
+    """For simulated time, in which a disk takes no time."""
     job()
 
 
@@ -39,11 +39,11 @@ class CountsWriter:
         self._marks = dict.fromkeys(Axis, Mark.NONE)
 
     def load(self) -> dict[Axis, Place]:
-        """Before anything else."""
+        """The kept counts; to be called first."""
         return self._file.load()
 
     def may_start(self, axis: Axis) -> bool:
-        """Whether the motor may start now. False: not yet (ask again), or not at all (`trouble`)."""
+        """Whether the motor may start now. False: not yet (ask again), or never (`trouble`)."""
         if self._marks[axis] in (Mark.NONE, Mark.REFUSED):
             self._marks[axis] = Mark.ASKED
             self._later(lambda: self._mark(axis))
@@ -54,7 +54,7 @@ class CountsWriter:
         return self._file.trouble if self._marks[axis] is Mark.REFUSED else ""
 
     def rests(self, now_s: float, axis: Axis, angle_deg: float) -> None:
-        """The axis stands there, counted without doubt."""
+        """The axis stands at this angle, and its count is certain."""
         self._marks[axis] = Mark.NONE
         self._later(lambda: self._file.rest(now_s, axis, angle_deg))
 
@@ -66,7 +66,7 @@ class CountsWriter:
         self._later(lambda: self._file.home(axis, angle_deg))
 
     def close(self) -> None:
-        """What stands is written."""
+        """Write what is waiting, and end the thread."""
         self._later(self._file.close)
         if self._pool:
             self._pool.shutdown(wait=True)

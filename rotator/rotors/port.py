@@ -1,6 +1,6 @@
-"""What the control loop drives and reads, whichever kind of rotor it is.
+"""The interface of a rotor to the control loop, the same for every kind.
 
-Knows the shape that all of them have. Knows none of them: those are in `rotator.rotors`.
+Knows no kind: each has a file beside this one.
 """
 
 from __future__ import annotations
@@ -13,23 +13,23 @@ from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand
 
 AddAlarm = Callable[[Callable[[], float | None], Callable[[float], None]], None]
-"""A simulated clock's: when something is due, and what is to be called then."""
+"""Of a simulated clock: a function with the moment at which something is due, and the function to call then."""
 
 
 class Rotor(Protocol):
-    """Only the loop drives it; `off` may be called by anybody at any time."""
+    """Only the control loop drives it; any thread may call `off` at any time."""
 
     sensors: Mapping[Axis, AngleSensor]
     """Read in a thread of their own."""
 
     def condition(self, axis: Axis) -> Condition:
-        """How the axis is, beside its angle: asked for right after its sensor has been read, in the same thread."""
+        """The condition of the axis; called right after its sensor has been read, in the same thread."""
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        """Do that. Returns which way a relay is closed now; OFF where there are none. Raises HardwareError."""
+        """Returns the direction whose relay is closed now, OFF without relays. Raises HardwareError."""
 
     def run(self, errand: Errand) -> None:
-        """Something that is to be done once. Raises HardwareError."""
+        """Do this once. Raises HardwareError."""
 
     def closed_contacts(self) -> frozenset[Axis]:
         """The axes whose index contact is closed now, for a lamp; from any thread. Raises HardwareError."""
@@ -38,16 +38,16 @@ class Rotor(Protocol):
         """The safe state, from any thread: relays open; a motor that holds its place decelerates and holds."""
 
     def cut(self) -> bool:
-        """Everything off and the motors' supply with it; False: nothing here can switch it. Raises HardwareError."""
+        """Everything off and the motors' supply too; False: no output switches the supply. Raises HardwareError."""
 
     def restore(self) -> None:
         """The supply may come back."""
 
     def start(self) -> None:
-        """Begin in real time: guards and whatever else has a thread of its own."""
+        """Begin in real time: start the guard and the other threads."""
 
     def begin(self, add_alarm: AddAlarm) -> None:
-        """In place of `start` on a simulated clock, where there are no threads."""
+        """Begin on a simulated clock, without threads."""
 
     def close(self) -> None:
         """The end: everything off, threads joined. Raises HardwareError where a line cannot be switched."""

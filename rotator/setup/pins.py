@@ -1,7 +1,7 @@
-"""The lines that must be off from power-on to the program's first second: what config.txt has to say of them.
+"""The lines of config.txt that keep relays and enable lines off from power-on until the program drives them.
 
-Relays, the supply of control boxes, the enable input of a servo board. Knows the pins of the 40-pin header, their pulls
-and their other trades. Touches no file.
+Knows the pins of the 40-pin header, their pulls and their other uses. Which lines there are, the kind of rotor knows.
+Touches no file.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _I2C_DEV = "# /dev/i2c-1 for the box's chips. Removed by `rotator setup pins --u
 
 HEADER_BUS = 1
 I2C_NAMES = ("i2c_arm", "i2c", "i2c1")
-"""One switch, three names."""
+"""Three names of one switch."""
 PULLED_UP = range(9)
 """GPIO 0 to 8 have a pull-up while the Pi starts, 9 to 27 a pull-down (BCM2835 ARM Peripherals, GPIO pull table)."""
 
@@ -45,7 +45,7 @@ def off_levels(config: Config) -> dict[int, str]:
 
 
 def closing(config: Config) -> dict[int, OffLine]:
-    """Those that close a contact, and must open again when the program dies."""
+    """Those that close a contact, which must open again when the program dies."""
     return {pin: line for pin, line in off_lines(config).items() if line.switches}
 
 
@@ -68,7 +68,7 @@ def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) ->
 
 
 def undone(files: Files, root: Path, boot: Path) -> ChangeSet:
-    """Takes out what `plan` puts in, and nothing else."""
+    """Takes out the lines that `plan` puts in, and no others."""
     before = str(files[boot] or "")
     module = root / I2C_MODULE
     return ChangeSet(
@@ -126,7 +126,7 @@ def _keep_off_the_buses(config: Config, others: list[Setting]) -> None:
 
 
 def _missing(config: Config, others: list[Setting]) -> list[str]:
-    """The lines that are not in force yet. Raises SetupError for one that says the opposite, for it comes later."""
+    """The lines that config.txt lacks. Raises SetupError where it has the opposite, because the later line wins."""
     levels = off_levels(config)
     done: set[int] = set()
     for setting, pins, told in boot_config.pins(others):
@@ -161,7 +161,7 @@ def _contradicts(setting: Setting, needed: str) -> SetupError:
 
 
 def _pulls(config: Config) -> list[str]:
-    """A sentence on the relays whose pin is pulled towards on whenever nobody drives it."""
+    """A warning for the relays whose pin is pulled to their on level while no program drives it."""
     lines = closing(config)
     notes = []
     for off_high, way, good in (

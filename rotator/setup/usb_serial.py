@@ -1,4 +1,4 @@
-"""What makes a Pi a COM port: the USB controller told to be a device, and a unit that builds that device at each start.
+"""A Pi as a COM port: its USB controller as a device, and a unit that builds that device at each start.
 
 Knows config.txt's overlay, the unit and what else may claim the same controller. How the device is built is the
 gadget's; no file is touched here.
@@ -43,7 +43,7 @@ The page docs/usb-serial.md has the details."""
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """Where the files are that this set-up looks at."""
+    """The paths of the files that this set-up reads."""
 
     root: Path
     boot_config: Path
@@ -81,7 +81,7 @@ WantedBy=multi-user.target
 
 
 def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: str) -> ChangeSet:
-    """Raises SetupError where the Pi cannot, or where something else has the port."""
+    """Raises SetupError where this Pi cannot be a USB device, or where another program has the port."""
     if pi is None:
         raise SetupError("this is no Raspberry Pi that is known here: only one can be made a COM port this way")
     if pi.socket is None:
@@ -107,7 +107,7 @@ def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: s
 
 
 def undone(files: Files, places: Places) -> ChangeSet:
-    """Takes out what `plan` puts in, and nothing else."""
+    """Takes out the lines that `plan` puts in, and no others."""
     before = _text(files, places.boot_config)
     text = _text(files, places.settings) if files[places.settings] is not None else None
     settings, remark = link.taken_out(text)
@@ -120,7 +120,7 @@ def undone(files: Files, places: Places) -> ChangeSet:
 
 
 def boot_text(text: str, pi: Pi) -> str:
-    """config.txt with the controller as a device. Raises SetupError where a line of somebody else's says otherwise."""
+    """config.txt with the controller as a device. Raises SetupError where another line of it says otherwise."""
     others = [each for each in boot_config.settings(BLOCK.without(text)) if each.may_hold_on(pi)]
     for setting in others:
         if setting.key == "otg_mode" and setting.value not in boot_config.NO:
@@ -145,7 +145,7 @@ def _says_host(setting: boot_config.Setting) -> SetupError:
 
 
 def _rival(files: Files, places: Places) -> str | None:
-    """Whoever else builds a USB device at each start: there is one controller, and it takes one."""
+    """Other units that build a USB device at each start: the one controller takes only one."""
     if files.get(places.root / RPI_USB_GADGET) is not None:
         return (
             "Raspberry Pi's own USB gadget (Ethernet) has the port, and there is only one: "

@@ -26,7 +26,7 @@ class DigipotAxisTable(Table):
     steps: list[Point] = Field(default=[(0.0, 0.0), (360.0, 256.0)], min_length=2)
     """Points [degrees, the chip's step there, 0 to 256]."""
     start_deg: float = Field(0.0, ge=-360, le=720)
-    """Where the rotor is taken to stand when the program starts, where no pot tells."""
+    """Where the rotor is taken to stand when the program starts, if no pot measures it."""
     dead_band_deg: float = Field(2.0, ge=0, le=20)
     """How far off the box lets it be before it turns the motor."""
 

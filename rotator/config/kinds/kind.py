@@ -1,4 +1,4 @@
-"""What the program asks of a kind of rotor, and the answers of one that has nothing of the sort.
+"""The questions that the program asks of a kind of rotor, with the answers of a kind without such parts.
 
 Knows the questions. Knows no kind: each has a file of its own beside this one. A kind is made from its own tables of
 the configuration, and knows no other table.
@@ -94,7 +94,7 @@ class Kind:
         return 0.0
 
     def accel_dps2(self, axis: Axis) -> float | None:
-        """The acceleration that the drive keeps to; None: it is not told one."""
+        """The acceleration that the drive keeps to; None: the drive takes none."""
         return None
 
     def end_stop(self, axis: Axis) -> EndStop | None:

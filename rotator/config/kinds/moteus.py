@@ -22,13 +22,13 @@ class MoteusAxisTable(Table):
     rev_per_turn: float = 1.0
     """Revolutions of the controller's scale for 360° of the antenna; below 0 where it runs the other way."""
     zero_rev: float = 0.0
-    """What the controller shows where the rotor's scale says 0°."""
+    """The controller's position, in revolutions, where the rotor's scale is at 0°."""
     velocity_limit_dps: float = Field(30.0, gt=0, le=360)
     """Its greatest speed, always sent."""
     accel_limit_dps2: float = Field(20.0, gt=0, le=1000)
     """Its greatest acceleration, always sent."""
     max_torque_nm: float | None = Field(None, gt=0)
-    """Its greatest torque; left out, what the controller itself is set to."""
+    """Its greatest torque; left out, the controller's own setting."""
     geared: bool = True
     """Its only encoder sits before a gear: after power-on it does not know where the antenna points, and nothing moves
     until a person confirms it."""

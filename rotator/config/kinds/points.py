@@ -1,4 +1,4 @@
-"""A table of points that says what a drive without feedback is told for each angle: its ends are the rotor's reach.
+"""A table of points from the angle to the value of a drive without feedback: its ends are the reach of the rotor.
 
 Knows angles and the words of the faults. Knows no drive.
 """

@@ -26,13 +26,13 @@ class PulseAxisTable(Table):
     spacing_deg: float = Field(5.0, gt=0, le=30)
     """From one closure to the next: 5 on a modified Alliance U-100, else 6 or 10."""
     closed_deg: float = Field(1.0, gt=0, le=30)
-    """How much of that the contact is closed."""
+    """The part of the spacing in which the contact is closed."""
     closes_at_deg: float = Field(0.0, ge=-360, le=720)
     """An angle at which the contact closes when turning clockwise or up."""
     coast_s: float = Field(0.5, gt=0, le=5)
     """How long after its relay has opened the motor stands for certain."""
     play_deg: float = Field(0.0, ge=0, le=10)
-    """Turning back, the contact changes this much later."""
+    """The play: after a reversal the contact changes this much later."""
     home_deg: float = Field(0.0, ge=-360, le=720)
     """The angle of the low end stop, where homing ends."""
 

@@ -40,9 +40,9 @@ class Servo(PerAxis, Table):
     bus: I2CBus = 1
     """The N of /dev/i2c-N; the header's bus is 1."""
     address: I2CAddress = 0x40
-    """The PCA9685's."""
+    """The address of the PCA9685."""
     osc_hz: float = Field(25e6, ge=20e6, le=30e6)
-    """What its oscillator really does; on many boards 26 to 27 million. It scales every pulse."""
+    """The true frequency of its oscillator; on many boards 26 to 27 million. It scales every pulse."""
     enable: Gpio | None = None
     """The line at the board's OE input, with a pull-up beside it: no pulse before the program makes one."""
     idle_off_s: float = Field(0.0, ge=0, le=86_400)
