@@ -2,7 +2,7 @@
 
 Knows the layout of configfs/usb_gadget (Documentation/usb/gadget_configfs.rst in the kernel's source). Class 02 and
 subclass 02 on the device make Windows 10 and 11 take their own usbser.sys, without an INF file. The serial number
-makes Windows give the same COM number again, at whichever socket.
+makes Windows give the same COM number again, at any socket of the PC.
 """
 
 from __future__ import annotations

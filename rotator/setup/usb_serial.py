@@ -1,7 +1,7 @@
 """A Pi as a COM port: its USB controller as a device, and a unit that builds that device at each start.
 
-Knows config.txt's overlay, the unit and what else may claim the same controller. How the device is built is the
-gadget's; no file is touched here.
+Knows config.txt's overlay, the unit, and the other users of the same controller. How the device is built is in
+`gadget`. Touches no file.
 """
 
 from __future__ import annotations
