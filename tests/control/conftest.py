@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import cast
 
 import pytest
 
@@ -12,7 +13,7 @@ from rotator.control.axis.calibration_table import between_ends
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.sensing import Reading, Window
 from rotator.control.axis.switched import AxisSettings
-from rotator.control.axis.switched_law import Run
+from rotator.control.commands import Run
 from rotator.control.controller import Controller, Settings
 from rotator.control.sky.mount import Mount, Range
 from rotator.orders import Order, Source
@@ -79,7 +80,8 @@ class Desk:
             axis: Reading(self.frozen_since_s.get(axis, self.now_s), self.instead.get(axis, self.raw(axis)))
             for axis in Axis
         }
-        self.runs = self.controller.step(self.now_s, readings, [(by, order) for order in orders])
+        commands = self.controller.step(self.now_s, readings, [(by, order) for order in orders])
+        self.runs = cast(dict[Axis, Run], commands)
         self.driven = {axis: run.direction for axis, run in self.runs.items()}
         self.status = self.controller.status(self.now_s, self.driven)
         return self.driven

@@ -40,7 +40,8 @@ def status(
 
 def with_axis(axis: Axis, **more: Any) -> Status:
     now = status()
-    return replace(now, **{axis.value: replace(now.axis(axis), **more)})
+    changed: Any = {axis.value: replace(now.axis(axis), **more)}
+    return replace(now, **changed)
 
 
 def uppers(now: Status, seconds: int = 16) -> list[str]:
@@ -156,7 +157,7 @@ def calls(*names: str) -> Iterator[ast.expr]:
 
 def fault_names() -> set[str]:
     """Those in the code, and the headings of the page that explains them: a few are told apart in a variable."""
-    said = {each.value for each in calls("Fault", "_closed") if isinstance(each, ast.Constant)}
+    said = {str(each.value) for each in calls("Fault", "_closed") if isinstance(each, ast.Constant)}
     page = (ROTATOR.parent / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
     faults = page.split("\n## Faults of an axis\n")[1].split("\n## ")[0]
     notices = {"motor hot", "blind to a broken pot wire"}

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from io import StringIO
+from typing import Any
 
 import pytest
 from rich.console import Console, RenderableType
@@ -86,7 +87,8 @@ def test_both_axes() -> None:
 def test_the_relay_that_is_on_is_lit(axis: Axis, drive: Direction, lit: str) -> None:
     still = replace(STATUS, azimuth=replace(STATUS.azimuth, drive=Direction.OFF))
     assert "●" not in show(still)
-    picture = show(replace(still, **{axis.value: replace(still.axis(axis), drive=drive)}))
+    changed: Any = {axis.value: replace(still.axis(axis), drive=drive)}
+    picture = show(replace(still, **changed))
     assert picture.count("●") == 1
     assert lit + " " in picture
     assert picture.count("○") == 3
