@@ -10,12 +10,13 @@ import threading
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.relay_pot import World
+from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, AngleSource, Axis, Direction, HardwareError
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
@@ -37,11 +38,12 @@ class Rig:
         self.clock = SimClock()
         self.config = Config()
         self.station = Station(self.config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
-        assert self.station.world is not None
+        assert isinstance(self.station.world, World)
         self.world = self.station.world
         self.loop = self.loop_with(self.station.rotor.sensors)
 
     def loop_with(self, sensors: Mapping[Axis, AngleSensor], period_s: float = PERIOD_S) -> ControlLoop:
+        assert isinstance(self.station.rotor, RelayRotor)
         rotor = RelayRotor(self.station.rotor.bank, sensors)
         return ControlLoop(build_controller(self.config), rotor, self.clock, period_s)
 
@@ -184,7 +186,7 @@ def test_a_converter_that_goes_stops_the_axes_is_said_once_and_comes_back(
 def test_a_bus_that_hangs_stops_the_motors() -> None:
     # In real time, and without a guard: the loop itself notices that no readings come.
     station = Station(Config(), time.monotonic, time.sleep, (100.0, 20.0))
-    assert station.world is not None
+    assert isinstance(station.world, World)
     relays = Relays(station.world)
     loop = ControlLoop(build_controller(Config()), station.rotor, time.monotonic, PERIOD_S)
     with running(loop):
@@ -213,7 +215,10 @@ class LinesGone:
 
 def test_a_drive_that_fails_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
     rig.loop = ControlLoop(
-        build_controller(rig.config), RelayRotor(LinesGone(), rig.station.rotor.sensors), rig.clock, PERIOD_S
+        build_controller(rig.config),
+        RelayRotor(cast(RelayBank, LinesGone()), rig.station.rotor.sensors),
+        rig.clock,
+        PERIOD_S,
     )
     rig.loop.post(LINK, Aim(300.0, 20.0))
     rig.run(2.0)

@@ -47,9 +47,8 @@ class Bench:
         self.drive = MoteusDrive(*self.specs, self.clock)
         self.alive = True
         wire = MoteusInStep(self.drive, self.world.transport())
-        self.clock.add_alarm(
-            lambda drive=self.drive: wire.due_s() if self.drive is drive and self.alive else None, wire.serve
-        )  # type: ignore[misc]
+        drive = self.drive
+        self.clock.add_alarm(lambda: wire.due_s() if self.drive is drive and self.alive else None, wire.serve)
         self.clock.sleep(0.1)
 
     def follow(self, axis: Axis, angle_deg: float, seconds: float, rate_dps: float = 0.0) -> None:
