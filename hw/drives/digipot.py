@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from hw.chips.mcp41010 import STEPS, Mcp41010
 from hw.drives.relays import LONGEST_LEASE_S
-from hw.drives.scale import Scale
+from hw.drives.scale import CommandScale
 from hw.ports import Axis, HardwareError, OutputLines
 
 ENABLE = "box_enable"
@@ -39,7 +39,7 @@ class _Box:
     def __init__(self, name: str, chip: Mcp41010, spec: BoxSpec, now_s: float) -> None:
         self.chip = chip
         self.spec = spec
-        self.scale = Scale(name, spec.steps)
+        self.scale = CommandScale(name, spec.steps)
         self.scale.check(spec.start_deg)
         if self.scale.values[0] < 0 or self.scale.values[1] > STEPS:
             raise HardwareError(f"{name}: the calibration table names steps that are none: they are 0 to {STEPS}")

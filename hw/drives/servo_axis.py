@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hw.drives.scale import Scale
+from hw.drives.scale import CommandScale
 
 FRAME_S = 0.02
 """A servo takes a new width with every pulse, 50 times a second."""
@@ -42,7 +42,7 @@ class ServoAxis:
 
     def __init__(self, name: str, spec: ServoSpec) -> None:
         self.spec = spec
-        self.scale = Scale(name, spec.pulses_us)
+        self.scale = CommandScale(name, spec.pulses_us)
         self.scale.check(spec.start_deg)
         self.angle_deg = spec.start_deg
         self.pulsing = False

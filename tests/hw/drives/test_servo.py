@@ -290,7 +290,7 @@ def test_on_a_bus_that_takes_its_time() -> None:
     [
         (ServoSpec(channel=1), "azimuth and elevation are both on output 1"),
         (ServoSpec(channel=0, start_deg=200.0), "azimuth servo: 200.0° is outside"),
-        (ServoSpec(channel=0, pulses_us=((0.0, 500.0),)), "at least two points"),
+        (ServoSpec(channel=0, pulses_us=((0.0, 500.0),)), "calibration table: needs two points or more"),
     ],
 )
 def test_a_specification_that_contradicts_itself(azimuth: ServoSpec, said: str) -> None:
