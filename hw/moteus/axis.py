@@ -10,7 +10,7 @@ from collections import deque
 from enum import Enum
 
 from hw.moteus.faults import LIMITS, explain
-from hw.moteus.orders import WATCHDOG_S, Answer, AxisSpec, Home, Look, Mode, Move, Order, SetOutput, Stop
+from hw.moteus.orders import WATCHDOG_S, Answer, Home, Look, Mode, MoteusSpec, Move, Order, SetOutput, Stop
 from hw.ports import Axis, HardwareError
 
 MOVING_EVERY_S = 0.02
@@ -31,7 +31,7 @@ class Wish(Enum):
 class MoteusAxis:
     """Tell it what is wanted; ask it what to send (`order`); give it what came back (`heard`, `missed`)."""
 
-    def __init__(self, axis: Axis, spec: AxisSpec) -> None:
+    def __init__(self, axis: Axis, spec: MoteusSpec) -> None:
         self.spec = spec
         self.fault: str | None = None
         """What stopped this axis, for a person; `acknowledge` makes it usable again."""

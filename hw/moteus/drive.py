@@ -11,14 +11,14 @@ from collections.abc import Callable
 
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import MoteusAxis, Wish
-from hw.moteus.orders import Answer, AxisSpec, Order
+from hw.moteus.orders import Answer, MoteusSpec, Order
 from hw.ports import Axis, HardwareError
 
 
 class MoteusDrive:
     """`clock` gives seconds; `until_s` of an aim is on the same clock. Safe to call from any thread."""
 
-    def __init__(self, azimuth: AxisSpec, elevation: AxisSpec, clock: Callable[[], float]) -> None:
+    def __init__(self, azimuth: MoteusSpec, elevation: MoteusSpec, clock: Callable[[], float]) -> None:
         if azimuth.can_id == elevation.can_id:
             raise HardwareError(f"azimuth and elevation both have CAN id {azimuth.can_id}: give one another with tview")
         self._clock = clock
@@ -126,7 +126,7 @@ class MoteusDrive:
     # --- for the bus
 
     @property
-    def specs(self) -> dict[Axis, AxisSpec]:
+    def specs(self) -> dict[Axis, MoteusSpec]:
         return {name: axis.spec for name, axis in self._axes.items()}
 
     def order(self, axis: Axis) -> Order | None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from hw.moteus.drive import MoteusDrive
-from hw.moteus.orders import WATCHDOG_S, Answer, AxisSpec, Look, Move, Order, SetOutput, Stop
+from hw.moteus.orders import WATCHDOG_S, Answer, Look, MoteusSpec, Move, Order, SetOutput, Stop
 from hw.ports import Axis, HardwareError
 
 LINE_S = 0.05
@@ -91,7 +91,7 @@ class Wire:
                 answered = True
         return answered
 
-    async def _exchange(self, axis: Axis, spec: AxisSpec, order: Order, patiently: Patience) -> Answer | None:
+    async def _exchange(self, axis: Axis, spec: MoteusSpec, order: Order, patiently: Patience) -> Answer | None:
         controller = self._controllers[axis]
         try:
             result = await patiently(controller.execute(self._command(controller, spec, order)))
@@ -99,7 +99,7 @@ class Wire:
             return None
         return self._answer(result.values) if result else None
 
-    def _command(self, controller: Any, spec: AxisSpec, order: Order) -> Any:
+    def _command(self, controller: Any, spec: MoteusSpec, order: Order) -> Any:
         match order:
             case Look():
                 return controller.make_query()

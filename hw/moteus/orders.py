@@ -29,7 +29,7 @@ class Home(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class AxisSpec:
+class MoteusSpec:
     """One axis: its controller and the way from degrees to the controller's revolutions."""
 
     can_id: int

@@ -10,8 +10,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from firmware_sim.rotors.digipot import DigipotRotor
-from firmware_sim.rotors.moteus import MoteusWorld
+from firmware_sim.rotors.digipot import SimDigipotRotor
+from firmware_sim.rotors.moteus import SimMoteusRotor
 from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus, real_spidev
 from hw.chips.ads1115 import Ads1115
 from hw.chips.as5600 import As5600
@@ -26,7 +26,7 @@ from hw.drives.servo_axis import ServoSpec
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import CanChannel, MoteusInStep, SerialPort
-from hw.moteus.orders import AxisSpec as MoteusAxisSpec
+from hw.moteus.orders import MoteusSpec
 from hw.ports import AngleSensor, Axis, LeaseWatch, OutputLines
 from hw.sensors.cam import Cam
 from hw.sensors.pot import PotSensor, Reference
@@ -154,9 +154,9 @@ class Assembly:
     def _moteus(self) -> MoteusRotor:
         tables = self._config.moteus
 
-        def spec(axis: Axis) -> MoteusAxisSpec:
+        def spec(axis: Axis) -> MoteusSpec:
             table = getattr(tables, axis.value)
-            return MoteusAxisSpec(
+            return MoteusSpec(
                 can_id=table.id,
                 rev_per_turn=table.rev_per_turn,
                 zero_rev=table.zero_rev,
@@ -174,7 +174,7 @@ class Assembly:
         world, tables = self._board.world, self._config.moteus
         if world is None:
             return MoteusBus(drive, CanChannel(tables.can) if tables.can else SerialPort(tables.port))
-        assert isinstance(world, MoteusWorld)
+        assert isinstance(world, SimMoteusRotor)
         if self._in_step:
             return MoteusInStep(drive, world.transport())
         folder = self._board.opened.enter_context(tempfile.TemporaryDirectory(prefix="rotator-"))
@@ -229,7 +229,7 @@ class Assembly:
         pins = {SELECTS[axis]: getattr(tables, axis.value).select for axis in Axis}
         if tables.spi == "kernel":
             numbers = {chip: CHIP_SELECTS[pin] for chip, pin in pins.items()}
-            api = board.world.spidev if isinstance(board.world, DigipotRotor) else real_spidev()
+            api = board.world.spidev if isinstance(board.world, SimDigipotRotor) else real_spidev()
             spi = KernelSpi(api, 0, numbers)
             board.opened.callback(spi.close)
             return spi

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotors.relay_pot import World
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
@@ -74,7 +74,7 @@ class Hangs:
 class Relays:
     """The motor relays of a simulated station, watched from another thread."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: SimRelayPotRotor) -> None:
         self._changed = threading.Condition()
         self._drives = (0, 0)
         self._world = world
@@ -257,7 +257,7 @@ class Bug:
 
     source = "measured"
 
-    def __init__(self, sensor: AngleSensor, world: World, outcome: Any) -> None:
+    def __init__(self, sensor: AngleSensor, world: SimRelayPotRotor, outcome: Any) -> None:
         self._sensor = sensor
         self._world = world
         self._outcome = outcome

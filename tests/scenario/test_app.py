@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from firmware_sim.rotors.relay_pot import World
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import AngleSensor, Axis
 from rotator.app import App
 from rotator.config.load import parse, shipped
@@ -26,7 +26,7 @@ OFF = (0, 0)
 class Relays:
     """The motor relays of a simulated station, watched from the event loop."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: SimRelayPotRotor) -> None:
         self._world = world
         self._events = asyncio.get_running_loop()
         self._changed = asyncio.Event()
@@ -104,7 +104,7 @@ async def links_open(app: App, task: asyncio.Task[None]) -> None:
 
 
 @asynccontextmanager
-async def running(app: App) -> AsyncIterator[tuple[World, Relays]]:
+async def running(app: App) -> AsyncIterator[tuple[SimRelayPotRotor, Relays]]:
     """The box once its links are open; stopped afterwards, with every relay off."""
     world = app.station.world
     assert world is not None
@@ -148,7 +148,7 @@ def test_w_moves_c2_answers_s_stops(config: Config, tmp_path: Path) -> None:
 
 
 def test_every_relay_is_off_after_a_stop_in_mid_motion(config: Config, tmp_path: Path) -> None:
-    async def talk() -> World:
+    async def talk() -> SimRelayPotRotor:
         async with running(App(config)) as (world, relays), terminal(tmp_path / "gs232") as line:
             line.send(b"R\rU\r")
             await relays.until((1, 1).__eq__)
@@ -265,7 +265,7 @@ class FailsInMotion:
 
     source = "measured"
 
-    def __init__(self, sensor: AngleSensor, world: World) -> None:
+    def __init__(self, sensor: AngleSensor, world: SimRelayPotRotor) -> None:
         self._sensor = sensor
         self._world = world
 
