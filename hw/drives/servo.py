@@ -11,6 +11,7 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from hw.chips.pca9685 import Pca9685
+from hw.drives.positioned import DriveAngle
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.drives.servo_axis import ServoAxis, ServoSpec
 from hw.ports import Axis, HardwareError, OutputLines
@@ -29,6 +30,8 @@ class ServoDrive:
     `enable`: the line `ENABLE`, where one is wired. `idle_off_s`: a servo that has not moved for so long gets no more
     pulses, and is limp; None: it holds for good. Raises HardwareError for a specification that contradicts itself.
     """
+
+    angle_source = "modelled"
 
     def __init__(
         self,
@@ -128,8 +131,8 @@ class ServoDrive:
 
     # --- how it is
 
-    def sensor(self, axis: Axis) -> ServoSensor:
-        return ServoSensor(self, axis)
+    def sensor(self, axis: Axis) -> DriveAngle:
+        return DriveAngle(self, axis)
 
     def angle_deg(self, axis: Axis) -> float:
         """Where the servo is taken to be. Raises HardwareError when the board does not answer."""
@@ -212,17 +215,3 @@ class ServoDrive:
             if axis.pulsing:
                 moments += [self._look_s, self._idle_s(axis)]
         return min(moments, default=None)
-
-
-class ServoSensor:
-    """One axis of the drive as an angle sensor; its readings are degrees already."""
-
-    source = "modelled"
-
-    def __init__(self, drive: ServoDrive, axis: Axis) -> None:
-        self._drive = drive
-        self._axis = axis
-
-    def read(self) -> float:
-        """Degrees on the rotor's own scale. Raises HardwareError."""
-        return self._drive.angle_deg(self._axis)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
+from hw.drives.positioned import DriveAngle
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import MoteusAxis, Wish
 from hw.moteus.orders import Answer, MoteusSpec, Order
@@ -17,6 +18,8 @@ from hw.ports import Axis, HardwareError
 
 class MoteusDrive:
     """`clock` gives seconds; `until_s` of an aim is on the same clock. Safe to call from any thread."""
+
+    angle_source = "measured"
 
     def __init__(self, azimuth: MoteusSpec, elevation: MoteusSpec, clock: Callable[[], float]) -> None:
         if azimuth.can_id == elevation.can_id:
@@ -75,8 +78,8 @@ class MoteusDrive:
 
     # --- how it is
 
-    def sensor(self, axis: Axis) -> MoteusSensor:
-        return MoteusSensor(self, axis)
+    def sensor(self, axis: Axis) -> DriveAngle:
+        return DriveAngle(self, axis)
 
     def angle_deg(self, axis: Axis) -> float:
         """Where the axis stands on the rotor's own scale. Raises HardwareError: silent, or its position is unknown."""
@@ -171,17 +174,3 @@ class MoteusDrive:
     def _check_online(self) -> None:
         if self._offline:
             raise HardwareError(self._offline)
-
-
-class MoteusSensor:
-    """One axis of the drive as an angle sensor; its readings are degrees already."""
-
-    source = "measured"
-
-    def __init__(self, drive: MoteusDrive, axis: Axis) -> None:
-        self._drive = drive
-        self._axis = axis
-
-    def read(self) -> float:
-        """Degrees on the rotor's own scale. Raises HardwareError."""
-        return self._drive.angle_deg(self._axis)

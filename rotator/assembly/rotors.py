@@ -19,7 +19,9 @@ from hw.chips.mcp41010 import Mcp41010
 from hw.chips.mpu6050 import Mounting, Mpu6050
 from hw.chips.pca9685 import Pca9685
 from hw.drives import servo as servo_drive
-from hw.drives.digipot import BoxSpec, DigipotDrive, DigipotSensor
+from hw.drives.control_box import BoxSpec
+from hw.drives.digipot import DigipotDrive
+from hw.drives.positioned import DriveAngle
 from hw.drives.relays import RelayBank
 from hw.drives.servo import ServoDrive
 from hw.drives.servo_axis import ServoSpec
@@ -217,7 +219,7 @@ class Assembly:
         drive = DigipotDrive(box(Axis.AZIMUTH), box(Axis.ELEVATION), board.clock, enable=enable)
         sensors: dict[Axis, AngleSensor] = {}
         for axis, sensor in self._sensors({axis: drive.sensor(axis) for axis in Axis}).items():
-            if isinstance(sensor, DigipotSensor):
+            if isinstance(sensor, DriveAngle):
                 sensors[axis] = sensor
             else:
                 points = own_points(config, axis)

@@ -9,7 +9,8 @@ from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
 from hw.buses.gpio import GpioOutputs
 from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus
 from hw.chips.mcp41010 import Mcp41010
-from hw.drives.digipot import ENABLE, REFRESH_S, BoxSpec, DigipotDrive
+from hw.drives.control_box import BoxSpec
+from hw.drives.digipot import ENABLE, REFRESH_S, DigipotDrive
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import Axis, HardwareError
 
