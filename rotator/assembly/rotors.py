@@ -27,8 +27,9 @@ from hw.drives.servo import ServoDrive
 from hw.drives.servo_axis import ServoSpec
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
-from hw.moteus.library import CanChannel, MoteusInStep, SerialPort
+from hw.moteus.library import CanChannel, SerialPort
 from hw.moteus.orders import MoteusSpec
+from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, LeaseWatch, OutputLines
 from hw.sensors.cam import Cam
 from hw.sensors.pot import PotSensor, Reference

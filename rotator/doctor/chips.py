@@ -23,8 +23,9 @@ from hw.chips.pca9685 import MODE1, PRE_SCALE, SLEEP
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.faults import LIMITS, explain
-from hw.moteus.library import CanChannel, MoteusInStep, SerialPort
+from hw.moteus.library import CanChannel, SerialPort
 from hw.moteus.orders import Mode, MoteusSpec
+from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, HardwareError
 from hw.sensors.pot import Reference
 from rotator.assembly.simulation import simulated_rotor

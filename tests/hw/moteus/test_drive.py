@@ -19,8 +19,8 @@ from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import ERRAND_S, STALE_S
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.faults import FAULTS
-from hw.moteus.library import MoteusInStep
 from hw.moteus.orders import WATCHDOG_S, MoteusSpec
+from hw.moteus.wire import MoteusInStep
 from hw.ports import Axis, HardwareError
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
