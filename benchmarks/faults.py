@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotors.relay_pot import World
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
@@ -36,7 +36,7 @@ class Mast:
         self.clock = SimClock()
         self._period_s = 1 / config.control.rate_hz
         self._station = Station(config, self.clock, self.clock.sleep, start_deg, add_alarm=self.clock.add_alarm)
-        assert isinstance(self._station.world, World)
+        assert isinstance(self._station.world, SimRelayPotRotor)
         self.world = self._station.world
         self._loop = ControlLoop(build_controller(config), self._station.rotor, self.clock, self._period_s)
         self._cycles = 0

@@ -15,7 +15,7 @@ from typing import Any, cast
 import pytest
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotors.relay_pot import World
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, AngleSource, Axis, Direction, HardwareError
 from rotator.assembly.settings import build_controller
@@ -38,7 +38,7 @@ class Rig:
         self.clock = SimClock()
         self.config = Config()
         self.station = Station(self.config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
-        assert isinstance(self.station.world, World)
+        assert isinstance(self.station.world, SimRelayPotRotor)
         self.world = self.station.world
         self.loop = self.loop_with(self.station.rotor.sensors)
 
@@ -76,7 +76,7 @@ class Hangs:
 class Relays:
     """The motor relays of a simulated station, watched from another thread."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: SimRelayPotRotor) -> None:
         self._changed = threading.Condition()
         self._drives = (0, 0)
         self._world = world
@@ -186,7 +186,7 @@ def test_a_converter_that_goes_stops_the_axes_is_said_once_and_comes_back(
 def test_a_bus_that_hangs_stops_the_motors() -> None:
     # In real time, and without a guard: the loop itself notices that no readings come.
     station = Station(Config(), time.monotonic, time.sleep, (100.0, 20.0))
-    assert isinstance(station.world, World)
+    assert isinstance(station.world, SimRelayPotRotor)
     relays = Relays(station.world)
     loop = ControlLoop(build_controller(Config()), station.rotor, time.monotonic, PERIOD_S)
     with running(loop):
@@ -262,7 +262,7 @@ class Bug:
 
     source = AngleSource.MEASURED
 
-    def __init__(self, sensor: AngleSensor, world: World, outcome: Any) -> None:
+    def __init__(self, sensor: AngleSensor, world: SimRelayPotRotor, outcome: Any) -> None:
         self._sensor = sensor
         self._world = world
         self._outcome = outcome
