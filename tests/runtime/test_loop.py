@@ -283,3 +283,32 @@ def test_a_bug_ends_the_loop_with_every_relay_off(rig: Rig, outcome: object, err
         loop.run()
     assert rig.world.relay_starts >= 1, "motors were running"
     assert rig.world.drives() == (0, 0)
+
+
+class Unguarded:
+    """A bank whose guard dies when it is to sleep while a relay is closed."""
+
+    def __init__(self, bank: RelayBank) -> None:
+        self._bank = bank
+        self.drive, self.off, self.due_s, self.enforce = bank.drive, bank.off, bank.due_s, bank.enforce
+
+    def wait_until_due(self, patience_s: float) -> None:
+        self._bank.wait_until_due(patience_s)
+        if self._bank.due_s() is not None:
+            raise SystemExit
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_a_guard_that_dies_ends_the_loop_with_every_relay_off() -> None:
+    station = Station(Config(), time.monotonic, time.sleep, (100.0, 20.0))
+    assert station.world is not None
+    rotor = RelayRotor(Unguarded(station.rotor.bank), station.rotor.sensors)
+    loop = ControlLoop(build_controller(Config()), rotor, time.monotonic, PERIOD_S)
+    loop.post(LINK, Aim(235.0, 20.0))
+    rotor.start()
+    with pytest.raises(HardwareError, match="the guard, which ends expired commands, has died"):
+        loop.run()
+    assert station.world.relay_starts >= 1, "a motor was running"
+    assert station.world.drives() == (0, 0)
+    rotor.close()
+    station.close()
