@@ -31,6 +31,8 @@ SPEEDS = {903: ("-s", "9600")}
 """The MD-01 model's own default, 460800, is one that this Hamlib cannot set."""
 PATIENCE_S = 60.0
 """How long to go on asking whether the antenna has arrived: each question is a rotctl of its own."""
+ASK_EVERY_S = 0.1
+"""A process for each question, and as many as a core can start, would slow down the box itself."""
 
 
 @pytest.fixture
@@ -68,6 +70,7 @@ def arrive(rotctl: Callable[..., str], model: int, where: Path | str, goal: tupl
         seen = position(rotctl(model, where, "p"))
         if all(abs(at - to) <= TOLERANCE_DEG for at, to in zip(seen, goal, strict=True)):
             return
+        time.sleep(ASK_EVERY_S)
     pytest.fail(f"the antenna stands at {seen}, not at {goal}")
 
 
@@ -76,6 +79,7 @@ def rest(rotctl: Callable[..., str], model: int, where: Path | str) -> tuple[flo
     before = position(rotctl(model, where, "p"))
     give_up_s = time.monotonic() + PATIENCE_S
     while time.monotonic() < give_up_s:
+        time.sleep(ASK_EVERY_S)
         seen = position(rotctl(model, where, "p"))
         if seen == pytest.approx(before, abs=1):
             return seen
