@@ -27,13 +27,13 @@ _KINDS = {
 _EDGES = {"ge": "from {}", "gt": "above {}", "le": "to {}", "lt": "below {}"}
 _LENGTHS = {"min_length": "{} or more", "max_length": "up to {}"}
 """How limits are worded. A text may never be empty, and the page does not repeat it."""
-_HEADINGS = ("key", "value", "default", "meaning")
+_HEADINGS = ("key", "default; allowed", "meaning")
 _LEFT_OUT = "–"
 _LEGEND = (
-    "*Value*: bounds alone are those of a number. *Whole*: a whole number. *GPIO*: 0 to 57, the BCM number, not the\n"
-    "pin of the header. *Bus*: the N of /dev/i2c-N, 0 to 255. *Address*: an I2C address, 0x08 to 0x77. *Input*: A0 to\n"
-    "A3 of an ADS1115, as 0 to 3. *Pairs*: a list of [number, number]. *Texts*: a list of texts. *Default* –: no\n"
-    "value, the key may be left out. Where both axes have the same keys, one table stands for both."
+    "The default comes first (–: none, the key may be left out), then what is allowed: the bounds of a number, or after\n"
+    "*whole* of a whole number. *GPIO*: 0 to 57, the BCM number, not the pin of the header. *Bus*: the N of /dev/i2c-N,\n"
+    "0 to 255. *Address*: an I2C address, 0x08 to 0x77. *Input*: A0 to A3 of an ADS1115, as 0 to 3. *Pairs*: a list of\n"
+    "[number, number]. *Texts*: a list of texts. One table stands for both axes."
 )
 _AXES = ("azimuth", "elevation")
 """Two tables with the same keys, which the page shows as one."""
@@ -80,14 +80,15 @@ def _section(tables: list[tuple[str, FieldInfo]]) -> Iterator[str]:
     ]
     if rows[0]:
         both = [_merged(*each) for each in zip(*rows, strict=True)]
-        yield _rows([_HEADINGS, tuple("---" for _ in _HEADINGS), *both])
+        shown = [(key, "; ".join(filter(None, (default, allowed))), meaning) for key, default, allowed, meaning in both]
+        yield _rows([_HEADINGS, tuple("---" for _ in _HEADINGS), *shown])
 
 
 def _merged(row: tuple[str, ...], other: tuple[str, ...] | None = None) -> tuple[str, ...]:
-    """One row of a key that both axes have; a cell says what is different for elevation."""
+    """One row of a key that both axes have; a cell names what differs for elevation."""
     if other is None:
         return row
-    *cells, meaning = (a if a == b else f"{a}; elevation {b}" for a, b in zip(row, other, strict=True))
+    *cells, meaning = (a if a == b else f"{a}, elevation {b}" for a, b in zip(row, other, strict=True))
     if row[-1] != other[-1]:
         meaning = f"{row[-1]} Elevation: {other[-1][0].lower()}{other[-1][1:]}"
     return *cells, meaning
@@ -106,22 +107,24 @@ def _rows(rows: list[tuple[str, ...]]) -> str:
 
 
 def _row(heading: str, key: str, field: FieldInfo) -> tuple[str, ...]:
+    """Key, default, what else is allowed, meaning."""
     kind, limits = _bare(field.annotation, list(field.metadata))
     default = _default(field)
     named = next((name for name, known in _NAMED.items() if kind is int and limits == known), "")
     if named == "address" and field.default is not None:
         default = f"`0x{field.default:02x}`"
-    return f"`{key}`", named or _value(kind, limits), default, _described(f"{heading} {key}", field)
+    return f"`{key}`", default, named or _allowed(kind, limits, field), _described(f"{heading} {key}", field)
 
 
-def _value(kind: Any, limits: list[Any]) -> str:
-    """What may be written for a key: its choices, or the kind and its bounds."""
+def _allowed(kind: Any, limits: list[Any], field: FieldInfo) -> str:
+    """What may be written for a key beside its default: the other choices, or the kind and its bounds."""
     if get_origin(kind) is Literal:
-        return ", ".join(_toml(choice) for choice in get_args(kind))
+        others = ", ".join(_toml(choice) for choice in get_args(kind) if choice != field.default)
+        return f"or {others}" if field.default in get_args(kind) else others
     bounds = _bounds(limits, kind)
     if kind is float or kind is str:
-        return bounds or _KINDS[kind]
-    return f"{_KINDS[kind]} {bounds}".strip()
+        return bounds or (_KINDS[kind] if field.default is None else "")
+    return "" if kind is bool else f"{_KINDS[kind]} {bounds}".strip()
 
 
 def _described(what: str, field: FieldInfo) -> str:

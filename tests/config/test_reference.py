@@ -45,22 +45,22 @@ def test_every_key_has_its_row(name: str) -> None:
 @pytest.mark.parametrize(
     "row",
     [
-        '| `hardware` | "sim", "pi" | `"sim"` |',
-        "| `tolerance_deg` | above 0 to 45 | `4` |",
-        "| `speed_dps` | above 0 to 360 | `6`; elevation `2.7` |",
-        "| `min_deg` | -360 to 720; elevation -90 to 180 | `0` |",
-        "| `address` | address | `0x48` |",
-        "| `master` | GPIO | – |",
-        "| `osc_hz` | 20000000 to 30000000 | `25000000` |",
-        "| `horizon` | pairs | `[]` |",
-        "| `calibration` | pairs | – |",
-        '| `protocol` | "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow", "easycomm1", '
+        '| `hardware` | `"sim"`; or "pi" |',
+        "| `tolerance_deg` | `4`; above 0 to 45 |",
+        "| `speed_dps` | `6`, elevation `2.7`; above 0 to 360 |",
+        "| `min_deg` | `0`; -360 to 720, elevation -90 to 180 |",
+        "| `address` | `0x48`; address |",
+        "| `master` | –; GPIO |",
+        "| `osc_hz` | `25000000`; 20000000 to 30000000 |",
+        "| `horizon` | `[]`; pairs |",
+        "| `calibration` | –; pairs |",
+        '| `protocol` | must be given; "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow", "easycomm1", '
         '"easycomm2", "easycomm3", "rot1prog", "rot2prog", "md01", "dcu1", "pstrotator", "n1mm", '
-        '"macdoppler", "wsjtx" | must be given |',
-        "| `pulses_per_degree` | 1, 2, 4, 10 | – |",
-        "| `name` | up to 24 characters | – |",
-        "| `id` | whole 1 to 126 | `1`; elevation `2` |",
-        "| `direction_checked` | true/false | `false` |",
+        '"macdoppler", "wsjtx" |',
+        "| `pulses_per_degree` | –; 1, 2, 4, 10 |",
+        "| `name` | –; up to 24 characters |",
+        "| `id` | `1`, elevation `2`; whole 1 to 126 |",
+        "| `direction_checked` | `false` |",
     ],
 )
 def test_row(row: str) -> None:

@@ -6,6 +6,8 @@ protocol's session is asked.
 
 from __future__ import annotations
 
+from itertools import islice
+
 from rotator.protocols import dcu1, easycomm, spid
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
@@ -16,6 +18,8 @@ from rotator.protocols.spid_session import PULSES, SpidSession
 
 _EASYCOMM_EXAMPLES = {"VL": "VL4900", "VR": "VR4900", "VU": "VU4900", "VD": "VD4900"}
 """Commands that take numbers; all others have none."""
+_FIELDS = {13: (1, 4, 1, 4, 1, 1, 1), 12: (1, 4, 1, 4, 1, 1), 5: (1, 3, 1)}
+"""The bytes of each field of a SPID frame, by its length: start, azimuth, pulses, elevation, pulses, K, end."""
 _DCU1_EXAMPLES = {"AP1": "AP1235;"}
 
 
@@ -72,4 +76,8 @@ def _example(command: Command, model: Model) -> Frame:
 
 
 def _hex(octets: bytes) -> str:
-    return f"`{octets.hex(' ').upper()}`" if octets else "nothing"
+    """A frame in hex, one group for each field."""
+    if not octets:
+        return "nothing"
+    digits = iter(octets.hex().upper())
+    return f"`{' '.join(''.join(islice(digits, 2 * size)) for size in _FIELDS[len(octets)])}`"

@@ -41,16 +41,15 @@ def test_every_command_has_its_row() -> None:
     [
         ("easycomm", r"| `AZ` | I | Azimuth: go there; without a number: read it | `AZ235.0\n` |"),
         ("easycomm", r"| `VE` | II | Read the version | `VEVERSION\n` |"),
-        ("spid", "| `2F` | Go there | Rot1Prog | `57 35 39 35 30 00 00 00 00 00 00 2F 20` | nothing |"),
+        ("spid", "| `2F` | Go there | Rot1Prog | `57 35393530 00 00000000 00 2F 20` | nothing |"),
         (
             "spid",
-            "| `1F` | Read the position | Rot2Prog | `57 00 00 00 00 00 00 00 00 00 00 1F 20` "
-            "| `57 05 09 05 00 02 03 08 05 00 02 20` |",
+            "| `1F` | Read the position | Rot2Prog | `57 00000000 00 00000000 00 1F 20` "
+            "| `57 05090500 02 03080500 02 20` |",
         ),
         (
             "spid",
-            "| `0F` | Stop everything | Rot1Prog, Rot2Prog, MD-01 "
-            "| `57 00 00 00 00 00 00 00 00 00 00 0F 20` | as `1F` |",
+            "| `0F` | Stop everything | Rot1Prog, Rot2Prog, MD-01 | `57 00000000 00 00000000 00 0F 20` | as `1F` |",
         ),
         ("dcu1", "| `AI1;` | Read azimuth | `;235` |"),
     ],
