@@ -29,12 +29,11 @@ _LENGTHS = {"min_length": "{} or more", "max_length": "up to {}"}
 """How limits are worded. A text may never be empty, and the page does not repeat it."""
 _HEADINGS = ("key", "default; allowed", "meaning")
 _LEFT_OUT = "–"
-_LEGEND = (
-    "The default comes first (–: none, the key may be left out), then what is allowed: the bounds of a number, or after\n"
-    "*whole* of a whole number. *GPIO*: 0 to 57, the BCM number, not the pin of the header. *Bus*: the N of /dev/i2c-N,\n"
-    "0 to 255. *Address*: an I2C address, 0x08 to 0x77. *Input*: A0 to A3 of an ADS1115, as 0 to 3. *Pairs*: a list of\n"
-    "[number, number]. *Texts*: a list of texts. One table stands for both axes."
-)
+_LEGEND = """\
+The default comes first (–: none, the key may be left out), then what is allowed: the bounds of a number, or
+after *whole* of a whole number. *GPIO*: 0 to 57, the BCM number, not the pin of the header. *Bus*: the N of
+/dev/i2c-N, 0 to 255. *Address*: an I2C address, 0x08 to 0x77. *Input*: A0 to A3 of an ADS1115, as 0 to 3.
+*Pairs*: a list of [number, number]. *Texts*: a list of texts. One table stands for both axes."""
 _AXES = ("azimuth", "elevation")
 """Two tables with the same keys, which the page shows as one."""
 
