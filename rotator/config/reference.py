@@ -48,8 +48,11 @@ def _usual() -> str:
     for kind, places in USUAL.items():
         if not places:
             continue
-        said = [f"`{place}.{key} = {_toml(value)}`" for place, keys in places.items() for key, value in keys.items()]
-        rows.append((f"`{kind}`", ", ".join(said)))
+        said: dict[str, list[str]] = {}
+        for place, keys in places.items():
+            for key, value in keys.items():
+                said.setdefault(f"`{key} = {_toml(value)}`", []).append(f"`{place}`")
+        rows.append((f"`{kind}`", "; ".join(f"{each} in {', '.join(tables)}" for each, tables in said.items())))
     intro = "Defaults that differ from those above (limits: on the simulated rotor only)."
     return f"### By kind of rotor\n\n{intro}\n\n{_rows(rows)}"
 

@@ -46,7 +46,7 @@ PROGRAMS = (
         "PstRotator",
         ("gs232b", "gs232a"),
         "serial or TCP",
-        "Yaesu GS-232 with the same letter, 9600 8N1; it polls `C` or `C2` up to 5 times a second and wants its answer",
+        "Yaesu GS-232 with the same letter, 9600 8N1; it polls up to 5 times a second",
         (b"M235\r", b"W235 025\r", b"C2\r", b"C\r", b"S\r"),
         "users' reports",
     ),
@@ -56,7 +56,7 @@ PROGRAMS = (
         "serial",
         "rotor menu *Yaesu_GS-232*; limits and 450° in the same menu",
         (b"W235 025\r", b"C2\r"),
-        "its manual, and another builder's controller that it drives",
+        "its manual, another builder's controller",
     ),
     Program(
         "OscarWatch",
@@ -99,12 +99,12 @@ PROGRAMS = (
         "general use",
     ),
     Program(
-        "Loggers, balloon trackers and others that steer PstRotator",
+        "Loggers, balloon trackers: all that steer PstRotator",
         ("pstrotator",),
         "UDP `0.0.0.0:12000`",
         "PstRotator, the Pi's address, port 12000; answers come back at 12001",
         (b"<PST><AZIMUTH>85</AZIMUTH></PST>", b"<PST>AZ?</PST>", b"<PST><STOP>1</STOP></PST>"),
-        "PstRotator's manual, and some of these programs' sources",
+        "PstRotator's manual, some programs' sources",
     ),
     Program(
         "N1MM Logger+",
