@@ -208,8 +208,8 @@ def _play(mast: Mast, drill: Drill, axis: Axis, offset_s: float) -> float:
 def _told(status: Status, drill: Drill, axis: Axis) -> bool:
     each = status.axis(axis)
     if drill.notice:
-        return any(notice.startswith(drill.fault) for notice in each.notices)
-    return each.fault is not None and each.fault.name == drill.fault
+        return any(notice.text.startswith(drill.fault) for notice in each.notices)
+    return each.fault is not None and each.fault.kind.text == drill.fault
 
 
 def worst(drill: Drill) -> float:

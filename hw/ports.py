@@ -25,6 +25,14 @@ class Direction(IntEnum):
     PLUS = 1
 
 
+class AngleSource(Enum):
+    """How the angle of an axis is known."""
+
+    MEASURED = "measured"
+    COUNTED = "counted"
+    MODELLED = "modelled"
+
+
 class HardwareError(Exception):
     """A device is missing, does not answer or answers nonsense. The text says what and where, for a person."""
 
@@ -32,8 +40,7 @@ class HardwareError(Exception):
 class AngleSensor(Protocol):
     """Tells where an axis is, in the sensor's own unit; calibration turns that into degrees."""
 
-    source: str
-    """How the angle is known: `measured`, `counted` or `modelled`."""
+    source: AngleSource
 
     def read(self) -> float:
         """The raw reading: for a pot the share of its supply, 0 to 1. May take milliseconds.

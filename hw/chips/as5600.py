@@ -7,7 +7,7 @@ addresses, so that nobody's chip is ever burned by accident.
 
 from __future__ import annotations
 
-from hw.ports import HardwareError, I2CBus
+from hw.ports import AngleSource, HardwareError, I2CBus
 
 ADDRESS = 0x36
 ADDRESS_L = 0x40
@@ -29,7 +29,7 @@ class As5600:
     A calibration made with one `zero_turn` is worth nothing with another.
     """
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, bus: I2CBus, address: int = ADDRESS, *, zero_turn: float = 0.0) -> None:
         self._bus = bus

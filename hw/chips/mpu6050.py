@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hw.ports import HardwareError, I2CBus
+from hw.ports import AngleSource, HardwareError, I2CBus
 
 ADDRESS = 0x68
 """With AD0 low; 0x69 with AD0 high."""
@@ -72,7 +72,7 @@ def _along(arrow: str, board_g: tuple[float, float, float]) -> float:
 class Mpu6050:
     """One chip. `clock` tells the time, `sleep` lets it pass while the chip wakes up; `averaged` readings at most."""
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(
         self,

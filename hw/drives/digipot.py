@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from hw.chips.mcp41010 import STEPS, Mcp41010
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.drives.scale import Scale
-from hw.ports import Axis, HardwareError, OutputLines
+from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 
 ENABLE = "box_enable"
 """The relay that feeds the boxes: without it they turn to the middle at power-on, where the chips start."""
@@ -223,7 +223,7 @@ def _say_again(box: _Box) -> None:
 class DigipotSensor:
     """One axis of the drive as an angle sensor; its readings are degrees already."""
 
-    source = "modelled"
+    source = AngleSource.MODELLED
 
     def __init__(self, drive: DigipotDrive, axis: Axis) -> None:
         self._drive = drive

@@ -13,7 +13,7 @@ from contextlib import suppress
 from hw.chips.pca9685 import Pca9685
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.drives.servo_axis import ServoAxis, ServoSpec
-from hw.ports import Axis, HardwareError, OutputLines
+from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 
 ENABLE = "servo_enable"
 """The line at the board's OE input; OE is active low, so this output is requested as active low."""
@@ -217,7 +217,7 @@ class ServoDrive:
 class ServoSensor:
     """One axis of the drive as an angle sensor; its readings are degrees already."""
 
-    source = "modelled"
+    source = AngleSource.MODELLED
 
     def __init__(self, drive: ServoDrive, axis: Axis) -> None:
         self._drive = drive

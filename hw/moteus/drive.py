@@ -12,7 +12,7 @@ from collections.abc import Callable
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import MoteusAxis, Wish
 from hw.moteus.orders import Answer, AxisSpec, Order
-from hw.ports import Axis, HardwareError
+from hw.ports import AngleSource, Axis, HardwareError
 
 
 class MoteusDrive:
@@ -176,7 +176,7 @@ class MoteusDrive:
 class MoteusSensor:
     """One axis of the drive as an angle sensor; its readings are degrees already."""
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, drive: MoteusDrive, axis: Axis) -> None:
         self._drive = drive

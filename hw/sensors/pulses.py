@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from hw.drives.relays import RELAYS
-from hw.ports import Axis, ContactChange, ContactInput, Direction, HardwareError, OutputLines
+from hw.ports import AngleSource, Axis, ContactChange, ContactInput, Direction, HardwareError, OutputLines
 from hw.sensors.cam import Cam
 from hw.sensors.cam_count import CamCount
 
@@ -67,7 +67,7 @@ class PulseCounter:
     `clock` is the kernel's monotonic time. Raises HardwareError where the debounce would swallow whole closures.
     """
 
-    source = "counted"
+    source = AngleSource.COUNTED
 
     def __init__(
         self,

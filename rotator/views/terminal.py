@@ -120,7 +120,7 @@ def _axes(status: Status) -> RenderableType:
             _degrees(each.target_deg),
             _bar(each),
             f"{each.min_deg:g}…{each.max_deg:g}°",
-            "" if each.raw is None else f"{each.raw:.4f} {each.source}",
+            "" if each.raw is None else f"{each.raw:.4f} {each.source.value}",
         )
     return table
 

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hw.ports import Axis, Direction
+from hw.ports import AngleSource, Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.panel.ladder import HALF_BAND, LEVELS, level, thrown
 from rotator.panel.panel import LAMPS, Panel, PanelAct, PanelLook, PanelSettings
@@ -20,7 +21,9 @@ PLUS, MINUS, OFF = Direction.PLUS, Direction.MINUS, Direction.OFF
 LOOK_S = 0.05
 MANUAL, PARK, AUTO, JOG = (False, False), (False, True), (True, False), (True, True)
 BITS = {MANUAL: Mode.MANUAL, PARK: Mode.PARK, AUTO: Mode.AUTO, JOG: Mode.JOG}
-STILL = Status(0.0, AxisStatus(0.0, 360.0, angle_deg=90.0, source="counted"), AxisStatus(0.0, 180.0, angle_deg=45.0))
+STILL = Status(
+    0.0, AxisStatus(0.0, 360.0, angle_deg=90.0, source=AngleSource.COUNTED), AxisStatus(0.0, 180.0, angle_deg=45.0)
+)
 LATCHED = replace(STILL, latched="panel")
 CENTRE, CW, CCW, UP, DOWN = (level(way) for way in ((OFF, OFF), (PLUS, OFF), (MINUS, OFF), (OFF, PLUS), (OFF, MINUS)))
 CW_AND_UP = level((PLUS, PLUS))
@@ -284,7 +287,7 @@ def test_turning_the_mode_switch_ends_a_jog_at_once() -> None:
 
 def test_an_axis_that_nobody_has_calibrated_gets_two_seconds_a_press() -> None:
     person = at_the_panel(JOG)
-    person.status = replace(STILL, azimuth=replace(STILL.azimuth, uncalibrated="homing"))
+    person.status = replace(STILL, azimuth=replace(STILL.azimuth, missing=(Missing.HOMING,)))
     *jogs, last = person.waits(5.0, jog=CW)
     assert set(jogs) == {Jog(AZ, PLUS, 0.3)}
     assert 1.95 <= len(jogs) * LOOK_S <= 2.05

@@ -24,7 +24,7 @@ from hw.buses.gpio import GpioInputs
 from hw.buses.i2c import SmbusI2C
 from hw.chips.ads1115 import Ads1115
 from hw.chips.pca9685 import Pca9685
-from hw.ports import Axis, Direction
+from hw.ports import AngleSource, Axis, Direction
 from hw.sensors.pot import PotSensor, Reference
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.panel.panel import LAMPS, Panel, PanelSettings
@@ -74,7 +74,9 @@ class Bench:
         self.wire = SimI2CBus(sleep)
         self.sim = SimPanel(SPEC, self.gpio, self.wire, clock)
         self.status = Status(
-            0.0, AxisStatus(0.0, 360.0, angle_deg=90.0, source="counted"), AxisStatus(0.0, 180.0, angle_deg=45.0)
+            0.0,
+            AxisStatus(0.0, 360.0, angle_deg=90.0, source=AngleSource.COUNTED),
+            AxisStatus(0.0, 180.0, angle_deg=45.0),
         )
         self.bug = False
         self.posted: list[Order] = []

@@ -16,7 +16,7 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.relay_pot import World
-from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from hw.ports import AngleSensor, AngleSource, Axis, Direction, HardwareError
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.model import Config
@@ -56,7 +56,7 @@ class Rig:
 class Hangs:
     """A sensor that goes well a few times and is then stuck in its reading until let go."""
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, sensor: AngleSensor, times: int) -> None:
         self._sensor = sensor
@@ -255,7 +255,7 @@ def test_who_moves_it_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixture) -
 class Bug:
     """A sensor that goes well until the motors run and then raises, or returns, what no sensor should."""
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, sensor: AngleSensor, world: World, outcome: Any) -> None:
         self._sensor = sensor

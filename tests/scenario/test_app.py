@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from firmware_sim.rotors.relay_pot import World
-from hw.ports import AngleSensor, Axis
+from hw.ports import AngleSensor, AngleSource, Axis
 from rotator.app import App
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
@@ -263,7 +263,7 @@ def test_a_terminal_that_cannot_be_made_ends_it_and_leaves_nothing(config: Confi
 class FailsInMotion:
     """A sensor whose driver has a bug that shows once the motors run."""
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, sensor: AngleSensor, world: World) -> None:
         self._sensor = sensor

@@ -22,7 +22,7 @@ from hw.moteus.drive import MoteusDrive
 from hw.moteus.faults import FAULTS
 from hw.moteus.library import MoteusInStep
 from hw.moteus.orders import WATCHDOG_S, AxisSpec
-from hw.ports import Axis, HardwareError
+from hw.ports import AngleSource, Axis, HardwareError
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 AZIMUTH = AxisSpec(can_id=1)
@@ -94,7 +94,7 @@ def test_it_goes_there_and_tells_so(axis: Axis) -> None:
     bench.follow(axis, 47.3, 10.0)
     assert bench.antenna(axis) == pytest.approx(47.3, abs=1e-3)
     assert bench.drive.sensor(axis).read() == pytest.approx(47.3, abs=1e-3)
-    assert bench.drive.sensor(axis).source == "measured"
+    assert bench.drive.sensor(axis).source is AngleSource.MEASURED
 
 
 # --- motion
