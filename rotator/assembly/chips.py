@@ -19,8 +19,8 @@ from hw.chips.bno055 import Bno055
 from hw.chips.pca9685 import MODE1, PRE_SCALE, SLEEP
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.faults import LIMITS, explain
-from hw.moteus.library import MoteusInStep
 from hw.moteus.orders import Mode
+from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, HardwareError
 from rotator.assembly.adc import Converter, open_adc
 from rotator.assembly.buses import Buses

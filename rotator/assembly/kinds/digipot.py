@@ -5,10 +5,11 @@ Part of the composition root. Decides nothing.
 
 from __future__ import annotations
 
-from firmware_sim.rotors.digipot import BoxSpec as SimBoxSpec
-from firmware_sim.rotors.digipot import DigipotRotor
+from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
 from hw.chips.mcp41010 import STEPS, Mcp41010
-from hw.drives.digipot import BoxSpec, DigipotDrive, DigipotSensor
+from hw.drives.control_box import BoxSpec
+from hw.drives.digipot import DigipotDrive
+from hw.drives.positioned import DriveAngle
 from hw.ports import AngleSensor, Axis, OutputLines
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.settings import own_points
@@ -32,22 +33,22 @@ def build(parts: Assembly, lines: OutputLines | None) -> PositionedRotor:
     drive = DigipotDrive(box(Axis.AZIMUTH), box(Axis.ELEVATION), parts.board.clock, enable=lines)
     sensors: dict[Axis, AngleSensor] = {}
     for axis, sensor in parts.sensors({axis: drive.sensor(axis) for axis in Axis}).items():
-        points = None if isinstance(sensor, DigipotSensor) else own_points(config, axis)
+        points = None if isinstance(sensor, DriveAngle) else own_points(config, axis)
         sensors[axis] = FollowedBox(drive, axis, sensor, Calibration(points)) if points else sensor
     return PositionedRotor(drive, sensors, parts.shift, parts.ends)
 
 
-def simulate(axes: SimulatedAxes) -> DigipotRotor:
+def simulate(axes: SimulatedAxes) -> SimDigipotRotor:
     tables = axes.config.digipot
 
-    def spec(axis: Axis) -> SimBoxSpec:
+    def spec(axis: Axis) -> DigipotAxisSpec:
         table = tables.of(axis)
         (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
         # The box compares with the end of its own pot, where the chip would be at its last step.
         full_deg = low_deg + (high_deg - low_deg) * (STEPS - low_step) / (high_step - low_step)
-        return SimBoxSpec(table.select, axes.start_deg(axis), axes.motor(axis), full_deg, table.dead_band_deg)
+        return DigipotAxisSpec(table.select, axes.start_deg(axis), axes.motor(axis), full_deg, table.dead_band_deg)
 
-    return DigipotRotor(
+    return SimDigipotRotor(
         spec(Axis.AZIMUTH),
         spec(Axis.ELEVATION),
         axes.clock,

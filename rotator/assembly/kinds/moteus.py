@@ -10,12 +10,12 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from firmware_sim.rotors.moteus import AxisSpec as SimAxisSpec
-from firmware_sim.rotors.moteus import MoteusWorld
+from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
-from hw.moteus.library import CanChannel, MoteusInStep, SerialPort
-from hw.moteus.orders import AxisSpec
+from hw.moteus.library import CanChannel, SerialPort
+from hw.moteus.orders import MoteusSpec
+from hw.moteus.wire import MoteusInStep
 from hw.ports import Axis, OutputLines
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulated_axes import SimulatedAxes
@@ -24,9 +24,9 @@ from rotator.rotors.moteus import MoteusRotor
 
 
 def moteus_drive(tables: Moteus, clock: Callable[[], float]) -> MoteusDrive:
-    def spec(axis: Axis) -> AxisSpec:
+    def spec(axis: Axis) -> MoteusSpec:
         table = tables.of(axis)
-        return AxisSpec(
+        return MoteusSpec(
             can_id=table.id,
             rev_per_turn=table.rev_per_turn,
             zero_rev=table.zero_rev,
@@ -54,7 +54,7 @@ def _served(parts: Assembly, drive: MoteusDrive) -> MoteusBus | MoteusInStep:
     world, opened = parts.board.world, parts.board.opened
     if world is None:
         return moteus_bus(parts.config.moteus, drive)
-    assert isinstance(world, MoteusWorld)
+    assert isinstance(world, SimMoteusRotor)
     if parts.in_step:
         return MoteusInStep(drive, world.transport())
     folder = opened.enter_context(tempfile.TemporaryDirectory(prefix="rotator-"))
@@ -64,9 +64,9 @@ def _served(parts: Assembly, drive: MoteusDrive) -> MoteusBus | MoteusInStep:
     return MoteusBus(drive, SerialPort(str(adapter.path)))
 
 
-def simulate(axes: SimulatedAxes) -> MoteusWorld:
-    def spec(axis: Axis) -> SimAxisSpec:
+def simulate(axes: SimulatedAxes) -> SimMoteusRotor:
+    def spec(axis: Axis) -> MoteusAxisSpec:
         table = axes.config.moteus.of(axis)
-        return SimAxisSpec(table.id, axes.start_deg(axis), table.rev_per_turn, table.zero_rev)
+        return MoteusAxisSpec(table.id, axes.start_deg(axis), table.rev_per_turn, table.zero_rev)
 
-    return MoteusWorld(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), axes.clock, axes.bus_sleep)
+    return SimMoteusRotor(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), axes.clock, axes.bus_sleep)

@@ -5,7 +5,7 @@ Part of the composition root. Decides nothing.
 
 from __future__ import annotations
 
-from firmware_sim.rotors.relay_pot import AxisSpec, World, WorldSpec
+from firmware_sim.rotors.relay_pot import RelayPotAxisSpec, RelayPotSpec, SimRelayPotRotor
 from hw.drives.relays import RelayBank
 from hw.ports import Axis, OutputLines
 from rotator.assembly.rotors import Assembly
@@ -30,14 +30,14 @@ def build(parts: Assembly, lines: OutputLines | None) -> RelayRotor:
     return RelayRotor(relay_bank(parts, lines), parts.sensors(), parts.ends)
 
 
-def simulate(axes: SimulatedAxes) -> World:
+def simulate(axes: SimulatedAxes) -> SimRelayPotRotor:
     relays = axes.config.relays
 
-    def spec(axis: Axis) -> AxisSpec:
-        return AxisSpec(axes.motor(axis), axes.pot(axis), axes.start_deg(axis), *relays.turning(axis))
+    def spec(axis: Axis) -> RelayPotAxisSpec:
+        return RelayPotAxisSpec(axes.motor(axis), axes.pot(axis), axes.start_deg(axis), *relays.turning(axis))
 
-    return World(
-        WorldSpec(
+    return SimRelayPotRotor(
+        RelayPotSpec(
             azimuth=spec(Axis.AZIMUTH),
             elevation=spec(Axis.ELEVATION),
             relays_active_low=relays.active == "low",

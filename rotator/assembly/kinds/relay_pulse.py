@@ -6,7 +6,7 @@ Part of the composition root. Decides nothing.
 from __future__ import annotations
 
 from firmware_sim.parts.contact import ContactSpec
-from firmware_sim.rotors.relay_pulse import PulseAxisSpec, PulseRotor
+from firmware_sim.rotors.relay_pulse import RelayPulseAxisSpec, SimRelayPulseRotor
 from hw.ports import Axis, OutputLines
 from hw.sensors.cam import Cam
 from hw.sensors.pulses import PulseCounter, TappedLines
@@ -68,16 +68,16 @@ def _counter(parts: Assembly, axis: Axis, tapped: TappedLines) -> PulseCounter:
     return PulseCounter(axis, contact, tapped, cam, parts.board.clock, debounce_s=pulses.debounce_s)
 
 
-def simulate(axes: SimulatedAxes) -> PulseRotor:
+def simulate(axes: SimulatedAxes) -> SimRelayPulseRotor:
     relays, pulses = axes.config.relays, axes.config.pulses
 
-    def spec(axis: Axis) -> PulseAxisSpec:
+    def spec(axis: Axis) -> RelayPulseAxisSpec:
         table = pulses.of(axis)
         cam = ContactSpec(table.spacing_deg, table.closed_deg, table.closes_at_deg, table.play_deg, SIM_BOUNCE_S)
         motor = axes.motor(axis, stop_low_deg=table.home_deg)
-        return PulseAxisSpec(*relays.turning(axis), table.contact, motor, cam, axes.start_deg(axis))
+        return RelayPulseAxisSpec(*relays.turning(axis), table.contact, motor, cam, axes.start_deg(axis))
 
-    return PulseRotor(
+    return SimRelayPulseRotor(
         spec(Axis.AZIMUTH),
         spec(Axis.ELEVATION),
         axes.clock,

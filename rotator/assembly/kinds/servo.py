@@ -5,9 +5,8 @@ Part of the composition root. Decides nothing.
 
 from __future__ import annotations
 
-from firmware_sim.parts.servo import ServoSpec as SimServoSpec
-from firmware_sim.rotors.servo import ServoAxisSpec
-from firmware_sim.rotors.servo import ServoRotor as SimServoRotor
+from firmware_sim.parts.servo import SimServoSpec
+from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
 from hw.chips.pca9685 import Pca9685
 from hw.drives.servo import ENABLE, ServoDrive
 from hw.drives.servo_axis import ServoSpec

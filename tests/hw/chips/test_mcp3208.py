@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import pytest
 
 from firmware_sim.buses.gpio import SimGpio
@@ -18,13 +20,18 @@ SELECT, SCK_PIN, SI_PIN, SO_PIN = 8, 11, 10, 9
 VREF_V = 3.3
 
 
+def input_v(channel: int) -> float:
+    """Another voltage at each input."""
+    return (0.05 + 0.1 * channel) * VREF_V
+
+
 class Bench:
     """A chip with another voltage at each input."""
 
     def __init__(self) -> None:
         self.clock = SimClock()
         self.chip = SimChip(VREF_V)
-        self.chip.inputs[:] = [lambda pin=pin: (0.05 + 0.1 * pin) * VREF_V for pin in range(8)]
+        self.chip.inputs[:] = [partial(input_v, pin) for pin in range(8)]
         self.gpio = SimGpio(self.clock)
         wire_spi(self.gpio, self.chip, select=SELECT, sck=SCK_PIN, si=SI_PIN, so=SO_PIN)
 
@@ -48,7 +55,7 @@ def test_every_input_reads_its_volts(kind: str) -> None:
     bench = Bench()
     driver = bench.driver(kind)
     for channel in range(8):
-        assert driver.volts(channel) == pytest.approx((0.05 + 0.1 * channel) * VREF_V, abs=VREF_V / 4096)
+        assert driver.volts(channel) == pytest.approx(input_v(channel), abs=VREF_V / 4096)
     assert bench.chip.conversions == 8
 
 
