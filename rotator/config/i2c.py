@@ -26,4 +26,4 @@ class I2CChip:
     key: str
     """The key of the file that names the address: `adc.address`."""
     part: str
-    """A key of `ADDRESSES`."""
+    """The name of the part, as in `ADDRESSES` where it can have several addresses."""

@@ -48,7 +48,7 @@ def i2c_devices(machine: Machine, config: Config) -> Iterator[Finding]:
         taken = {other.address for other in config.chips() if other.bus == chip.bus}
         try:
             with machine.chips.bus(chip.bus) as bus:
-                yield _device(bus, chip, set(ADDRESSES[chip.part]) - taken)
+                yield _device(bus, chip, set(ADDRESSES.get(chip.part, ())) - taken)
         except HardwareError:
             yield skipped(f"{chip_name(chip.key)}: the bus cannot be opened")
 
