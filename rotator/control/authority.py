@@ -25,7 +25,7 @@ class Authority:
         self._silenced: set[Source] = set()
 
     def stopped(self, source: Source, now_s: float, *, latch: bool) -> None:
-        """`source` stopped the antenna. The other sources that send now have no effect until they pause or reconnect."""
+        """`source` stopped the antenna. Other sources that send have no effect until they pause or reconnect."""
         self._forget(now_s)
         self._silenced |= set(self._last_heard_s) - {source}
         self._silenced.discard(source)

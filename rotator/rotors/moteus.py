@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
-from hw.moteus.library import MoteusInStep
+from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Acknowledge, Command, Errand, Place

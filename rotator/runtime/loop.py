@@ -84,7 +84,11 @@ class ControlLoop:
         self.act()
 
     def act(self) -> None:
-        """Take the orders that have come, decide, drive, tell. With the readings as they are."""
+        """Take the orders that have come, decide, drive and log, with the latest readings.
+
+        Raises HardwareError when the rotor is no longer guarded: nothing may move then.
+        """
+        self._rotor.check()
         with self._inbox_lock:
             posted, self._inbox = self._inbox, []
         orders = [(source, order) for source, order, _ in posted]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import cast
 
 import pytest
 
@@ -13,7 +14,7 @@ from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.sensing import ANYTHING, Condition, Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
-from rotator.control.axis.switched_law import Run
+from rotator.control.commands import Run
 from rotator.control.controller import Controller, Settings
 from rotator.control.sky.mount import Mount, Range
 from rotator.faults import Missing
@@ -107,7 +108,8 @@ class Desk:
             )
             for axis in Axis
         }
-        self.runs = self.controller.step(self.now_s, readings, [(by, order) for order in orders])
+        commands = self.controller.step(self.now_s, readings, [(by, order) for order in orders])
+        self.runs = cast(dict[Axis, Run], commands)
         self.driven = {axis: run.direction for axis, run in self.runs.items()}
         self.controller.note_driven(self.now_s, self.driven)
         self.status = self.controller.status(self.now_s)

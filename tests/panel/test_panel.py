@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -19,6 +20,8 @@ from rotator.status import AxisStatus, Status
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PLUS, MINUS, OFF = Direction.PLUS, Direction.MINUS, Direction.OFF
 LOOK_S = 0.05
+about: Any = pytest.approx
+"""An angle in an order that is compared, to a float's last digits."""
 MANUAL, PARK, AUTO, JOG = (False, False), (False, True), (True, False), (True, True)
 BITS = {MANUAL: Mode.MANUAL, PARK: Mode.PARK, AUTO: Mode.AUTO, JOG: Mode.JOG}
 STILL = Status(
@@ -200,28 +203,28 @@ def test_in_manual_the_knobs_show_on_the_meters_and_send_the_rotors_a_second_aft
         assert person.sees(azimuth_knob=turned / 20, elevation_knob=turned / 10) == []
     assert person.act.meters == {AZ: 0.45, EL: 0.9}
     assert person.waits(0.95) == []
-    assert person.sees() == [Aim(pytest.approx(162.0), pytest.approx(162.0))]
+    assert person.sees() == [Aim(about(162.0), about(162.0))]
     assert person.act.meters == {AZ: 0.25, EL: 0.25}
     assert person.waits(5.0) == []
 
 
 def test_a_knob_that_was_not_turned_leaves_its_axis_where_it_is() -> None:
     person = at_the_panel(MANUAL)
-    assert person.waits(2.0, elevation_knob=0.5) == [Aim(None, pytest.approx(90.0))]
+    assert person.waits(2.0, elevation_knob=0.5) == [Aim(None, about(90.0))]
 
 
 def test_both_knobs_must_have_stopped() -> None:
     person = at_the_panel(MANUAL)
     assert person.waits(0.8, azimuth_knob=0.5) == []
     assert person.waits(0.95, elevation_knob=0.5) == []
-    assert person.waits(0.1) == [Aim(pytest.approx(180.0), pytest.approx(90.0))]
+    assert person.waits(0.1) == [Aim(about(180.0), about(90.0))]
 
 
 def test_jitter_of_one_count_is_ignored() -> None:
     person = at_the_panel(MANUAL)
     for _ in range(50):
         assert person.sees(azimuth_knob=1 / 255) == person.sees(azimuth_knob=0.0) == []
-    assert person.waits(2.0, azimuth_knob=2 / 255) == [Aim(pytest.approx(360 * 2 / 255), None)]
+    assert person.waits(2.0, azimuth_knob=2 / 255) == [Aim(about(360 * 2 / 255), None)]
 
 
 def test_a_knob_turned_before_the_mode_was_told_orders_nothing() -> None:
@@ -425,7 +428,7 @@ def test_while_calibrating_switches_and_knobs_move_nothing() -> None:
 def test_a_full_scale_that_was_kept_makes_the_knob_s_end_the_axis_s_end() -> None:
     person = Person(Panel(PanelSettings(), {AZ: 0.8}))
     person.waits(2.0, mode_bits=MANUAL)
-    assert person.waits(2.0, azimuth_knob=0.8) == [Aim(pytest.approx(360.0), None)]
+    assert person.waits(2.0, azimuth_knob=0.8) == [Aim(about(360.0), None)]
     assert person.waits(2.0, azimuth_knob=0.9) == []  # it cannot be further than at its end
 
 

@@ -5,6 +5,8 @@ Knows how an order travels and what the two pots read. Knows no protocol.
 
 from __future__ import annotations
 
+from typing import cast
+
 import pytest
 
 from hw.ports import Axis, Direction
@@ -13,6 +15,7 @@ from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.sensing import Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
+from rotator.control.commands import Run
 from rotator.control.controller import Controller, Settings
 from rotator.control.sky.mount import Mount, Range
 from rotator.faults import Missing
@@ -99,7 +102,7 @@ class BenchBox:
         readings = {axis: Reading(self.now_s, None if self._blind else raw) for axis, raw in self._raw.items()}
         orders, self._waiting = self._waiting, []
         runs = self._controller.step(self.now_s, readings, orders)
-        self.driven = {axis: run.direction for axis, run in runs.items()}
+        self.driven = {axis: cast(Run, run).direction for axis, run in runs.items()}
         self.turned |= {axis for axis, direction in self.driven.items() if direction}
         self._controller.note_driven(self.now_s, self.driven)
         self._status = self._controller.status(self.now_s)

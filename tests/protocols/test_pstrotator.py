@@ -84,7 +84,7 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
     (b"<PST><ELEVATION>181</ELEVATION></PST>", [], []),
     (b"<PST><AZIMUTH>9999</AZIMUTH></PST>", [], []),
 ]
-PROGRAMS = {
+PROGRAMS: dict[str, list[tuple[bytes, list[Order]]]] = {
     "Hamlib 4.6, model 3": [
         (b"<PST><AZIMUTH>123.450000.2</AZIMUTH></PST>", [Aim(123.45, None)]),
         (b"<PST><ELEVATION>45.000000.2</ELEVATION></PST>", [Aim(None, 45)]),

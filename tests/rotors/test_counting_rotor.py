@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from firmware_sim.rotors.relay_pulse import PulseRotor
+from firmware_sim.rotors.relay_pulse import SimRelayPulseRotor
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Home, Jog, Stop
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
@@ -181,5 +181,5 @@ def test_nor_is_it_met_by_the_opposite_relay(new_box: NewBox) -> None:
     box.run(5.0)
     box.order(Stop(), Jog(AZ, MINUS))
     box.run(1.5)
-    assert isinstance(box.world, PulseRotor)
+    assert isinstance(box.world, SimRelayPulseRotor)
     assert box.world.azimuth.motor.shorted_s == 0.0

@@ -40,7 +40,8 @@ def status(
 
 def with_axis(axis: Axis, **more: Any) -> Status:
     now = status()
-    return replace(now, **{axis.value: replace(now.axis(axis), **more)})
+    changed: Any = {axis.value: replace(now.axis(axis), **more)}
+    return replace(now, **changed)
 
 
 def uppers(now: Status, seconds: int = 16) -> list[str]:

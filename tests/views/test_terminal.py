@@ -6,15 +6,17 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from io import StringIO
+from typing import Any
 
 import pytest
 from rich.console import Console, RenderableType
+from rich.text import Text
 
 from hw.ports import Axis, Direction
-from rotator.faults import Fault, FaultKind, Missing
+from rotator.faults import Fault, FaultKind, Missing, Notice
 from rotator.links.wire import Wire
 from rotator.status import AxisStatus, Status
-from rotator.views import terminal
+from rotator.views import frame, terminal
 
 WIDTH = 100
 GLASS = ("SAT A:235 E:025 ", "SIM A:231 E:024 ")
@@ -87,7 +89,8 @@ def test_both_axes() -> None:
 def test_the_relay_that_is_on_is_lit(axis: Axis, drive: Direction, lit: str) -> None:
     still = replace(STATUS, azimuth=replace(STATUS.azimuth, drive=Direction.OFF))
     assert "●" not in show(still)
-    picture = show(replace(still, **{axis.value: replace(still.axis(axis), drive=drive)}))
+    changed: Any = {axis.value: replace(still.axis(axis), drive=drive)}
+    picture = show(replace(still, **changed))
     assert picture.count("●") == 1
     assert lit + " " in picture
     assert picture.count("○") == 3
@@ -174,7 +177,54 @@ def test_log_and_keys() -> None:
 def test_it_fits_its_width(wires: list[Wire]) -> None:
     wires[1].where = "a-very-long-host-name.of-somebody.example.org:4533"
     rows = show(wires=wires, log=["long " * 50]).splitlines()
-    assert {len(row.rstrip()) for row in rows if row.strip()} == {terminal.WIDTH}
+    assert {len(row.rstrip()) for row in rows if row.strip()} == {frame.WIDTH}
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(80, 24), (100, 30), (60, 20), (40, 12), (80, 10)])
+@pytest.mark.parametrize("trouble", [False, True])
+def test_on_a_small_terminal_its_frame_is_whole_and_what_matters_stays(
+    wires: list[Wire], columns: int, rows: int, trouble: bool
+) -> None:
+    for wire in wires:
+        wire.last_in, wire.last_out = b"C2\r" * 21, b"AZ=231  EL=024\r\n" * 4
+    now = STATUS
+    if trouble:
+        hot = (Notice("motor hot: 30 min"),)
+        elevation = replace(STATUS.elevation, fault=FAULT, missing=(Missing.LIMITS,), notices=hot)
+        now = replace(STATUS, latched="panel", elevation=elevation)
+    screen = Console(file=StringIO(), width=columns, height=rows, force_terminal=True, legacy_windows=False)
+    log = [f"12:00:0{second} W gs232b: refused {'long ' * 20}" for second in range(6)]
+    lines = screen.render_lines(terminal.picture("0.1.0", now, GLASS, wires, log), pad=False)
+    seen = ["".join(segment.text for segment in line) for line in lines]
+    assert len(seen) <= rows
+    assert {len(line) for line in seen} == {min(columns, frame.WIDTH)}
+    assert [line[0] + line[-1] for line in seen] == ["╭╮", *["││"] * (len(seen) - 2), "╰╯"]
+    assert any("space STOP" in line for line in seen)
+    assert not trouble or "held by panel" in " ".join(seen)
+    if columns >= 60 and rows >= 20:
+        for axis in Axis:
+            assert re.search(rf"{axis.value} .*°.*0…\d+°.*\d\.\d{{4}} measured", "\n".join(seen))
+        for word in ("gs232b ", "run/gs232 ", "127.0.0.1:4533 ", *GLASS):
+            assert word in "\n".join(seen)
+        assert trouble or any("12:00:05" in line for line in seen), "the newest log line"
+
+
+def test_a_table_takes_what_room_there_is() -> None:
+    cells = [Text("0123456789")]
+    columns = [
+        frame.Column("a", cells),
+        frame.Column("b", cells, least=4, rank=1, end=True),
+        frame.Column("c", cells, least=4),
+    ]
+
+    def last(width: int) -> str:
+        return frame.table(columns, width, rank=0, head_rank=0, rule_rank=0)[-1].text.plain
+
+    assert last(36) == "0123456789   0123456789   0123456789"
+    assert last(35) == "0123456789  0123456789  0123456789"
+    assert last(30) == "0123456789  …56789  0123456789"
+    assert last(27) == "0123456789   0123456789", "the one that matters least is left out"
+    assert last(20) == "0123456789  0123456…"
 
 
 def test_the_arduino(wires: list[Wire]) -> None:

@@ -79,11 +79,16 @@ class Trend:
         """The line through the readings from that moment on; None where there are too few."""
         # Times are counted from the last reading: sums of small numbers keep their digits.
         count, sum_t, sum_x, sum_tt, sum_tx = 0, 0.0, 0.0, 0.0, 0.0
+        last_s, last_deg = self._kept[-1] if self._kept else (0.0, 0.0)
         for at_s, angle_deg in reversed(self._kept):
             if at_s < from_s:
                 break
-            t, x = at_s - self._kept[-1][0], angle_deg - self._kept[-1][1]
-            count, sum_t, sum_x, sum_tt, sum_tx = count + 1, sum_t + t, sum_x + x, sum_tt + t * t, sum_tx + t * x
+            t, x = at_s - last_s, angle_deg - last_deg
+            count += 1
+            sum_t += t
+            sum_x += x
+            sum_tt += t * t
+            sum_tx += t * x
         if count < JUMP_READINGS:
             return None
         spread = sum_tt - sum_t * sum_t / count
@@ -101,7 +106,7 @@ class Trend:
         self._strays = []
 
     def _note_noise(self) -> None:
-        """Follow the median of the bend of three readings in a row. Sparks and starting motors hardly change a median."""
+        """Follow the median of the bend of three readings in a row: sparks and starting motors hardly change it."""
         if len(self._kept) < 3:
             return
         bend_deg = abs(self._kept[-1][1] - 2.0 * self._kept[-2][1] + self._kept[-3][1])
