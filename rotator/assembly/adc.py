@@ -65,7 +65,7 @@ def _ads1115(table: Adc, buses: Buses, *, widest: bool) -> Converter:
 
 def _mcp3208(table: Adc, buses: Buses) -> Converter:
     (use,) = table.spi_uses()
-    # VREF is the supply of the pots: the reading is a share of it, whatever it really is.
+    # VREF is the supply of the pots: the reading is a share of it, at any voltage.
     inputs = Mcp3208(buses.spi(use), "select", table.supply_v, None if use.kernel else buses.clock)
     return Converter(inputs, inputs.answers, table.supply_v)
 

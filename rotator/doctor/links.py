@@ -121,7 +121,7 @@ def _port(machine: Machine, name: str, kind: socket.SocketKind) -> Finding:
     if all(_is_loopback(place) for place in places):
         return fine(f"{name}: {state}")
     return warn(
-        f"{name}: {state}, and open to the network: whoever reaches it can turn the antenna",
+        f"{name}: {state}, and open to the network: every machine on it can turn the antenna",
         f"127.0.0.1:{port} keeps it to programs on this machine; a firewall keeps strangers out.",
     )
 

@@ -58,7 +58,7 @@ def _board(name: str, board: OutputBoard, *, is_running: bool | None) -> Finding
     if board.waits_for_a_clock:
         return wrong(
             f"{name} waits for a clock from outside, and makes no pulse",
-            "Some program has told it to; only switching its 3.3 V off and on ends that.",
+            "A program has set it so; only switching its 3.3 V off and on ends that.",
         )
     if is_running and board.asleep:
         return wrong(

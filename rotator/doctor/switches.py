@@ -15,7 +15,7 @@ from rotator.doctor.wires import running
 
 POSITIONS = (
     "MANUAL: the knobs move the antenna, programs do not",
-    "PARK: nobody moves the antenna",
+    "PARK: the antenna stays where it is",
     "AUTO: programs move the antenna",
     "JOG: the jog switches move the antenna, programs do not",
 )

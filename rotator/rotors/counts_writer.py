@@ -24,7 +24,7 @@ def at_once(job: Callable[[], None]) -> None:
 
 class Mark(Enum):
     NONE = "the file does not say that it moves"
-    ASKED = "the file is being told"
+    ASKED = "the file is being written"
     SET = "the file says that it moves"
     REFUSED = "the file cannot be written"
 
