@@ -7,17 +7,8 @@ Whatever must not fail unseen is normally closed: a broken wire then reads as pr
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Protocol
 
-from hw.ports import Axis, Direction
-
-
-class SwitchInputs(Protocol):
-    """A few contacts that are read together, by name."""
-
-    def read(self) -> dict[str, bool]:
-        """True: closed. Raises HardwareError."""
-
+from hw.ports import Axis, Direction, SwitchInputs
 
 LIMITS = {
     "azimuth_low": (Axis.AZIMUTH, Direction.MINUS),

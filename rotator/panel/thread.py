@@ -16,8 +16,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from hw.ports import AngleSensor, Axis, HardwareError
-from hw.sensors.switches import SwitchInputs
+from hw.ports import AngleSensor, Axis, HardwareError, SwitchInputs
 from rotator.orders import Order, Stop
 from rotator.panel.panel import Panel, PanelAct, PanelLook
 from rotator.status import Status
