@@ -31,7 +31,7 @@ def decode(form: str, text: str, parse: Parse[T]) -> T:
     try:
         content = json.loads(text)
         if not isinstance(content, dict) or content.get("format") != form:
-            raise ValueError(f"its format is not {form!r}")
+            raise ValueError("it is not the box's")
         return parse(content)
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as fault:
         raise ValueError(str(fault) or type(fault).__name__) from fault

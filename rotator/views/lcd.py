@@ -1,6 +1,6 @@
 """Two rows of sixteen characters: where the satellite is, where the antenna is.
 
-Knows the layout and what may take its place for a moment. Knows no display.
+Knows the layout, and the notices that replace the upper row for a moment. Does not know the display.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from rotator.status import Status
 
 COLUMNS = 16
 ALTERNATE_S = 2.0
-"""A fault takes the upper row every other two seconds."""
+"""Satellite and notices take the upper row in turn, for this long each."""
 _SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
 _SHORT_FAULTS = {
     "pot open or shorted": "POT OPEN/SHRT",
@@ -28,7 +28,7 @@ _SHORT_FAULTS = {
     "controller silent": "CTRL SILENT",
     "position unknown": "POS UNKNOWN",
 }
-"""Where a fault's own name is longer than the thirteen characters beside the axis."""
+"""For faults whose name is longer than the thirteen characters beside the axis."""
 _SHORT_NOTICES = {
     "turning with no relay on": "TURNS BY SELF",
     "still turning with the master open": "STILL TURNS",
@@ -44,7 +44,8 @@ _SHORT_NOTICES = {
     "braking that feeds the supply": "BRAKING",
     "field weakening": "FIELD WEAK",
 }
-"""What a notice says before its colon. One that is not here would hide the satellite for good: the log has it."""
+"""By the text of a notice before its colon. Other notices are not shown here: they would hide the satellite for the
+whole pass. The log has them."""
 
 
 def rows(status: Status, now_s: float) -> tuple[str, str]:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.panel.ladder import HALF_BAND, LEVELS, level, thrown
-from rotator.panel.panel import LAMPS, Panel, PanelAct, PanelLook, PanelSettings
+from rotator.panel.panel import LAMPS, Panel, PanelInputs, PanelOutput, PanelSettings
 from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -31,12 +31,12 @@ class Person:
     """At the panel, with time in hand."""
 
     panel: Panel = field(default_factory=lambda: Panel(PanelSettings()))
-    look: PanelLook = field(
-        default_factory=lambda: PanelLook(mode_bits=AUTO, jog=CENTRE, azimuth_knob=0.0, elevation_knob=0.0)
+    look: PanelInputs = field(
+        default_factory=lambda: PanelInputs(mode_bits=AUTO, jog=CENTRE, azimuth_knob=0.0, elevation_knob=0.0)
     )
     status: Status = STILL
     looks: int = 0
-    act: PanelAct = field(default_factory=lambda: PanelAct((), {}, {}))
+    act: PanelOutput = field(default_factory=lambda: PanelOutput((), {}, {}))
 
     def sees(self, **parts: object) -> list[Order]:
         """One look at the panel, with these parts changed."""

@@ -1,6 +1,6 @@
-"""The tag list of docs/protocols.md for PstRotator's UDP control, made as the tables of `reference` are.
+"""The table of PstRotator's UDP tags in docs/protocols.md.
 
-Knows one example of each tag. Does not know what any does or answers: it asks.
+Knows one example of each tag. The protocol's own session gives the answers.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ _VALUES = {
     "ELEVATION": f"{ELEVATION_DEG:g}",
     "TRACK": f"{AZIMUTH_DEG:g} {ELEVATION_DEG:g}",
 }
-"""All others are switched on with a 1."""
+"""All other tags take a 1."""
 
 
 def pstrotator_table() -> str:

@@ -1,7 +1,6 @@
-"""More command tables of docs/protocols.md: EasyComm, SPID and DCU-1, made as those of `reference` are.
+"""The command tables of EasyComm, SPID and DCU-1 in docs/protocols.md.
 
-Knows one example of each command, and how bytes that are no text are shown. Does not know what any command does or
-answers: it asks.
+Knows one example of each command, and how binary bytes are shown. The protocols' own sessions give the answers.
 """
 
 from __future__ import annotations
@@ -15,12 +14,12 @@ from rotator.protocols.spid import Command, Frame, Model, Turn
 from rotator.protocols.spid_session import PULSES, SpidSession
 
 _EASYCOMM_EXAMPLES = {"VL": "VL4900", "VR": "VR4900", "VU": "VU4900", "VD": "VD4900"}
-"""Commands that are written with numbers; all others stand alone."""
+"""Commands with numbers; all others have none."""
 _DCU1_EXAMPLES = {"AP1": "AP1235;"}
 
 
 def easycomm_table() -> str:
-    """Every EasyComm command that concerns a rotor, from which standard on, with an example and its answer."""
+    """Every EasyComm command for a rotor, the first standard that has it, an example and its answer."""
     rows: list[tuple[str, ...]] = [("command", "from", "what it does", "example", "answer")]
     for verb in easycomm.VERBS:
         example = _EASYCOMM_EXAMPLES.get(verb.text, verb.text)
@@ -30,7 +29,7 @@ def easycomm_table() -> str:
 
 
 def spid_table() -> str:
-    """Every SPID command with the frame that means 235/25, or left, and what each controller answers, in hex."""
+    """Every SPID command with its frame for 235/25, or left, and each controller's answer, in hex."""
     rows: list[tuple[str, ...]] = [("K", "what it does", "for", "sent", "answer")]
     for row in spid.ROWS:
         for model in row.models:

@@ -1,6 +1,6 @@
-"""The programs that turn antennas: which protocol each wants, what to set in it, what it says, and how we know.
+"""Programs that turn antennas: the protocol of each, what to set in it, the bytes that it sends, and our source.
 
-Knows facts about other people's programs. Does not know what their words do: the protocols' own sessions are asked.
+Knows facts about those programs. Does not know what their bytes do: tests give them to the protocols' sessions.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 LONGEST_SHOWN = 44
 VERIFIED = "**verified**"
-"""The real program was run against this box."""
+"""The real program has been run against this box."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +17,7 @@ class Program:
     name: str
     protocols: tuple[str, ...]
     where: str
-    """Which kind of link, in words; empty: any that the protocol has."""
+    """The kind of link, in words; empty: every link that the protocol has."""
     settings: str
     says: tuple[bytes, ...]
     """What it is known to send, to the byte; each must be understood."""
@@ -154,6 +154,6 @@ def programs_table() -> str:
     return "\n".join(rows) + "\n"
 
 
-def _shown(said: bytes) -> str:
-    text = said.decode("ascii").encode("unicode_escape").decode("ascii")
+def _shown(sent: bytes) -> str:
+    text = sent.decode("ascii").encode("unicode_escape").decode("ascii")
     return text if len(text) <= LONGEST_SHOWN else text[: LONGEST_SHOWN - 1] + "…"
