@@ -65,7 +65,7 @@ _SECONDS = re.compile(r"[0-9]{1,3}(?:[.,][0-9]{1,3})?")
 
 
 def parse(line: bytes) -> ConsoleCommand:
-    """From one line, without its end, to a command. Capitals do not matter. Raises ValueError with a sentence to show."""
+    """From one line, without its end, to a command; capitals do not matter. Raises ValueError for the operator."""
     words = [word for word in line.lower().replace(b"\t", b" ").decode("latin-1").split(" ") if word]
     match words:
         case ["status"] | ["help"]:

@@ -105,7 +105,7 @@ class Dcu1Session:
         if octet == SEMICOLON and half_ended:
             return b""
         if octet not in (SEMICOLON, CR):
-            # Noise before a command is skipped, so that a stop after it is obeyed. A text that is too long stays invalid.
+            # Noise before a command is skipped, so that a stop after it is obeyed. A text too long stays invalid.
             if (self._begun or octet not in _NOISE) and len(self._begun) <= MAX_COMMAND:
                 self._begun += octet
             return b""

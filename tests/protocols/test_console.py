@@ -107,7 +107,7 @@ def test_reads_as_well(line: bytes, said: ConsoleCommand) -> None:
 
 @pytest.mark.parametrize("order", [Stop(), Park(), Aim(235.0, None), Jog(Axis.AZIMUTH, Direction.PLUS)])
 def test_has_no_words_for_what_links_say(order: Order) -> None:
-    with pytest.raises(ValueError, match="the console has no words for"):
+    with pytest.raises(ValueError, match="the console has no command for"):
         encode(order)
 
 
