@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from hw.ports import Axis, CompassCalibration
 from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import FULL_TURN_DEG, UNCALIBRATED, CompassReading, HeadingSample
-from rotator.calibrating.degrees_guide import CONFIRM_S, ORDER_TAKEN_S
 from rotator.calibrating.entries import Entry, Press, StopNow
-from rotator.calibrating.guide import Abandoned, Guide, Steps
+from rotator.calibrating.guide import CONFIRM_S, ORDER_TAKEN_S, Abandoned, Guide, Steps
 from rotator.control.sky.angles import turn_deg
 from rotator.orders import Aim, Confirm, Jog, Stop
 from rotator.status import AxisStatus, Status

@@ -13,17 +13,12 @@ from rotator.assembly.calibration import CalibrationTraits
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
 from rotator.calibrating.axis_state import needs_homing, position_unknown
 from rotator.calibrating.entries import Enter, Number, StopNow
-from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Steps
+from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import NotTrusted
 from rotator.calibrating.results import AxisCalibrated
 from rotator.calibrating.table_draft import LEAST_SPAN_DEG
 from rotator.orders import Confirm, Home, Stop
-
-ORDER_TAKEN_S = 0.5
-"""An order shows in the status after this time at the latest."""
-CONFIRM_S = 5.0
-"""A controller takes a confirmed angle within this time."""
 
 
 class DegreesGuide(AxisGuide):
@@ -57,9 +52,7 @@ class DegreesGuide(AxisGuide):
     def _find_position(self) -> Steps:
         """A controller behind a gear does not know its angle after power-on, and nothing moves before it does."""
         yield
-        began_s = self._now_s
-        while self._axis.raw is None and not position_unknown(self._axis) and self._now_s - began_s < CONFIRM_S:
-            yield
+        yield from self._await_axis()
         while position_unknown(self._axis):
             self._say("", "The controller does not know where it stands. Look at the antenna.")
             angle_deg = yield from self._number("Which angle is that on the rotor's own scale?", None)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Generator
 from dataclasses import dataclass
 
+from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.entries import (
     NUMBER_FORM,
     Enter,
@@ -30,6 +31,10 @@ Asked = Generator[None, None, object]
 """Ends with an entry, or with an event that happened meanwhile."""
 
 NOTHING_SAVED = "Nothing is saved."
+ORDER_TAKEN_S = 0.5
+"""An order shows in the status after this time at the latest."""
+CONFIRM_S = 5.0
+"""A motor controller reports its angle within this time after it has been connected or told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +123,12 @@ class Guide:
     def _axis(self) -> AxisStatus:
         """The axis that is being set up."""
         raise NotImplementedError
+
+    def _await_axis(self) -> Steps:
+        """Wait until the axis has a reading, or its controller reports that it does not know its angle."""
+        began_s = self._now_s
+        while self._axis.raw is None and not position_unknown(self._axis) and self._now_s - began_s < CONFIRM_S:
+            yield
 
     # --- one question
 

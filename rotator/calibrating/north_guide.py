@@ -19,7 +19,6 @@ from rotator.calibrating.bearing import (
     possible_angles_deg,
 )
 from rotator.calibrating.compass_guide import KEYS, LEAST_PLACES, PAUSE_S, CompassGuide, CompassReady, NorthFacts
-from rotator.calibrating.degrees_guide import CONFIRM_S
 from rotator.calibrating.entries import NUMBER_FORM, Enter, No, Number, Yes
 from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Steps
 from rotator.calibrating.results import AngleConfirmed, NorthFound
@@ -60,11 +59,9 @@ class NorthGuide(CompassGuide):
     def _await_devices(self) -> Steps:
         """Give the compass and the azimuth time to answer."""
         yield
-        began_s = self._now_s
         while self._compass is None or self._compass.problem:
             yield
-        while self._axis.raw is None and not position_unknown(self._axis) and self._now_s - began_s < CONFIRM_S:
-            yield
+        yield from self._await_axis()
 
     def _find_position(self) -> Generator[None, None, bool]:
         """Returns whether the compass is to give the azimuth's angle instead of north. Raises Abandoned."""

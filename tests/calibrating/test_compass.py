@@ -1,4 +1,4 @@
-"""The compass as the guide to north sees it: the real driver on a simulated chip, in step and with its own thread."""
+"""The compass reader: the real driver on a simulated chip, in simulated time and with its own thread."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def fitted(clock: Any, sleep: Any, file: CompassFile | None = None) -> tuple[Com
     return CompassReader(open_compass(CONFIG, board), clock, file), world
 
 
-def test_it_tells_where_the_boom_points_and_how_well_it_knows() -> None:
+def test_it_reads_the_heading_and_the_calibration() -> None:
     clock = SimClock()
     reader, _ = fitted(clock, clock.sleep)
     reader.read()
@@ -46,7 +46,7 @@ def test_it_tells_where_the_boom_points_and_how_well_it_knows() -> None:
     assert str(seen.calibration) == "system 3, gyroscope 3, accelerometer 3, magnetometer 3 of 3"
 
 
-def test_one_that_is_gone_says_so_and_comes_back() -> None:
+def test_a_missing_compass_is_a_problem_until_it_answers_again() -> None:
     clock = SimClock()
     reader, world = fitted(clock, clock.sleep)
     world.inject("compass-gone")
@@ -58,7 +58,7 @@ def test_one_that_is_gone_says_so_and_comes_back() -> None:
     assert reader.latest.problem == ""
 
 
-def test_what_cannot_be_asked_for_is_not_kept(tmp_path: Path) -> None:
+def test_corrections_that_cannot_be_read_are_not_saved(tmp_path: Path) -> None:
     clock = SimClock()
     reader, world = fitted(clock, clock.sleep, CompassFile(tmp_path / "compass.json"))
     reader.read()
@@ -70,11 +70,11 @@ def test_what_cannot_be_asked_for_is_not_kept(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
-def test_its_thread_looks_until_it_is_stopped() -> None:
-    looked = threading.Event()
-    reader, _ = fitted(time.monotonic, lambda seconds: looked.set())
+def test_its_thread_reads_until_it_is_stopped() -> None:
+    read_once = threading.Event()
+    reader, _ = fitted(time.monotonic, lambda seconds: read_once.set())
     reader.start()
-    assert looked.wait(10.0)
+    assert read_once.wait(10.0)
     reader.stop()
 
 

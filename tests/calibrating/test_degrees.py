@@ -1,4 +1,4 @@
-"""Setting up axes whose readings are degrees already: every kind of rotor that has such, on its simulated chips."""
+"""Setting up axes whose readings are degrees: every such kind of rotor, on its simulated chips."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def test_limits_are_where_it_has_been_driven_to(calibration: Any) -> None:
     assert high_deg - low_deg > 200.0
 
 
-def test_servos_are_known_by_what_they_were_told(calibration: Any) -> None:
+def test_a_servo_is_where_it_was_ordered_to(calibration: Any) -> None:
     run = calibration(SERVOS, start_deg=(90.0, 90.0))
     assert "the servo runs to 90°, as fast as it can: keep clear. When it stands, press again." in run.text
     assert "stands still at 90.0°" in run.say("r 0.5")
@@ -121,7 +121,7 @@ def test_limits_that_make_no_sense(calibration: Any, low: str, high: str, words:
     assert not run.guide.ended
 
 
-def test_a_controller_that_does_not_know_where_it_stands_is_told_first(calibration: Any) -> None:
+def test_a_controller_that_does_not_know_its_angle_is_given_one_first(calibration: Any) -> None:
     run = calibration(ISEL, start_deg=(90.0, 30.0), bad_luck="azimuth-power-cycled")
     assert "The controller does not know where it stands. Look at the antenna." in run.text
     assert "It stands at 90.0°" in run.say("91")
@@ -140,7 +140,7 @@ def test_with_offsets_everything_stays_on_the_rotors_own_scale(calibration: Any)
 # --- a count
 
 
-def test_a_count_that_nobody_has_homed(calibration: Any, tmp_path: Path) -> None:
+def test_a_count_that_has_never_been_homed(calibration: Any, tmp_path: Path) -> None:
     run = calibration(U100, start_deg=(30.0, 10.0), counts=tmp_path / "counts.json")
     run.say("r", "y", "l", "y")
     said = run.say("y")
@@ -194,7 +194,7 @@ def test_back_is_seen_by_eye_too(calibration: Any) -> None:
     assert "swap azimuth_cw" in run.say("r", "y", "l", "n")
 
 
-# --- what is not believed
+# --- readings that are not trusted
 
 
 def test_an_antenna_that_swings(calibration: Any) -> None:
@@ -215,12 +215,12 @@ def test_an_antenna_that_swings(calibration: Any) -> None:
         ([10.0 + 0.05 * at for at in range(40)], r"moved by \+1.0°"),
     ],
 )
-def test_degrees_that_are_not_believed(readings: list[float], reason: str) -> None:
+def test_degrees_that_are_not_trusted(readings: list[float], reason: str) -> None:
     with pytest.raises(NotTrusted, match=reason):
         measure(readings, -1000.0, 1000.0, DEGREES)
 
 
-def test_a_rotor_that_is_told_angles_cannot_be_led_to_the_ends_of_a_pot(calibration: Any) -> None:
+def test_a_rotor_that_is_sent_angles_cannot_be_driven_to_the_ends_of_a_pot(calibration: Any) -> None:
     with pytest.raises(HardwareError, match=r"docs/calibration.md#by-hand"):
         calibration(BOXES + '[azimuth.sensor]\nkind = "pot"\n')
 

@@ -36,7 +36,7 @@ G5500 = KINDS["relay-pot"]
 
 
 def mounted(run: Any, askew_deg: float, declination_deg: float = DECLINATION_DEG) -> Any:
-    """The compass looks from now on where a boom that is off by so much does; it feels how far it is lifted, too."""
+    """Replace the compass by one on a boom that is mounted askew by this angle; it also feels the elevation."""
     world = run.world
     chip = SimBno055(
         run.clock,
@@ -98,7 +98,7 @@ def test_a_magnetic_scale_stays_one(north_calibration: Any) -> None:
     assert "the box adds mount.declination_deg by itself" in run.text
 
 
-def test_a_compass_that_looks_across_the_boom(north_calibration: Any) -> None:
+def test_a_compass_that_is_mounted_across_the_boom(north_calibration: Any) -> None:
     run = mounted(north_calibration(G5500 + TRUE + COMPASS + "offset_deg = 90\n"), 12.0 - 90.0)
     learnt(run)
     run.say("y", "y")
@@ -114,7 +114,7 @@ def test_what_agrees_with_the_file_is_said_to(north_calibration: Any) -> None:
     assert run.guide.result is None
 
 
-def test_what_is_saved_is_a_number_as_a_person_would_write_it() -> None:
+def test_what_is_saved_is_a_number_as_an_operator_would_write_it() -> None:
     text = as_toml(NorthFound(-12.5, 2.6))
     assert text == "[azimuth]\noffset_deg = -12.5\n"
     assert parse(text, "test").azimuth.offset_deg == -12.5
@@ -127,13 +127,13 @@ def test_nothing_turns_before_a_yes(north_calibration: Any) -> None:
     run = mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0)
     run.wait(20.0)
     assert run.world.relay_starts == 0
-    assert run.guide.prompt == "Begin? y or n:"  # time has told the simulated compass enough
+    assert run.guide.prompt == "Begin? y or n:"  # the simulated compass has had time to calibrate
     run.say("n")
     assert run.guide.ended
     assert run.world.relay_starts == 0
 
 
-def test_a_person_turns_it_about_by_hand(north_calibration: Any) -> None:
+def test_the_operator_turns_it_about_by_hand(north_calibration: Any) -> None:
     run = mounted(north_calibration(G5500 + TRUE + COMPASS), 12.0)
     assert "Not yet: system" in run.say("")
     run.say("r", "u", "l")
@@ -186,7 +186,7 @@ def test_what_it_has_learnt_is_kept_and_given_back(north_calibration: Any, tmp_p
     assert "The compass has been given back what it had learnt." in again.text
 
 
-def test_a_file_that_cannot_be_written_is_told(north_calibration: Any, tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_is_reported(north_calibration: Any, tmp_path: Path) -> None:
     tmp_path.joinpath("run").write_text("")
     run = learnt(
         mounted(north_calibration(G5500 + TRUE + COMPASS, corrections=tmp_path / "run" / "compass.json"), 12.0)
@@ -292,7 +292,7 @@ def test_a_boom_that_cannot_be_lowered(north_calibration: Any) -> None:
     assert "degrees from level, 30 are allowed" in run.say("y")
 
 
-def test_an_azimuth_that_nobody_has_homed(north_calibration: Any, tmp_path: Path) -> None:
+def test_an_azimuth_that_has_never_been_homed(north_calibration: Any, tmp_path: Path) -> None:
     run = north_calibration(KINDS["relay-pulse"] + TRUE + COMPASS, counts=tmp_path / "counts.json")
     run.wait(1.0)
     assert "the azimuth has to be set up first, it lacks homing" in run.text
@@ -338,7 +338,7 @@ def test_the_compass_settles_where_the_azimuth_stands(north_calibration: Any) ->
     assert "give or take 2.5°" in run.text
     run.say("y")
     assert isinstance(run.guide.result, AngleConfirmed)
-    # The motor's own encoder knows it to a hair, once somebody has said which turn it is.
+    # The motor's own encoder gives the exact angle once the turn is known.
     assert run.rig.loop.status.azimuth.angle_deg == pytest.approx(90.0 + 12.0, abs=0.1)
     assert run.world.antenna()[0] == pytest.approx(90.0, abs=0.1)
 
@@ -353,7 +353,7 @@ def test_who_does_not_agree_changes_nothing(north_calibration: Any) -> None:
     assert run.rig.loop.status.azimuth.angle_deg is None
 
 
-def test_in_the_overlap_the_person_says_which(north_calibration: Any) -> None:
+def test_in_the_overlap_the_operator_chooses(north_calibration: Any) -> None:
     config = KINDS["moteus"].replace("max_deg = 360", "max_deg = 450") + TRUE + COMPASS
     run = north_calibration(config, start_deg=(400.0, 0.0), bad_luck="azimuth-power-cycled")
     run.say("y")

@@ -116,7 +116,7 @@ def test_limits_beyond_the_ends(calibration: Any) -> None:
 
 
 @pytest.mark.parametrize("answer", ["n"])
-def test_a_person_who_does_not_want_it(calibration: Any, answer: str) -> None:
+def test_an_operator_who_does_not_want_it(calibration: Any, answer: str) -> None:
     run = at_the_low_end(calibration())
     run.say("", "0", *["r"] * 40)
     run.say("", "450", "f", "", "", answer)
@@ -189,7 +189,7 @@ def test_after_the_wire_is_mended_it_goes_on(calibration: Any) -> None:
         ([0.5 + 0.0001 * at for at in range(40)], r"moved by \+0.0020"),
     ],
 )
-def test_readings_that_are_not_believed(readings: list[float], reason: str) -> None:
+def test_readings_that_are_not_trusted(readings: list[float], reason: str) -> None:
     with pytest.raises(NotTrusted, match=reason):
         measure(readings, 0.02, 0.98)
 

@@ -97,7 +97,7 @@ def test_what_it_says_first_is_no_order_and_then_every_second(box: BenchBox) -> 
     assert box.orders == [Aim(120.0, 10.0), Aim(120.1, 10.1)]
 
 
-def test_a_file_that_nobody_has_written_anew_is_stale(box: BenchBox) -> None:
+def test_a_file_that_is_no_longer_written_is_stale(box: BenchBox) -> None:
     """Copied, touched, restored, or written again after a night: the first look only tells that it lives."""
     session = WsjtxSession(box, "Moon")
     session.receive(moon(100, 120.0, 10.0))

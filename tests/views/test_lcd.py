@@ -191,7 +191,7 @@ def test_every_notice_fits(head: str) -> None:
     assert uppers(with_axis(AZ, notices=(f"{head}: more",)), 4)[2] == f"AZ {_SHORT_NOTICES[head]}"
 
 
-# --- whatever the status
+# --- any status
 
 angles = st.none() | st.floats(-720, 1080)
 words = st.text(st.characters(min_codepoint=32, max_codepoint=126), max_size=40)
