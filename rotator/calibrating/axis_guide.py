@@ -18,6 +18,7 @@ from rotator.calibrating.phrases import Phrases, phrases_for
 from rotator.calibrating.reading_watch import AxisMoved, ReadingWatch
 from rotator.calibrating.readings import READINGS, SHARES, Measured, NotTrusted, ReadingUnit, measure
 from rotator.calibrating.results import AxisCalibrated
+from rotator.faults import Notice
 from rotator.orders import Jog, Stop
 from rotator.status import AxisStatus, Status
 
@@ -52,7 +53,7 @@ class AxisGuide(Guide):
         self._watch = ReadingWatch(facts.axis, facts.unit, facts.settle_s)
         self._began_s = math.inf
         self._fault_text = ""
-        self._notices: tuple[str, ...] = ()
+        self._notices: tuple[Notice, ...] = ()
         self._standstill_reported = False
 
     def ready(self, entry: Entry) -> bool:

@@ -97,7 +97,7 @@ def report(status: Status) -> list[str]:
 
 def _stands(status: Status, axis: Axis) -> str:
     now = status.axis(axis)
-    words = ["not known" if now.angle_deg is None else f"{_shown(now.angle_deg)} {now.source}"]
+    words = ["not known" if now.angle_deg is None else f"{_shown(now.angle_deg)} {now.source.value}"]
     if now.target_deg is not None:
         words.append(f"to {_shown(now.target_deg)}")
     if now.homing:

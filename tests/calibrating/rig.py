@@ -39,7 +39,8 @@ class Calibration:
         self.axis = axis
         self.said: list[str] = []
         if bad_luck:
-            self.world.inject(bad_luck)
+            assert self.station.world is not None
+            self.station.world.inject(bad_luck)
         self._build_rig(config)
         self.wait(0.5)
 
