@@ -91,7 +91,9 @@ PLAIN_WORDS: dict[str, Entry] = {
     "quit": Quit(),
 }
 STOP_WORDS = ("s", "stop")
-ARROW_KEYS = {"[C": "r", "[D": "l", "[A": "u", "[B": "d"}
+STOP_KEYS = (" ", "s", "S")
+ARROW_KEYS = {"C": "r", "D": "l", "A": "u", "B": "d"}
+"""The last character of an arrow key, after Esc and `[` or `O`."""
 NUMBER_STARTS = "0123456789.,-+"
 NUMBER = re.compile(r"[-+]?[0-9]{1,4}(?:[.,][0-9]{0,4})?")
 """The whole text must match. A decimal comma counts as a decimal point."""
@@ -151,19 +153,24 @@ class Keyboard:
             return from_line(typed)
         if self.typed or (pressed and pressed in NUMBER_STARTS):
             self.typed += pressed
-            return StopNow() if pressed in (" ", "s", "S") else None
-        if pressed == " ":
+            return StopNow() if pressed in STOP_KEYS else None
+        if pressed in STOP_KEYS:
             return StopNow()
         if pressed.lower() in TURN_KEYS:
             return Press(*TURN_KEYS[pressed.lower()], UNCALIBRATED_JOG_S if pressed.isupper() else TAP_S)
         return from_line(pressed) if pressed else None
 
     def _arrow(self, pressed: str) -> Entry | None:
-        self._escape += pressed
-        if len(self._escape) < 3:
+        """The second and the third character of an arrow key. Any other key after Esc counts as itself."""
+        begun, self._escape = self._escape, ""
+        if begun == "\x1b":
+            if pressed not in ("[", "O"):
+                return self.key(pressed)
+            self._escape = begun + pressed
             return None
-        turn_key, self._escape = ARROW_KEYS.get(self._escape[1:], ""), ""
-        if not turn_key:
+        if pressed in STOP_KEYS:
+            return StopNow()
+        if pressed not in ARROW_KEYS:
             return None
         self.typed = ""
-        return Press(*TURN_KEYS[turn_key], TAP_S)
+        return Press(*TURN_KEYS[ARROW_KEYS[pressed]], TAP_S)

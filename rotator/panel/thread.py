@@ -1,9 +1,8 @@
 """The panel's threads: read switches and knobs, pass on the panel's orders, light lamps and move meters.
 
-Knows when to read, what is wired to which output, and how a part counts that does not answer. The panel decides what
-follows. The switches have a thread that uses no bus, so a bus that hangs does not disable the stop button. Knobs and
-outputs have a second thread. A stop button that cannot be read counts as pressed. A knob or a jog switch without a
-recent reading counts as not fitted.
+Knows when to read, and what is wired to which output. The panel decides what follows. The switches have a thread that
+uses no bus, so a bus that hangs does not disable the stop button. Knobs and outputs have a second thread. A stop button
+that cannot be read counts as pressed; a knob or a jog switch without a recent reading counts as not fitted.
 """
 
 from __future__ import annotations

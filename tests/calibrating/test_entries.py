@@ -87,6 +87,12 @@ def test_a_stop_within_a_number_stops_at_once(key: str) -> None:
     assert keyboard.key(key) == StopNow()
 
 
+@pytest.mark.parametrize("before", ["\x1b", "\x1b[", "\x1bO", "\x1b\x1b"])
+def test_a_stop_after_escape_stops(before: str) -> None:
+    assert keys(before + "s")[0] == StopNow()
+    assert keys(before + " ")[0] == StopNow()
+
+
 @pytest.mark.parametrize("line", ["s", "stop", "stop it", "S 5"])
 def test_a_line_that_begins_with_stop_stops(line: str) -> None:
     assert from_line(line) == StopNow()
@@ -95,7 +101,7 @@ def test_a_line_that_begins_with_stop_stops(line: str) -> None:
 def test_keys_that_turn() -> None:
     assert keys("r")[0] == Press(Axis.AZIMUTH, Direction.PLUS, 0.7)
     assert keys("D")[0] == Press(Axis.ELEVATION, Direction.MINUS, UNCALIBRATED_JOG_S)
-    assert keys("\x1b[D")[0] == Press(Axis.AZIMUTH, Direction.MINUS, 0.7)
+    assert keys("\x1b[D")[0] == keys("\x1bOD")[0] == Press(Axis.AZIMUTH, Direction.MINUS, 0.7)
     assert keys("12\x7f\x7f") == [Enter()]
     assert from_line("r 0,5") == Press(Axis.AZIMUTH, Direction.PLUS, 0.5)
     assert from_line("r 99") == Press(Axis.AZIMUTH, Direction.PLUS, UNCALIBRATED_JOG_S)
