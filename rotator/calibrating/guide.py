@@ -34,7 +34,7 @@ NOTHING_SAVED = "Nothing is saved."
 ORDER_TAKEN_S = 0.5
 """An order shows in the status after this time at the latest."""
 CONFIRM_S = 5.0
-"""A motor controller reports its angle within this time after it has been connected or told."""
+"""A motor controller reports its angle within this time after it was connected, or after the operator confirmed it."""
 
 
 @dataclass(frozen=True, slots=True)

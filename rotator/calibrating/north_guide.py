@@ -38,7 +38,7 @@ class NorthGuide(CompassGuide):
 
     def _path(self) -> Steps:
         self._say(
-            "Finding north with the compass on the boom. The antenna turns only after you have said so; all the same",
+            "Finding north with the compass on the boom. The antenna turns only after you have agreed; all the same",
             "be ready to cut its supply. Space or s stops it. Ctrl-C or q leaves at any moment, nothing saved.",
             f"  {KEYS}",
         )

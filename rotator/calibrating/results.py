@@ -28,7 +28,7 @@ class NorthFound:
 
 @dataclass(frozen=True, slots=True)
 class AngleConfirmed:
-    """The controller has been told the azimuth's angle. There is nothing to save."""
+    """The controller has accepted the azimuth's angle. There is nothing to save."""
 
     angle_deg: float
 

@@ -1,4 +1,4 @@
-"""One calibration session: the axes, or north, one after the other, each with the hardware opened anew.
+"""One calibration session: the axes, or north, one after the other. Each opens the hardware again.
 
 Knows how a rig is started, stepped and stopped, and that its result is saved. Does not know the terminal: lines go to
 `show`, entries come from `TypedAhead`.

@@ -100,7 +100,7 @@ class PanelThread:
             for name, work in (("panel", self.step), ("panel-bus", self.attend))
         ]
 
-    def heard(self) -> None:
+    def data_received(self) -> None:
         """Bytes have come from a program: light the data lamp. May be called from any thread."""
         self._data = True
 

@@ -48,7 +48,7 @@ VERBS = (
     Verb("confirm", "azimuth|elevation DEGREES", "Give the angle of an axis that cannot know it"),
     Verb("let-go", "", "Motors without torque: an antenna out of balance turns; nothing moves until `resume`"),
     Verb("park", "", "Go to the park position, even while a program tracks, and stay there until `resume`"),
-    Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for so long, {LONGEST_JOG_S:g} s at most"),
+    Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
     Verb("point", "AZIMUTH ELEVATION", "Point there"),
     Verb("help", "", "This list"),
 )

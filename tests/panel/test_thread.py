@@ -310,7 +310,7 @@ def test_calibration_at_power_up() -> None:
 def test_lamps_of_pulses_and_data() -> None:
     desk = in_mode(AUTO)
     desk.pulses = {AZ}
-    desk.thread.heard()
+    desk.thread.data_received()
     desk.waits(0.05)
     assert desk.sim.lit() == {"auto", "azimuth_pulse", "data"}
     desk.waits(0.3)
