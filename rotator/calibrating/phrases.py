@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.ports import Axis
+from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +37,7 @@ class Phrases:
         return (
             f"Setting up the {self.axis}. The box does not know its limits yet: be ready to cut the motors' supply.",
             f"  {self.plus_key} or {self.arrows}: {self.plus} / {self.minus} ({self.minus_key}), for as long as the "
-            f"key is held; {self.plus_key.upper()} and {self.minus_key.upper()}: 2 s a press.",
+            f"key is held; {self.plus_key.upper()} and {self.minus_key.upper()}: {UNCALIBRATED_JOG_S:g} s a press.",
             "  Space or s stops. Ctrl-C or q leaves at any moment: the motors stop, nothing is saved.",
         )
 
