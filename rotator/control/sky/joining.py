@@ -1,7 +1,7 @@
 """One coordinate alone (`AZ200`, `M200`, `EL20`): joined with the other one, on the sky, before it becomes axis angles.
 
-An antenna over the top has its boom on the other side: its elevation axis stands at 150° while it points 30° high. There
-an order for one coordinate changes both axes. Where the antenna is not over the top, and cannot go there, one coordinate
+An antenna over the top has its boom on the other side: its elevation axis stands at 150° while it points 30° high. An
+order for one coordinate then changes both axes. Where the antenna is not over the top, and cannot go there, the order
 moves one axis. Knows directions and the mount. Knows nothing of goals, motors or time.
 """
 
