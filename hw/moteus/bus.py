@@ -21,6 +21,8 @@ from hw.ports import HardwareError
 
 log = logging.getLogger(__name__)
 
+MOTEUS_THREAD = "moteus"
+"""The name of the thread."""
 EXCHANGE_S = 0.15
 SILENCE_S = 2.0
 """Nobody answered for so long: the connection is made anew."""
@@ -39,7 +41,7 @@ class MoteusBus:
         self._closing = threading.Event()
         self._lock = threading.Lock()
         self._bell: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
-        self._thread = threading.Thread(target=self._run, name="moteus", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=MOTEUS_THREAD, daemon=True)
         drive.on_news = self._ring
 
     def start(self) -> None:
@@ -47,11 +49,15 @@ class MoteusBus:
         self._thread.start()
 
     def close(self) -> None:
-        """Let both axes come to rest and hold, then end the thread. The controllers' watchdogs take over."""
+        """Let both axes come to rest and hold, then end the thread. May be called twice.
+
+        The controllers' watchdogs take over.
+        """
         self._drive.off()
         self._closing.set()
         self._ring()
-        self._thread.join(timeout=COMING_TO_REST_S + 1.0)
+        if self._thread.is_alive():
+            self._thread.join(timeout=COMING_TO_REST_S + 1.0)
 
     def _ring(self) -> None:
         with self._lock, contextlib.suppress(RuntimeError):  # the loop may just have ended

@@ -54,9 +54,14 @@ MOST_REMARKS = 20
 class RunningLink(Protocol):
     wire: Wire
 
-    async def open(self) -> None: ...
+    async def open(self) -> None:
+        """Take the port or address, where there is one to take. Raises LinkError."""
 
-    async def run(self) -> None: ...
+    async def run(self) -> None:
+        """Carry bytes until cancelled."""
+
+    def close(self) -> None:
+        """Give back what `open` took. May be called twice, and without `open`."""
 
 
 def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _text: None) -> Session:

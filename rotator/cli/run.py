@@ -24,10 +24,11 @@ from rotator.views import terminal
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     config = load(path)
     app = App(config, path)
-    asyncio.run(_run(app, parse_faults(faults, app.station.world), plain=plain))
+    asyncio.run(run_app(app, parse_faults(faults, app.station.world), plain=plain))
 
 
-async def _run(app: App, faults: list[tuple[float, str]], *, plain: bool) -> None:
+async def run_app(app: App, faults: list[tuple[float, str]], *, plain: bool) -> None:
+    """Run until a signal or a key ends it. `faults`: seconds after the start, and the simulator's name of each."""
     stop = stop_on_signals()
     for at_s, name in faults:
         assert app.station.world is not None, "faults are for the simulator"

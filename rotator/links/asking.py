@@ -44,7 +44,7 @@ class AskingLink:
         self._told: str | None = None
 
     async def open(self) -> None:
-        """Nothing to do: a server that is not there yet is waited for."""
+        """Nothing to do: `run` waits for the server."""
 
     async def run(self) -> None:
         clock = asyncio.get_running_loop().time
@@ -60,6 +60,9 @@ class AskingLink:
                 self._retry_s = min(2 * self._retry_s, LONGEST_RETRY_S)
         finally:
             self.wire.state = "closed"
+
+    def close(self) -> None:
+        """Nothing to do: `run` closes what it has opened."""
 
     async def _connect(self) -> tuple[str, str]:
         """Connect and ask until that comes to an end. Returns why it did, and what there is to add."""

@@ -34,7 +34,7 @@ class FileLink:
         self._trouble: str | None = None
 
     async def open(self) -> None:
-        """Nothing to do: a file that is not there yet is waited for."""
+        """Nothing to do: `run` waits for the file."""
 
     async def run(self) -> None:
         loop = asyncio.get_running_loop()
@@ -66,6 +66,9 @@ class FileLink:
             leaving.set()
             conversation.close()
             self.wire.state = "closed"
+
+    def close(self) -> None:
+        """Nothing to do: `run` closes what it has opened."""
 
     def _tell(self, trouble: str) -> None:
         """Log a trouble once, however often it is met, and once that it is over."""

@@ -59,10 +59,15 @@ class PtyLink:
             # Our own end of a pseudo-terminal does not fail; if it does, there is nothing to reopen.
             await asyncio.Event().wait()
         finally:
+            self.close()
+
+    def close(self) -> None:
+        """Remove the symlink and the terminal. May be called twice."""
+        with suppress(OSError):  # a folder that is gone, or not ours any more: the terminal is closed all the same
             if self._path.is_symlink() and os.readlink(self._path) == self._name:
                 self._path.unlink()
-            self._close_fds()
-            self.wire.state = "closed"
+        self._close_fds()
+        self.wire.state = "closed"
 
     def _share(self) -> None:
         """Open to whoever may use serial ports: programs of other users than the service's come to this one too."""
@@ -76,6 +81,8 @@ class PtyLink:
         fcntl.flock(self._locked, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
     def _close_fds(self) -> None:
-        for fd in (self._master, self._slave, self._locked):
+        fds = (self._master, self._slave, self._locked)
+        self._master = self._slave = self._locked = -1
+        for fd in fds:
             if fd >= 0:
                 os.close(fd)

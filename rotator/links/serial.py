@@ -37,7 +37,7 @@ class SerialLink:
         self._told = ""
 
     async def open(self) -> None:
-        """Nothing to do: a port that is not there yet is waited for."""
+        """Nothing to do: `run` waits for the port."""
 
     async def run(self) -> None:
         while True:
@@ -56,6 +56,9 @@ class SerialLink:
                     self.wire.state = "closed"
                 self._tell(f"lost: {why}")
             await asyncio.sleep(self._retry_s)
+
+    def close(self) -> None:
+        """Nothing to do: `run` closes what it has opened."""
 
     def _open(self) -> Any:
         return serial.serial_for_url(self._port, self._baud, timeout=0)

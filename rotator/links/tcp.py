@@ -62,10 +62,15 @@ class TcpLink:
             # It serves since it was created; `serve_forever` would wait for its clients before it lets itself be ended.
             await asyncio.Event().wait()
         finally:
+            self.close()
+
+    def close(self) -> None:
+        """Listen no longer, and drop all clients. May be called twice."""
+        if self._server is not None:
             self._server.close()
-            for client in list(self.clients):
-                client.drop()
-            self.wire.state = "closed"
+        for client in list(self.clients):
+            client.drop()
+        self.wire.state = "closed"
 
     def complain(self, text: str) -> None:
         told = self._complaints.tell(text)

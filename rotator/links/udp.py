@@ -98,10 +98,15 @@ class UdpLink:
                 self._say_what_is_due()
                 await asyncio.sleep(LOOK_EVERY_S)
         finally:
+            self.close()
+
+    def close(self) -> None:
+        """Give the port back. May be called twice."""
+        if self._transport is not None:
             self._transport.abort()
-            for sender in self._senders.values():
-                sender.conversation.close()
-            self.wire.state = "closed"
+        for sender in self._senders.values():
+            sender.conversation.close()
+        self.wire.state = "closed"
 
     def received(self, data: bytes, address: Address) -> None:
         """One datagram, from there."""

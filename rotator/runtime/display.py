@@ -14,6 +14,8 @@ from hw.ports import CharacterDisplay, HardwareError
 
 log = logging.getLogger(__name__)
 
+DISPLAY_THREAD = "display"
+"""The name of the thread."""
 REFRESH_S = 0.2
 RESET_EVERY_S = 300.0
 """Sparks from motor relays upset these displays; a fresh start now and then repairs what nobody sees happen."""
@@ -28,7 +30,7 @@ class DisplayThread:
         self._rows = rows
         self._clock = clock
         self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._keep, name="display", daemon=True)
+        self._thread = threading.Thread(target=self._keep, name=DISPLAY_THREAD, daemon=True)
 
     def start(self) -> None:
         self._thread.start()

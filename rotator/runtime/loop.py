@@ -21,6 +21,8 @@ from rotator.status import Status
 
 log = logging.getLogger(__name__)
 
+SENSORS_THREAD = "sensors"
+"""The name of the thread that reads the sensors."""
 LATE_PERIODS = 1.5
 """Without news from the sensors for this long the loop goes on all the same, and notices that they are silent."""
 JOIN_S = 1.0
@@ -141,7 +143,7 @@ class ControlLoop:
 
     def run(self) -> None:
         """Act on every round of readings and on every order until `stop`. Relays are off when this returns."""
-        reader = threading.Thread(target=self._keep_reading, name="sensors", daemon=True)
+        reader = threading.Thread(target=self._keep_reading, name=SENSORS_THREAD, daemon=True)
         try:
             reader.start()
             while not self._stopping:
