@@ -126,7 +126,7 @@ def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tap: Tap) ->
     remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
 
     def remark(text: str) -> None:
-        if told := remarks.tell(text):
+        if told := remarks.admit(text):
             log.info("%s: %s", wire.name, told)
 
     def connection() -> tuple[Source, Client]:

@@ -150,9 +150,8 @@ class UdpLink:
         self._note()
 
     def _complain(self, text: str) -> None:
-        told = self._complaints.tell(text)
-        if told:
-            log.warning("%s: %s", self.wire.name, told)
+        if line := self._complaints.admit(text):
+            log.warning("%s: %s", self.wire.name, line)
 
     def _note(self) -> None:
         count = len(self._senders)

@@ -84,6 +84,6 @@ class Client:
         return True
 
     def _complain(self, text: str) -> None:
-        told = self._complaints.tell(text)
+        told = self._complaints.admit(text)
         if told:
             log.warning("%s: %s", self._source, told)

@@ -214,7 +214,7 @@ class ControlLoop:
             if fault not in before.faults:
                 log.log(logging.WARNING if fault.passing else logging.ERROR, "FAULT %s", fault)
         mover = self.status.controlled_by
-        if mover and mover != before.controlled_by and (told := self._movers.tell(f"{mover} moves the antenna")):
+        if mover and mover != before.controlled_by and (told := self._movers.admit(f"{mover} moves the antenna")):
             log.info("%s", told)
         if before.faults and not self.status.faults:
             passed = all(fault.passing for fault in before.faults)
