@@ -114,8 +114,9 @@ def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap
         names = (plain if number == 1 else f"{plain}-{number}" for number in itertools.count(1))
         name = next(name for name in names if name not in taken and (name == link.name or name not in given))
         taken.add(name)
-        tap.link(name, link.model_dump(exclude_unset=True))
-        built.append(_build(link, Wire(name, link.protocol, link.where), loop, mount, tap))
+        wire = Wire(name, link.protocol, link.where)
+        tap.link(wire, link.model_dump(exclude_unset=True))
+        built.append(_build(link, wire, loop, mount, tap))
     return built
 
 

@@ -30,10 +30,12 @@ class ArduinoSession:
     idle_s = None
     closed = False
 
-    def __init__(self, station: ArduinoStation) -> None:
+    def __init__(self, station: ArduinoStation, wire: Wire) -> None:
         self._station = station
+        self._wire = wire
 
     def receive(self, data: bytes) -> list[bytes]:
+        self._wire.came(data)
         self._station.host_send(data)
         return []
 
@@ -52,7 +54,7 @@ async def _run(station: ArduinoStation, pty: Path, *, plain: bool) -> None:
     stop = stop_on_signals()
     log_to(logging.StreamHandler() if plain else LogRows())
     wire = Wire("USB", "F1EFW sketch", str(pty))
-    link = PtyLink(wire, pty, lambda: ArduinoSession(station))
+    link = PtyLink(wire, pty, lambda: ArduinoSession(station, wire))
     await link.open()
     off = threading.Event()
     board = threading.Thread(target=station.run, args=(off,), name="arduino", daemon=True)

@@ -87,7 +87,6 @@ class AskingLink:
             try:
                 async with asyncio.timeout(self._silence_s):
                     writer.write(question)
-                    self.wire.went(question)
                     await self._hear_out(inquiry, reader)
             except TimeoutError:
                 return f"gives no answer within {self._silence_s:g} s", ""
@@ -108,7 +107,6 @@ class AskingLink:
             data = await reader.read(READ_BYTES)
             if not data:
                 raise EOFError
-            self.wire.came(data)
             whole = inquiry.receive(data)
 
     def _tell(self, trouble: str, detail: str) -> None:

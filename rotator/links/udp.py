@@ -135,7 +135,6 @@ class UdpLink:
     def _say_what_is_due(self) -> None:
         said = self._report.due(self._clock()) if self._report else None
         if said and self._report and self._transport:
-            self.wire.went(said)
             self._transport.sendto(said, self._report.to)
 
     def _failed(self, fault: OSError) -> None:

@@ -136,8 +136,11 @@ def position(reply: bytes) -> tuple[int, int]:
 
 def test_w_moves_c2_answers_s_stops(config: Config, tmp_path: Path) -> None:
     async def talk() -> None:
-        async with running(App(config)) as (world, relays), terminal(tmp_path / "gs232") as line:
+        app = App(config)
+        async with running(app) as (world, relays), terminal(tmp_path / "gs232") as line:
             assert await line.ask(b"C2\r") == b"AZ=000  EL=000\r\n"
+            wire = app.links[0].wire
+            assert (wire.last_in, wire.last_out) == (b"C2\r", b"AZ=000  EL=000\r\n")
             line.send(b"W235 025\r")
             await relays.until((1, 1).__eq__)
             async with asyncio.timeout(PATIENCE_S):
