@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from hw.interpolation import PiecewiseLinear
 from rotator.calibrating.readings import Doubt, Measured
 
 LEAST_SPAN = 0.05
@@ -75,8 +76,8 @@ class Table:
     def off_line_deg(self, point: Point) -> float:
         """How far a point lies off the straight line through the ends."""
         low, high = self.points[0], self.points[-1]
-        straight_deg = low.angle_deg + (point.raw - low.raw) * (high.angle_deg - low.angle_deg) / (high.raw - low.raw)
-        return point.angle_deg - straight_deg
+        line = PiecewiseLinear(((low.angle_deg, low.raw), (high.angle_deg, high.raw)))
+        return point.angle_deg - line.inverse(point.raw)
 
     def lines(self, supply_v: float | None, lowest: float, highest: float) -> list[str]:
         """The table as text, with volts where it is a pot's, and how far its ends are from what counts as a fault."""

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from rotator.control.axis.sensing import Reading
 from rotator.control.controller import Controller
+from rotator.faults import Notice
 from rotator.orders import Jog, Order, Source
 from rotator.rotors.port import Rotor
 from rotator.runtime.log_limit import LogLimit
@@ -56,9 +57,9 @@ class ControlLoop:
         self._must_obey = ("supply", *(f"{axis.value} drive" for axis in Axis))
         self._late_s = 0.0
         self._supply_cut = False
-        self._noticed: dict[Axis, tuple[str, ...]] = dict.fromkeys(Axis, ())
+        self._noticed: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         self._movers = LogLimit(clock)
-        self.status: Status = controller.status(clock(), dict.fromkeys(Axis, Direction.OFF))
+        self.status: Status = controller.status(clock())
         """The latest status; replaced whole, never changed."""
 
     def post(self, source: Source, order: Order, *, can_wait: bool = False) -> None:
@@ -104,7 +105,8 @@ class ControlLoop:
                 self._trouble(f"{axis.value} drive", "")
             except HardwareError as fault:
                 self._trouble(f"{axis.value} drive", str(fault))
-        self.status = self._controller.status(now_s, driven, self._late_s)
+        self._controller.note_driven(now_s, driven)
+        self.status = self._controller.status(now_s, self._late_s)
         self._switch_supply()
         self._tell(before)
         self._sign_of_life()

@@ -12,7 +12,7 @@ import pytest
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
-from firmware_sim.rotors.servo import ServoAxisSpec, ServoRotor
+from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
 from hw.ports import HardwareError
 from rotator.assembly.board import Board
 from rotator.calibrating.compass import CompassReader, learnt_path, open_compass
@@ -24,7 +24,7 @@ CONFIG = parse('[compass]\nkind = "bno055"\naddress = 0x29\n', "test")
 
 def fitted(clock: Any, sleep: Any, file: CompassFile | None = None) -> tuple[CompassReader, SimRotor]:
     """A boom at 40°, with a compass on it."""
-    world = ServoRotor(ServoAxisSpec(0, 40.0), ServoAxisSpec(1), clock)
+    world = SimServoRotor(ServoAxisSpec(0, 40.0), ServoAxisSpec(1), clock)
     world.wire_bno055(0x29, lambda azimuth_deg: azimuth_deg)
     board = Board(world, ExitStack(), clock, sleep)
     return CompassReader(open_compass(CONFIG, board), clock, file), world
@@ -82,7 +82,7 @@ def test_a_file_without_a_compass() -> None:
     with pytest.raises(HardwareError, match=r"\[compass\] kind = \"bno055\" \(docs/sensors.md\)"):
         open_compass(
             parse("", "test"),
-            Board(ServoRotor(ServoAxisSpec(0), ServoAxisSpec(1), clock), ExitStack(), clock, clock.sleep),
+            Board(SimServoRotor(ServoAxisSpec(0), ServoAxisSpec(1), clock), ExitStack(), clock, clock.sleep),
         )
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.app import App
 from rotator.assembly.station import Station
 from rotator.config.load import parse
@@ -37,10 +37,10 @@ async def until(done: Callable[[], bool]) -> None:
 
 def quick(kind: Kind, folder: Path) -> Config:
     """Runs faster than the file says, so that there is something to learn within seconds."""
-    tables = {"state": {"path": f"{folder}/state.json"}}
-    if kind.source in ("measured", "counted") and kind.profile != "isel":
+    tables: dict[str, dict[str, object]] = {"state": {"path": f"{folder}/state.json"}}
+    if kind.profile in ("g5500", "u100"):
         tables |= {"azimuth": {"speed_dps": 25.0}, "sim": {"azimuth": {"speed_dps": 30.0}}}
-    if kind.source == "counted":
+    if kind.source is AngleSource.COUNTED:
         tables |= {"pulses": {"debounce_s": 0.005}}
     link = parse(f'[[link]]\nprotocol = "gs232b"\npty = "{folder}/gs232"\n', "test").link
     return configured(kind.profile, **tables).model_copy(update={"link": link})

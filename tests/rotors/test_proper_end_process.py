@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 import tomlkit
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.store.counts import FILE_NAME, CountsFile, Standing
@@ -35,7 +35,7 @@ from rotator.config.load import load
 path = Path(sys.argv[1])
 config = load(path)
 station = Station(config, time.monotonic, time.sleep, counts=Path(sys.argv[2]))
-asyncio.run(run_app(App(config, path, station), [], plain=True))
+asyncio.run(run_app(App(config, path, station), [], None))
 """
 """`rotator run`, but for the counts, which are kept for real hardware only."""
 
@@ -118,7 +118,7 @@ def written(kind: Kind, folder: Path) -> tuple[Path, Config]:
     tables: dict[str, dict[str, object]] = {"state": {"path": f"{folder}/state.json"}}
     if kind.profile in ("g5500", "u100"):
         tables |= {"azimuth": {"speed_dps": 25.0}, "sim": {"azimuth": {"speed_dps": 30.0, "start_deg": 90.0}}}
-    if kind.source == "counted":
+    if kind.source is AngleSource.COUNTED:
         tables |= {"pulses": {"debounce_s": 0.005}}
     config = configured(kind.profile, **tables)
     values = config.model_dump(mode="json", exclude_none=True, exclude_defaults=True, exclude={"link"})
@@ -146,7 +146,7 @@ def test_terminated_in_mid_move_every_kind_ends_well(kind: Kind, tmp_path: Path,
 
 
 def test_what_motors_taught_and_contacts_counted_is_kept(tmp_path: Path, boxes: list[Box]) -> None:
-    (kind,) = (kind for kind in KINDS if kind.source == "counted")
+    (kind,) = (kind for kind in KINDS if kind.source is AngleSource.COUNTED)
     path, config = written(kind, tmp_path)
     counts = tmp_path / FILE_NAME
     cams = {axis: getattr(config.pulses, axis.value).model_dump(exclude={"contact"}) for axis in Axis}

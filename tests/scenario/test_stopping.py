@@ -16,7 +16,7 @@ from pathlib import Path
 
 import pytest
 
-from firmware_sim.rotors.relay_pot import World
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.buses.gpio import holders
 from hw.ports import HardwareError
 from hw.safety.guard import GUARD_THREAD
@@ -27,6 +27,7 @@ from rotator.config.model import Config
 from rotator.links.wire import Wire
 from rotator.orders import Aim
 from rotator.panel.thread import PANEL_THREADS, PanelOutputs
+from rotator.rotors.relays import RelayRotor
 from rotator.runtime.display import DISPLAY_THREAD
 from rotator.runtime.engine import CONTROL_THREAD
 from rotator.runtime.loop import SENSORS_THREAD
@@ -94,8 +95,8 @@ async def run_until_it_turns(app: App, then: Callable[[], object] = lambda: None
     await asyncio.wait_for(task, PATIENCE_S)
 
 
-def world_of(app: App) -> World:
-    assert isinstance(app.station.world, World)
+def world_of(app: App) -> SimRelayPotRotor:
+    assert isinstance(app.station.world, SimRelayPotRotor)
     return app.station.world
 
 
@@ -259,6 +260,7 @@ def test_a_folder_that_has_gone_skips_nothing(config: Config, tmp_path: Path) ->
 def test_a_guard_that_dies_ends_the_box(config: Config, caplog: pytest.LogCaptureFixture) -> None:
     app = App(config)
     rotor, world = app.station.rotor, world_of(app)
+    assert isinstance(rotor, RelayRotor)
 
     def end_the_guard_alone() -> None:
         rotor._guard._stopping.set()
