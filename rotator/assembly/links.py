@@ -1,6 +1,7 @@
-"""The switchboard of the composition root: from a `[[link]]` table to a running link that speaks its protocol.
+"""From a `[[link]]` table of the configuration to a link that speaks its protocol. Part of the composition root.
 
-Knows which class carries the bytes of which place, and which one speaks which protocol. Moves nothing itself.
+Knows which class carries the bytes of which kind of port or socket, and which class speaks which protocol. Carries no
+bytes itself.
 """
 
 from __future__ import annotations
@@ -48,7 +49,7 @@ from rotator.runtime.loop import ControlLoop
 log = logging.getLogger(__name__)
 
 MOST_REMARKS = 20
-"""On one link: what a program asks for and the box has not is told once, and not without end."""
+"""On one link, so many different remarks on what a program asks for and the box does not have are logged, each once."""
 
 
 class RunningLink(Protocol):
@@ -65,7 +66,7 @@ class RunningLink(Protocol):
 
 
 def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _text: None) -> Session:
-    """A fresh conversation on a link, in its protocol. `remark` takes what the log should know of what is asked."""
+    """A new conversation in the link's protocol. `remark` takes texts for the log: what is asked and not supported."""
     match link.protocol:
         case "gs232a" | "gs232b":
             return Gs232Session(
@@ -105,7 +106,7 @@ _BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01")
 
 
 def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap) -> list[RunningLink]:
-    """Each with a name of its own, for a source is known by it: the second gs232b is gs232b-2."""
+    """The links, each with a name of its own, because the name identifies a source: the second gs232b is gs232b-2."""
     built: list[RunningLink] = []
     given = {link.name for link in links}
     taken: set[str] = set()
@@ -165,7 +166,7 @@ def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tap: Tap) ->
 
 
 def _report(link: Link, source: Source, loop: ControlLoop, mount: Mount, tap: Tap) -> Report | None:
-    """What a link says by itself; None: nothing."""
+    """What a link sends unasked; None: nothing."""
     if link.status_to is None or link.rotor_name is None:
         return None
     reporter = N1mmReport(Client(loop, mount, source), link.rotor_name)

@@ -42,8 +42,8 @@ def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:
 class Station:
     """The hardware, real or simulated, behind its drivers. Raises HardwareError where it is missing.
 
-    `add_alarm`: the simulated clock's, where time is simulated; the rotor has begun then. In real time whoever runs the
-    loop starts it. `counts`: the file in which counted axes are kept; None: they begin where the simulated rotor is.
+    `add_alarm`: the simulated clock's, when time is simulated; the rotor has begun then. In real time the engine starts
+    it. `counts`: the file in which counted axes are kept; None: they begin where the simulated rotor is.
     """
 
     rotor: Rotor
@@ -99,7 +99,10 @@ class Station:
             self.heartbeat.beat()
 
     def close(self) -> None:
-        """Switch everything off and give everything back, whatever fails. May be called twice. Raises HardwareError."""
+        """Switch everything off and give everything back. What fails skips nothing. May be called twice.
+
+        Raises HardwareError.
+        """
         self._opened.close()
 
     def _end_motion(self) -> None:

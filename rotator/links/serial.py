@@ -1,7 +1,7 @@
-"""A serial port, or any URL that pyserial opens; it may be unplugged and plugged in again at any time.
+"""A serial port, or any URL that pyserial opens. It may be unplugged and plugged in again at any time.
 
-Knows how to open it, to notice that it is gone and to wait for it. DTR and RTS mean nothing here. The only importer of
-pyserial outside `hw`.
+Knows how to open it, how to notice that it is gone, and how to wait for it. Ignores DTR and RTS. Apart from `hw`, the
+only importer of pyserial.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ class SerialLink:
             conversation.close()
 
     def _tell(self, text: str) -> None:
-        """Log a trouble once, however often it is met."""
+        """Log a trouble once when it begins."""
         if text != self._told:
             log.warning("%s: %s %s; waiting for it", self.wire.name, self._port, text)
             self._told = text

@@ -1,4 +1,4 @@
-"""Stops the parts of a box one after the other, whatever fails on the way.
+"""Stops the parts of a box one after the other. A part that fails skips no other.
 
 Knows names, calls and failures. Knows no part: the app says what there is and in which order it stops.
 """
