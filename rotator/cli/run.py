@@ -1,6 +1,6 @@
-"""`rotator run`: the box in the foreground, with a live picture in a terminal or plain lines elsewhere.
+"""`rotator run`: the box in the foreground, with a live picture in a terminal, or plain lines elsewhere.
 
-Knows which key does what. What the picture shows is the view's; what the box does is the app's.
+Knows which key does what. Knows neither how the picture looks nor what the box does.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ async def _picture(app: App, stop: asyncio.Event, recent: LogRows) -> None:
     wires = [link.wire for link in app.links]
 
     def glass() -> tuple[str, ...]:
-        """Read off the simulated display; the real one cannot be read, so what it is sent."""
+        """The rows of the display: read from a simulated one. A real one cannot be read, so the rows sent to it."""
         world = app.station.world
         return world.lcd.text() if world and world.lcd else app.lcd_rows(time.monotonic())
 
