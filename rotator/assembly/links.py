@@ -121,48 +121,60 @@ def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap
     return built
 
 
+class _Connections:
+    """Makes the conversation of each connection of one link. Its connections share their rights and log limits."""
+
+    def __init__(self, link: Link, name: str, loop: ControlLoop, mount: Mount, tap: Tap) -> None:
+        self._link = link
+        self._name = name
+        self._loop = loop
+        self._mount = mount
+        self._tap = tap
+        self._numbers = itertools.count(1)
+        self._rights = Rights(link.read_only, link.most_per_s)
+        self._complaints = LogLimit(time.monotonic)
+        self._remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
+
+    def session(self) -> Session:
+        source, client = self._client()
+        session = session_maker(self._link, client, self._remark)
+        return TappedSession(session, self._tap, source, text=self._link.protocol not in _BINARY)
+
+    def follower(self) -> Inquiry:
+        source, client = self._client()
+        return TappedInquiry(RotctldFollower(client, self._link.poll_s), self._tap, source)
+
+    def _client(self) -> tuple[Source, Client]:
+        source = Source(self._name, next(self._numbers))
+        return source, Client(self._loop, self._mount, source, rights=self._rights, complaints=self._complaints)
+
+    def _remark(self, text: str) -> None:
+        if line := self._remarks.admit(text):
+            log.info("%s: %s", self._name, line)
+
+
 def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tap: Tap) -> RunningLink:
-    connections = itertools.count(1)
-    rights, complaints = Rights(link.read_only, link.most_per_s), LogLimit(time.monotonic)
-
-    remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
-
-    def remark(text: str) -> None:
-        if told := remarks.admit(text):
-            log.info("%s: %s", wire.name, told)
-
-    def connection() -> tuple[Source, Client]:
-        source = Source(wire.name, next(connections))
-        return source, Client(loop, mount, source, rights=rights, complaints=complaints)
-
-    def session() -> Session:
-        source, client = connection()
-        return TappedSession(session_maker(link, client, remark), tap, source, text=link.protocol not in _BINARY)
-
-    def follower() -> Inquiry:
-        source, client = connection()
-        return TappedInquiry(RotctldFollower(client, link.poll_s), tap, source)
-
+    connections = _Connections(link, wire.name, loop, mount, tap)
     if link.pty is not None:
-        return PtyLink(wire, Path(link.pty), session)
+        return PtyLink(wire, Path(link.pty), connections.session)
     if link.serial is not None:
-        return SerialLink(wire, link.serial, link.serial_baud, session)
+        return SerialLink(wire, link.serial, link.serial_baud, connections.session)
     if link.file is not None:
-        return FileLink(wire, Path(link.file), session)
+        return FileLink(wire, Path(link.file), connections.session)
     host, port = address(link.where)
     if link.udp is not None:
         return UdpLink(
             wire,
             host,
             port,
-            session,
+            connections.session,
             answer_port=port + ANSWERS_ABOVE if link.protocol == "pstrotator" else None,
             report=_report(link, Source(wire.name), loop, mount, tap),
             allowed=Allowed(link.allow),
         )
     if link.protocol == FOLLOW:
-        return AskingLink(wire, host, port, follower, every_s=link.poll_s)
-    return TcpLink(wire, host, port, session, allowed=Allowed(link.allow), most_clients=link.most_clients)
+        return AskingLink(wire, host, port, connections.follower, every_s=link.poll_s)
+    return TcpLink(wire, host, port, connections.session, allowed=Allowed(link.allow), most_clients=link.most_clients)
 
 
 def _report(link: Link, source: Source, loop: ControlLoop, mount: Mount, tap: Tap) -> Report | None:
