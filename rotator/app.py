@@ -103,6 +103,9 @@ class App:
             await asyncio.wait([motion_ended, *self._tasks], return_when=asyncio.FIRST_COMPLETED)
             if motion_ended.done() and (failure := motion_ended.result()):
                 failures.note("the control thread", failure)
+            for task in self._tasks:
+                if task.done() and isinstance(ended_by := task.exception(), Exception):
+                    failures.note(task.get_name(), ended_by)
 
     def _parts(self) -> list[Part]:
         """What is stopped, in this order.

@@ -83,7 +83,7 @@ async def until(done: Callable[[], bool]) -> None:
             await asyncio.sleep(LOOK_S)
 
 
-async def run_until_it_turns(app: App, then: Callable[[], object] = lambda: None) -> None:
+async def run_until_it_turns(app: App, then: Callable[[], object] = lambda: None, *, stop_it: bool = True) -> None:
     """Run the box, send it round, do `then` while it turns, stop it, and wait for its end."""
     stop = asyncio.Event()
     task = asyncio.create_task(app.run(stop))
@@ -91,7 +91,8 @@ async def run_until_it_turns(app: App, then: Callable[[], object] = lambda: None
     app.console.order(Aim(200.0, None))
     await until(lambda: task.done() or app.loop.status.moving)
     then()
-    stop.set()
+    if stop_it:
+        stop.set()
     await asyncio.wait_for(task, PATIENCE_S)
 
 
@@ -162,17 +163,18 @@ class LampsFail:
 
 
 class FailingLink:
-    """A link whose driver has a bug that shows when it ends."""
+    """A link whose driver has a bug that shows when it ends, or when `broken` is set."""
 
     def __init__(self) -> None:
         self.wire = Wire("failing", "none", "nowhere")
+        self.broken = asyncio.Event()
 
     async def open(self) -> None:
         self.wire.state = "open"
 
     async def run(self) -> None:
         try:
-            await asyncio.Event().wait()
+            await self.broken.wait()
         finally:
             raise ZeroDivisionError("a bug in a link's run")
 
@@ -238,6 +240,16 @@ def test_of_several_failures_the_first_is_raised_and_each_is_logged(
     check_everything_stopped(app)
     for part in ("the control thread", "a task", "failing", "closing the hardware"):
         assert f"{part} failed: " in caplog.text
+
+
+def test_what_ended_the_box_comes_before_what_fails_while_it_stops(config: Config) -> None:
+    app = App(config)
+    link = FailingLink()
+    app.links.insert(0, link)
+    lines_are_taken_away_after_the_loop(app)
+    with pytest.raises(ZeroDivisionError, match="a bug in a link's run"):
+        asyncio.run(run_until_it_turns(app, link.broken.set, stop_it=False))
+    check_everything_stopped(app)
 
 
 def test_a_folder_that_has_gone_skips_nothing(config: Config, tmp_path: Path) -> None:
