@@ -1,7 +1,7 @@
 """The hardware half of the composition root: from a configuration to drivers, on real chips or simulated ones.
 
-Knows what is opened whatever the rotor, and the order in which it is let go. The rotor's own drivers are put together
-in `rotator.assembly.rotors`. Decides nothing.
+Knows what every kind of rotor needs, and the order in which it is closed. The rotor's own drivers are put together in
+`rotator.assembly.rotors`. Decides nothing.
 """
 
 from __future__ import annotations
@@ -42,8 +42,8 @@ def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:
 class Station:
     """The hardware, real or simulated, behind its drivers. Raises HardwareError where it is missing.
 
-    `add_alarm`: the simulated clock's, where time is simulated; the rotor has begun then. In real time whoever runs the
-    loop starts it. `counts`: the file in which counted axes are kept; None: they begin where the simulated rotor is.
+    `add_alarm`: the simulated clock's, when time is simulated; the rotor has begun then. In real time the engine starts
+    it. `counts`: the file in which counted axes are kept; None: they begin where the simulated rotor is.
     """
 
     rotor: Rotor
@@ -71,7 +71,7 @@ class Station:
         if config.rotor.hardware == "sim":
             self.world = plan.build()
         self.sentinel = None
-        # What has been opened is let go of again, in the opposite order, should something further on be missing.
+        # If something further on is missing, what has been opened is closed again, in the opposite order.
         with ExitStack() as opened:
             self._board = Board(self.world, opened, clock, sleep, chip=config.relays.chip)
             self.lines = off_lines(config, self._board.chip)
@@ -88,6 +88,7 @@ class Station:
             ).build(outputs)
             self.panel = panel_parts(config, self._board) if config.panel.fitted else None
             self.display = self._open_display()
+            opened.callback(self._end_motion)
             self._opened = opened.pop_all()
         if add_alarm:
             self.rotor.begin(add_alarm)
@@ -98,12 +99,17 @@ class Station:
             self.heartbeat.beat()
 
     def close(self) -> None:
-        try:
-            self.rotor.close()
-            if self.sentinel:
-                self.sentinel.dismiss()
-        finally:
-            self._opened.close()
+        """Switch everything off and give everything back. What fails skips nothing. May be called twice.
+
+        Raises HardwareError.
+        """
+        self._opened.close()
+
+    def _end_motion(self) -> None:
+        self.rotor.close()
+        # Only now: if a line cannot be switched off, the sentinel must try as soon as the lines are given back.
+        if self.sentinel:
+            self.sentinel.dismiss()
 
     def _open_lines(self, opened: ExitStack, lines: RelayLines) -> GpioOutputs:
         outputs = GpioOutputs(
@@ -117,7 +123,7 @@ class Station:
             taken.callback(outputs.close)
             self.sentinel = None if self.world else Sentinel(lines)
             taken.pop_all()
-        # The lines go first: a sentinel that was not dismissed takes them when they are free.
+        # The lines are given back first: a sentinel that was not dismissed takes them when they are free.
         if self.sentinel:
             opened.callback(self.sentinel.close)
         opened.callback(outputs.close)

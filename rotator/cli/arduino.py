@@ -45,10 +45,12 @@ class ArduinoSession:
     idle_s = None
     closed = False
 
-    def __init__(self, sketch: Sketch) -> None:
+    def __init__(self, sketch: Sketch, wire: Wire) -> None:
         self._sketch = sketch
+        self._wire = wire
 
     def receive(self, data: bytes) -> list[bytes]:
+        self._wire.came(data)
         self._sketch.host_send(data)
         return []
 
@@ -67,7 +69,7 @@ async def _run(sketch: Sketch, pty: Path, *, plain: bool) -> None:
     stop = stop_on_signals()
     log_to(logging.StreamHandler() if plain else LogRows())
     wire = Wire("USB", "F1EFW sketch", str(pty))
-    link = PtyLink(wire, pty, lambda: ArduinoSession(sketch))
+    link = PtyLink(wire, pty, lambda: ArduinoSession(sketch, wire))
     await link.open()
     off = threading.Event()
     board = threading.Thread(target=sketch.run, args=(off,), name="arduino", daemon=True)

@@ -1,6 +1,6 @@
 """`rotator off`: every relay line off, when no box is running.
 
-Knows where the lines are said. How they are switched is the hardware layer's.
+Knows which configuration says the lines. How they are switched off is in `hw.safety.lines_off`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ HOLDS = {
 }
 """What becomes of a rotor without relays when the program ends."""
 PATIENCE_S = 1.0
-"""A program that is just dying lets go of its lines within this."""
+"""A dying program has given back its lines after this time, in seconds."""
 
 
 def relays_off(path: Path | None) -> None:

@@ -22,6 +22,8 @@ from rotator.status import Status
 
 log = logging.getLogger(__name__)
 
+PANEL_THREADS = ("panel", "panel-bus")
+"""The names of the two threads: the switches have one, what is on a bus has the other."""
 PERIOD_S = 0.05
 STALE_S = 0.25
 """An older reading does not count: a jog ends when the bus hangs."""
@@ -97,7 +99,7 @@ class PanelThread:
         self._stopping = threading.Event()
         self._threads = [
             threading.Thread(target=self._run, args=(work,), name=name, daemon=True)
-            for name, work in (("panel", self.step), ("panel-bus", self.attend))
+            for name, work in zip(PANEL_THREADS, (self.step, self.attend), strict=True)
         ]
 
     def data_received(self) -> None:

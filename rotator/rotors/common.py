@@ -23,7 +23,7 @@ def no_switches(_axis: Axis) -> frozenset[Direction]:
 
 
 class PlainRotor:
-    """What most kinds have not: a supply that can be switched, contacts that are counted."""
+    """The answers of a kind without a switched supply, without counted contacts and without a guard."""
 
     def closed_contacts(self) -> frozenset[Axis]:
         return frozenset()
@@ -39,7 +39,7 @@ class PlainRotor:
 
 
 class GuardedRotor(PlainRotor):
-    """A drive whose commands expire, with whoever sees to that: a thread, or the alarms of a simulated clock."""
+    """A drive whose commands expire, and its guard: a thread, or the alarms of a simulated clock."""
 
     def __init__(
         self, drive: Expiring, sensors: Mapping[Axis, AngleSensor], ends: Ends = no_switches, *, alarm: str = ""
@@ -53,7 +53,7 @@ class GuardedRotor(PlainRotor):
         return Condition(ends=self._ends(axis))
 
     def run(self, errand: Errand) -> None:
-        """Nothing here has to be told; a kind that has says so."""
+        """Nothing to do: a kind for which there is something overrides this."""
 
     def off(self) -> None:
         self._drive.off()

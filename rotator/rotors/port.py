@@ -17,7 +17,7 @@ AddAlarm = Callable[[Callable[[], float | None], Callable[[float], None]], None]
 
 
 class Rotor(Protocol):
-    """Only the loop drives it; `off` may be called by anybody at any time."""
+    """Only the control loop drives it. `off` may be called from any thread at any time."""
 
     sensors: Mapping[Axis, AngleSensor]
     """Read in a thread of their own."""
@@ -44,7 +44,7 @@ class Rotor(Protocol):
         """The supply may come back."""
 
     def start(self) -> None:
-        """Begin in real time: guards and whatever else has a thread of its own."""
+        """Begin in real time: start the guard and all other threads."""
 
     def begin(self, add_alarm: AddAlarm) -> None:
         """In place of `start` on a simulated clock, where there are no threads."""

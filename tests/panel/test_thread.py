@@ -28,7 +28,7 @@ from hw.ports import AngleSource, Axis, Direction
 from hw.sensors.pot import PotSensor, Reference
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.panel.panel import LAMPS, Panel, PanelSettings
-from rotator.panel.thread import PanelParts, PanelThread
+from rotator.panel.thread import PANEL_THREADS, PanelParts, PanelThread
 from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -388,7 +388,7 @@ def running() -> Iterator[Bench]:
     yield bench
     bench.sim.clear("bus-hung")
     bench.thread.stop()
-    assert not {"panel", "panel-bus"} & {thread.name for thread in threading.enumerate()}
+    assert not set(PANEL_THREADS) & {thread.name for thread in threading.enumerate()}
 
 
 def test_a_bus_that_hangs_does_not_take_the_stop_button_with_it(running: Bench) -> None:
