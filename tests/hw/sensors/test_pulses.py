@@ -196,7 +196,7 @@ def test_a_motor_much_slower_than_it_is_said_to_be_makes_the_count_doubtful_not_
 def test_before_anybody_has_placed_it_the_count_is_worth_nothing() -> None:
     rig = PulseRig()
     fresh = PulseCounter(Axis.ELEVATION, contact(rig, 26), rig.tapped, CAM, rig.clock)
-    assert fresh.trouble == "its place has not been told yet"
+    assert fresh.trouble == "it has not been placed yet"
 
 
 def test_a_kept_count_goes_on_where_it_was() -> None:
