@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
@@ -25,6 +26,8 @@ SLOW += "[sim.elevation]\nspeed_dps = 0.5\n"
 START_DEG = (30.0, 15.0)
 OFFSETS_S = (0.0, 0.013, 0.029)
 """A fault may strike at any moment of a cycle."""
+AT_THE_ORDER = ("starting", "dragging", "stop")
+"""Scenes in which it is there before the motor runs: they have no such moment."""
 PATIENCE_S = 1500.0
 
 
@@ -140,6 +143,11 @@ def strike(drill: Drill, axis: Axis, offset_s: float = 0.0, more: str = "") -> f
 
     Raises AssertionError where the box calls it something else, or goes on for ever.
     """
+    return _strike(drill, axis, 0.0 if drill.scene in AT_THE_ORDER else offset_s, more)
+
+
+@cache
+def _strike(drill: Drill, axis: Axis, offset_s: float, more: str) -> float:
     config = drill.config or (MASTER if drill.sim == "hand-turns" else "")
     mast = Mast(config + more)
     try:
@@ -208,8 +216,8 @@ def _play(mast: Mast, drill: Drill, axis: Axis, offset_s: float) -> float:
 def _told(status: Status, drill: Drill, axis: Axis) -> bool:
     each = status.axis(axis)
     if drill.notice:
-        return any(notice.startswith(drill.fault) for notice in each.notices)
-    return each.fault is not None and each.fault.name == drill.fault
+        return any(notice.text.startswith(drill.fault) for notice in each.notices)
+    return each.fault is not None and each.fault.kind.text == drill.fault
 
 
 def worst(drill: Drill) -> float:

@@ -57,13 +57,13 @@ class SimClock:
     def sleep_until(self, moment_s: float) -> None:
         """Let time pass up to that moment, and ring the alarms that are due by then."""
         while True:
-            first = min(((due_s, at) for at, due_s in enumerate(self._due_s()) if due_s <= moment_s), default=None)
+            first, first_s = None, math.inf
+            for alarm in self._alarms:
+                due_s = alarm.due_s()
+                if due_s is not None and due_s <= moment_s and due_s < first_s:
+                    first, first_s = alarm, due_s
             if first is None:
                 break
-            self._now_s = max(self._now_s, first[0])
-            self._alarms[first[1]].ring(self._now_s)
+            self._now_s = max(self._now_s, first_s)
+            first.ring(self._now_s)
         self._now_s = max(self._now_s, moment_s)
-
-    def _due_s(self) -> list[float]:
-        moments = [alarm.due_s() for alarm in self._alarms]
-        return [math.inf if moment_s is None else moment_s for moment_s in moments]

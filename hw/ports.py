@@ -30,6 +30,14 @@ class Direction(IntEnum):
     PLUS = 1
 
 
+class AngleSource(Enum):
+    """How the angle of an axis is known."""
+
+    MEASURED = "measured"
+    COUNTED = "counted"
+    MODELLED = "modelled"
+
+
 class HardwareError(Exception):
     """A device is missing, does not answer, or its answer makes no sense.
 
@@ -105,8 +113,7 @@ class LeaseWatch(Protocol):
 class AngleSensor(Protocol):
     """Measures, counts or models the angle of one axis. The calibration turns its reading into degrees."""
 
-    source: str
-    """How the angle is known: `measured`, `counted` or `modelled`."""
+    source: AngleSource
 
     def read(self) -> float:
         """One reading in the sensor's own unit: degrees, or a share from 0 to 1 (of a pot's supply, of a turn).

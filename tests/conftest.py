@@ -25,6 +25,15 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     return True if slow and not any(name.is_relative_to(slow[0]) for name in named) else None
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """An example may take as long as a busy machine needs: what must be fast is measured, not guessed from one run."""
+    if config.pluginmanager.hasplugin("hypothesispytest"):
+        from hypothesis import settings
+
+        settings.register_profile("house", settings.get_profile(settings.get_current_profile_name()), deadline=None)
+        settings.load_profile("house")
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("hardware", "tests/contract on a Raspberry Pi")
     group.addoption("--hardware", action="store_true", help="run tests/contract on this machine's pins and I2C bus")

@@ -101,6 +101,8 @@ class Ads1115:
 
     def settle(self) -> None:
         """Finish the conversions that have ended by now."""
+        if self._running is None:
+            return
         with self._lock:
             now_s = self._clock()
             while self._running and now_s >= self._running.ends_at_s:

@@ -6,6 +6,7 @@ Knows CAN ids as moteus uses them, and silent controllers. Knows neither the ada
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -15,6 +16,8 @@ from firmware_sim.moteus.controller import SimController
 WANTS_REPLY = 0x8000
 EVERYBODY = 0x7F
 NOP = b"\x50"
+LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
+"""Of the data in a CAN-FD frame."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,5 +79,4 @@ class SimTransport:
 
 def padded(data: bytes) -> bytes:
     """`data` filled up to the next length that a CAN-FD frame can have."""
-    lengths = [*range(9), 12, 16, 20, 24, 32, 48, 64]
-    return data.ljust(next(length for length in lengths if length >= len(data)), NOP)
+    return data.ljust(LENGTHS[bisect_left(LENGTHS, len(data))], NOP)

@@ -62,7 +62,7 @@ class SimController:
 
     def _read(self, read: multiplex.Read) -> bytes:
         values = []
-        for register in range(read.first, read.first + read.count):
+        for register in range(read.first, read.first + read.length):
             value = self._value(register)
             if value is None:
                 return multiplex.error(multiplex.READ_ERROR, register, multiplex.UNKNOWN_REGISTER)

@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import IntEnum
+from typing import NamedTuple
 
 from firmware_sim.moteus.registers import steps_of
 
@@ -31,6 +31,7 @@ class Kind(IntEnum):
     F32 = 3
 
 
+_KINDS = tuple(Kind)
 _FORMATS = {
     Kind.INT8: struct.Struct("<b"),
     Kind.INT16: struct.Struct("<h"),
@@ -40,8 +41,7 @@ _FORMATS = {
 _LARGEST = {Kind.INT8: 0x7F, Kind.INT16: 0x7FFF, Kind.INT32: 0x7FFFFFFF}
 
 
-@dataclass(frozen=True, slots=True)
-class Write:
+class Write(NamedTuple):  # a dozen of these a frame, 200 frames a second: a tuple is made faster
     """A subframe that writes one register."""
 
     register: int
@@ -49,12 +49,11 @@ class Write:
     """In the register's own unit; NaN where the sender gave the format's NaN."""
 
 
-@dataclass(frozen=True, slots=True)
-class Read:
-    """A subframe that asks for `count` registers from `first` on."""
+class Read(NamedTuple):
+    """A subframe that asks for `length` registers from `first` on."""
 
     first: int
-    count: int
+    length: int
     kind: Kind
 
 
@@ -72,7 +71,7 @@ def subframes(data: bytes) -> Iterator[Write | Read]:
             continue
         if opcode & 0xF0 not in (WRITE, READ):
             return
-        kind = Kind(opcode >> 2 & 0b11)
+        kind = _KINDS[opcode >> 2 & 0b11]
         count = opcode & 0b11
         if not count:
             count, at = _varuint(data, at)
@@ -88,11 +87,11 @@ def subframes(data: bytes) -> Iterator[Write | Read]:
 def reply(read: Read, values: list[float]) -> bytes:
     """The answer to a read, with the same opcode bits; `values` are in the registers' own units."""
     head = (
-        bytes([REPLY | read.kind << 2 | read.count])
-        if 1 <= read.count <= 3
-        else bytes([REPLY | read.kind << 2, read.count])
+        bytes([REPLY | read.kind << 2 | read.length])
+        if 1 <= read.length <= 3
+        else bytes([REPLY | read.kind << 2, read.length])
     )
-    body = b"".join(to_wire(read.first + at, read.kind, value) for at, value in enumerate(values))
+    body = b"".join([to_wire(register, read.kind, value) for register, value in enumerate(values, read.first)])
     return head + varuint(read.first) + body
 
 
@@ -127,6 +126,8 @@ def to_wire(register: int, kind: Kind, value: float) -> bytes:
 
 def varuint(value: int) -> bytes:
     """A number in groups of seven bits, lowest first; bit 7 is set on all bytes but the last."""
+    if value < 0x80:
+        return bytes((value,))
     octets = bytearray()
     while True:
         value, low = value >> 7, value & 0x7F
@@ -136,6 +137,8 @@ def varuint(value: int) -> bytes:
 
 
 def _varuint(data: bytes, at: int) -> tuple[int, int]:
+    if at < len(data) and data[at] < 0x80:
+        return data[at], at + 1
     value = 0
     for shift in range(0, 35, 7):
         if at >= len(data):

@@ -7,7 +7,7 @@ never burn a chip's settings by accident.
 
 from __future__ import annotations
 
-from hw.ports import HardwareError, I2CBus
+from hw.ports import AngleSource, HardwareError, I2CBus
 
 ADDRESS = 0x36
 ADDRESS_L = 0x40
@@ -28,7 +28,7 @@ class As5600:
     the axis's range. A calibration is valid for one `zero_turn` only.
     """
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, bus: I2CBus, address: int = ADDRESS, *, zero_turn: float = 0.0) -> None:
         self._bus = bus

@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hw.ports import HardwareError, I2CBus
+from hw.ports import AngleSource, HardwareError, I2CBus
 
 ADDRESS = 0x68
 """With AD0 low; 0x69 with AD0 high."""
@@ -75,7 +75,7 @@ class Mpu6050:
     how many readings are averaged at most.
     """
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(
         self,

@@ -13,7 +13,7 @@ from hw.chips.mcp41010 import Mcp41010
 from hw.drives.control_box import BoxSpec, ControlBox
 from hw.drives.positioned import DriveAngle
 from hw.drives.relays import LONGEST_LEASE_S
-from hw.ports import Axis, HardwareError, OutputLines
+from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 
 ENABLE = "box_enable"
 """The relay that feeds the boxes. A chip starts in the middle: a box that is fed from power-on turns there."""
@@ -29,7 +29,7 @@ class DigipotDrive:
     for a wrong table of steps.
     """
 
-    angle_source = "modelled"
+    angle_source = AngleSource.MODELLED
 
     def __init__(
         self,

@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 
 
 class AngleDrive(Protocol):
     """A drive that knows where its axes stand."""
 
-    angle_source: str
-    """How it knows: `measured` or `modelled`, as in `hw.ports.AngleSensor`."""
+    angle_source: AngleSource
 
     def angle_deg(self, axis: Axis) -> float:
         """Degrees on the rotor's own scale. Raises HardwareError where the angle is not known."""

@@ -15,7 +15,7 @@ from hw.chips.pca9685 import Pca9685
 from hw.drives.positioned import DriveAngle
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.drives.servo_axis import ServoAxis, ServoSpec
-from hw.ports import Axis, HardwareError, OutputLines
+from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 
 ENABLE = "servo_enable"
 """The line at the board's OE input; OE is active low, so this output is requested as active low."""
@@ -34,7 +34,7 @@ class ServoDrive:
     table of pulses.
     """
 
-    angle_source = "modelled"
+    angle_source = AngleSource.MODELLED
 
     def __init__(
         self,

@@ -13,7 +13,7 @@ from hw.drives.positioned import DriveAngle
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import MoteusAxis, Wish
 from hw.moteus.orders import Answer, MoteusSpec, Order
-from hw.ports import Axis, HardwareError
+from hw.ports import AngleSource, Axis, HardwareError
 
 
 class MoteusDrive:
@@ -22,7 +22,7 @@ class MoteusDrive:
     Raises HardwareError where both axes have one CAN id.
     """
 
-    angle_source = "measured"
+    angle_source = AngleSource.MEASURED
 
     def __init__(self, azimuth: MoteusSpec, elevation: MoteusSpec, clock: Callable[[], float]) -> None:
         if azimuth.can_id == elevation.can_id:

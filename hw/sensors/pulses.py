@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from hw.drives.relays import RELAYS
-from hw.ports import Axis, ContactChange, ContactInput, Direction, HardwareError, OutputLines
+from hw.ports import AngleSource, Axis, ContactChange, ContactInput, Direction, HardwareError, OutputLines
 from hw.sensors.cam import Cam
 from hw.sensors.cam_count import CamCount
 
@@ -66,7 +66,7 @@ class PulseCounter:
     `clock` is the kernel's monotonic time. Raises HardwareError where the debounce would hide whole closures.
     """
 
-    source = "counted"
+    source = AngleSource.COUNTED
 
     def __init__(
         self,

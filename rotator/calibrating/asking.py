@@ -16,6 +16,7 @@ from rotator.calibrating.readings import READINGS, SHARES, Doubt, Grain, Measure
 from rotator.calibrating.walk import Refused, Walk
 from rotator.calibrating.watch import Move, Watch
 from rotator.calibrating.words import Words, words_for
+from rotator.faults import Notice
 from rotator.orders import Jog, Stop
 from rotator.status import Status
 
@@ -64,7 +65,7 @@ class Asking(Walk):
         self._watch = Watch(known.axis, known.grain, known.settle_s)
         self._began_s = math.inf
         self._fault = ""
-        self._noticed: tuple[str, ...] = ()
+        self._noticed: tuple[Notice, ...] = ()
         self._stood = False
 
     def ready(self, answer: Answer) -> bool:

@@ -12,9 +12,10 @@ from dataclasses import dataclass
 from hw.ports import Axis
 from rotator.calibrating.answers import Answer, Halt, Press
 from rotator.calibrating.bearing import Learnt, Look, Sighting
-from rotator.calibrating.degrees import BEGIN_S, PLACED_S, POSITION_UNKNOWN
+from rotator.calibrating.degrees import BEGIN_S, PLACED_S
 from rotator.calibrating.walk import Refused, Steps, Walk
 from rotator.control.sky.angles import turn_deg
+from rotator.faults import FaultKind
 from rotator.orders import Aim, Confirm, Jog, Stop
 from rotator.status import AxisStatus, Status
 
@@ -203,7 +204,7 @@ class Boom(Walk):
     @property
     def _unplaced(self) -> bool:
         fault = self._azimuth.fault
-        return fault is not None and fault.name == POSITION_UNKNOWN
+        return fault is not None and fault.kind is FaultKind.POSITION_UNKNOWN
 
     @property
     def _learnt(self) -> Learnt:

@@ -9,17 +9,17 @@ from __future__ import annotations
 from collections.abc import Generator
 from dataclasses import dataclass
 
-from hw.ports import Direction
+from hw.ports import AngleSource, Direction
 from rotator.calibrating.answers import Enter, Halt, Number
 from rotator.calibrating.asking import Asking, Commissioned, Known
 from rotator.calibrating.readings import Doubt
 from rotator.calibrating.table import LEAST_SPAN_DEG
 from rotator.calibrating.walk import Refused, Steps
 from rotator.calibrating.watch import Move
+from rotator.faults import FaultKind, Missing
 from rotator.orders import Confirm, Home, Stop
 from rotator.status import AxisStatus
 
-POSITION_UNKNOWN = "position unknown"
 BEGIN_S = 0.5
 """An order has been heard within this."""
 PLACED_S = 5.0
@@ -32,7 +32,7 @@ class Kind:
 
     rotor: str
     """Its type, as the file has it."""
-    source: str
+    source: AngleSource
     """How its angle is known: measured, counted or modelled."""
     shift_deg: float = 0.0
     """Added to the rotor's own scale to have what the box reports."""
@@ -52,12 +52,12 @@ class DegreesGuide(Asking):
             self._say("", self._kind.warning)
         yield from self._place()
         self._say("", *words.direction_check)
-        if self._kind.source == "counted":
+        if self._kind.source is AngleSource.COUNTED:
             yield from self._check_by_eye()
             yield from self._home()
         else:
             yield from self._check_by_reading()
-        number = 3 if self._kind.source == "counted" else 2
+        number = 3 if self._kind.source is AngleSource.COUNTED else 2
         low_deg = yield from self._limit(f"{number}. The lowest", self.known.min_deg, self.known.least_deg)
         high_deg = yield from self._limit(f"{number + 1}. The highest", self.known.max_deg, low_deg + LEAST_SPAN_DEG)
         self._say(*words.degrees_summary(low_deg, high_deg))
@@ -90,7 +90,7 @@ class DegreesGuide(Asking):
     @property
     def _unplaced(self) -> bool:
         fault = self._axis.fault
-        return fault is not None and fault.name == POSITION_UNKNOWN
+        return fault is not None and fault.kind is FaultKind.POSITION_UNKNOWN
 
     # --- directions
 
@@ -153,7 +153,7 @@ class DegreesGuide(Asking):
     @property
     def _lost(self) -> bool:
         """Nobody knows where it stands."""
-        return "homing" in self._axis.uncalibrated
+        return Missing.HOMING in self._axis.missing
 
     @property
     def _tells(self) -> bool:

@@ -94,7 +94,7 @@ def report(status: Status) -> list[str]:
 
 def _stands(status: Status, axis: Axis) -> str:
     each = status.axis(axis)
-    words = ["not known" if each.angle_deg is None else f"{_shown(each.angle_deg)} {each.source}"]
+    words = ["not known" if each.angle_deg is None else f"{_shown(each.angle_deg)} {each.source.value}"]
     if each.target_deg is not None:
         words.append(f"to {_shown(each.target_deg)}")
     if each.homing:

@@ -54,7 +54,7 @@ VERBS = (
     Verb("VU", "Turn up at so many mdeg/s; 0: stop elevation", Level.III, _SPEED),
     Verb("VD", "Turn down at so many mdeg/s; 0: stop elevation", Level.III, _SPEED),
     Verb("GS", "Read the state, a sum: 1 idle, 2 moving, 4 has a target, 8 fault", Level.III),
-    Verb("GE", "Read the faults, a sum: 1 sensor, 2 jam, 4 not calibrated", Level.III),
+    Verb("GE", "Read the faults, a sum: 1 sensor, 2 jam, 4 not calibrated, 8 motor or its control", Level.III),
 )
 _PATTERNS = tuple((verb, re.compile(f"{verb.text}({verb.number})")) for verb in VERBS)
 _STOPS = ("SA", "SE")

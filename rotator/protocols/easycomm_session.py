@@ -11,13 +11,13 @@ from itertools import groupby
 
 from hw.ports import Axis, Direction
 from rotator import __version__
+from rotator.faults import EasycommError
 from rotator.orders import Jog, Order, Park, Stop
 from rotator.protocols import easycomm
 from rotator.protocols.aiming import aim
 from rotator.protocols.easycomm import Level, Word
 from rotator.protocols.lines import LineReader
 from rotator.protocols.session import Box
-from rotator.status import Fault
 
 NO_LINE_END_S = 0.2
 
@@ -30,8 +30,6 @@ _TURNS = {
 }
 """The second letter of a move or velocity command."""
 _IDLE, _MOVING, _POINTING, _FAULT = 1, 2, 4, 8
-_SENSOR, _JAM, _UNCALIBRATED = 1, 2, 4
-_JAMS = ("motor runs and pot stands still", "motor on longer than the travel takes", "end stop reached")
 
 
 class EasycommSession:
@@ -96,9 +94,12 @@ class EasycommSession:
 
     def _faults(self) -> int:
         status = self._box.status()
-        kinds = {_fault_kind(fault) for fault in status.faults}
-        uncalibrated = status.azimuth.uncalibrated or status.elevation.uncalibrated
-        return sum(kinds) + (_UNCALIBRATED if uncalibrated else 0)
+        errors = (
+            EasycommError.NOT_CALIBRATED if status.azimuth.missing or status.elevation.missing else EasycommError(0)
+        )
+        for fault in status.faults:
+            errors |= fault.kind.easycomm
+        return int(errors)
 
 
 def _orders(kind: str, words: list[Word]) -> Iterator[Order]:
@@ -132,9 +133,3 @@ def _kind(word: Word) -> str:
             return "stop"
         case _:
             return word.verb
-
-
-def _fault_kind(fault: Fault) -> int:
-    if fault.name in _JAMS:
-        return _JAM
-    return _SENSOR if fault.name.startswith(("pot", "sensor")) else 0

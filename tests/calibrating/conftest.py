@@ -43,6 +43,7 @@ class Sitting:
         self.axis = axis
         self.said: list[str] = []
         if bad_luck:
+            assert self.world is not None
             self.world.inject(bad_luck)
         self._sit_down(config)
         self.wait(0.5)

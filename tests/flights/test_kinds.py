@@ -61,6 +61,21 @@ def test_u100_without(flown: dict[tuple[str, str], Flight], name: str) -> None:
     assert flown[U100, name].summary.rms_deg <= 4.0
 
 
+def test_the_relays_of_a_u100_start_seldom(flown: dict[tuple[str, str], Flight]) -> None:
+    starts = flown[U100, "mid-1-iss"].summary.relay_starts
+    assert starts is not None
+    assert 0 < starts < 100
+
+
+@pytest.mark.parametrize(("kind", "p95_deg"), [(MOTEUS_W, 0.5), (SERVOS, 1.0), (POT, 4.0)])
+def test_motors_that_go_to_an_angle_fly_without_relays(
+    flown: dict[tuple[str, str], Flight], kind: str, p95_deg: float
+) -> None:
+    summary = flown[kind, "mid-1-iss"].summary
+    assert summary.relay_starts is None
+    assert summary.p95_deg < p95_deg
+
+
 @pytest.mark.parametrize("name", NOT_NORTH)
 def test_digital_pot(flown: dict[tuple[str, str], Flight], name: str) -> None:
     assert flown[POT, name].summary.rms_deg <= 3.0

@@ -6,10 +6,14 @@ import subprocess
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
-Start = Callable[..., "RunningBox"]  # noqa: F821 - a fixture's type
+if TYPE_CHECKING:
+    from tests.foreign.conftest import RunningBox
+
+Start = Callable[..., "RunningBox"]
 TOLERANCE_DEG = 4.5
 """What the box promises, and half a degree for whole-degree replies."""
 DIALECTS = {
@@ -27,6 +31,8 @@ SPEEDS = {903: ("-s", "9600")}
 """The MD-01 model's own default, 460800, is one that this Hamlib cannot set."""
 PATIENCE_S = 60.0
 """How long to go on asking whether the antenna has arrived: each question is a rotctl of its own."""
+ASK_EVERY_S = 0.1
+"""A process for each question, and as many as a core can start, would slow down the box itself."""
 
 
 @pytest.fixture
@@ -52,7 +58,7 @@ def position(output: str) -> tuple[float, float]:
     return float(azimuth), float(elevation)
 
 
-def place(box: RunningBox, over: str) -> Path | str:  # noqa: F821 - as above
+def place(box: RunningBox, over: str) -> Path | str:
     return box.pty if over == "pty" else f"127.0.0.1:{box.gs232_port}"
 
 
@@ -64,6 +70,7 @@ def arrive(rotctl: Callable[..., str], model: int, where: Path | str, goal: tupl
         seen = position(rotctl(model, where, "p"))
         if all(abs(at - to) <= TOLERANCE_DEG for at, to in zip(seen, goal, strict=True)):
             return
+        time.sleep(ASK_EVERY_S)
     pytest.fail(f"the antenna stands at {seen}, not at {goal}")
 
 
@@ -72,6 +79,7 @@ def rest(rotctl: Callable[..., str], model: int, where: Path | str) -> tuple[flo
     before = position(rotctl(model, where, "p"))
     give_up_s = time.monotonic() + PATIENCE_S
     while time.monotonic() < give_up_s:
+        time.sleep(ASK_EVERY_S)
         seen = position(rotctl(model, where, "p"))
         if seen == pytest.approx(before, abs=1):
             return seen

@@ -57,7 +57,7 @@ def until(true: Callable[[], bool], otherwise: str) -> None:
     give_up_s = time.monotonic() + PATIENCE_S
     while not true():
         assert time.monotonic() < give_up_s, otherwise
-        time.sleep(0.05)
+        time.sleep(0.1)
 
 
 def points_at(rotctl: Rotctl, port: int, azimuth_deg: float, elevation_deg: float) -> bool:

@@ -12,7 +12,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -24,7 +24,7 @@ from hw.buses.gpio import GpioInputs
 from hw.buses.i2c import SmbusI2C
 from hw.chips.ads1115 import Ads1115
 from hw.chips.pca9685 import Pca9685
-from hw.ports import Axis, Direction
+from hw.ports import AngleSource, Axis, Direction
 from hw.sensors.pot import PotSensor, Reference
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.panel.panel import LAMPS, Panel, PanelSettings
@@ -33,8 +33,8 @@ from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MANUAL, PARK, AUTO, JOG = range(4)
-PINS = {"mode_msb": 20, "mode_lsb": 21, "calibrate": 19, "stop": 16}
-INPUTS = {"azimuth_knob": 0, "elevation_knob": 1, "jog": 2}
+PINS: dict[str, Any] = {"mode_msb": 20, "mode_lsb": 21, "calibrate": 19, "stop": 16}
+INPUTS: dict[str, Any] = {"azimuth_knob": 0, "elevation_knob": 1, "jog": 2}
 LAMP_OUTPUTS = {name: output for output, name in enumerate(LAMPS, start=2)}
 METERS = {AZ: 0, EL: 1}
 FULL_SCALE = 0.9
@@ -74,7 +74,9 @@ class Bench:
         self.wire = SimI2CBus(sleep)
         self.sim = SimPanel(SPEC, self.gpio, self.wire, clock)
         self.status = Status(
-            0.0, AxisStatus(0.0, 360.0, angle_deg=90.0, source="counted"), AxisStatus(0.0, 180.0, angle_deg=45.0)
+            0.0,
+            AxisStatus(0.0, 360.0, angle_deg=90.0, source=AngleSource.COUNTED),
+            AxisStatus(0.0, 180.0, angle_deg=45.0),
         )
         self.bug = False
         self.posted: list[Order] = []
@@ -203,7 +205,7 @@ def test_knobs_send_the_antenna_in_manual() -> None:
         desk.sim.turn_knob("azimuth", tenth / 10)
         assert desk.waits(0.2) == []
     assert desk.needles() == pytest.approx((0.5, 0.25), abs=0.004)
-    assert desk.waits(1.2) == [Aim(pytest.approx(180.0, abs=0.5), None)]
+    assert desk.waits(1.2) == [Aim(cast(Any, pytest.approx(180.0, abs=0.5)), None)]
     assert desk.needles() == pytest.approx((0.25, 0.25), abs=0.004)
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Refusal, Release, Source, Stop
 from rotator.protocols.console import VERBS, Ask, Said, encode, parse
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
@@ -183,7 +184,7 @@ def test_status_on_the_way(box: BenchBox) -> None:
 
 
 def test_status_when_stopped_and_faulty(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=("limits",), blind=True)
+    box = new_box(missing=(Missing.LIMITS,), blind=True)
     session = ConsoleSession(box)
     session.receive(b"stop\n")
     assert told(session) == [

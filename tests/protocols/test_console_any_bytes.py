@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import tracemalloc
+from collections.abc import Callable
 from dataclasses import replace
 
 from hypothesis import given, settings
@@ -38,7 +39,7 @@ LINES = st.one_of(
 PIECES = st.lists(st.one_of(st.binary(max_size=6), WORDS, NUMBERS, BLANKS, ENDS, LINES, LINES), max_size=30)
 
 ANGLE = rb"[+-]?\d{1,3}(?:[.,]\d{0,9})?"
-READINGS = {
+READINGS: dict[re.Pattern[bytes], Callable[..., Order | None]] = {
     re.compile(rb"stop(?: .*)?", re.DOTALL): lambda: Stop(latch=True),
     re.compile(rb"resume"): Release,
     re.compile(rb"let-go"): LetGo,

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import Aim, Calibrate, ClearTimed, Jog, Order, Source, Speed, Stop
 from rotator.protocols.gs232 import MAX_LINE, Dialect
 from rotator.protocols.gs232_session import Gs232Session
@@ -213,7 +214,7 @@ def test_help_comes_in_one_piece_of_whole_lines(session: Gs232Session, feed: Fee
 
 
 def test_an_axis_nobody_commissioned_obeys_only_jog(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=("calibration",))
+    box = new_box(missing=(Missing.CALIBRATION,))
     session = Gs232Session(box, Dialect.B)
     assert session.receive(b"W100 045\rM100\rM005 010 020\rT\r") == [WRONG] * 4
     assert box.turned == set()

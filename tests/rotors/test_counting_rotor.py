@@ -50,10 +50,10 @@ def switched_on_again(new_box: NewBox, before: Box, counts: Path, past_deg: floa
 def test_fresh_from_the_box_it_wants_homing(new_box: NewBox, counts: Path) -> None:
     box = new_box(U100, counts=counts)
     box.run(1.0)
-    assert box.axis(AZ).uncalibrated == "homing (nobody has yet)"
+    assert box.axis(AZ).uncalibrated == "homing (not done yet)"
     refused = box.client().order(Aim(120.0, 40.0))
     assert refused is not None
-    assert refused.reason.startswith("UNCALIBRATED: azimuth needs homing (nobody has yet)")
+    assert refused.reason.startswith("UNCALIBRATED: azimuth needs homing (not done yet)")
     homed(box)
     assert box.world.shafts() == (0.0, 0.0)
     assert box.arrives(120.0, 40.0)

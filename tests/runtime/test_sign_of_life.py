@@ -5,6 +5,8 @@ Whoever hears it (a one-shot in the motors' supply, the service manager) switche
 
 from __future__ import annotations
 
+from typing import cast
+
 import pytest
 
 from firmware_sim.clock import SimClock
@@ -60,8 +62,9 @@ class Rig:
         self.clock = SimClock()
         config = CONFIG
         self.station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0))
+        assert isinstance(self.station.rotor, RelayRotor)
         self.drive = Fragile(self.station.rotor.bank)
-        self.rotor = RelayRotor(self.drive, self.station.rotor.sensors)
+        self.rotor = RelayRotor(cast(RelayBank, self.drive), self.station.rotor.sensors)
         self.signs = 0
         self.loop = ControlLoop(build_controller(config), self.rotor, self.clock, 0.05, after_good_step=self.sign)
 

@@ -12,7 +12,7 @@ from hw.chips.mcp41010 import Mcp41010
 from hw.drives.control_box import BoxSpec
 from hw.drives.digipot import ENABLE, REFRESH_S, DigipotDrive
 from hw.drives.relays import LONGEST_LEASE_S
-from hw.ports import Axis, HardwareError
+from hw.ports import AngleSource, Axis, HardwareError
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 ENABLE_PIN = 22
@@ -103,7 +103,7 @@ def test_the_box_goes_where_the_wiper_says_and_the_model_with_it(kernel: bool, a
     bench.follow(AZ, angle_deg, 60.0)
     assert bench.antenna(AZ) == pytest.approx(angle_deg, abs=BAND_DEG)
     assert bench.drive.sensor(AZ).read() == pytest.approx(bench.antenna(AZ), abs=1.5)
-    assert bench.drive.sensor(AZ).source == "modelled"
+    assert bench.drive.sensor(AZ).source is AngleSource.MODELLED
 
 
 def test_on_the_way_the_model_is_where_the_antenna_is() -> None:

@@ -17,7 +17,7 @@ from hw.chips.pca9685 import Pca9685
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.drives.servo import ENABLE, LOOK_S, RETRY_S, ServoDrive
 from hw.drives.servo_axis import ServoSpec
-from hw.ports import Axis, HardwareError
+from hw.ports import AngleSource, Axis, HardwareError
 from hw.safety.guard import PATIENCE_S
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -128,7 +128,7 @@ def test_a_moving_target_is_followed_between_orders() -> None:
     bench.follow(AZ, 60.0, 10.0, rate_dps=3.0)
     assert bench.antenna(AZ) == pytest.approx(90.0, abs=0.5)
     assert bench.drive.sensor(AZ).read() == pytest.approx(90.0, abs=0.1)
-    assert bench.drive.sensor(AZ).source == "modelled"
+    assert bench.drive.sensor(AZ).source is AngleSource.MODELLED
 
 
 def test_a_course_that_runs_out_is_held_where_it_is() -> None:

@@ -21,7 +21,7 @@ from hw.moteus.drive import MoteusDrive
 from hw.moteus.faults import FAULTS
 from hw.moteus.orders import WATCHDOG_S, MoteusSpec
 from hw.moteus.wire import MoteusInStep
-from hw.ports import Axis, HardwareError
+from hw.ports import AngleSource, Axis, HardwareError
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 AZIMUTH = MoteusSpec(can_id=1)
@@ -48,9 +48,8 @@ class Bench:
         self.drive = MoteusDrive(*self.specs, self.clock)
         self.alive = True
         wire = MoteusInStep(self.drive, self.world.transport())
-        self.clock.add_alarm(
-            lambda drive=self.drive: wire.due_s() if self.drive is drive and self.alive else None, wire.serve
-        )  # type: ignore[misc]
+        drive = self.drive
+        self.clock.add_alarm(lambda: wire.due_s() if self.drive is drive and self.alive else None, wire.serve)
         self.clock.sleep(0.1)
 
     def follow(self, axis: Axis, angle_deg: float, seconds: float, rate_dps: float = 0.0) -> None:
@@ -95,7 +94,7 @@ def test_it_goes_there_and_tells_so(axis: Axis) -> None:
     bench.follow(axis, 47.3, 10.0)
     assert bench.antenna(axis) == pytest.approx(47.3, abs=1e-3)
     assert bench.drive.sensor(axis).read() == pytest.approx(47.3, abs=1e-3)
-    assert bench.drive.sensor(axis).source == "measured"
+    assert bench.drive.sensor(axis).source is AngleSource.MEASURED
 
 
 # --- motion

@@ -110,7 +110,8 @@ class Site:
         with ExitStack() as stack:
             stack.enter_context(persisting(True))
             self.chip = stack.enter_context(GpioChip())
-            self.world: SimRelayPotRotor = simulated_rotor(parse(ROTOR, "rotor"), time.monotonic, None, (100.0, 20.0))
+            self.world = simulated_rotor(parse(ROTOR, "rotor"), time.monotonic, None, (100.0, 20.0))
+            assert isinstance(self.world, SimRelayPotRotor)
             self.adapter = stack.enter_context(I2CAdapter(self.world.bus))
             stack.enter_context(Plant(self.chip, self.world, (*RELAYS, MASTER)))
             self.edges = stack.enter_context(EdgeRecorder(self.chip))
