@@ -301,8 +301,9 @@ class Unguarded:
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
 def test_a_guard_that_dies_ends_the_loop_with_every_relay_off() -> None:
     station = Station(Config(), time.monotonic, time.sleep, (100.0, 20.0))
-    assert station.world is not None
-    rotor = RelayRotor(Unguarded(station.rotor.bank), station.rotor.sensors)
+    assert isinstance(station.world, SimRelayPotRotor)
+    assert isinstance(station.rotor, RelayRotor)
+    rotor = RelayRotor(cast(RelayBank, Unguarded(station.rotor.bank)), station.rotor.sensors)
     loop = ControlLoop(build_controller(Config()), rotor, time.monotonic, PERIOD_S)
     loop.post(LINK, Aim(235.0, 20.0))
     rotor.start()
