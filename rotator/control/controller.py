@@ -183,7 +183,6 @@ class Controller:
 
     def _move(self, order: Order, source: Source, now_s: float) -> None:
         self._timed.halt()
-        self._moved_s = now_s
         if not isinstance(order, Home):
             self._homing.clear()
         match order:
@@ -191,6 +190,7 @@ class Controller:
                 self._point_at(order, now_s)
             case Park():
                 self._park(now_s)
+                return
             case Jog(axis, direction, seconds):
                 self._aiming.forget((axis,))
                 self._axes[axis].jog(direction, seconds, now_s)
@@ -200,6 +200,8 @@ class Controller:
                 self._point_at(Aim(*self._timed.load(interval_s, points)), now_s)
             case RunTimed():
                 self._timed.run(now_s)
+        if self._timed.running or any(control.busy for control in self._axes.values()):
+            self._moved_s = now_s
 
     def _point_at(self, aim: Aim, now_s: float) -> None:
         try:

@@ -30,6 +30,10 @@ class ControlledAxis(Protocol):
         """The target that the axis points at; None: it rests, jogs or homes."""
 
     @property
+    def busy(self) -> bool:
+        """Whether the axis has a goal: it aims, jogs or homes."""
+
+    @property
     def driven(self) -> bool:
         """Whether the motor was on after the last cycle."""
 

@@ -51,6 +51,10 @@ class PositionedAxis:
         return self._goal if isinstance(self._goal, AimGoal) else None
 
     @property
+    def busy(self) -> bool:
+        return self._goal is not None
+
+    @property
     def fault(self) -> Fault | None:
         return self._faults.fault
 

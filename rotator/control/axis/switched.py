@@ -73,6 +73,10 @@ class SwitchedAxis:
         return self._goal if isinstance(self._goal, AimGoal) else None
 
     @property
+    def busy(self) -> bool:
+        return self._goal is not None
+
+    @property
     def homing(self) -> bool:
         return isinstance(self._goal, HomeGoal)
 

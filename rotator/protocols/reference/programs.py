@@ -99,7 +99,7 @@ PROGRAMS = (
         "general use",
     ),
     Program(
-        "Loggers, balloon trackers: all that steer PstRotator",
+        "Loggers, balloon trackers and others that steer PstRotator",
         ("pstrotator",),
         "UDP `0.0.0.0:12000`",
         "PstRotator, the Pi's address, port 12000; answers come back at 12001",
