@@ -175,7 +175,7 @@ class SimPanel(Fallible):
             self._wire_up()
 
     def _advance(self) -> None:
-        """Nothing on a panel moves by itself."""
+        """Nothing to do: no part of a panel moves by itself."""
 
     def _fault_table(self, bus: SimI2CBus) -> dict[str, SimFault]:
         spec = self.spec

@@ -18,7 +18,7 @@ FUNCTION_4_BIT_2_LINES = 0x28
 SET_ADDRESS = 0x80
 
 POWER_UP_MS = 50
-"""The controller wants 40 ms from the moment its supply is good."""
+"""The controller needs 40 ms from the moment its supply is good."""
 WAKE_NIBBLES = ((0x3, 4500), (0x3, 4500), (0x3, 150), (0x2, 0))
 """Three times "8 bits" brings it to a known state from any other, then "4 bits"; each with its wait in µs."""
 CLEAR_US = 2000
