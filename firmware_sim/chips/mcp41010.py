@@ -1,7 +1,7 @@
 """A simulated MCP41010: a shift register behind three pins, and the wiper it sets.
 
-Knows edges, frames and commands. Knows nothing of what the wiper is wired to. Also here: the kernel's SPI controller in
-the shape of the module `spidev`, which moves the same pins.
+Knows edges, frames and commands (Microchip DS11195C). Does not know what the wiper is wired to. Also here: the kernel's
+SPI controller in the shape of the module `spidev`, which moves the same pins.
 """
 
 from __future__ import annotations
@@ -16,31 +16,31 @@ WRITE, SHUTDOWN = 0b01, 0b10
 
 
 class Mcp41010:
-    """The chip. `before_change` is called before the wiper moves: what hangs there catches up."""
+    """The chip. `before_change` is called before the wiper moves, so that the parts behind it catch up first."""
 
     def __init__(self) -> None:
         self.before_change: list[Callable[[], None]] = []
         self.deaf = False
         """Fault: its select line is broken."""
         self.frames = 0
-        """How many it has obeyed."""
+        """How many frames it has obeyed."""
         self.step = POWER_ON_STEP
         self.shut_down = False
         self._cs, self._sck = True, False
         self._shifted, self._count = 0, 0
 
     def share(self) -> float:
-        """Where the wiper is between B (0) and A (1), with nothing drawn from it."""
+        """The wiper's place between B (0) and A (1), without a load."""
         return 0.0 if self.shut_down else self.step / 256
 
     def power_on(self) -> None:
-        """Its supply has been away for a moment."""
+        """Its supply comes back after an interruption: the wiper is in the middle."""
         self._announce()
         self.step, self.shut_down = POWER_ON_STEP, False
         self._shifted, self._count = 0, 0
 
     def pins(self, *, cs: bool, sck: bool, si: bool) -> None:
-        """The levels from now on."""
+        """The levels of its pins from now on."""
         cs = cs or self.deaf
         if self._cs and not cs:
             self._shifted, self._count = 0, 0
@@ -70,7 +70,7 @@ class Mcp41010:
 
 
 class SimSpidev:
-    """Stands where the module `spidev` stands. `chips` are at /dev/spidevBUS.SELECT by those two numbers."""
+    """Takes the place of the module `spidev`. `chips` by the numbers of /dev/spidevBUS.SELECT."""
 
     def __init__(self, chips: Mapping[tuple[int, int], Mcp41010]) -> None:
         self.chips = chips
@@ -80,7 +80,7 @@ class SimSpidev:
 
 
 class SimSpiDevice:
-    """As `spidev.SpiDev`, in modes 0 and 3 (CPOL and CPHA alike), the ones that the chip takes."""
+    """In the shape of `spidev.SpiDev`, in modes 0 and 3 (CPOL equals CPHA), which this chip works with."""
 
     def __init__(self, chips: Mapping[tuple[int, int], Mcp41010]) -> None:
         self.mode = 0
@@ -94,7 +94,7 @@ class SimSpiDevice:
         self._chip = self._chips[bus, device]
 
     def xfer2(self, values: Sequence[int]) -> list[int]:
-        """Select, clock every byte, let go; nothing answers."""
+        """Select the chip, clock the bytes in, release it. The chip has no output: the answer is zeros."""
         if self._chip is None:
             raise OSError(errno.EBADF, os.strerror(errno.EBADF))
         rest = self.mode == 3
