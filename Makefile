@@ -22,7 +22,7 @@ check: $(VENV)/.dev
 
 # More at once than there are cores, for many tests wait for a foreign program's own pauses.
 tests: $(VENV)/.dev
-	$(BIN)/pytest -n 5 --dist worksteal $(TESTS)
+	$(BIN)/pytest -n 4 --dist worksteal $(TESTS)
 
 # Every kind of rotor: one contract, every fault by name, finding north; then twelve real passes on each.
 test-rotors: $(VENV)/.dev
