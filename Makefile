@@ -63,9 +63,10 @@ picture: $(VENV)/.dev
 picture-gpredict: $(VENV)/.dev
 	$(BIN)/pytest tests/gpredict -k follows --picture docs/img/gpredict.png
 
-# The wiring pictures, from their source in docs/drawings.
+# The wiring pictures, from their source in docs/drawings, and the rooms of the source, from its imports.
 drawings: $(VENV)/.dev
 	$(BIN)/python -m docs.drawings
+	$(BIN)/python -m docs.architecture
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' || \

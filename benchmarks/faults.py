@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotors.relay_pot import World
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
@@ -39,7 +39,7 @@ class Mast:
         self.clock = SimClock()
         self._period_s = 1 / config.control.rate_hz
         self._station = Station(config, self.clock, self.clock.sleep, start_deg, add_alarm=self.clock.add_alarm)
-        assert isinstance(self._station.world, World)
+        assert isinstance(self._station.world, SimRelayPotRotor)
         self.world = self._station.world
         self._loop = ControlLoop(build_controller(config), self._station.rotor, self.clock, self._period_s)
         self._cycles = 0
@@ -216,8 +216,8 @@ def _play(mast: Mast, drill: Drill, axis: Axis, offset_s: float) -> float:
 def _told(status: Status, drill: Drill, axis: Axis) -> bool:
     each = status.axis(axis)
     if drill.notice:
-        return any(notice.startswith(drill.fault) for notice in each.notices)
-    return each.fault is not None and each.fault.name == drill.fault
+        return any(notice.text.startswith(drill.fault) for notice in each.notices)
+    return each.fault is not None and each.fault.kind.text == drill.fault
 
 
 def worst(drill: Drill) -> float:

@@ -1,24 +1,22 @@
 """The picture in the README: run `python -m benchmarks.screenshot docs/img/run.svg`.
 
 Starts the box on the simulated rotor, orders it about over its own pseudo-terminal and TCP port, and prints what
-`rotator run` shows after some seconds as an SVG. Nothing in it is drawn by hand.
+`rotator run` shows after half a minute as an SVG. Its text is the running box's own.
 """
 
 from __future__ import annotations
 
 import asyncio
-import io
 import os
 import sys
 import tempfile
 from pathlib import Path
 
-from rich.console import Console
-
+from benchmarks.screen_svg import screen_svg
 from rotator import __version__
 from rotator.app import App
 from rotator.config.load import parse
-from rotator.views import terminal
+from rotator.views import frame, terminal
 
 UNDER_WAY_S = 30.0
 
@@ -39,6 +37,7 @@ async def take() -> str:
             os.write(port, b"W235 025\r")
             await asyncio.sleep(UNDER_WAY_S)
             os.write(port, b"C2\r")
+            writer.write(b"p\n")
             await asyncio.sleep(0.5)
             picture = _render(app)
             os.close(port)
@@ -54,10 +53,9 @@ def _render(app: App) -> str:
     world = app.station.world
     assert world is not None
     assert world.lcd is not None
-    console = Console(record=True, width=terminal.WIDTH, file=io.StringIO())
     wires = [link.wire for link in app.links]
-    console.print(terminal.picture(__version__, app.loop.status, world.lcd.text(), wires, []))
-    return console.export_svg(title="rotator run")
+    picture = terminal.picture(__version__, app.loop.status, world.lcd.text(), wires, [])
+    return screen_svg(picture, "rotator run", frame.WIDTH)
 
 
 CONFIG = """

@@ -1,1 +1,1 @@
-"""The hardware layer: interfaces in `ports`, one small driver a device below them."""
+"""The hardware layer: interfaces in `ports`, and one small driver for each device. It does not know the program."""

@@ -1,7 +1,10 @@
-"""The interfaces between the program and whatever turns and measures an antenna.
+"""The interfaces between the program and the hardware: drives, sensors, a display, and the buses below them.
 
-Knows what a caller may ask of a drive, a sensor and a display, and what failure looks like. Knows no device. Everything
-here is a `typing.Protocol`: a driver conforms by its shape and imports nothing but the names below.
+Knows what a caller may ask, in which unit, and how a failure is reported. Knows no device. Each interface is a
+`typing.Protocol`: a driver fits it by its methods alone, and imports from here only the values it uses.
+
+Time in seconds (`_s`) is on the clock that the driver was built with: time.monotonic() on a Pi, a simulated clock in
+tests. Angles in degrees (`_deg`) are on the rotor's own scale, 0 to 450 for example.
 """
 
 from __future__ import annotations
@@ -9,7 +12,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, IntEnum
-from typing import Protocol
+from typing import NamedTuple, Protocol
+
+# --- values that all drivers share
 
 
 class Axis(Enum):
@@ -18,124 +23,108 @@ class Axis(Enum):
 
 
 class Direction(IntEnum):
-    """Which way along the axis's own scale: PLUS is clockwise, or up."""
+    """A direction of turning along the axis's own scale: PLUS is clockwise or up, MINUS counter-clockwise or down."""
 
     MINUS = -1
     OFF = 0
     PLUS = 1
 
 
+class AngleSource(Enum):
+    """How the angle of an axis is known."""
+
+    MEASURED = "measured"
+    COUNTED = "counted"
+    MODELLED = "modelled"
+
+
 class HardwareError(Exception):
-    """A device is missing, does not answer or answers nonsense. The text says what and where, for a person."""
+    """A device is missing, does not answer, or its answer makes no sense.
+
+    The text is for the user: which device, what is wrong, what to check.
+    """
 
 
-class AngleSensor(Protocol):
-    """Tells where an axis is, in the sensor's own unit; calibration turns that into degrees."""
-
-    source: str
-    """How the angle is known: `measured`, `counted` or `modelled`."""
-
-    def read(self) -> float:
-        """The raw reading: for a pot the share of its supply, 0 to 1. May take milliseconds.
-
-        Raises HardwareError when the device does not answer; the next call tries again.
-        """
+# --- motors
 
 
 class SwitchedDrive(Protocol):
-    """Motors that are only on or off, two directions an axis."""
+    """Two motors that are only on or off, in two directions each: relays. The angle comes from an `AngleSensor`."""
 
     def drive(self, axis: Axis, direction: Direction, until_s: float) -> Direction:
-        """Run `axis` that way until the moment `until_s` at the latest; OFF stops it now. Returns what is on now.
+        """Run `axis` in that direction until `until_s` at the latest; OFF stops it now. Returns what is on now.
 
-        Below this call, where no caller can go round it: opposite directions are never on together, a reversal waits
-        out its dead time (OFF comes back meanwhile: ask again), and no command lives longer than the longest lease.
-        Raises HardwareError when the lines cannot be set.
+        The drive itself enforces three rules, so that no caller can bypass them. Opposite directions are never on
+        together. A reversal waits for its dead time: meanwhile OFF is returned, and the caller asks again. Each command
+        expires, after 0.5 s at most. Raises HardwareError when the lines cannot be set.
         """
 
     def off(self) -> None:
-        """Everything off, now, from any thread."""
+        """Switch everything off now. From any thread. Raises HardwareError when the lines cannot be set."""
 
     def cut(self) -> bool:
-        """Everything off and the motors' supply with it, until `restore`. False: nothing here can switch the supply.
+        """Switch everything off, and the motors' supply too, until `restore`: the answer to a welded relay.
 
-        Raises HardwareError when the lines cannot be set.
+        Returns False where no relay for the supply is wired. Raises HardwareError when the lines cannot be set.
         """
 
     def restore(self) -> None:
-        """The supply may come back, with the next motor that is to run."""
-
-
-class LeaseWatch(Protocol):
-    """Somebody outside the program who opens the relays when the leases are no longer renewed."""
-
-    def renew(self) -> None:
-        """A relay is to be on, or to stay on. Raises HardwareError where nobody watches: then none may be."""
-
-    def rest(self) -> None:
-        """No relay is on any more."""
-
-
-class CharacterDisplay(Protocol):
-    """A display of a few rows of characters."""
-
-    def show(self, rows: Sequence[str]) -> None:
-        """Make the display read `rows` (cut or padded to its width). Raises HardwareError when it does not answer."""
-
-    def reset(self) -> None:
-        """Bring the display up from any state; sparks upset the cheap ones."""
-
-
-class OutputLines(Protocol):
-    """A few digital outputs that change together, by name."""
-
-    def set(self, levels: dict[str, bool]) -> None:
-        """Switch the named outputs (True: active) in one instant. Raises HardwareError."""
-
-    def close(self) -> None:
-        """Let go of the lines; what is to be off has been switched off before."""
-
-
-class I2CBus(Protocol):
-    """An I2C adapter as drivers use it."""
-
-    def write(self, address: int, data: bytes) -> None:
-        """One write transfer. Raises HardwareError when the device does not answer."""
-
-    def write_read(self, address: int, data: bytes, count: int) -> bytes:
-        """Write, then read `count` bytes after a repeated start. Raises HardwareError."""
-
-    def read_each(self, address: int, registers: Sequence[int], count: int) -> list[bytes]:
-        """Read `count` bytes from each register, in that order, in one transfer. Raises HardwareError."""
+        """Allow the motors' supply again. It is switched on with the next motor that runs."""
 
 
 class PositionedDrive(Protocol):
-    """Motors that go to an angle by themselves. Angles are degrees on the rotor's own scale."""
+    """Two motors that go to an angle by themselves: moteus controllers, servos, control boxes."""
 
     def aim(self, axis: Axis, angle_deg: float, rate_dps: float, until_s: float) -> None:
-        """Be at `angle_deg` now, moving on at `rate_dps`; the moment `until_s`, at the latest, the axis decelerates and
-        holds unless told again. No command lives longer than the longest lease. Raises HardwareError.
+        """Be at `angle_deg` now and move on at `rate_dps`. At `until_s` at the latest the axis decelerates and holds.
+
+        Each command expires, after 0.5 s at most. Raises HardwareError, and moves nothing then.
         """
 
     def hold(self, axis: Axis) -> None:
-        """Decelerate, and hold where it comes to rest. Raises HardwareError."""
+        """Decelerate, and hold where the axis comes to rest. Raises HardwareError."""
 
     def release(self) -> None:
-        """Let go, without torque: an antenna that is not balanced turns. Only a person asks for that."""
+        """Take the torque away from both axes: an antenna out of balance then turns. Only on the operator's request."""
 
     def off(self) -> None:
-        """The safe state, from any thread: every axis decelerates and holds."""
+        """The safe state: both axes decelerate and hold. From any thread."""
 
     def due_s(self) -> float | None:
-        """The moment `enforce` has something to do; None: nothing moves."""
+        """The next moment at which `enforce` has something to do; None: nothing moves."""
 
     def enforce(self, now_s: float) -> None:
-        """Hold every axis whose command has expired. The guard's only task; it touches no sensor."""
+        """Hold each axis whose command has expired. The guard calls this; it reads no sensor. Raises HardwareError."""
+
+
+class LeaseWatch(Protocol):
+    """A watch outside the program. It opens the relays when the program no longer renews its leases."""
+
+    def renew(self) -> None:
+        """A relay is about to close, or stays closed. Raises HardwareError without a watch: then no relay may close."""
+
+    def rest(self) -> None:
+        """No relay is closed any more."""
+
+
+# --- sensors
+
+
+class AngleSensor(Protocol):
+    """Measures, counts or models the angle of one axis. The calibration turns its reading into degrees."""
+
+    source: AngleSource
+
+    def read(self) -> float:
+        """One reading in the sensor's own unit: degrees, or a share from 0 to 1 (of a pot's supply, of a turn).
+
+        May take some milliseconds. Raises HardwareError when the device does not answer; the next call tries again.
+        """
 
 
 @dataclass(frozen=True, slots=True)
 class ContactChange:
-    """A contact closed or opened, at that moment of time.monotonic(); so many changes before it went unseen."""
+    """A contact closed or opened at `at_s`; `lost` changes before this one were not recorded."""
 
     at_s: float
     closed: bool
@@ -143,10 +132,99 @@ class ContactChange:
 
 
 class ContactInput(Protocol):
-    """A contact whose changes are noted, bounce left out, by somebody who never sleeps: the kernel."""
+    """A contact whose changes the kernel records, without bounce, so that none is missed while the program is busy."""
 
     def closed(self) -> bool:
-        """What it is now. Raises HardwareError."""
+        """Whether it is closed now. Raises HardwareError."""
 
     def changes(self) -> list[ContactChange]:
-        """What has happened since this was asked the last time, in order of time. Never waits. Raises HardwareError."""
+        """The changes since the last call, in order of time. Never waits. Raises HardwareError."""
+
+
+class SwitchInputs(Protocol):
+    """A few contacts that are read together."""
+
+    def read(self) -> dict[str, bool]:
+        """Each contact by name, True: closed. Raises HardwareError."""
+
+
+@dataclass(frozen=True, slots=True)
+class Attitude:
+    """Degrees: heading 0 up to 360 clockwise from magnetic north, roll and pitch about level."""
+
+    heading_deg: float
+    roll_deg: float
+    pitch_deg: float
+
+
+class CompassCalibration(NamedTuple):
+    """How well a compass has found its own errors, each part 0 (not at all) to 3."""
+
+    system: int = 0
+    gyroscope: int = 0
+    accelerometer: int = 0
+    magnetometer: int = 0
+
+    @property
+    def complete(self) -> bool:
+        return min(self) == 3
+
+    def __str__(self) -> str:
+        return (
+            f"system {self.system}, gyroscope {self.gyroscope}, accelerometer {self.accelerometer}, "
+            f"magnetometer {self.magnetometer} of 3"
+        )
+
+
+class Compass(Protocol):
+    """A compass with a level sensor, on the boom. Every call may take a second and raises HardwareError."""
+
+    def attitude(self) -> Attitude:
+        """All three angles of one moment."""
+
+    def calibration(self) -> CompassCalibration: ...
+
+    def offsets(self) -> bytes:
+        """The corrections that the compass has found, to be kept while it has no power."""
+
+    def restore(self, offsets: bytes) -> None:
+        """Give back what `offsets` returned. Raises ValueError where the length is wrong."""
+
+
+# --- display
+
+
+class CharacterDisplay(Protocol):
+    """A display of a few rows of characters."""
+
+    def show(self, rows: Sequence[str]) -> None:
+        """Show `rows`, each cut or padded to the display's width. Raises HardwareError when it does not answer."""
+
+    def reset(self) -> None:
+        """Set the display up from any state, because a spark can upset it. Raises HardwareError."""
+
+
+# --- lines and buses, which drivers of chips use
+
+
+class OutputLines(Protocol):
+    """A few digital outputs that change together, by name."""
+
+    def set(self, levels: dict[str, bool]) -> None:
+        """Switch the named outputs in one instant; True is active. Raises HardwareError."""
+
+    def close(self) -> None:
+        """Release the lines. The caller has switched them off before. May be called twice."""
+
+
+class I2CBus(Protocol):
+    """An I2C adapter. Addresses have seven bits."""
+
+    def write(self, address: int, data: bytes) -> None:
+        """One write transfer. Raises HardwareError when the device does not answer."""
+
+    def write_read(self, address: int, data: bytes, count: int) -> bytes:
+        """Write `data`, then read `count` bytes after a repeated start. Raises HardwareError."""
+
+    def read_each(self, address: int, registers: Sequence[int], count: int) -> list[bytes]:
+        """Read `count` bytes from each register in that order, all in one transfer. Raises HardwareError."""

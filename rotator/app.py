@@ -142,7 +142,7 @@ class App:
             knobs=None if simulated else Path(self.config.state.path).with_name(knobs.FILE_NAME),
             pulses=self.station.rotor.closed_contacts,
         )
-        self._tap.on_data = panel.heard
+        self._tap.on_data = panel.data_received
         return panel
 
     def _sign_of_life(self) -> None:

@@ -1,6 +1,6 @@
-"""What anybody may ask of the box: the nouns that travel from links to the controller.
+"""The orders: what a link, the panel or a person may ask of the box.
 
-Knows the orders and nothing of who sends them or what becomes of them.
+Knows the orders as values. Does not know who sends them, nor what they do.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Park:
     """Go to the park position."""
 
     storm: bool = False
-    """From a person: go there whatever else is going on, and stay until released."""
+    """From a person: go there now, ending everything else, and stay until a person releases the box."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +95,7 @@ class Speed:
 
 
 class Mode(Enum):
-    """Who may move the antenna, as a front panel's switch says."""
+    """Which source may move the antenna: the position of a front panel's mode switch."""
 
     AUTO = "auto"
     """The links, with the panel's nudges added."""
@@ -104,19 +104,19 @@ class Mode(Enum):
     JOG = "jog"
     """The panel's jog switches alone."""
     PARK = "park"
-    """Nobody: the antenna stays where it is."""
+    """No source: the antenna stays where it is."""
 
 
 @dataclass(frozen=True, slots=True)
 class SetMode:
-    """A person at the panel says who may move the antenna from now on; it stops, and the nudges are forgotten."""
+    """A person turns the mode switch: the antenna stops, and the nudges are forgotten."""
 
     mode: Mode
 
 
 @dataclass(frozen=True, slots=True)
 class Nudge:
-    """Everything asked for on this axis is meant so much further on, until the mode changes."""
+    """Shift every order for this axis by so much, until the mode changes."""
 
     axis: Axis
     offset_deg: float
@@ -124,14 +124,14 @@ class Nudge:
 
 @dataclass(frozen=True, slots=True)
 class Home:
-    """Find the low end stop of an axis that counts. Only a person asks for it, and watches."""
+    """Find the low end stop of an axis that counts. A person orders it, and watches."""
 
     axis: Axis
 
 
 @dataclass(frozen=True, slots=True)
 class Confirm:
-    """A person says that the axis stands at this angle, in true degrees as the status reports them."""
+    """A person confirms that the axis stands at this angle, in true degrees as the status reports them."""
 
     axis: Axis
     angle_deg: float
@@ -139,18 +139,18 @@ class Confirm:
 
 @dataclass(frozen=True, slots=True)
 class LetGo:
-    """Motors without torque: only a person asks for it, for an antenna that is out of balance turns."""
+    """Motors without torque. A person orders it, for an antenna that is out of balance turns."""
 
 
 Personal = SetMode | Nudge | Home | Confirm | LetGo
-"""What only somebody at the box may ask for: at its panel, or on its console."""
+"""Orders that only a person at the panel or on the console may give."""
 
 Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Personal
 
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """Who sends orders: a link, and which connection on it. A reconnect is a new source."""
+    """The sender of an order: a link, and the connection on it. A reconnect is a new source."""
 
     link: str
     connection: int = 0
@@ -161,8 +161,8 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """Why an order is not obeyed, for the log; the protocol has its own words for it."""
+    """Why an order is refused, for the log. The protocol answers in its own words."""
 
     reason: str
     forbidden: bool = False
-    """It is not this order: the sender may give none."""
+    """The sender may give no orders at all."""

@@ -1,42 +1,15 @@
-"""What the box knows of itself at one moment: immutable, made by the controller, read by everybody.
+"""The state of the box at one moment: immutable, made by the controller, read by views, protocols and links.
 
-Knows only values. Views, protocols and the page read it and never ask the hardware.
+Knows only values. Its readers never ask the hardware.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hw.ports import Axis, Direction
+from hw.ports import AngleSource, Axis, Direction
+from rotator.faults import Fault, Missing, Notice
 from rotator.orders import Mode
-
-
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """Something that stopped an axis: what was measured against which limit, and the page that explains it."""
-
-    name: str
-    axis: Axis | None
-    measured: str
-    limit: str = ""
-    """What it went beyond; empty: it is not that kind of fault."""
-    page: str = "docs/troubleshooting.md"
-    cut: bool = False
-    """Opening the relay does not stop it: the motors' supply has to go."""
-    act_now: str = ""
-    """What a person must do this moment, in a few loud words; empty: nothing."""
-    passing: bool = False
-    """It goes with its cause, without being acknowledged."""
-
-    def __str__(self) -> str:
-        where = f"{self.axis.value}: " if self.axis else ""
-        loud = f"{self.act_now} " if self.act_now else ""
-        limit = f", limit {self.limit}" if self.limit else ""
-        return f"{loud}{where}{self.name}: {self.measured}{limit} (see {self.page}#{self.anchor})"
-
-    @property
-    def anchor(self) -> str:
-        return self.name.replace(" ", "-")
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,23 +29,32 @@ class AxisStatus:
     """Where the axis is on its own scale; the last good value while the sensor is out; None before the first."""
     raw: float | None = None
     """The sensor's own reading, for calibration."""
-    source: str = "measured"
+    source: AngleSource = AngleSource.MEASURED
     target_deg: float | None = None
     """The axis angle aimed at; None: at rest, nothing to do."""
     drive: Direction = Direction.OFF
     moving: bool = False
     """Driven, or still coasting."""
-    uncalibrated: str = ""
-    """Why this axis obeys only jog: what is missing. Empty: fully commissioned."""
+    missing: tuple[Missing, ...] = ()
+    """What this axis lacks; until it has it, it obeys only jog. Empty: commissioned."""
+    lost: str = ""
+    """Why the count is lost, where `missing` holds HOMING."""
+    confirmable: bool = False
+    """A person may say at which angle the axis stands: it counts, or its controller cannot know."""
     calibration: tuple[tuple[float, float], ...] | None = None
-    """The table in force, (raw, degrees), for whoever keeps it."""
+    """The calibration in force, (raw, degrees), for the configuration file."""
     fault: Fault | None = None
     homing: bool = False
     """It looks for its end stop."""
-    notices: tuple[str, ...] = ()
+    notices: tuple[Notice, ...] = ()
     """What a person should know of this axis though it stops nothing."""
     learnt: tuple[LearntMotor, LearntMotor] | None = None
-    """Its motor, clockwise or up and back, for whoever keeps it; None: it has none to learn."""
+    """Its motor as learnt, clockwise or up first, then the other way; None: the drive has nothing to learn."""
+
+    @property
+    def uncalibrated(self) -> str:
+        """What this axis lacks, as text; empty: it is commissioned."""
+        return ", ".join(f"{each.text} ({self.lost})" if each is Missing.HOMING else each.text for each in self.missing)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,14 +66,14 @@ class Status:
     """The direction last ordered, as ordered: what the display calls SAT."""
     wanted_elevation_deg: float | None = None
     latched: str = ""
-    """Who pressed a stop that only a person releases; empty: nobody."""
+    """The source of a stop that only a person releases; empty: there is none."""
     controlled_by: str = ""
     timed_point: int = 0
     timed_points: int = 0
     simulated: bool = False
     speed_level: int = 4
     mode: Mode = Mode.AUTO
-    """What a front panel's switch says; without one, AUTO."""
+    """The position of the front panel's mode switch; without one, AUTO."""
     cycle_late_s: float = 0.0
     """How late the last control cycle was."""
 

@@ -141,8 +141,8 @@ def draw_limits(panel: PanelTable = PANEL, limits: LimitsTable = LIMITS) -> Shee
         name = key.replace("_", " ")
         sheet.put(
             chip(f"{key} opto", "PC817", (440, y), 130, ["4 C", "3 E"], ["1 A", "2 K"], [name]),
-            resistor(f"{key} limit", f"{loop.ohm / 1000:.1f} kΩ, 1 W", (660, y + 70), flat=True, side=-1),
-            contact(f"{key} switch", name, (900, y + 100), flat=True, side=-1),
+            resistor(f"{key} limit", f"{loop.ohm / 1000:.1f} kΩ\n1 W", (660, y + 70), flat=True, side=-1),
+            contact(f"{key} switch", key.replace("_", "\n"), (900, y + 100), flat=True, side=-1),
         )
         sheet.wire(colour, f"pi.{GPIO_PINS[gpio]}", f"{key} opto.4 C")
         sheet.wire(ORANGE, f"{key} opto.1 A", f"{key} limit.a")

@@ -54,7 +54,7 @@ def draw(config: Config) -> Sheet:
     for (axis, gpio), colour, y in zip(counted.items(), (GREEN, BROWN), (590, 790), strict=True):
         sheet.put(
             chip(f"{axis} opto", "PC817", (400, y), 120, ["4 C", "", "3 E"], ["1 A", "", "", "2 K"], [axis]),
-            resistor(f"{axis} limit", f"{loop.ohm / 1000:.1f} kΩ, 1 W", (640, y + 70), flat=True, side=-1),
+            resistor(f"{axis} limit", f"{loop.ohm / 1000:.1f} kΩ\n1 W", (640, y + 70), flat=True, side=-1),
             diode(f"{axis} reverse", "1N4148", (570, y + 80)),
         )
         sheet.rail(f"{loop.supply_v:.0f} V", ORANGE, f"{axis} limit.b")

@@ -41,7 +41,7 @@ def coefficient(pot: PotSpec) -> float:
     return pot.high_deg / end_count
 
 
-class Axis:
+class WiredAxis:
     """A motor on two relay pins with its pot. Time comes with every call."""
 
     def __init__(self, motor: SimMotor, pot: SimPot, plus: int, minus: int) -> None:
@@ -83,13 +83,13 @@ class ArduinoStation:
         """How often a relay has closed."""
         self.board = Uno(clock, sleep)
         self.display = Hd44780(clock)
-        self.azimuth = Axis(
+        self.azimuth = WiredAxis(
             SimMotor(azimuth, azimuth_start_deg, clock()),
             SimPot(azimuth_pot, SUPPLY_V, chance=random.Random(1)),
             plus=f1efw.CW,
             minus=f1efw.CCW,
         )
-        self.elevation = Axis(
+        self.elevation = WiredAxis(
             SimMotor(elevation, elevation_start_deg, clock()),
             SimPot(elevation_pot, SUPPLY_V, chance=random.Random(2)),
             plus=f1efw.UP,
@@ -138,7 +138,7 @@ class ArduinoStation:
         """What the relays ask of azimuth and elevation: -1, 0 or 1."""
         return self.azimuth.drive, self.elevation.drive
 
-    def _wiper_v(self, axis: Axis) -> float:
+    def _wiper_v(self, axis: WiredAxis) -> float:
         with self._mechanics:
             return axis.wiper_v(self._clock())
 

@@ -11,7 +11,7 @@ import uuid
 from collections.abc import Callable
 
 from firmware_sim.moteus import multiplex
-from firmware_sim.moteus.motor import COMMANDABLE, Mode, Settings, SimMotor
+from firmware_sim.moteus.motor import COMMANDABLE, Mode, MoteusSettings, SimMoteusMotor
 from firmware_sim.moteus.registers import COMMAND_DEFAULTS, Register
 
 
@@ -19,9 +19,14 @@ class SimController:
     """`clock` tells seconds; `serial` makes its UUID."""
 
     def __init__(
-        self, clock: Callable[[], float], settings: Settings | None = None, *, shaft_rev: float = 0.0, serial: int = 1
+        self,
+        clock: Callable[[], float],
+        settings: MoteusSettings | None = None,
+        *,
+        shaft_rev: float = 0.0,
+        serial: int = 1,
     ) -> None:
-        self.motor = SimMotor(clock, settings or Settings(), shaft_rev)
+        self.motor = SimMoteusMotor(clock, settings or MoteusSettings(), shaft_rev)
         self.volts = 24.0
         self.temperature_c = 25.0
         self.uuid = uuid.uuid5(uuid.NAMESPACE_OID, f"simulated moteus {serial}").bytes

@@ -47,7 +47,7 @@ LATCHED = {Mode.FAULT, Mode.TIMEOUT}
 
 
 @dataclass(slots=True)
-class Settings:
+class MoteusSettings:
     """What tview would set and the controller keep: `servo.*`, `servopos.*`, in revolutions of the output."""
 
     position_min_rev: float = math.nan
@@ -60,10 +60,10 @@ class Settings:
     """Turns of the rotor for one of the output; its encoder sees only the rotor."""
 
 
-class SimMotor:
+class SimMoteusMotor:
     """`clock` tells seconds. Look at its fields after `advance`; its methods do that themselves."""
 
-    def __init__(self, clock: Callable[[], float], settings: Settings, shaft_rev: float) -> None:
+    def __init__(self, clock: Callable[[], float], settings: MoteusSettings, shaft_rev: float) -> None:
         self.settings = settings
         self.shaft_rev = shaft_rev
         """Where the output really is, on the scale that the controller had when it was set up."""

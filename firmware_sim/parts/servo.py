@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class ServoSpec:
+class SimServoSpec:
     low_us: float = 500.0
     high_us: float = 2500.0
     """The pulses that mean `low_deg`, and `range_deg` more."""
@@ -28,7 +28,7 @@ class SimServo:
     """`pulse_us` tells the width at its wire now (None: no pulse). Call `advance` before that changes."""
 
     def __init__(
-        self, spec: ServoSpec, start_deg: float, clock: Callable[[], float], pulse_us: Callable[[], float | None]
+        self, spec: SimServoSpec, start_deg: float, clock: Callable[[], float], pulse_us: Callable[[], float | None]
     ) -> None:
         self.spec = spec
         self.powered = True

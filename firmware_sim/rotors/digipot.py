@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from firmware_sim.chips.mcp41010 import Mcp41010, SimSpidev
 from firmware_sim.faults import SimFault
 from firmware_sim.parts.motor import MotorSpec, SimMotor
-from firmware_sim.rotors.rotor import GearedRotor
+from firmware_sim.rotors.geared import GearedRotor
 
 BOX_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.15, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=-3.0, stop_high_deg=363.0
@@ -22,7 +22,7 @@ COMPARE_S = 0.005
 
 
 @dataclass(frozen=True, slots=True)
-class BoxSpec:
+class DigipotAxisSpec:
     """One axis: its box, and the pin at its chip's select."""
 
     select_pin: int
@@ -36,7 +36,7 @@ class BoxSpec:
 class SimBox:
     """A comparator between two wipers, and the motor behind it. Looked at only through the rotor, under its lock."""
 
-    def __init__(self, spec: BoxSpec, now_s: float) -> None:
+    def __init__(self, spec: DigipotAxisSpec, now_s: float) -> None:
         self.spec = spec
         self.chip = Mcp41010()
         self.motor = SimMotor(spec.motor, spec.start_deg, now_s)
@@ -60,7 +60,7 @@ class SimBox:
             self.motor.coils(driven > 0, driven < 0, self._now_s)
 
 
-class DigipotRotor(GearedRotor):
+class SimDigipotRotor(GearedRotor):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none).
 
     `enable_pin`: the relay that feeds both boxes, on while the line is high; None: they are always fed.
@@ -71,8 +71,8 @@ class DigipotRotor(GearedRotor):
 
     def __init__(
         self,
-        azimuth: BoxSpec,
-        elevation: BoxSpec,
+        azimuth: DigipotAxisSpec,
+        elevation: DigipotAxisSpec,
         clock: Callable[[], float],
         sleep: Callable[[float], None] | None = None,
         *,
@@ -113,7 +113,5 @@ class DigipotRotor(GearedRotor):
             table |= {
                 f"{name}-chip-dips": SimFault(box.chip.power_on, lambda: None),
                 f"{name}-select-broken": self._fault_of(box.chip, "deaf", True, False),
-                f"{name}-motor-stalled": self._fault_of(box.motor, "stalled", True, False),
-                f"{name}-motor-slow": self._fault_of(box.motor, "pace", 0.4, 1.0),
             }
-        return table
+        return table | self._motor_faults()

@@ -15,7 +15,7 @@ from firmware_sim.faults import SimFault
 from firmware_sim.moteus.bus import SimCan, SimTransport
 from firmware_sim.moteus.controller import SimController
 from firmware_sim.moteus.lines import LineServer
-from firmware_sim.moteus.motor import Settings, SimMotor
+from firmware_sim.moteus.motor import MoteusSettings, SimMoteusMotor
 from firmware_sim.moteus.terminal import SimAdapter
 from firmware_sim.rotors.rotor import SimRotor
 
@@ -47,22 +47,22 @@ LATE_S = 0.3
 
 
 @dataclass(frozen=True, slots=True)
-class AxisSpec:
+class MoteusAxisSpec:
     can_id: int
     start_deg: float = 0.0
     rev_per_turn: float = 1.0
     """Revolutions of the controller's scale for 360° of the antenna; below 0 it runs the other way."""
     zero_rev: float = 0.0
-    settings: Settings = field(default_factory=Settings)
+    settings: MoteusSettings = field(default_factory=MoteusSettings)
 
 
-class MoteusWorld(SimRotor):
+class SimMoteusRotor(SimRotor):
     """`clock` tells the time: a SimClock with `transport`, a real one with `adapter`."""
 
     def __init__(
         self,
-        azimuth: AxisSpec,
-        elevation: AxisSpec,
+        azimuth: MoteusAxisSpec,
+        elevation: MoteusAxisSpec,
         clock: Callable[[], float],
         sleep: Callable[[float], None] | None = None,
     ) -> None:
@@ -144,7 +144,7 @@ class MoteusWorld(SimRotor):
         for controller in self._controllers.values():
             controller.motor.advance()
 
-    def _bounds(self, motor: SimMotor) -> SimFault:
+    def _bounds(self, motor: SimMoteusMotor) -> SimFault:
         settings = motor.settings
         bounds = settings.position_min_rev, settings.position_max_rev
 

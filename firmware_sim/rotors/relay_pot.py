@@ -1,4 +1,4 @@
-"""A simulated rotor of relays and pots, and the converter through which a program reads it.
+"""A simulated rotor of motors on relays with a pot on each shaft, as a Yaesu G-5500 behind an ADS1115.
 
 Knows what is wired where, and its faults by name. Knows no driver: it offers a bus in the shape of smbus2 and lines in
 the shape of gpiod, and the rest is physics.
@@ -6,22 +6,27 @@ the shape of gpiod, and the rest is physics.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from firmware_sim.chips.ads1115 import Ads1115
 from firmware_sim.faults import SimFault
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.parts.pot import PotFault, PotSpec, SimPot
-from firmware_sim.rotors.rotor import GearedRotor
+from firmware_sim.parts.relays import RelayPins
+from firmware_sim.rotors.geared import RelayedRotor
 
 EARLY_DEG = 4.0
-"""How far inside the range a misplaced end stop stands."""
+"""Fault `stop-early`: how far inside the range the misplaced end stop stands."""
+WIND_SHARE = 0.3
+"""Fault `wind-turns`: the share of the motor's speed at which wind turns an axis that is not fed."""
+SPARK_DEG = 90.0
+"""Fault `pot-jumps` and `pot-loose`: how far a reading is off."""
 
 
 @dataclass(frozen=True, slots=True)
-class AxisSpec:
-    """One axis of the rotor: its parts, and where they are wired."""
+class RelayPotAxisSpec:
+    """One axis: its parts, the GPIO numbers of its relays, and the converter's input its wiper is wired to."""
 
     motor: MotorSpec
     pot: PotSpec
@@ -32,80 +37,53 @@ class AxisSpec:
 
 
 @dataclass(frozen=True, slots=True)
-class WorldSpec:
-    azimuth: AxisSpec
-    elevation: AxisSpec
+class RelayPotSpec:
+    """Both axes, and what they share: the relay board's levels, the master relay, the converter, the pots' supply."""
+
+    azimuth: RelayPotAxisSpec
+    elevation: RelayPotAxisSpec
     relays_active_low: bool = False
     master_pin: int | None = None
     adc_address: int = 0x48
     reference_channel: int | None = None
+    """The converter's input that measures the pots' supply; None: no input does."""
     pot_supply_v: float = 3.3
 
 
-class SimAxis:
-    """A motor with its pot. Looked at only through the world, under its lock."""
+class RelayPotAxis:
+    """A motor with its pot. Looked at only through the rotor, under its lock."""
 
-    def __init__(self, spec: AxisSpec, supply_v: float, now_s: float) -> None:
+    def __init__(self, spec: RelayPotAxisSpec, supply_v: float, now_s: float) -> None:
         self.spec = spec
         self.motor = SimMotor(spec.motor, spec.start_deg, now_s)
         self.pot = SimPot(spec.pot, supply_v)
-        self.coils = (False, False)
 
 
-class World(GearedRotor):
-    """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none)."""
+class SimRelayPotRotor(RelayedRotor):
+    """`clock` gives seconds; `sleep` lets time pass on the bus (None: transfers take no time)."""
 
-    azimuth: SimAxis
-    elevation: SimAxis
+    azimuth: RelayPotAxis
+    elevation: RelayPotAxis
 
     def __init__(
-        self, spec: WorldSpec, clock: Callable[[], float], sleep: Callable[[float], None] | None = None
+        self, spec: RelayPotSpec, clock: Callable[[], float], sleep: Callable[[float], None] | None = None
     ) -> None:
         super().__init__(clock, sleep)
         self._spec = spec
-        self.azimuth = SimAxis(spec.azimuth, spec.pot_supply_v, clock())
-        self.elevation = SimAxis(spec.elevation, spec.pot_supply_v, clock())
-        self.relay_starts: int = 0
+        self.azimuth = RelayPotAxis(spec.azimuth, spec.pot_supply_v, clock())
+        self.elevation = RelayPotAxis(spec.elevation, spec.pot_supply_v, clock())
         adc = Ads1115(clock, vdd_v=max(3.3, spec.pot_supply_v))
         for axis in (self.azimuth, self.elevation):
             adc.inputs[axis.spec.adc_channel] = lambda axis=axis: self._wiper_v(axis)  # type: ignore[misc]
         if spec.reference_channel is not None:
             adc.inputs[spec.reference_channel] = lambda: spec.pot_supply_v
         self.bus.attach(spec.adc_address, adc)
-        self.gpio.on_edges.append(self._relays_changed)
+        azimuth, elevation = spec.azimuth, spec.elevation
+        pins = RelayPins(azimuth.plus_pin, azimuth.minus_pin, elevation.plus_pin, elevation.minus_pin, spec.master_pin)
+        self._wire_relays(pins, active_low=spec.relays_active_low)
         self.faults = self._fault_table()
-        if spec.master_pin is not None:
-            self._relays_changed(clock(), {spec.master_pin: self.gpio.level(spec.master_pin)})
 
-    def drives(self) -> tuple[int, int]:
-        with self._lock:
-            coils = (self.azimuth.coils, self.elevation.coils)
-            azimuth, elevation = (int(plus) - int(minus) for plus, minus in coils)
-            return azimuth, elevation
-
-    def _relays_changed(self, now_s: float, changes: Mapping[int, bool]) -> None:
-        with self._lock:
-            for axis in (self.azimuth, self.elevation):
-                pins = (axis.spec.plus_pin, axis.spec.minus_pin)
-                if changes.keys() & set(pins):
-                    plus, minus = axis.coils = (self._pulled(pins[0]), self._pulled(pins[1]))
-                    axis.motor.coils(plus, minus, now_s)
-                    self.relay_starts += sum(self._pulled(pin) for pin in changes.keys() & set(pins))
-            master = self._spec.master_pin
-            if master is not None and master in changes:
-                self._advance()
-                supply = self._pulled(master)
-                self.azimuth.motor.supply = self.elevation.motor.supply = supply
-
-    def _pulled(self, pin: int) -> bool:
-        return self.gpio.level(pin) != self._spec.relays_active_low
-
-    def _advance(self) -> None:
-        now_s = self._clock()
-        self.azimuth.motor.advance(now_s)
-        self.elevation.motor.advance(now_s)
-
-    def _wiper_v(self, axis: SimAxis) -> float:
+    def _wiper_v(self, axis: RelayPotAxis) -> float:
         with self._lock:
             self._advance()
             return axis.pot.volts(axis.motor.shaft_deg)
@@ -115,34 +93,21 @@ class World(GearedRotor):
             "adc-gone": self._gone(self._spec.adc_address),
             "bus-hung": SimFault(self.bus.hang, self.bus.release),
         }
-        for name, axis, plus, minus in (
-            ("azimuth", self.azimuth, "cw", "ccw"),
-            ("elevation", self.elevation, "up", "down"),
-        ):
+        for name, axis in (("azimuth", self.azimuth), ("elevation", self.elevation)):
+            stop_deg, early_deg = axis.spec.motor.stop_high_deg, axis.spec.pot.high_deg - EARLY_DEG
             table |= {
                 f"{name}-pot-open": self._pot_fault(axis, PotFault.OPEN),
                 f"{name}-pot-shorted": self._pot_fault(axis, PotFault.SHORTED),
                 f"{name}-pot-reversed": self._pot_fault(axis, PotFault.REVERSED),
                 f"{name}-pot-stuck": self._pot_fault(axis, PotFault.STUCK),
                 f"{name}-pot-jumps": SimFault(lambda axis=axis: self._jump(axis), lambda: None),  # type: ignore[misc]
-                f"{name}-pot-loose": self._fault_of(axis.pot, "loose_deg", 90.0, 0.0),
-                f"{name}-motor-stalled": self._fault_of(axis.motor, "stalled", True, False),
-                f"{name}-motor-reversed": self._fault_of(axis.motor, "reversed", True, False),
-                f"{name}-motor-slow": self._fault_of(axis.motor, "pace", 0.4, 1.0),
-                f"{name}-hand-turns": self._fault_of(axis.motor, "pushed", 1.0, 0.0),
-                f"{name}-wind-turns": self._fault_of(axis.motor, "pushed", 0.3, 0.0),
-                f"{name}-stop-early": self._fault_of(
-                    axis.motor,
-                    "stop_high_deg",
-                    axis.spec.pot.high_deg - EARLY_DEG,
-                    axis.spec.motor.stop_high_deg,
-                ),
-                f"{name}-relay-welded-{plus}": self._fault_of(axis.motor, "welded", 1, 0),
-                f"{name}-relay-welded-{minus}": self._fault_of(axis.motor, "welded", -1, 0),
+                f"{name}-pot-loose": self._fault_of(axis.pot, "loose_deg", SPARK_DEG, 0.0),
+                f"{name}-wind-turns": self._fault_of(axis.motor, "pushed", WIND_SHARE, 0.0),
+                f"{name}-stop-early": self._fault_of(axis.motor, "stop_high_deg", early_deg, stop_deg),
             }
-        return table
+        return table | self._motor_faults()
 
-    def _pot_fault(self, axis: SimAxis, fault: PotFault) -> SimFault:
+    def _pot_fault(self, axis: RelayPotAxis, fault: PotFault) -> SimFault:
         def inject() -> None:
             with self._lock:
                 self._advance()
@@ -155,5 +120,5 @@ class World(GearedRotor):
 
         return SimFault(inject, clear)
 
-    def _jump(self, axis: SimAxis) -> None:
-        axis.pot.jump_deg = 90.0
+    def _jump(self, axis: RelayPotAxis) -> None:
+        axis.pot.jump_deg = SPARK_DEG

@@ -11,7 +11,6 @@ import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import Protocol
 
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.buses.i2c import SimI2CBus
@@ -23,7 +22,6 @@ from firmware_sim.chips.mpu6050 import Mpu6050
 from firmware_sim.chips.pcf8574 import Backpack
 from firmware_sim.faults import Fallible, SimFault
 from firmware_sim.panel import PanelSpec, SimPanel
-from firmware_sim.parts.motor import SimMotor
 from firmware_sim.parts.pot import PotFault, PotSpec, SimPot
 
 
@@ -38,9 +36,6 @@ class LcdSpec:
 
 class SimRotor(Fallible):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none)."""
-
-    relay_starts: int | None = None
-    """How often a motor relay has closed; None: there are none."""
 
     def __init__(self, clock: Callable[[], float], sleep: Callable[[float], None] | None = None) -> None:
         self._clock = clock
@@ -61,6 +56,11 @@ class SimRotor(Fallible):
     def drives(self) -> tuple[int, int]:
         """The relays' coils: -1, 0, 1 for each axis; 0 without relays."""
         return 0, 0
+
+    @property
+    def relay_starts(self) -> int | None:
+        """How often a motor relay has closed; None: there are no relays."""
+        return None
 
     def wire_lcd(self, spec: LcdSpec) -> None:
         if spec.address is not None:
@@ -140,26 +140,3 @@ class SimRotor(Fallible):
 
     def _gone(self, address: int) -> SimFault:
         return SimFault(lambda: self.bus.gone.add(address), lambda: self.bus.gone.discard(address))
-
-
-class Geared(Protocol):
-    """An axis whose motor turns the boom through gears with play."""
-
-    motor: SimMotor
-
-
-class GearedRotor(SimRotor):
-    """A rotor of two such axes."""
-
-    azimuth: Geared
-    elevation: Geared
-
-    def antenna(self) -> tuple[float, float]:
-        with self._lock:
-            self._advance()
-            return self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg
-
-    def shafts(self) -> tuple[float, float]:
-        with self._lock:
-            self._advance()
-            return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from firmware_sim.chips.pca9685 import Pca9685
 from firmware_sim.faults import SimFault
-from firmware_sim.parts.servo import ServoSpec, SimServo
+from firmware_sim.parts.servo import SimServo, SimServoSpec
 from firmware_sim.rotors.rotor import SimRotor
 
 WIND_DPS = 10.0
@@ -23,10 +23,10 @@ class ServoAxisSpec:
 
     channel: int
     start_deg: float = 90.0
-    servo: ServoSpec = field(default_factory=ServoSpec)
+    servo: SimServoSpec = field(default_factory=SimServoSpec)
 
 
-class ServoRotor(SimRotor):
+class SimServoRotor(SimRotor):
     """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none).
 
     `enable_pin`: the line at the board's OE input, active low, with a pull-up to 3.3 V beside it.

@@ -1,7 +1,7 @@
 """Digital outputs and contacts on the Linux GPIO character device, through libgpiod's Python package.
 
-Knows how to find a Raspberry Pi's header among the chips, how to take lines without a glitch, and how the kernel keeps
-the changes of an input for whoever asks later. Does not know what is wired to them. The only importer of gpiod.
+Knows how to find a Raspberry Pi's header among the chips, how to take lines without a glitch, and how the kernel
+records the changes of an input. Does not know what is wired to the lines. The only importer of gpiod.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from typing import Any
 from hw.ports import ContactChange, HardwareError
 
 PI_HEADER_LABEL = r"pinctrl-(bcm2835|bcm2711|rp1)"
-"""The chip with the 40-pin header, by label: its number changed twice on the Pi 5 alone."""
+"""The label of the chip with the 40-pin header. Its number is no use: on the Pi 5 alone it changed twice."""
 
 EVENTS_KEPT = 1024
-"""How many changes the kernel keeps for us, the most it does: a contact that chatters 50 times a second for 20 s."""
+"""How many changes the kernel records, its maximum: 20 s of a contact that chatters 50 times a second."""
 
 
 class LinesBusyError(HardwareError):
-    """Somebody else holds a line."""
+    """Another program holds the line."""
 
 
 def real_gpiod() -> Any:
-    """The gpiod package. Raises HardwareError where it is missing or is its unrelated namesake."""
+    """The gpiod package. Raises HardwareError where it is missing, or where another package has its name."""
     try:
         import gpiod  # noqa: PLC0415 - hardware packages are imported when hardware is opened
     except ImportError as fault:
@@ -39,9 +39,9 @@ def real_gpiod() -> Any:
 
 
 def find_chip(api: Any, label: str = PI_HEADER_LABEL, paths: list[str] | None = None) -> str:
-    """The path of the first chip whose label matches; `api` is the gpiod package, or of its shape.
+    """The path of the first chip whose label matches the pattern. `api`: the gpiod package, or an object of its shape.
 
-    Raises HardwareError that lists what there is.
+    Raises HardwareError, with a list of the chips found.
     """
     found = []
     for path in sorted(glob.glob("/dev/gpiochip*")) if paths is None else paths:
@@ -60,14 +60,17 @@ def find_chip(api: Any, label: str = PI_HEADER_LABEL, paths: list[str] | None = 
 
 
 def holders(api: Any, path: str, offsets: Iterable[int]) -> dict[int, str]:
-    """Who holds these lines, by the name he gave; free lines are left out. Takes none. Raises HardwareError."""
+    """The names of the programs that hold these lines; free lines are left out. Takes no line. Raises HardwareError."""
     with _in_words(path), api.Chip(path) as chip:
         lines = [chip.get_line_info(offset) for offset in offsets]
     return {line.offset: line.consumer or "the kernel" for line in lines if line.used}
 
 
 class GpioOutputs:
-    """Named output lines on one chip, through `api`. All are off from the very call that requests them."""
+    """Named output lines on one chip, through `api`: a `hw.ports.OutputLines`. All are off from the request on.
+
+    `offsets`: the GPIO number of each name. `consumer`: the name under which the lines are taken. Raises HardwareError.
+    """
 
     def __init__(
         self, api: Any, path: str, offsets: Mapping[str, int], *, consumer: str, active_low: bool = False
@@ -89,11 +92,15 @@ class GpioOutputs:
             raise HardwareError(f"GPIO: cannot switch {', '.join(levels)}: {fault.strerror or fault}") from fault
 
     def close(self) -> None:
+        """Release the lines. May be called twice."""
         self._request.release()
 
 
 class GpioInputs:
-    """Named switches to ground on one chip, through `api`; the Pi's own resistors hold open ones high."""
+    """Named switches to ground on one chip, through `api`; the Pi's own resistors pull the lines of open ones high.
+
+    `offsets`: the GPIO number of each name. Raises HardwareError.
+    """
 
     def __init__(self, api: Any, path: str, offsets: Mapping[str, int], *, consumer: str) -> None:
         line = real_gpiod().line
@@ -103,6 +110,7 @@ class GpioInputs:
         self._request = _taken(api, path, self._offsets, {tuple(offsets.values()): setting}, consumer=consumer)
 
     def read(self) -> dict[str, bool]:
+        """Each switch by name, True: closed. Raises HardwareError."""
         try:
             values = self._request.get_values(list(self._offsets.values()))
         except OSError as fault:
@@ -110,15 +118,16 @@ class GpioInputs:
         return {name: value is self._closed for name, value in zip(self._offsets, values, strict=True)}
 
     def close(self) -> None:
+        """Release the lines. May be called twice."""
         self._request.release()
 
 
 class GpioContact:
-    """One contact on an input line, through `api`; the kernel waits out the bounce and notes the moments.
+    """One contact on an input line, through `api`: a `hw.ports.ContactInput`. The kernel filters the bounce.
 
-    A change is noted `debounce_s` after the contact has come to rest: what opens and closes within that is not seen.
+    A change is recorded `debounce_s` seconds after the contact has come to rest; a shorter change is not seen.
     `active_low`: the line is low while the contact is closed, as with an opto-isolator to ground. `pull`: the Pi's own
-    resistor holds the line at the open contact's level.
+    resistor pulls the line to the level of an open contact. Raises HardwareError.
     """
 
     def __init__(
@@ -159,7 +168,7 @@ class GpioContact:
         try:
             while self._request.wait_edge_events(0):
                 for event in self._request.read_edge_events():
-                    # The kernel numbers the events of a line: what is missing was dropped while nobody read.
+                    # The kernel numbers the events of a line: a gap means events dropped because its buffer was full.
                     lost = event.line_seqno - self._seqno - 1
                     self._seqno = event.line_seqno
                     closed = event.event_type.name == "RISING_EDGE"
@@ -169,6 +178,7 @@ class GpioContact:
         return changes
 
     def close(self) -> None:
+        """Release the lines. May be called twice."""
         self._request.release()
 
 
@@ -181,7 +191,7 @@ def _taken(
     consumer: str,
     event_buffer_size: int | None = None,
 ) -> Any:
-    """A request of these lines. Raises HardwareError that names them."""
+    """A gpiod request for these lines. Raises HardwareError, with their names."""
     pins = ", ".join(f"{name} on GPIO{offset}" for name, offset in offsets.items())
     with _in_words(path, f"cannot take {pins}: "):
         return api.request_lines(path, consumer=consumer, config=config, event_buffer_size=event_buffer_size)
@@ -189,7 +199,7 @@ def _taken(
 
 @contextmanager
 def _in_words(path: str, doing: str = "") -> Iterator[None]:
-    """What goes wrong with a chip, as a HardwareError that a person can act on."""
+    """Turn an error of gpiod into a HardwareError that says what to do."""
     try:
         yield
     except PermissionError as fault:

@@ -1,6 +1,6 @@
-"""An I2C adapter through smbus2, with errors that a person can act on.
+"""An I2C adapter through smbus2, with errors that say what to check.
 
-Knows Linux's error numbers. Does not know any chip. The only importer of smbus2.
+Knows Linux's error numbers. Knows no chip. The only importer of smbus2.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from hw.ports import HardwareError
 
 
 class SmbusI2C:
-    """`bus` is an open smbus2.SMBus, or anything of its shape."""
+    """A `hw.ports.I2CBus`. `bus`: an open smbus2.SMBus, or an object of its shape. `name` opens each error."""
 
     def __init__(self, bus: Any, name: str) -> None:
         self._bus = bus
@@ -39,7 +39,7 @@ class SmbusI2C:
         return [bytes(answer) for answer in answers]
 
     def answers(self, address: int) -> bool:
-        """Whether anything acknowledges the address, asked by reading a byte. Raises HardwareError for a sick bus."""
+        """Whether a chip acknowledges the address when one byte is read. Raises HardwareError: the bus itself fails."""
         try:
             self._transfer(address, i2c_msg.read(address, 1))
         except HardwareError as fault:
@@ -49,6 +49,7 @@ class SmbusI2C:
         return True
 
     def close(self) -> None:
+        """Release the adapter. Later transfers raise HardwareError. May be called twice."""
         self._closed = True
         self._bus.close()
 
@@ -68,7 +69,7 @@ def _explain(fault: OSError) -> str:
         case errno.ETIMEDOUT:
             return "the bus hangs; something holds SDA or SCL low"
         case errno.EIO:
-            # The Pi's own controller says so of a clock held low too long, adapters on USB of a plug that was drawn.
+            # The Pi's own controller reports this for a clock held low too long, an adapter on USB for a pulled plug.
             return f"{fault.strerror}; something holds SDA or SCL low, or the adapter has gone"
         case _:
             return fault.strerror or str(fault)

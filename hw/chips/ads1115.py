@@ -24,14 +24,15 @@ RATE_SPS = {8: 0, 16: 1, 32: 2, 64: 3, 128: 4, 250: 5, 475: 6, 860: 7}
 CHANNELS = 4
 _STEPS = 32768
 _OSCILLATOR_TOLERANCE = 1.1
+"""A conversion may take 10 % longer than the nominal rate says (electrical characteristics, data rate variation)."""
 _WAKE_UP_S = 100e-6
 _POLLS = 20
 _SLOWEST_POLLS = 500
-"""Enough for eight conversions a second, with the time that each look takes on the bus."""
+"""Enough polls for the lowest rate, eight conversions a second, with the time that each poll takes on the bus."""
 
 
 class Ads1115:
-    """One chip. `sleep` lets time pass while it converts."""
+    """One chip. `sleep` waits for a conversion. `rate_sps` and `full_scale_v` are keys of the tables above."""
 
     def __init__(
         self,
@@ -48,11 +49,11 @@ class Ads1115:
         self._full_scale_v = full_scale_v
         self._conversion_s = _OSCILLATOR_TOLERANCE / rate_sps + _WAKE_UP_S
         self._quiet = False
-        """The last conversion was ours and has ended."""
+        """The last conversion was started here and has ended."""
         self._settings = FULL_SCALE_V[full_scale_v] << 9 | SINGLE_SHOT | RATE_SPS[rate_sps] << 5 | COMPARATOR_OFF
 
     def volts(self, channel: int) -> float:
-        """Volts on one input against ground. Raises HardwareError when the chip does not answer or never finishes."""
+        """The voltage of input 0 to 3 against ground. Raises HardwareError: no answer, or the conversion never ends."""
         if not self._quiet:
             self._quieten()
         self._quiet = False
@@ -64,7 +65,7 @@ class Ads1115:
         return raw * self._full_scale_v / _STEPS
 
     def _result(self) -> int:
-        """Asks whether it has ended and for the result in one transfer, which is most of what a reading costs."""
+        """Read status and result in one transfer: transfers take most of the time of a reading."""
         for _ in range(_POLLS):
             status, result = self._bus.read_each(self._address, (CONFIG, CONVERSION), 2)
             if int.from_bytes(status, "big") & READY:
@@ -73,7 +74,7 @@ class Ads1115:
         raise self._endless()
 
     def _quieten(self) -> None:
-        """Let a conversion that somebody else began come to its end: a start given meanwhile would be lost."""
+        """Wait for a conversion that another program started: the chip ignores a start in the meantime."""
         self._write(self._settings)
         for _ in range(_SLOWEST_POLLS):
             if int.from_bytes(self._bus.write_read(self._address, bytes([CONFIG]), 2), "big") & READY:

@@ -1,21 +1,21 @@
 """The AS5600 and AS5600L: the angle of a magnet above the chip, as a share of one turn.
 
-Knows the chip's registers (ams AS5600, "Register Description") and what it says of its magnet. Does not know gears: a
-magnet that turns more than once over the axis's range tells only where in its turn it is. Writes nothing but register
-addresses, so that nobody's chip is ever burned by accident.
+Knows the chip's registers and its magnet flags (ams AS5600, "Register Description"). Does not know gears: when the
+magnet turns more than once over the axis's range, the reading repeats. Writes register addresses only, so that it can
+never burn a chip's settings by accident.
 """
 
 from __future__ import annotations
 
-from hw.ports import HardwareError, I2CBus
+from hw.ports import AngleSource, HardwareError, I2CBus
 
 ADDRESS = 0x36
 ADDRESS_L = 0x40
-"""The AS5600L as it is delivered."""
+"""The AS5600L's address as delivered."""
 
 STATUS = 0x0B
 RAW_ANGLE = 0x0C
-"""Not ANGLE at 0x0E: that one is cut and stretched by whatever has been burned into the chip."""
+"""Not ANGLE at 0x0E: settings burned into the chip change that one's range."""
 
 MAGNET_DETECTED = 1 << 5
 MAGNET_WEAK = 1 << 4
@@ -24,12 +24,11 @@ STEPS = 4096
 
 
 class As5600:
-    """One chip. `zero_turn` is where the reading begins, 0 to 1: put it outside the axis's range, for there it jumps.
-
-    A calibration made with one `zero_turn` is worth nothing with another.
+    """One chip as a `hw.ports.AngleSensor`. `zero_turn`, 0 to 1, is where the reading jumps from 1 to 0: set it outside
+    the axis's range. A calibration is valid for one `zero_turn` only.
     """
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, bus: I2CBus, address: int = ADDRESS, *, zero_turn: float = 0.0) -> None:
         self._bus = bus
@@ -39,9 +38,9 @@ class As5600:
     def read(self) -> float:
         """The share of a turn, 0 up to 1, in steps of 1/4096.
 
-        Raises HardwareError when the chip does not answer, or has no magnet whose angle can be relied on.
+        Raises HardwareError when the chip does not answer, or reports no good magnet.
         """
-        # The status comes second: it vouches for the angle that was read before it.
+        # The status is read second, so that it is valid for the angle read before it.
         angle = int.from_bytes(self._bus.write_read(self._address, bytes([RAW_ANGLE]), 2), "big")
         status = self._bus.write_read(self._address, bytes([STATUS]), 1)[0]
         self._check(angle, status)

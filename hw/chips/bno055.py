@@ -1,18 +1,17 @@
-"""The BNO055: where the boom points by the earth's magnetic field and by gravity, worked out inside the chip.
+"""The BNO055: heading and tilt of the boom from the earth's magnetic field and gravity, computed inside the chip.
 
-Knows the chip's registers (Bosch BST-BNO055-DS000), its modes and their times, and how answers are told from what the
-Raspberry Pi's I2C controller makes of them. Does not know true north, and not the rotor. A compass near motors and
-steel is a reference to be averaged while the antenna stands, not a sensor to steer by.
+Knows the chip's registers (Bosch BST-BNO055-DS000), its modes and their times, and how to find the right answer where
+the Raspberry Pi's I2C controller garbles some of them. Does not know true north, nor the rotor. A compass near motors
+and steel is good as a reference, averaged while the antenna stands; it is no sensor to steer by.
 """
 
 from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
-from hw.ports import HardwareError, I2CBus
+from hw.ports import Attitude, CompassCalibration, HardwareError, I2CBus
 
 T = TypeVar("T")
 
@@ -25,7 +24,7 @@ OFFSETS, OFFSETS_COUNT = 0x55, 22
 CHIP_IDENTITY = 0xA0
 CONFIG_MODE, NDOF = 0x00, 0x0C
 DEGREES_WINDOWS = 0x00
-"""Documents differ on what the chip starts with; the sign of the pitch hangs on it."""
+"""The driver sets this: documents differ on the chip's default, and the sign of the pitch depends on it."""
 STEPS_PER_DEG = 16
 SYSTEM_ERROR, FUSION_RUNS = 1, 5
 
@@ -33,44 +32,27 @@ MOUNTINGS = {
     "P0": (0x21, 0x04), "P1": (0x24, 0x00), "P2": (0x24, 0x06), "P3": (0x21, 0x02),
     "P4": (0x24, 0x03), "P5": (0x21, 0x01), "P6": (0x21, 0x07), "P7": (0x24, 0x05),
 }  # fmt: skip
-"""The eight ways to mount the chip, by their names in the datasheet: axis map and signs."""
+"""The eight ways to mount the chip, by their names in the datasheet (section 3.4): axis map and signs."""
 
 BOOT_S, BOOT_STEP_S = 0.9, 0.05
 INTO_CONFIG_S = 0.025
 INTO_FUSION_S = 0.11
-"""7 ms for the mode itself, then until the first angles are there."""
+"""7 ms for the change of mode, then the time until the first angles are ready."""
 
 AGREEING = 4
-"""Two answers wrong in the same way are rare, four more so: with one byte in 100 garbled, once in a hundred million."""
+"""So many equal answers in a row count as right. With one byte in 100 garbled, that is wrong once in 10⁸ times."""
 READS = 80
+"""How often a register is read before the driver gives up."""
 ALIKE_DEG = 2.0
-"""A wrong bit 7 is 8 degrees or more; between two answers no antenna turns as far as this."""
+"""Angles this close are equal answers. A wrong bit 7 is 8° or more; no antenna turns 2° between two answers."""
 TRIES = 3
 
 
-class Calibrated(NamedTuple):
-    """How far the chip has found its own errors, each 0 (not at all) to 3."""
-
-    system: int
-    gyroscope: int
-    accelerometer: int
-    magnetometer: int
-
-
-@dataclass(frozen=True, slots=True)
-class Attitude:
-    """Degrees: heading 0 up to 360 clockwise from magnetic north, roll and pitch about level."""
-
-    heading_deg: float
-    roll_deg: float
-    pitch_deg: float
-
-
 class Bno055:
-    """One chip. Every call raises HardwareError when the chip does not answer, or never the same; the next tries again.
+    """One chip. Each call raises HardwareError when the chip does not answer, or its answers differ; the next call
+    tries again. A missing chip takes a second to report, because it might still be starting.
 
-    A chip that is gone takes a second to be given up, for it might be booting. A mounting that there is not is a
-    ValueError.
+    Raises ValueError for an unknown `mounting`.
     """
 
     def __init__(
@@ -92,7 +74,7 @@ class Bno055:
         self._restored: bytes | None = None
 
     def attitude(self) -> Attitude:
-        """All three angles of one moment."""
+        """All three angles, of one moment."""
         self._run()
         agreeing, before = 0, None
         for _ in range(READS):
@@ -109,24 +91,24 @@ class Bno055:
     def pitch_deg(self) -> float:
         return self.attitude().pitch_deg
 
-    def calibration(self) -> Calibrated:
+    def calibration(self) -> CompassCalibration:
         self._run()
         stat = self._same(CALIBRATION, 1)[0]
-        return Calibrated(stat >> 6, stat >> 4 & 3, stat >> 2 & 3, stat & 3)
+        return CompassCalibration(stat >> 6, stat >> 4 & 3, stat >> 2 & 3, stat & 3)
 
     def offsets(self) -> bytes:
-        """What the chip has learnt of its errors, 22 bytes. Worth keeping when every part of `calibration` is 3."""
+        """The chip's own calibration, 22 bytes. Store it when every part of `calibration` is 3."""
         self._run()
         self._enter(CONFIG_MODE)
-        # Two bytes at a time: of 22 too seldom all arrive as they were sent.
+        # Two bytes at a time: where bytes are garbled, 22 in a row rarely arrive intact.
         learnt = b"".join(self._same(OFFSETS + at, 2) for at in range(0, OFFSETS_COUNT, 2))
         self._enter(NDOF)
         return learnt
 
     def restore(self, offsets: bytes) -> None:
-        """Give the chip what it had learnt; it forgets all at power-off. Done again whenever it has been started anew.
+        """Give the chip a stored calibration, which it loses at power-off. The driver repeats this after each restart.
 
-        Raises ValueError where that is not 22 bytes.
+        Raises ValueError for anything but 22 bytes.
         """
         if len(offsets) != OFFSETS_COUNT:
             raise ValueError(f"the offsets of a BNO055 are {OFFSETS_COUNT} bytes, not {len(offsets)}")
@@ -136,11 +118,11 @@ class Bno055:
     # --- modes
 
     def _run(self) -> None:
-        """Make sure that the angles are being worked out: a chip that lost its supply for a moment sits in CONFIG."""
+        """Make sure that the chip computes angles: one that lost its supply for a moment is in CONFIG mode."""
         try:
             status, mode = self._same(STATUS, 1)[0], self._same(MODE, 1)[0]
         except HardwareError:
-            status, mode = 0, CONFIG_MODE  # starting up, perhaps: that is waited for
+            status, mode = 0, CONFIG_MODE  # perhaps it is starting: `_start` waits for that
         if (status, mode) != (FUSION_RUNS, NDOF):
             self._start()
 
@@ -170,7 +152,7 @@ class Bno055:
                 if self._clock() >= until_s:
                     raise
                 self._sleep(BOOT_STEP_S)
-        if page == 1:  # somebody else set up the raw sensors there
+        if page == 1:  # another program has set up the raw sensors there
             self._write(PAGE, 0)
         identity = self._same(IDENTITY, 1)[0]
         if identity != CHIP_IDENTITY:
@@ -190,7 +172,7 @@ class Bno055:
         return Attitude(heading % 360.0, roll, pitch) if possible else None
 
     def _same(self, register: int, count: int) -> bytes:
-        """An answer that came so often in a row that it is what the chip said."""
+        """The answer that came AGREEING times in a row."""
         agreeing, before = 0, b""
         for _ in range(READS):
             now = self._read(register, count)
@@ -213,7 +195,7 @@ class Bno055:
         self._tried(lambda: self._bus.write(self._address, bytes([register, *values])))
 
     def _tried(self, transfer: Callable[[], T]) -> T:
-        """The chip is busy with itself now and then, and does not acknowledge."""
+        """Repeat a transfer: now and then the chip is busy and does not acknowledge."""
         for _ in range(TRIES - 1):
             try:
                 return transfer()

@@ -1,7 +1,7 @@
 """HD44780 character displays, on six lines or behind a PCF8574 backpack.
 
-Knows the controller's instructions and times (Hitachi ADE-207-272) and both ways to its pins. Knows nothing of what the
-text means. RW is tied to ground on every board sold, so the busy flag is never read: the driver waits instead.
+Knows the controller's instructions and times (Hitachi ADE-207-272, table 6) and both ways to its pins. Does not
+know what the text means. RW is tied to ground on the usual boards, so the driver never reads the busy flag: it waits.
 """
 
 from __future__ import annotations
@@ -25,14 +25,17 @@ CLEAR_S = 0.002
 INSTRUCTION_S = 50e-6
 
 ROM_A00 = {"°": 0xDF, "→": 0x7E, "←": 0x7F}
-"""Where the usual character ROM differs from ASCII and we care."""
+"""Characters that the usual character ROM has at another place than ASCII."""
 
 
 class NibblePort(Protocol):
     """The way to the display's pins."""
 
     def send(self, register_select: bool, nibbles: Sequence[int]) -> None:
-        """Clock each nibble into D4 to D7, leaving the time of an instruction after each pair."""
+        """Clock each nibble into D4 to D7, and wait for the time of an instruction after each pair.
+
+        `register_select` is the RS pin: False for instructions, True for characters. Raises HardwareError.
+        """
 
 
 class GpioPort:
@@ -44,7 +47,7 @@ class GpioPort:
 
     def send(self, register_select: bool, nibbles: Sequence[int]) -> None:
         for count, nibble in enumerate(nibbles, 1):
-            # RS and data stand before E rises (40 ns) and until it has fallen, so they change in a call of their own.
+            # RS and data must be stable from 40 ns before E rises until it has fallen: they change in a separate call.
             data = {f"d{4 + bit}": bool(nibble >> bit & 1) for bit in range(4)}
             self._lines.set({"rs": register_select, "e": False} | data)
             self._lines.set({"e": True})
@@ -60,12 +63,13 @@ BACKPACKS: dict[str, dict[str, int]] = {
     "lcdxio": {"rs": 4, "rw": 5, "e": 6, "bl": 7, "d4": 0, "d5": 1, "d6": 2, "d7": 3},
     "swapped": {"rs": 2, "rw": 1, "e": 0, "bl": 3, "d4": 4, "d5": 5, "d6": 6, "d7": 7},
 }
-"""Which bit of the PCF8574 goes to which pin. `ywrobot` is nearly every board sold."""
+"""Which bit of the PCF8574 goes to which pin. Nearly every board is a `ywrobot`."""
 BACKLIGHT_ACTIVE_LOW = frozenset({"lcm1602", "mjkdz", "lcdxio"})
+"""Boards whose light is on while its bit is 0."""
 
 
 class BackpackPort:
-    """A PCF8574 at `address`: one byte on the bus sets all eight outputs, 90 us at 100 kHz, so no further waiting."""
+    """A PCF8574 at `address`. A byte sets all eight outputs; at 100 kHz it takes 90 µs, longer than an instruction."""
 
     def __init__(self, bus: I2CBus, address: int, pins: Mapping[str, int], *, backlight_active_low: bool) -> None:
         self._bus = bus
@@ -79,7 +83,7 @@ class BackpackPort:
         enable = 1 << self._pins["e"]
         data = bytearray()
         if register_select != self._register_select:
-            # RS stands before E rises.
+            # RS must be stable before E rises.
             data.append(base)
             self._register_select = register_select
         for nibble in nibbles:
@@ -89,7 +93,7 @@ class BackpackPort:
 
 
 class Hd44780:
-    """A display of `columns` by `rows` characters that shows rows of text."""
+    """A display of `columns` by `rows` characters, as a `hw.ports.CharacterDisplay`."""
 
     def __init__(self, port: NibblePort, sleep: Callable[[float], None], *, columns: int = 16, rows: int = 2) -> None:
         self._port = port
@@ -98,7 +102,10 @@ class Hd44780:
         self._rows = rows
 
     def reset(self) -> None:
-        """Bring the controller to four-bit mode from any state, half a byte behind or freshly powered, and clear it."""
+        """Bring the controller to four-bit mode from any state, also from half a received byte, and clear it.
+
+        Raises HardwareError.
+        """
         self._sleep(POWER_UP_S)
         self._port.send(False, [0x3])
         self._sleep(FIRST_WAKE_S)

@@ -1,7 +1,7 @@
-"""The MPU6050 on the boom: elevation from the direction in which gravity pulls.
+"""The MPU6050 on the boom: elevation from the direction of gravity.
 
-Knows the chip's registers (InvenSense RM-MPU-6000A), how the board is mounted, and that gravity cannot be told from an
-acceleration: what is not near 1 g is not taken. Knows no rotor. The gyroscopes are not used.
+Knows the chip's registers (InvenSense RM-MPU-6000A) and how the board is mounted. The chip cannot separate gravity from
+an acceleration, so a reading far from 1 g is not used. Knows no rotor, and does not use the gyroscopes.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hw.ports import HardwareError, I2CBus
+from hw.ports import AngleSource, HardwareError, I2CBus
 
 ADDRESS = 0x68
 """With AD0 low; 0x69 with AD0 high."""
@@ -26,16 +26,17 @@ WHO_AM_I = 0x75
 IDENTITY = 0x68
 AWAKE = 0x00
 LOW_PASS_10_HZ = 5
-"""13.8 ms late. It keeps the motor's vibration out, which would look like an acceleration."""
+"""Delays a reading by 13.8 ms, and filters out the motor's vibration, which would look like an acceleration."""
 RANGE_2_G = 0x00
 STEPS_PER_G = 16384
 SETTLING_S = 0.05
 
 SHAKEN_G = 0.15
-"""A reading further from 1 g than this says more of the motor or the wind than of the angle."""
+"""A reading further from 1 g than this is shaken by the motor or the wind, and not used."""
 LASTS_S = 0.3
-"""So long the readings before a shaken one stand for it; they are averaged, and none is older."""
+"""A reading is averaged with those before it that are no older than this; they also stand in for a shaken one."""
 LEAST_IN_PLANE_G = 0.5
+"""With less gravity than this in the plane in which the boom turns, the board lies on its side."""
 
 _AXES = {"x": 0, "y": 1, "z": 2}
 
@@ -44,7 +45,7 @@ _AXES = {"x": 0, "y": 1, "z": 2}
 class Mounting:
     """Which arrow on the board points along the boom, and which one up while the boom is level: `+x`, `-z`, ...
 
-    Raises ValueError where that is no way to mount a board.
+    Raises ValueError for an unknown arrow, or two arrows of one axis.
     """
 
     forward: str = "+x"
@@ -60,7 +61,7 @@ class Mounting:
             )
 
     def plane_g(self, board_g: tuple[float, float, float]) -> tuple[float, float]:
-        """The parts along the boom and across it, in the plane in which the boom turns."""
+        """Gravity along the boom and across it, in the plane in which the boom turns."""
         return _along(self.forward, board_g), _along(self.up, board_g)
 
 
@@ -70,9 +71,11 @@ def _along(arrow: str, board_g: tuple[float, float, float]) -> float:
 
 
 class Mpu6050:
-    """One chip. `clock` tells the time, `sleep` lets it pass while the chip wakes up; `averaged` readings at most."""
+    """One chip as a `hw.ports.AngleSensor`. `clock` gives seconds; `sleep` waits while the chip wakes up. `averaged`:
+    how many readings are averaged at most.
+    """
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(
         self,
@@ -90,13 +93,13 @@ class Mpu6050:
         self._address = address
         self._mounting = mounting or Mounting()
         self._taken: deque[tuple[float, float, float]] = deque(maxlen=averaged)
-        """When, and gravity along the boom and across it."""
+        """When each reading was taken, and gravity along the boom and across it."""
         self._awake = False
 
     def read(self) -> float:
-        """Elevation in degrees, -90 up to 270, so that a boom over the top reads 180 without a jump.
+        """Elevation in degrees, -90 to 270: a boom that goes over the top reaches 180 without a jump.
 
-        Raises HardwareError when the chip does not answer or is another, and when it has been shaken for too long.
+        Raises HardwareError when the chip does not answer, is another chip, or has been shaken for too long.
         """
         try:
             board_g = self._gravity_g()
@@ -110,7 +113,7 @@ class Mpu6050:
         if abs(force_g - 1.0) <= SHAKEN_G:
             self._taken.append((now_s, *self._in_plane(board_g)))
         else:
-            self._awake = False  # after a dip in its supply the chip sleeps and says 0 g: wake it, it does no harm
+            self._awake = False  # after a dip of its supply the chip sleeps and reads 0 g; waking it is always safe
             if not self._taken:
                 raise self._error(
                     f"it feels {force_g:.2f} g where gravity is 1 g; wait until the antenna stands still, "

@@ -1,7 +1,7 @@
 """The PCA9685, sixteen 12-bit pulse outputs on I2C: pulse widths for servos, shares of full for panel meters.
 
 Knows the chip's registers (NXP PCA9685 rev. 4, section 7.3). Does not know what its outputs are wired to. The chip has
-no watchdog: its outputs go on when the program has ended.
+no watchdog: its outputs go on after the program has ended.
 """
 
 from __future__ import annotations
@@ -20,22 +20,21 @@ SLEEP = 1 << 4
 AUTO_INCREMENT = 1 << 5
 RESTART = 1 << 7
 TOTEM_POLE = 1 << 2
-"""With the bits around it at zero: not inverted, outputs change together at the STOP of a write."""
+"""The bits around it are zero: outputs are not inverted, and change together at the STOP of a write."""
 
 CHANNELS = 16
 TICKS = 4096
 FULL = 1 << 4
-"""Of ON_H: on without end; of OFF_H: off without end, which wins."""
+"""In ON_H: always on. In OFF_H: always off; this one wins."""
 
 _LEAST_PRESCALE, _GREATEST_PRESCALE = 3, 255
 _OSCILLATOR_START_S = 1e-3
-"""The datasheet asks for half of it."""
+"""Twice what the datasheet asks for (section 7.3.1)."""
 
 
 class Pca9685:
-    """One chip. `osc_hz` is what its oscillator really does: on many boards 26 to 27 MHz. `sleep` lets time pass.
-
-    Raises HardwareError for a frequency that it cannot make.
+    """One chip. `frequency_hz`: pulses a second. `osc_hz`: the real frequency of its oscillator, on many boards 26 to
+    27 MHz. `sleep` waits for the oscillator. Raises HardwareError for a frequency outside 24 to 1526 Hz.
     """
 
     def __init__(
@@ -54,14 +53,14 @@ class Pca9685:
         if not _LEAST_PRESCALE <= self._prescale <= _GREATEST_PRESCALE:
             raise HardwareError(f"{self}: it cannot make {frequency_hz:g} Hz, only 24 to 1526 Hz")
         self.tick_us = (self._prescale + 1) / osc_hz * 1e6
-        """The width of a step of a pulse."""
+        """The smallest step of a pulse's width."""
 
     def __str__(self) -> str:
         return f"PCA9685 at 0x{self._address:02x}"
 
     def start(self) -> None:
         """Set the chip up from any state, with every output off. Raises HardwareError when it does not answer."""
-        self._write(MODE1, SLEEP | AUTO_INCREMENT)  # the frequency can be set in sleep only
+        self._write(MODE1, SLEEP | AUTO_INCREMENT)  # the frequency can be set only in sleep
         self._write(ALL_LED_ON_L, 0, 0, 0, FULL)
         self._write(PRE_SCALE, self._prescale)
         self._write(MODE2, TOTEM_POLE)
@@ -75,14 +74,14 @@ class Pca9685:
             raise HardwareError(f"{self}: it has been reset, its outputs are off; check its 3.3 V supply")
 
     def pulse(self, channel: int, width_us: float) -> None:
-        """A pulse of this width in every period. Raises HardwareError: no answer, or longer than the period."""
+        """A pulse of this width in each period. Raises HardwareError: no answer, or longer than the period."""
         ticks = round(width_us / self.tick_us)
         if not 0 < ticks < TICKS:
             raise HardwareError(f"{self}: a pulse of {width_us:g} µs does not fit into its period")
         self._set(channel, 0, ticks)
 
     def duty(self, channel: int, share: float) -> None:
-        """On for this share of the time, 0 to 1; beyond either it is that end. Raises HardwareError."""
+        """On for this share of the time; below 0 counts as 0, above 1 as 1. Raises HardwareError."""
         ticks = round(share * TICKS)
         if ticks <= 0:
             self.off(channel)
@@ -92,7 +91,7 @@ class Pca9685:
             self._set(channel, 0, ticks)
 
     def off(self, channel: int) -> None:
-        """No pulse any more. Raises HardwareError."""
+        """No pulse from now on. Raises HardwareError."""
         self._set(channel, 0, FULL << 8)
 
     def _set(self, channel: int, on: int, off: int) -> None:

@@ -1,1 +1,1 @@
-"""Motors: relays, servos, digital pots."""
+"""Drivers of motors: relays, servos, control boxes with a digital potentiometer. They know no sensor and no target."""

@@ -1,7 +1,7 @@
-"""Four motor relays and the rules nobody can go round: the only code that closes a relay.
+"""Four motor relays, and the rules that no caller can bypass: the only code that closes a relay.
 
-Knows that opposite relays are never on together, that a reversal waits out its dead time, and that every command
-expires. Knows nothing of angles, targets or why a relay is wanted. Safe to call from any thread.
+Knows that opposite relays are never on together, that a reversal waits for its dead time, and that every command
+expires. Does not know angles or targets. Safe to call from any thread.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from hw.ports import Axis, Direction, HardwareError, LeaseWatch, OutputLines
 
 LONGEST_LEASE_S = 0.5
-"""No command lives longer, whatever its sender asks: a dead sender costs half a second of motor at most."""
+"""No command lives longer, even if the caller asks for more: when the caller dies, the motor stops within 0.5 s."""
 MASTER_LINGER_S = 10.0
-"""The motor supply stays on this long after the last motor, so that its relay does not click with every correction."""
+"""How long the motor supply stays on after the last motor stopped: its relay need not switch at every correction."""
 
 MASTER = "master"
 RELAYS: dict[tuple[Axis, Direction], str] = {
@@ -31,15 +31,17 @@ class _Motor:
     on: Direction = Direction.OFF
     until_s: float = 0.0
     last: Direction = Direction.OFF
-    """The direction it last ran, and when it stopped: what a reversal waits for."""
+    """The direction it last ran in."""
     stopped_s: float = float("-inf")
+    """When it was last switched off; a reversal waits for the dead time from this moment."""
 
 
 class RelayBank:
     """Drives two motors through four output lines, and a master where one is wired.
 
-    `clock` gives seconds; `until_s` of a command is on the same clock. `one_at_a_time`: while one motor is fed the
-    other is not, for a small transformer: ask again. `watch` is told of every lease before it counts.
+    `clock` gives seconds; `until_s` of a command is on the same clock. `dead_time_s`: the pause before a reversal.
+    `one_at_a_time`: never feed both motors together, for a small transformer; the second one gets OFF and the caller
+    asks again. `watch` learns of each lease before a relay closes.
     """
 
     def __init__(
@@ -111,7 +113,8 @@ class RelayBank:
     def enforce(self, now_s: float) -> None:
         """Open every relay whose command has expired. The guard's only task.
 
-        A line that cannot be switched keeps no other on; it takes the master with it. Raises the first HardwareError.
+        If one line cannot be switched, the others are switched all the same, and the master is opened. Raises the first
+        HardwareError after that.
         """
         failures: list[HardwareError] = []
         with self._lock:
@@ -133,9 +136,9 @@ class RelayBank:
             raise failures[0]
 
     def wait_until_due(self, patience_s: float) -> None:
-        """Sleep until `enforce` has something to do, or something changed, or that long. For the guard thread.
+        """For the guard's thread: sleep until `enforce` is due, a command came, or `patience_s` seconds have passed.
 
-        Looking and falling asleep are one step under the lock: a command given in between cannot be missed.
+        The check and the sleep are one step under the lock, so that a command given in between is not missed.
         """
         with self._lock:
             left_s = patience_s if self._due_s is None else min(patience_s, self._due_s - self._clock())
@@ -143,7 +146,7 @@ class RelayBank:
                 self._lock.wait(left_s)
 
     def driven(self) -> dict[Axis, Direction]:
-        """What is on now."""
+        """The direction in which each motor is on now."""
         with self._lock:
             return {axis: motor.on for axis, motor in self._motors.items()}
 
@@ -151,7 +154,7 @@ class RelayBank:
         motor = self._motors[axis]
         if motor.on not in (Direction.OFF, direction):
             self._open(axis, now_s)
-        # The lease is known outside before the relay closes: there is no moment at which it would be forgotten.
+        # The watch learns of the lease before the relay closes, so that no closed relay is ever unwatched.
         if motor.on is Direction.OFF and self._may_start(motor, direction, now_s):
             self._renew()
             self._close(axis, direction, now_s)
@@ -159,7 +162,7 @@ class RelayBank:
             self._renew()
 
     def _may_start(self, motor: _Motor, direction: Direction, now_s: float) -> bool:
-        # A reversal at full speed breaks gears and burns contacts; the same direction may go on at once.
+        # A reversal at full speed breaks gears and burns contacts. The same direction may go on at once.
         others_on = any(other.on is not Direction.OFF for other in self._motors.values() if other is not motor)
         if self._one_at_a_time and others_on:
             return False
@@ -197,7 +200,7 @@ class RelayBank:
         return all(motor.on is Direction.OFF for motor in self._motors.values())
 
     def _plan(self) -> None:
-        """Work out the next moment to enforce, and wake the guard if that came nearer or went away."""
+        """Set the next moment for `enforce`, and wake the guard if it is sooner than before, or gone."""
         moments = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
         if self._watch and self._renewed and not moments:
             self._watch.rest()

@@ -1,53 +1,51 @@
-"""A calibration table between an axis's angle and what a device is told: a pulse width, a wiper step.
+"""The calibration table of one axis of a drive: from an angle to the number the device is given, and back.
 
-Knows straight lines between points. Does not know the device; it says its own ends and refuses what lies beyond them.
+Knows the table's range, and refuses an angle outside it. Does not know the device, nor what its number means: a pulse
+width in microseconds, or a wiper's step.
 """
 
 from __future__ import annotations
 
-from bisect import bisect
 from collections.abc import Sequence
-from itertools import pairwise
 
+from hw.interpolation import PiecewiseLinear
 from hw.ports import HardwareError
 
 _ROUNDING_DEG = 1e-6
 
 
-class Scale:
-    """`points` are pairs of an angle in degrees and the device's value there; between them the line is straight.
+class CommandScale:
+    """`points` are pairs of an angle in degrees and the device's number there, in any order; straight lines between.
 
-    At least two, with rising angles; the values all rise or all fall. Raises HardwareError. `name` opens the errors.
+    `name` opens each error. Raises HardwareError for fewer than two points, an angle given twice, or numbers that
+    neither all rise nor all fall.
     """
 
     def __init__(self, name: str, points: Sequence[tuple[float, float]]) -> None:
-        ordered = sorted(points)
-        steps = [(after[0] - before[0], after[1] - before[1]) for before, after in pairwise(ordered)]
-        if not steps:
-            raise HardwareError(f"{name}: the calibration table needs at least two points")
-        if any(angle <= 0 for angle, _ in steps) or len({value > 0 for _, value in steps}) > 1:
-            raise HardwareError(f"{name}: the calibration table turns back: give every angle once, values in order")
-        if any(value == 0 for _, value in steps):
-            raise HardwareError(f"{name}: the calibration table gives two angles the same value")
         self._name = name
-        self._angles_deg = [angle for angle, _ in ordered]
-        self._values = [value for _, value in ordered]
+        try:
+            self._line = PiecewiseLinear(tuple(sorted(points)), "angles", "the device's numbers")
+        except ValueError as fault:
+            raise HardwareError(f"{name}: the calibration table: {fault}") from fault
 
     @property
     def low_deg(self) -> float:
-        return self._angles_deg[0]
+        """The smallest angle of the table."""
+        return self._line.points[0][0]
 
     @property
     def high_deg(self) -> float:
-        return self._angles_deg[-1]
+        """The largest angle of the table."""
+        return self._line.points[-1][0]
 
     @property
     def values(self) -> tuple[float, float]:
-        """The least and the greatest value in the table."""
-        return min(self._values), max(self._values)
+        """The smallest and the largest number of the table."""
+        ends = self._line.points[0][1], self._line.points[-1][1]
+        return min(ends), max(ends)
 
     def check(self, angle_deg: float) -> None:
-        """Raises HardwareError where the table does not reach: what lies beyond its ends has never been tried."""
+        """Raises HardwareError outside the table: the rotor was never tried there, and may meet its stop."""
         if not self.low_deg - _ROUNDING_DEG <= angle_deg <= self.high_deg + _ROUNDING_DEG:
             raise HardwareError(
                 f"{self._name}: {angle_deg:.1f}° is outside its calibration table, "
@@ -55,22 +53,14 @@ class Scale:
             )
 
     def within(self, angle_deg: float) -> float:
-        """The nearest angle that the table reaches."""
+        """The nearest angle inside the table."""
         return min(max(angle_deg, self.low_deg), self.high_deg)
 
     def value(self, angle_deg: float) -> float:
-        """What the device is told for this angle. Raises HardwareError outside the table."""
+        """The device's number for this angle. Raises HardwareError outside the table."""
         self.check(angle_deg)
-        return _on_line(angle_deg, self._angles_deg, self._values)
+        return self._line.at(angle_deg, clamp=True)
 
     def angle_deg(self, value: float) -> float:
-        """The angle that this value means; beyond the table the last line goes on."""
-        if self._values[0] < self._values[-1]:
-            return _on_line(value, self._values, self._angles_deg)
-        return _on_line(value, self._values[::-1], self._angles_deg[::-1])
-
-
-def _on_line(at: float, rising: list[float], other: list[float]) -> float:
-    left = min(max(bisect(rising, at) - 1, 0), len(rising) - 2)
-    share = (at - rising[left]) / (rising[left + 1] - rising[left])
-    return other[left] + share * (other[left + 1] - other[left])
+        """The angle for this number; beyond the table the last line goes on."""
+        return self._line.inverse(value)

@@ -1,7 +1,8 @@
 """A rotor of two hobby servos on a PCA9685, as the program sees it: a positioned drive and two modelled angles.
 
-Knows leases, the first pulse, and what to do about a board that has lost its supply. A servo moves only while somebody
-calls `enforce`: a program that hangs leaves it holding. Does not know where a servo really stands: nobody does.
+Knows leases, the enable line, and how a board that has lost its supply is set up again. A servo moves only while the
+guard calls `enforce`: when the program hangs, each servo holds. Does not know where a servo really stands, because a
+servo reports nothing.
 """
 
 from __future__ import annotations
@@ -11,24 +12,29 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from hw.chips.pca9685 import Pca9685
+from hw.drives.positioned import DriveAngle
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.drives.servo_axis import ServoAxis, ServoSpec
-from hw.ports import Axis, HardwareError, OutputLines
+from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 
 ENABLE = "servo_enable"
 """The line at the board's OE input; OE is active low, so this output is requested as active low."""
 
 LOOK_S = 1.0
-"""How often a board with pulses on it is asked whether it has been reset."""
+"""How often a board with pulses on it is checked for a reset."""
 RETRY_S = 0.5
+"""How long after a failure the board is set up again."""
 
 
 class ServoDrive:
     """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock.
 
-    `enable`: the line `ENABLE`, where one is wired. `idle_off_s`: a servo that has not moved for so long gets no more
-    pulses, and is limp; None: it holds for good. Raises HardwareError for a specification that contradicts itself.
+    `enable`: the line `ENABLE`, where one is wired. `idle_off_s`: a servo that has not moved for so many seconds gets
+    no more pulses and is limp; None: it always holds. Raises HardwareError for two servos on one output, or a wrong
+    table of pulses.
     """
+
+    angle_source = AngleSource.MODELLED
 
     def __init__(
         self,
@@ -52,7 +58,7 @@ class ServoDrive:
         }
         self._changed = threading.Condition()
         self._wire = threading.Lock()
-        """Held while the board is talked to, so that nobody who only wants to stop waits for a bus."""
+        """Held while the bus is in use. `off` and `hold` do not take it, so that a stop never waits for the bus."""
         self._started = False
         self._look_s = clock()
         self._failure: str | None = None
@@ -60,7 +66,7 @@ class ServoDrive:
     # --- hw.ports.PositionedDrive
 
     def aim(self, axis: Axis, angle_deg: float, rate_dps: float, until_s: float) -> None:
-        """As the port says; refuses an angle outside the axis's calibration table, and moves nothing then."""
+        """As the port says. Refuses an angle outside the axis's table of pulses, and moves nothing then."""
         with self._changed:
             now_s = self._clock()
             if self._failure:
@@ -81,7 +87,7 @@ class ServoDrive:
                 axis.hold()
 
     def release(self) -> None:
-        """No pulses: the servos are limp. The next aim is a first one again, with its jump. Raises HardwareError."""
+        """No pulses: the servos are limp. The next aim starts with a jump, as after power-on. Raises HardwareError."""
         self.off()
         with self._wire:
             self.off()
@@ -101,9 +107,9 @@ class ServoDrive:
             return self._due_s()
 
     def enforce(self, now_s: float) -> None:
-        """Move every pulse on by what its slew allows; a course that has run out is held where it is.
+        """Move each pulse by as much as its slew rate allows; hold each servo whose command has expired.
 
-        Raises HardwareError when the board does not answer; it is set up anew when it does.
+        Raises HardwareError when the board does not answer; later calls set it up again.
         """
         with self._wire:
             try:
@@ -119,7 +125,7 @@ class ServoDrive:
                 raise
 
     def wait_until_due(self, patience_s: float) -> None:
-        """Sleep until `enforce` has something to do, or an order came, or that long. For the guard thread."""
+        """For the guard's thread: sleep until `enforce` is due, an order came, or `patience_s` seconds have passed."""
         with self._changed:
             due_s = self._due_s()
             left_s = patience_s if due_s is None else min(patience_s, due_s - self._clock())
@@ -128,23 +134,23 @@ class ServoDrive:
 
     # --- how it is
 
-    def sensor(self, axis: Axis) -> ServoSensor:
-        return ServoSensor(self, axis)
+    def sensor(self, axis: Axis) -> DriveAngle:
+        return DriveAngle(self, axis)
 
     def angle_deg(self, axis: Axis) -> float:
-        """Where the servo is taken to be. Raises HardwareError when the board does not answer."""
+        """The model's angle, in degrees. Raises HardwareError when the board does not answer."""
         with self._changed:
             if self._failure:
                 raise HardwareError(self._failure)
             return self._axes[axis].angle_deg
 
     def position_known(self, axis: Axis) -> bool:
-        """Whether the servo has had its pulse for as long as the longest way takes."""
+        """Whether the jump of the first pulse is over: the servo has had time for its whole travel."""
         with self._changed:
             return self._axes[axis].settled_s <= self._clock()
 
     def faults(self) -> dict[Axis, str]:
-        """What keeps the axes from moving, in a sentence; it goes by itself when the board answers."""
+        """Why the axes cannot move, one sentence each; empty again when the board answers."""
         with self._changed:
             return dict.fromkeys(self._axes, self._failure) if self._failure else {}
 
@@ -177,7 +183,7 @@ class ServoDrive:
                 axis.stepped(angle_deg, now_s)
 
     def _wake(self, axis: ServoAxis, now_s: float) -> None:
-        # The pulse is right before it can reach the servo.
+        # The board makes the right pulse before the enable line lets it through to the servo.
         if self._enable:
             self._enable.set({ENABLE: True})
         with self._changed:
@@ -199,11 +205,11 @@ class ServoDrive:
                 axis.hold()
                 axis.sleep(lost=True)
         if self._enable:
-            with suppress(HardwareError):  # the board's own failure is what is told
+            with suppress(HardwareError):  # the board's own failure is the one to report
                 self._enable.set({ENABLE: False})
 
     def _due_s(self) -> float | None:
-        if self._wire.locked():  # it is being done: simulated time may pass on the bus meanwhile
+        if self._wire.locked():  # `enforce` is running; in a simulation, time may pass on the bus meanwhile
             return None
         if not self._started:
             return self._look_s
@@ -212,17 +218,3 @@ class ServoDrive:
             if axis.pulsing:
                 moments += [self._look_s, self._idle_s(axis)]
         return min(moments, default=None)
-
-
-class ServoSensor:
-    """One axis of the drive as an angle sensor; its readings are degrees already."""
-
-    source = "modelled"
-
-    def __init__(self, drive: ServoDrive, axis: Axis) -> None:
-        self._drive = drive
-        self._axis = axis
-
-    def read(self) -> float:
-        """Degrees on the rotor's own scale. Raises HardwareError."""
-        return self._drive.angle_deg(self._axis)

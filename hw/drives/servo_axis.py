@@ -1,33 +1,35 @@
-"""One hobby servo: the pulse that is ordered now, and the angle it is taken to stand at.
+"""One hobby servo: which pulse it gets next, and the angle it is assumed to stand at.
 
-Knows how far the ordered angle may go in a moment. Knows no chip, no thread and no other axis. A servo tells nothing
-back: the angle here is a model, that of a servo which is faster than it is asked to be.
+Knows how fast the ordered angle may move. Knows no chip, no thread and no other axis. A servo reports nothing, so the
+angle is a model: the servo is assumed to be faster than the pulses ask it to be.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hw.drives.scale import Scale
+from hw.drives.scale import CommandScale
 
 FRAME_S = 0.02
-"""A servo takes a new width with every pulse, 50 times a second."""
+"""A servo gets a pulse 50 times a second, and takes each new width."""
 
 
 @dataclass(frozen=True, slots=True)
 class ServoSpec:
-    """Which output, and what its pulses mean. `pulses_us` are pairs of an angle on the rotor's scale and a width."""
+    """One servo on the board's output `channel`. `pulses_us`: pairs of an angle on the rotor's scale and a width."""
 
     channel: int
     pulses_us: tuple[tuple[float, float], ...] = ((0.0, 500.0), (180.0, 2500.0))
     start_deg: float = 0.0
-    """Where the first pulse sends it, at the servo's own speed: nothing can slow that one down."""
+    """Where the first pulse sends it, at the servo's own speed: no pulse can make that jump slower."""
     slew_dps: float = 40.0
-    """How fast the ordered angle moves; less than the servo can."""
+    """How fast the ordered angle moves; it must be less than the servo's own speed."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Course:
+    """A line in time: `angle_deg` at the moment `since_s`, moving on at `rate_dps`, until `until_s`."""
+
     angle_deg: float
     rate_dps: float
     since_s: float
@@ -38,18 +40,18 @@ class _Course:
 
 
 class ServoAxis:
-    """`name` opens the errors. Raises HardwareError for a calibration table that is none, or a start outside it."""
+    """`name` opens each error. Raises HardwareError for a wrong table of pulses, or a start outside it."""
 
     def __init__(self, name: str, spec: ServoSpec) -> None:
         self.spec = spec
-        self.scale = Scale(name, spec.pulses_us)
+        self.scale = CommandScale(name, spec.pulses_us)
         self.scale.check(spec.start_deg)
         self.angle_deg = spec.start_deg
         self.pulsing = False
         self.settled_s = float("inf")
-        """When the jump of a first pulse is over, however far it was."""
+        """When the jump of the first pulse is over, even over the whole travel; infinite: it had no pulse yet."""
         self.moved_s = float("-inf")
-        """When the pulse has last changed."""
+        """When the pulse last changed."""
         self._course: _Course | None = None
         self._stepped_s = float("-inf")
 
@@ -59,7 +61,7 @@ class ServoAxis:
         self._course = _Course(angle_deg, rate_dps, now_s, until_s)
 
     def hold(self) -> None:
-        """The pulse stays what it is, which is how a servo holds."""
+        """Keep the present pulse: a servo holds where its pulse sends it."""
         self._course = None
 
     def expire(self, now_s: float) -> None:
@@ -67,14 +69,14 @@ class ServoAxis:
             self._course = None
 
     def wake(self, now_s: float) -> None:
-        """Its pulse goes out from now on; where it was lost, it jumps to it from wherever it is."""
+        """Its pulse goes out from now on. After `sleep(lost=True)` the servo jumps to it from an unknown angle."""
         self.pulsing, self.moved_s = True, now_s
         if self._lost:
             travel_deg = self.scale.high_deg - self.scale.low_deg
             self.settled_s = now_s + travel_deg / self.spec.slew_dps
 
     def sleep(self, *, lost: bool) -> None:
-        """No pulse any more. `lost`: something else may turn it meanwhile."""
+        """No pulse goes out from now on. `lost`: the servo is limp, and wind may turn it."""
         self.pulsing = False
         if lost:
             self.settled_s = float("inf")
@@ -88,7 +90,7 @@ class ServoAxis:
         return self._course is not None
 
     def due_s(self) -> float:
-        """When the next step is due; the course runs out as the first thing then."""
+        """When the next step is due, or the present command expires; infinite: there is no command."""
         if self._course is None:
             return float("inf")
         if self._arrived:
@@ -98,7 +100,7 @@ class ServoAxis:
         return min(max(self._stepped_s + FRAME_S, self.settled_s), self._course.until_s)
 
     def next_deg(self, now_s: float) -> float:
-        """Where the pulse is to point now: as near to the course as the slew allows. A late call makes no leap."""
+        """The angle of the next pulse: as near to the course as the slew rate allows. A late call makes no big step."""
         if self._course is None or not self.pulsing:
             return self.angle_deg
         most_deg = self.spec.slew_dps * min(now_s - self._stepped_s, 2 * FRAME_S)
@@ -106,7 +108,7 @@ class ServoAxis:
         return self.angle_deg + min(max(error_deg, -most_deg), most_deg)
 
     def stepped(self, angle_deg: float, now_s: float) -> None:
-        """The pulse points there now."""
+        """The pulse for `angle_deg` has been sent."""
         if angle_deg != self.angle_deg:
             self.angle_deg, self.moved_s = angle_deg, now_s
         self._stepped_s = now_s
@@ -117,6 +119,6 @@ class ServoAxis:
 
     @property
     def _arrived(self) -> bool:
-        """It is to stay where it is, and is there."""
+        """It is ordered to stay at one angle, and the pulse is there."""
         course = self._course
         return course is not None and not self._lost and course.rate_dps == 0 and course.angle_deg == self.angle_deg

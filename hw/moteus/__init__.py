@@ -1,1 +1,1 @@
-"""Two moteus controllers on CAN-FD."""
+"""The driver of two moteus motor controllers on CAN-FD."""

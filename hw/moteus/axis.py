@@ -1,6 +1,7 @@
-"""What one moteus controller is to be told next, and what its answers mean. No library, no thread, no clock.
+"""One moteus controller: which order it gets next, and what its answers mean.
 
-Knows latches, watchdog and home states, and how often a controller must be spoken to. Knows no CAN and no serial port.
+Knows its faults, its watchdog and its home states, and how often it needs an order. Knows no CAN bus, no serial port,
+no library, no thread and no clock: moments are arguments, in seconds.
 """
 
 from __future__ import annotations
@@ -10,49 +11,63 @@ from collections import deque
 from enum import Enum
 
 from hw.moteus.faults import LIMITS, explain
-from hw.moteus.orders import WATCHDOG_S, Answer, AxisSpec, Home, Look, Mode, Move, Order, SetOutput, Stop
+from hw.moteus.orders import WATCHDOG_S, Answer, Home, Look, Mode, MoteusSpec, Move, Order, SetOutput, Stop
 from hw.ports import Axis, HardwareError
 
 MOVING_EVERY_S = 0.02
+"""How often a moving axis gets an order."""
 PARKED_EVERY_S = 0.08
+"""How often an axis at rest gets an order: well within the controller's watchdog."""
 STALE_S = 0.3
-"""An older answer is no answer."""
+"""An answer older than this is not used."""
 ERRAND_S = 2.0
-"""What a person asked for is forgotten when the controller could not be told in this time."""
+"""An operator's request is dropped when it cannot be delivered to the controller within this time."""
 
 
 class Wish(Enum):
+    """What the program wants of the axis."""
+
     NOTHING = "nothing was ordered yet"
-    LET_GO = "a person let go of it"
+    LET_GO = "the operator released it"
     HOLD = "hold"
     AIM = "aim"
 
 
 class MoteusAxis:
-    """Tell it what is wanted; ask it what to send (`order`); give it what came back (`heard`, `missed`)."""
+    """Call `aim`, `hold` or `release`; send what `order` returns; pass on the answer (`heard`), or that none came
+    (`missed`).
+    """
 
-    def __init__(self, axis: Axis, spec: AxisSpec) -> None:
+    def __init__(self, axis: Axis, spec: MoteusSpec) -> None:
         self.spec = spec
         self.fault: str | None = None
-        """What stopped this axis, for a person; `acknowledge` makes it usable again."""
+        """What stopped this axis, in a sentence; `acknowledge` makes it usable again."""
         self.answer: Answer | None = None
+        """The latest answer."""
         self.heard_s = -math.inf
+        """When it came."""
         self.until_s = -math.inf
+        """When the present aim expires."""
         self.wish = Wish.NOTHING
         self._name = f"{axis.value}: moteus {spec.can_id}"
         self._aim = (0.0, 0.0, 0.0)  # angle, rate, when
         self._errands: deque[Stop | SetOutput] = deque()
         self._errands_until_s = math.inf
         self._engaged = False
-        """It has been given torque by us."""
+        """This program has given it torque."""
         self._told_to_hold = False
+        """The latest order that it answered was to hold."""
         self._missed = True
+        """The latest order was not answered."""
         self._next_s = -math.inf
 
     # --- what is wanted
 
     def aim(self, angle_deg: float, rate_dps: float, until_s: float, now_s: float) -> None:
-        """Raises HardwareError where it cannot obey."""
+        """Be at `angle_deg` at `now_s` and move on at `rate_dps`, until `until_s`.
+
+        Raises HardwareError: no finite number, a fault, a position that is not known, or no answer.
+        """
         if not (math.isfinite(angle_deg) and math.isfinite(rate_dps)):
             raise HardwareError(f"{self._name}: {angle_deg}° at {rate_dps}°/s is nowhere to aim at")
         if self.fault:
@@ -63,28 +78,30 @@ class MoteusAxis:
         self._want(Wish.AIM)
 
     def hold(self) -> None:
-        """Decelerate and hold. What has no torque, because nobody aimed it yet or a person let go of it, gets none."""
+        """Decelerate and hold. An axis without torque, never aimed or released by the operator, gets none by this."""
         if self.wish is Wish.AIM:
             self._want(Wish.HOLD)
 
     def release(self) -> None:
-        """Let go, now or as soon as it hears again."""
+        """Take the torque away, now or as soon as the controller answers again."""
         self._send_first(math.inf, Stop())
         self._want(Wish.LET_GO)
 
     def acknowledge(self, now_s: float) -> None:
-        """Forget the fault and be usable again; a fault that is still there comes back. Raises HardwareError."""
+        """Clear the fault; a fault whose cause is still there comes back. Raises HardwareError: no answer."""
         self._must_answer(now_s)
         self.fault = None
         self._send_first(now_s + ERRAND_S, Stop())
 
     def confirm(self, angle_deg: float, exactly: bool, now_s: float) -> None:
-        """A person or a sensor says where it stands. Raises HardwareError."""
+        """It stands at `angle_deg`, says the operator or a sensor: `exactly`, or at the nearest angle that its encoder
+        agrees with. Raises HardwareError: no answer, or no finite angle.
+        """
         self._must_answer(now_s)
         if not math.isfinite(angle_deg):
             raise HardwareError(f"{self._name}: {angle_deg}° is no angle")
         self.hold()
-        # Loose meanwhile: a scale that shifts under a controller that holds could be taken for a way to go.
+        # Without torque meanwhile: a controller that holds would turn the motor by as much as its scale shifts.
         self._send_first(now_s + ERRAND_S, Stop(), SetOutput(self.spec.revolutions(angle_deg), exactly))
 
     def _want(self, wish: Wish) -> None:
@@ -100,7 +117,7 @@ class MoteusAxis:
 
     @property
     def busy(self) -> bool:
-        """Errands are still on their way."""
+        """A request of the operator is still to be delivered."""
         return bool(self._errands)
 
     @property
@@ -109,7 +126,7 @@ class MoteusAxis:
 
     @property
     def at_rest(self) -> bool:
-        """Nothing is left to do before one may stop talking to it."""
+        """The bus may be closed: every request is delivered, and the axis holds or has no torque."""
         if self.fault or self.wish in (Wish.NOTHING, Wish.LET_GO):
             return not self._errands
         return self._told_to_hold and not self.moving
@@ -121,7 +138,7 @@ class MoteusAxis:
 
     @property
     def limited_by(self) -> str | None:
-        """What holds a healthy controller back, in words."""
+        """What limits a controller without a fault, in words; None: nothing does."""
         return LIMITS.get(self.answer.fault) if self.answer else None
 
     def angle_deg(self, now_s: float) -> float:
@@ -147,20 +164,20 @@ class MoteusAxis:
         return self._next_s
 
     def order(self, now_s: float) -> Order | None:
-        """What to send now; None: not yet."""
+        """The order to send now; None: none is due."""
         if now_s < self._next_s:
             return None
         self._next_s = now_s + (MOVING_EVERY_S if self.wish is Wish.AIM or self.moving or self.busy else PARKED_EVERY_S)
         if now_s > self._errands_until_s:
             self._errands.clear()
-        # Whoever was silent may have lost its supply and, with it, its position: look before it is told to move.
+        # A controller that was silent may have lost its supply, and its position with it: look before it may move.
         if self._missed or self.answer is None:
             return Look()
         if self._errands:
             return self._errands[0]
         if self.fault or self.wish not in (Wish.AIM, Wish.HOLD):
             return Look()
-        if not self._engaged and self.answer.mode == Mode.TIMEOUT:  # how an earlier run ended
+        if not self._engaged and self.answer.mode == Mode.TIMEOUT:  # from an earlier run of the program
             self._send_first(math.inf, Stop())
             return Stop()
         return self._move(now_s)
@@ -174,7 +191,7 @@ class MoteusAxis:
         return Move(self.spec.revolutions(angle_deg + rate_dps * (now_s - at_s)), speed_rev_s)
 
     def missed(self) -> None:
-        """No answer came."""
+        """The latest order was not answered."""
         self._missed = True
 
     def heard(self, order: Order, answer: Answer, now_s: float) -> None:
@@ -191,7 +208,7 @@ class MoteusAxis:
 
     def _run_errand(self, order: Order, answer: Answer) -> None:
         match self._errands[0]:
-            case Stop():  # the answer may be older than the command: it is done when it shows
+            case Stop():  # the answer may be older than the order: done when the mode shows it
                 done = order == Stop() and answer.mode == Mode.STOPPED
                 self._engaged = self._engaged and not done
             case SetOutput():

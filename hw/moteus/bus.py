@@ -1,8 +1,8 @@
-"""The thread that talks to the moteus controllers, and lives with what cables and the library do.
+"""The thread that talks to the moteus controllers, and connects again after a fault of the cable or the library.
 
-Knows that a closed connection leaves its port registered (so every one gets an event loop of its own), that some calls
-wait for ever (so all have a time limit), and that an unplugged port raises in a callback without end (so the first such
-error ends the connection). Decides nothing.
+Knows three faults of the library. A closed connection leaves its port registered: each connection gets its own event
+loop. Some calls wait for ever: all have a time limit. An unplugged port raises again and again in a callback: the first
+such error ends the connection. Does not decide what is sent: `hw.moteus.drive` does.
 """
 
 from __future__ import annotations
@@ -16,20 +16,24 @@ from collections.abc import Awaitable
 from typing import Any
 
 from hw.moteus.drive import MoteusDrive
-from hw.moteus.library import CanChannel, SerialPort, Wire, library
+from hw.moteus.library import CanChannel, SerialPort, library
+from hw.moteus.wire import Wire
 from hw.ports import HardwareError
 
 log = logging.getLogger(__name__)
 
 EXCHANGE_S = 0.15
+"""How long one request and its answer may take."""
 SILENCE_S = 2.0
-"""Nobody answered for so long: the connection is made anew."""
+"""After so long without any answer the connection is opened again."""
 BACK_OFF_S = (0.1, 2.0)
+"""The shortest and the longest pause before the next attempt to connect."""
 COMING_TO_REST_S = 2.0
+"""How long the motors may take to stop when the program ends."""
 
 
 class MoteusBus:
-    """Serves a drive in a thread of its own, for as long as it is open, whatever becomes of the cable."""
+    """Serves a drive in a thread of its own from `start` to `close`, and connects again when the cable fails."""
 
     def __init__(self, drive: MoteusDrive, port: SerialPort | CanChannel) -> None:
         """Raises HardwareError where the library is missing."""
@@ -47,14 +51,19 @@ class MoteusBus:
         self._thread.start()
 
     def close(self) -> None:
-        """Let both axes come to rest and hold, then end the thread. The controllers' watchdogs take over."""
+        """Let both axes come to rest and hold, then end the thread; the controllers' watchdogs guard them from then on.
+
+        May be called twice, and without `start`.
+        """
         self._drive.off()
         self._closing.set()
         self._ring()
-        self._thread.join(timeout=COMING_TO_REST_S + 1.0)
+        if self._thread.is_alive():
+            self._thread.join(timeout=COMING_TO_REST_S + 1.0)
 
     def _ring(self) -> None:
-        with self._lock, contextlib.suppress(RuntimeError):  # the loop may just have ended
+        """Wake the thread: there is something to send. From any thread."""
+        with self._lock, contextlib.suppress(RuntimeError):  # the loop may have just ended
             if self._bell:
                 self._bell[0].call_soon_threadsafe(self._bell[1].set)
 
@@ -63,8 +72,8 @@ class MoteusBus:
         while not self._closing.is_set():
             try:
                 lively = asyncio.run(self._connection())
-                reason = "nobody answers: check the controllers' supply and the CAN wires"
-            except (Exception, SystemExit) as failure:  # the library ends the program where a handler fails
+                reason = "no controller answers: check their supply and the CAN wires"
+            except (Exception, SystemExit) as failure:  # the library calls sys.exit when one of its handlers fails
                 lively, reason = False, _explain(failure)
             if self._closing.is_set():
                 break
@@ -74,7 +83,10 @@ class MoteusBus:
             self._closing.wait(wait_s)
 
     async def _connection(self) -> bool:
-        """Talk until the line fails (raises), nobody answers for long, or it is time to close."""
+        """Talk until the line fails (raises), no controller answers for long, or `close` is called.
+
+        Returns whether any controller answered.
+        """
         loop, news, broken = asyncio.get_running_loop(), asyncio.Event(), asyncio.Event()
         me = asyncio.current_task()
         failures: list[BaseException] = []
@@ -117,7 +129,7 @@ class MoteusBus:
 async def _patiently(call: Awaitable[Any]) -> Any:
     try:
         return await asyncio.wait_for(call, EXCHANGE_S)
-    except RuntimeError as failure:  # what the library makes of a lost or spoilt line
+    except RuntimeError as failure:  # the library's error for a lost or garbled line
         raise TimeoutError from failure
 
 

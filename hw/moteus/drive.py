@@ -1,7 +1,7 @@
 """A rotor of two moteus controllers, as the program sees it: a positioned drive and two angle sensors.
 
-Knows leases, and that several threads ask while one talks to the controllers. Knows neither the library nor the wire:
-`hw.moteus.bus` carries the orders and brings the answers.
+Knows leases, and that several threads use the drive while one thread serves the controllers. Knows neither the library
+nor the wire: `hw.moteus.bus` sends the orders and brings the answers.
 """
 
 from __future__ import annotations
@@ -9,16 +9,22 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
+from hw.drives.positioned import DriveAngle
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import MoteusAxis, Wish
-from hw.moteus.orders import Answer, AxisSpec, Order
-from hw.ports import Axis, HardwareError
+from hw.moteus.orders import Answer, MoteusSpec, Order
+from hw.ports import AngleSource, Axis, HardwareError
 
 
 class MoteusDrive:
-    """`clock` gives seconds; `until_s` of an aim is on the same clock. Safe to call from any thread."""
+    """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock.
 
-    def __init__(self, azimuth: AxisSpec, elevation: AxisSpec, clock: Callable[[], float]) -> None:
+    Raises HardwareError where both axes have one CAN id.
+    """
+
+    angle_source = AngleSource.MEASURED
+
+    def __init__(self, azimuth: MoteusSpec, elevation: MoteusSpec, clock: Callable[[], float]) -> None:
         if azimuth.can_id == elevation.can_id:
             raise HardwareError(f"azimuth and elevation both have CAN id {azimuth.can_id}: give one another with tview")
         self._clock = clock
@@ -29,7 +35,7 @@ class MoteusDrive:
         }
         self._offline: str | None = None
         self.on_news: Callable[[], None] = lambda: None
-        """Called when something is to be sent at once; set by the bus."""
+        """Called when an order is to be sent at once; the bus sets it."""
 
     # --- hw.ports.PositionedDrive
 
@@ -44,7 +50,7 @@ class MoteusDrive:
         self.on_news()
 
     def hold(self, axis: Axis) -> None:
-        """Decelerate, and hold where it comes to rest. One that cannot be reached does so by its own watchdog."""
+        """Decelerate, and hold where it comes to rest. A controller that cannot be reached does so by its watchdog."""
         with self._lock:
             self._axes[axis].hold()
         self.on_news()
@@ -75,48 +81,49 @@ class MoteusDrive:
 
     # --- how it is
 
-    def sensor(self, axis: Axis) -> MoteusSensor:
-        return MoteusSensor(self, axis)
+    def sensor(self, axis: Axis) -> DriveAngle:
+        return DriveAngle(self, axis)
 
     def angle_deg(self, axis: Axis) -> float:
-        """Where the axis stands on the rotor's own scale. Raises HardwareError: silent, or its position is unknown."""
+        """Degrees on the rotor's own scale. Raises HardwareError: no answer, or its position is unknown."""
         with self._lock:
             self._check_online()
             return self._axes[axis].angle_deg(self._clock())
 
     def position_known(self, axis: Axis) -> bool:
-        """False: switched on behind a gear with an encoder on the rotor only; `confirm` ends that."""
+        """False: switched on with its only encoder before a gear. `confirm` makes the position known."""
         with self._lock:
             return self._axes[axis].position_known
 
     def faults(self) -> dict[Axis, str]:
-        """What stopped an axis, in a sentence; it stays until `acknowledge`."""
+        """What stopped an axis, in a sentence. A fault stays until `acknowledge`."""
         with self._lock:
             return {name: axis.fault for name, axis in self._axes.items() if axis.fault}
 
     def limits(self) -> dict[Axis, str]:
-        """What holds back a controller that is well: its position bounds, say."""
+        """What limits a controller without a fault, its position bounds for example."""
         with self._lock:
             return {name: axis.limited_by for name, axis in self._axes.items() if axis.limited_by}
 
     def answer(self, axis: Axis) -> Answer | None:
-        """The latest the controller said: volts, temperature, mode; None: it has not answered yet."""
+        """The controller's latest answer: volts, temperature, mode; None: it has not answered yet."""
         with self._lock:
             return self._axes[axis].answer
 
-    # --- what only a person asks for
+    # --- on an operator's request only
 
     def acknowledge(self, axis: Axis) -> None:
-        """Make the axis usable again after a fault; one that is still there comes back. Raises HardwareError."""
+        """Clear the axis's fault; a fault whose cause is still there comes back. Raises HardwareError: no answer."""
         with self._lock:
             self._check_online()
             self._axes[axis].acknowledge(self._clock())
         self.on_news()
 
     def confirm(self, axis: Axis, angle_deg: float, *, exactly: bool = False) -> None:
-        """The axis stands at this angle: exactly, or at the nearest one that the rotor's encoder agrees with.
+        """The axis stands at this angle: `exactly`, or at the nearest one that the rotor's encoder agrees with.
 
-        `position_known` shows when the controller has it. The motor is loose for a moment. Raises HardwareError.
+        `position_known` becomes True when the controller has taken it over. The motor has no torque for a moment.
+        Raises HardwareError: no answer, or no finite angle.
         """
         with self._lock:
             self._check_online()
@@ -126,37 +133,38 @@ class MoteusDrive:
     # --- for the bus
 
     @property
-    def specs(self) -> dict[Axis, AxisSpec]:
+    def specs(self) -> dict[Axis, MoteusSpec]:
         return {name: axis.spec for name, axis in self._axes.items()}
 
     def order(self, axis: Axis) -> Order | None:
-        """What to send to this axis' controller now; None: nothing yet."""
+        """The order to send to this axis's controller now; None: none is due."""
         with self._lock:
             now_s = self._clock()
             self.enforce(now_s)
             return self._axes[axis].order(now_s)
 
     def next_order_s(self) -> float:
-        """When there is something to send."""
+        """The moment the next order is due."""
         with self._lock:
             return min(axis.due_s() for axis in self._axes.values())
 
     def next_order_in_s(self) -> float:
-        """How long until then."""
+        """The seconds until the next order is due; 0: now."""
         return max(0.0, self.next_order_s() - self._clock())
 
     def heard(self, axis: Axis, order: Order, answer: Answer) -> None:
+        """The controller answered that order."""
         with self._lock:
             self._offline = None
             self._axes[axis].heard(order, answer, self._clock())
 
     def missed(self, axis: Axis) -> None:
-        """No answer came."""
+        """The latest order to this axis was not answered."""
         with self._lock:
             self._axes[axis].missed()
 
     def lost(self, reason: str) -> None:
-        """There is no connection; until something is heard again this is what whoever asks is told."""
+        """The connection is lost. `reason` is the error that callers get until a controller answers again."""
         with self._lock:
             self._offline = reason
             for axis in self._axes.values():
@@ -164,24 +172,10 @@ class MoteusDrive:
 
     @property
     def at_rest(self) -> bool:
-        """Nothing is to move, nothing moves, and the controllers have been told so."""
+        """Both axes hold, or have no torque, and every request is delivered: the bus may be closed."""
         with self._lock:
             return all(axis.at_rest for axis in self._axes.values())
 
     def _check_online(self) -> None:
         if self._offline:
             raise HardwareError(self._offline)
-
-
-class MoteusSensor:
-    """One axis of the drive as an angle sensor; its readings are degrees already."""
-
-    source = "measured"
-
-    def __init__(self, drive: MoteusDrive, axis: Axis) -> None:
-        self._drive = drive
-        self._axis = axis
-
-    def read(self) -> float:
-        """Degrees on the rotor's own scale. Raises HardwareError."""
-        return self._drive.angle_deg(self._axis)

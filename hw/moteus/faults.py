@@ -1,4 +1,4 @@
-"""What a moteus means by the number in its fault register, and what to do about it.
+"""The numbers in a moteus's fault register: what each means, and what the user does about it.
 
 Knows the firmware's codes (mjbots, "moteus reference", fault codes). Knows no controller.
 """
@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Fault:
+    """A short name, and what to do."""
+
     name: str
     remedy: str
 
@@ -35,7 +37,7 @@ FAULTS: dict[int, Fault] = {
     49: Fault("too far from where it should be", "something holds the antenna, or the motor is too weak"),
     50: Fault("too fast or too slow", "something drives or holds the antenna, or the motor is too weak"),
 }
-"""Codes that let go of the motor until it has been told to stop."""
+"""Faults: the controller takes the torque away until it gets a stop."""
 
 LIMITS: dict[int, str] = {
     96: "its velocity limit",
@@ -49,8 +51,9 @@ LIMITS: dict[int, str] = {
     104: "braking that feeds the supply",
     105: "field weakening",
 }
-"""Codes of a controller that runs, and is held back by something."""
+"""No faults: the controller runs, and something limits it."""
 
 
 def explain(code: int) -> Fault:
+    """The fault with that number; a number that is not listed gets a text of its own."""
     return FAULTS.get(code, Fault(f"fault {code}", "look the number up in the moteus reference"))

@@ -1,6 +1,6 @@
-"""What is said to a moteus controller and what it answers, as values; and how degrees become its revolutions.
+"""Orders to a moteus controller and its answers, as values; and how degrees become its revolutions.
 
-Knows units and modes. Knows neither when anything is said nor how it travels.
+Knows units and modes (mjbots, "moteus reference"). Does not know when an order is sent, nor how it travels.
 """
 
 from __future__ import annotations
@@ -10,10 +10,12 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 WATCHDOG_S = 0.5
-"""The controller stops by itself when it has heard nothing for so long."""
+"""The controller decelerates and stops by itself after so long without an order."""
 
 
 class Mode(IntEnum):
+    """The values of its mode register that matter here."""
+
     STOPPED = 0
     FAULT = 1
     POSITION = 10
@@ -21,7 +23,7 @@ class Mode(IntEnum):
 
 
 class Home(IntEnum):
-    """What the controller knows of its position: nothing, its share of a rotor turn, or all."""
+    """What the controller knows of its position: nothing, the angle within a rotor turn, or the output's position."""
 
     RELATIVE = 0
     ROTOR = 1
@@ -29,8 +31,8 @@ class Home(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class AxisSpec:
-    """One axis: its controller and the way from degrees to the controller's revolutions."""
+class MoteusSpec:
+    """One axis: its controller's CAN id and limits, and how degrees become the controller's revolutions."""
 
     can_id: int
     rev_per_turn: float = 1.0
@@ -42,12 +44,14 @@ class AxisSpec:
     max_torque_nm: float = math.nan
     """NaN: as configured in the controller."""
     geared: bool = True
-    """Its only encoder sits before a gear: at power-on it does not know which turn of the rotor it is in."""
+    """Its only encoder is before a gear: at power-on it does not know which turn of the rotor it is in."""
 
     def revolutions(self, angle_deg: float) -> float:
+        """The controller's position at that angle."""
         return self.zero_rev + angle_deg / 360 * self.rev_per_turn
 
     def degrees(self, position_rev: float) -> float:
+        """The angle at that position of the controller."""
         return (position_rev - self.zero_rev) / self.rev_per_turn * 360
 
     def span_rev(self, degrees: float) -> float:
@@ -57,17 +61,17 @@ class AxisSpec:
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """Say how you are; this does not feed the watchdog."""
+    """Ask for an answer only. This does not restart the watchdog."""
 
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """Let go of the motor, and forget faults."""
+    """Take the torque away, and clear faults."""
 
 
 @dataclass(frozen=True, slots=True)
 class SetOutput:
-    """You stand at `position_rev`: exactly, or at the nearest place that agrees with the rotor's encoder."""
+    """Take `position_rev` for the present position: `exactly`, or the nearest that agrees with the rotor's encoder."""
 
     position_rev: float
     exactly: bool
@@ -75,7 +79,7 @@ class SetOutput:
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """Be at `position_rev` now, moving on. NaN: from wherever you are, come to that speed and keep it."""
+    """Be at `position_rev` now, moving on at `velocity_rev_s`. Position NaN: only the speed counts, from anywhere."""
 
     position_rev: float
     velocity_rev_s: float
@@ -86,6 +90,8 @@ Order = Look | Stop | SetOutput | Move
 
 @dataclass(frozen=True, slots=True)
 class Answer:
+    """The registers of one reply."""
+
     mode: int
     position_rev: float
     velocity_rev_s: float

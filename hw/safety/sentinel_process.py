@@ -1,9 +1,10 @@
-"""The sentinel: a small process that opens the relays when the program that closed them is gone or stands still.
+"""The sentinel: a small process that opens the relays when the program that closed them has died or hangs.
 
-Knows the relay lines, the program's process, and one pipe: `+` says that a relay is on (or still on), `-` that all are
-off, `.` farewell after a proper end, and its end without one that the program has died, however it did. Knows nothing
-else, holds nothing that can hang, and is loaded and locked in memory before the first relay may close. A Raspberry Pi's
-kernel leaves outputs as they were when their owner dies; this process is what opens them then.
+Knows the relay lines, the program's process and one pipe. On the pipe `+` means that a relay is on, `-` that all relays
+are off, and `.` that the program ends properly. The end of the pipe without `.` means that the program has died.
+
+It holds nothing that can hang, and it is loaded and locked in memory before the first relay may close. It is needed
+because a Raspberry Pi's kernel leaves outputs as they were when their owner dies.
 
     python -m hw.safety.sentinel_process watch JSON     started by the program; commands come on standard input
     python -m hw.safety.sentinel_process now FILE       for the service manager, after the program has ended
@@ -18,6 +19,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from hw.buses.gpio import real_gpiod
@@ -26,31 +28,46 @@ from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines, switch_off
 
 SILENCE_S = LONGEST_LEASE_S + 0.2
-"""A program that runs says `+` or `-` again before its longest lease is over; after this long it stands still."""
+"""A running program writes `+` or `-` again before its longest lease ends. After this long without, it hangs."""
 READY = b"ready\n"
 PATIENCE_S = 5.0
-"""How long a dead process may hold on to its lines."""
+"""The longest time, in seconds, for which the kernel may keep the lines of a dead process."""
 
 _MCL_CURRENT_AND_FUTURE = 3
 
 
 def watch(commands: int, program: int, off: Callable[[], None]) -> None:
-    """Read the pipe `commands` until the program (a pidfd) dies or falls silent with a relay on; then `off`."""
+    """Read the pipe `commands` until the program (a pidfd) ends, dies, or falls silent with a relay on.
+
+    Calls `off` at the end, except after a farewell.
+    """
+    try:
+        farewell = _read_until_end(commands, program)
+    except OSError:
+        # The pipe cannot be read, so the sentinel is blind: off is the safe side.
+        farewell = False
+    if not farewell:
+        off()
+
+
+def _read_until_end(commands: int, program: int) -> bool:
+    """Whether the program said farewell."""
     last_on_s: float | None = None
     while True:
         left_s = None if last_on_s is None else max(0.0, last_on_s + SILENCE_S - time.monotonic())
         ready, _, _ = select.select([commands], [], [], left_s)
         if not ready:
-            # Stopped, frozen, or starved: only when it is gone are the lines free, and it cannot switch them on again.
-            signal.pidfd_send_signal(program, signal.SIGKILL)
-            break
+            # Stopped, frozen or starved. The lines are free only when it is dead, and a dead program cannot switch them
+            # on again. It may have died meanwhile, with its end of the pipe still open in a child: then this fails.
+            with suppress(OSError):
+                signal.pidfd_send_signal(program, signal.SIGKILL)
+            return False
         said = os.read(commands, 4096)
         if not said:
-            break
+            return False
         if said.endswith(b"."):
-            return
+            return True
         last_on_s = time.monotonic() if said.endswith(b"+") else None
-    off()
 
 
 def main(arguments: list[str]) -> int:
@@ -65,14 +82,14 @@ def main(arguments: list[str]) -> int:
 
 
 def _watch(lines: RelayLines) -> int:
-    # The service manager ends the whole group with SIGTERM; this process ends when its work is done, never before.
+    # The service manager sends SIGTERM to the whole group. This process ends when its work is done, never before.
     for ignored in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGQUIT):
         signal.signal(ignored, signal.SIG_IGN)
     program = os.pidfd_open(os.getppid())
     api = real_gpiod()
     with api.Chip(lines.chip):
-        pass  # it is there and may be opened: found out now, not when it matters
-    # Without the right to lock memory it works all the same, only slower when memory has run out.
+        pass  # found out now, not when it matters: the chip exists and this process may open it
+    # Without the right to lock memory this fails, and the sentinel is only slower when memory has run out.
     ctypes.CDLL(None).mlockall(_MCL_CURRENT_AND_FUTURE)
     os.write(sys.stdout.fileno(), READY)
     watch(sys.stdin.fileno(), program, lambda: switch_off(api, lines, time.monotonic, time.sleep, PATIENCE_S))
@@ -83,7 +100,7 @@ def _now(file: Path) -> int:
     try:
         lines = RelayLines.from_json(file.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        return 0  # the program never came so far as to take its lines, or ran a simulation
+        return 0  # the program did not take its lines before it ended, or it ran a simulation
     switch_off(real_gpiod(), lines, time.monotonic, time.sleep, PATIENCE_S)
     return 0
 

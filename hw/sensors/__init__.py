@@ -1,1 +1,1 @@
-"""From chips and lines to an angle, a count or a switch."""
+"""Drivers of sensors: from chips and GPIO lines to an angle, a count or a switch. They drive no motor."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from hw.chips.ads1115 import Ads1115
-from hw.ports import HardwareError
+from hw.ports import AngleSource, HardwareError
 
 REFERENCE_EVERY_S = 1.0
 """A supply drifts slowly; reading it with every cycle would double the time on the bus."""
@@ -37,7 +37,7 @@ class Reference:
 
 
 class PotSensor:
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, adc: Ads1115, channel: int, supply: Reference | float) -> None:
         self._adc = adc

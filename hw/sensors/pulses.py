@@ -1,23 +1,22 @@
-"""Where an axis is by counting the closures of a cam contact: rotors of the Alliance U-100 kind.
+"""The angle of an axis by counting the closures of a cam contact: rotors of the Alliance U-100 kind.
 
-Knows two streams of moments, what the relays were told and what the contact did, and puts them in order of time. What
-they mean is `hw.sensors.cam_count`'s business. Reads no relay and drives none.
+Knows two streams of events, changes of the motor relays and changes of the contact, and puts them in order of time.
+Does not know what they mean: `hw.sensors.cam_count` counts. Switches no relay by itself.
 """
 
 from __future__ import annotations
 
-import copy
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from hw.drives.relays import RELAYS
-from hw.ports import Axis, ContactChange, ContactInput, Direction, HardwareError, OutputLines
+from hw.ports import AngleSource, Axis, ContactChange, ContactInput, Direction, HardwareError, OutputLines
 from hw.sensors.cam import Cam
 from hw.sensors.cam_count import CamCount
 
 DEBOUNCE_SHARE = 0.6
-"""The debounce must be over well before the contact changes again."""
+"""The debounce may take at most this share of the shortest time between two changes of the contact."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,10 +26,10 @@ class _Driven:
 
 
 class TappedLines:
-    """The motor relays' lines, with a note of every change and its moment: who counts must know exactly.
+    """The motor relays' lines, with a record of every change and its moment.
 
-    It stands between the relay bank and the lines, so that nothing is switched unheard: commands that expire, `off` of
-    another thread, a supply that is cut.
+    It stands between the relay bank and the lines, so that it records every switching: a command, its expiry, `off`
+    from another thread, a supply that is cut.
     """
 
     def __init__(self, lines: OutputLines, clock: Callable[[], float]) -> None:
@@ -56,18 +55,18 @@ class TappedLines:
         self._lines.close()
 
     def heard(self, axis: Axis) -> list[_Driven]:
-        """What has been switched on this axis since this was asked the last time. For one listener an axis."""
+        """What was switched on this axis since the last call. For one caller an axis."""
         heard = self._heard[axis]
         return [heard.popleft() for _ in range(len(heard))]
 
 
 class PulseCounter:
-    """One axis. `read` is in degrees already; before the first `place` it counts from an arbitrary angle.
+    """One axis as a `hw.ports.AngleSensor`. `read` gives degrees; before the first `place`, from an arbitrary angle.
 
-    `clock` is the kernel's monotonic time. Raises HardwareError where the debounce would swallow whole closures.
+    `clock` is the kernel's monotonic time. Raises HardwareError where the debounce would hide whole closures.
     """
 
-    source = "counted"
+    source = AngleSource.COUNTED
 
     def __init__(
         self,
@@ -95,6 +94,7 @@ class PulseCounter:
         self._count.trouble = "its place has not been told yet"
 
     def read(self) -> float:
+        """Degrees on the rotor's own scale. Raises HardwareError when the contact cannot be read."""
         now_s = self._clock()
         self._waiting += self._lines.heard(self._axis)
         self._waiting += [
@@ -102,29 +102,25 @@ class PulseCounter:
             for change in self._contact.changes()
         ]
         self._waiting.sort(key=lambda event: event.at_s)
-        # A change is told when its debounce is over. What is older than that has all been told.
+        # The kernel reports a change when its debounce is over: every change older than that has arrived.
         settled_s = now_s - self._debounce_s
         while self._waiting and self._waiting[0].at_s <= settled_s:
             self._take(self._count, self._waiting.pop(0))
         self._count.advance(settled_s)
-        ahead = copy.copy(self._count)
-        for event in self._waiting:
-            if isinstance(event, _Driven):
-                ahead.drive(event.at_s, event.direction)
-        ahead.advance(now_s)
-        return ahead.angle_deg()
+        driven = [(event.at_s, event.direction) for event in self._waiting if isinstance(event, _Driven)]
+        return self._count.ahead_deg(driven, now_s)
 
     def place(self, angle_deg: float) -> bool:
-        """The axis stands at that angle: a count that was kept, or an end stop. False: the contact contradicts.
+        """The axis stands at that angle: a stored count, or an end stop. False: the contact's state contradicts it.
 
-        Only at rest. Whatever was counted before is forgotten. Raises HardwareError.
+        Only at rest. Forgets the count so far. Raises HardwareError when the contact cannot be read.
         """
         self.read()
         return self._count.place(self._clock() - self._debounce_s, angle_deg, closed=self._contact.closed())
 
     @property
     def changes(self) -> int:
-        """How often the contact has changed so far: half of them are pulses."""
+        """How many changes of the contact there were so far; two of them make one pulse."""
         return self._count.changes
 
     @property
@@ -134,12 +130,12 @@ class PulseCounter:
 
     @property
     def zone(self) -> int:
-        """The cam's zone, counted."""
+        """The number of the cam's zone it is in; see `hw.sensors.cam`."""
         return self._count.zone
 
     @property
     def trouble(self) -> str:
-        """Why the count is not to be relied on until the axis is homed; empty: it is right."""
+        """Why the count is unreliable until the axis is homed or placed; empty: it is right."""
         return self._count.trouble
 
     @property

@@ -1,23 +1,14 @@
-"""Switches that a person or the rotor throws, by name, and what limit switches forbid.
+"""Switches read together by name, and the directions that limit switches block.
 
-Knows names and which way a limit switch blocks. Knows no line and no bounce: whoever asks often enough sees through it.
-Whatever must not fail unseen is normally closed: a broken wire then reads as pressed, or as the limit reached.
+Knows names, and which way each limit switch blocks. Knows no GPIO line. Does not filter bounce: the caller reads often.
+A switch for safety is normally closed: a broken wire then reads as pressed, or as the limit reached.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Protocol
 
-from hw.ports import Axis, Direction
-
-
-class SwitchInputs(Protocol):
-    """A few contacts that are read together, by name."""
-
-    def read(self) -> dict[str, bool]:
-        """True: closed. Raises HardwareError."""
-
+from hw.ports import Axis, Direction, SwitchInputs
 
 LIMITS = {
     "azimuth_low": (Axis.AZIMUTH, Direction.MINUS),
@@ -25,26 +16,26 @@ LIMITS = {
     "elevation_low": (Axis.ELEVATION, Direction.MINUS),
     "elevation_high": (Axis.ELEVATION, Direction.PLUS),
 }
-"""Which way each switch lets its axis go no further."""
+"""The axis and the direction that each switch blocks."""
 
 
 class LimitSwitches:
-    """Normally closed switches at the ends of the travel; `fitted` names those that there are, of LIMITS."""
+    """Normally closed switches at the ends of the travel. `fitted`: the names of those that are wired, of LIMITS."""
 
     def __init__(self, inputs: SwitchInputs, fitted: Collection[str]) -> None:
         self._inputs = inputs
         self._fitted = tuple(fitted)
 
     def blocked(self) -> dict[Axis, frozenset[Direction]]:
-        """The ways in which each axis may go no further: its switch is open, or the wire to it.
+        """The directions in which each axis must stop: its switch is open, or the wire to it is broken.
 
-        Raises HardwareError where they cannot be read: then every way that has a switch is to be taken for blocked.
+        Raises HardwareError when the switches cannot be read: the caller then takes all of `guarded` for blocked.
         """
         closed = self._inputs.read()
         return self._ways([name for name in self._fitted if not closed[name]])
 
     def guarded(self) -> dict[Axis, frozenset[Direction]]:
-        """The ways that have a switch."""
+        """The directions that have a switch."""
         return self._ways(self._fitted)
 
     @staticmethod

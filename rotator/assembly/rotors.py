@@ -10,8 +10,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from firmware_sim.rotors.digipot import DigipotRotor
-from firmware_sim.rotors.moteus import MoteusWorld
+from firmware_sim.rotors.digipot import SimDigipotRotor
+from firmware_sim.rotors.moteus import SimMoteusRotor
 from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus, real_spidev
 from hw.chips.ads1115 import Ads1115
 from hw.chips.as5600 import As5600
@@ -19,14 +19,17 @@ from hw.chips.mcp41010 import Mcp41010
 from hw.chips.mpu6050 import Mounting, Mpu6050
 from hw.chips.pca9685 import Pca9685
 from hw.drives import servo as servo_drive
-from hw.drives.digipot import BoxSpec, DigipotDrive, DigipotSensor
+from hw.drives.control_box import BoxSpec
+from hw.drives.digipot import DigipotDrive
+from hw.drives.positioned import DriveAngle
 from hw.drives.relays import RelayBank
 from hw.drives.servo import ServoDrive
 from hw.drives.servo_axis import ServoSpec
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
-from hw.moteus.library import CanChannel, MoteusInStep, SerialPort
-from hw.moteus.orders import AxisSpec as MoteusAxisSpec
+from hw.moteus.library import CanChannel, SerialPort
+from hw.moteus.orders import MoteusSpec
+from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, LeaseWatch, OutputLines
 from hw.sensors.cam import Cam
 from hw.sensors.pot import PotSensor, Reference
@@ -154,9 +157,9 @@ class Assembly:
     def _moteus(self) -> MoteusRotor:
         tables = self._config.moteus
 
-        def spec(axis: Axis) -> MoteusAxisSpec:
+        def spec(axis: Axis) -> MoteusSpec:
             table = getattr(tables, axis.value)
-            return MoteusAxisSpec(
+            return MoteusSpec(
                 can_id=table.id,
                 rev_per_turn=table.rev_per_turn,
                 zero_rev=table.zero_rev,
@@ -174,7 +177,7 @@ class Assembly:
         world, tables = self._board.world, self._config.moteus
         if world is None:
             return MoteusBus(drive, CanChannel(tables.can) if tables.can else SerialPort(tables.port))
-        assert isinstance(world, MoteusWorld)
+        assert isinstance(world, SimMoteusRotor)
         if self._in_step:
             return MoteusInStep(drive, world.transport())
         folder = self._board.opened.enter_context(tempfile.TemporaryDirectory(prefix="rotator-"))
@@ -217,7 +220,7 @@ class Assembly:
         drive = DigipotDrive(box(Axis.AZIMUTH), box(Axis.ELEVATION), board.clock, enable=enable)
         sensors: dict[Axis, AngleSensor] = {}
         for axis, sensor in self._sensors({axis: drive.sensor(axis) for axis in Axis}).items():
-            if isinstance(sensor, DigipotSensor):
+            if isinstance(sensor, DriveAngle):
                 sensors[axis] = sensor
             else:
                 points = own_points(config, axis)
@@ -229,7 +232,7 @@ class Assembly:
         pins = {SELECTS[axis]: getattr(tables, axis.value).select for axis in Axis}
         if tables.spi == "kernel":
             numbers = {chip: CHIP_SELECTS[pin] for chip, pin in pins.items()}
-            api = board.world.spidev if isinstance(board.world, DigipotRotor) else real_spidev()
+            api = board.world.spidev if isinstance(board.world, SimDigipotRotor) else real_spidev()
             spi = KernelSpi(api, 0, numbers)
             board.opened.callback(spi.close)
             return spi

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.assembly.simulation import SIM_CALIBRATION_RAW
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
@@ -16,12 +16,12 @@ from rotator.config.sim import SimAxisTable
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.positioned import COMING_DEG, PositionedSettings
 from rotator.control.axis.sensing import ANYTHING, Window
-from rotator.control.axis.switched import AxisSettings
+from rotator.control.axis.settings import NEAR_DEG, AxisSettings, PositionedSettings, SwitchedSettings
 from rotator.control.controller import Controller, Settings
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.offsets import Offsets, Points, offsets
+from rotator.faults import Missing
 from rotator.orders import Mode
 from rotator.status import LearntMotor
 from rotator.store.learnt import LearntFile, Motors
@@ -74,7 +74,7 @@ def build_controller(
     def motor(found: LearntMotor) -> Motor:
         return Motor(found.speed_dps, found.coast_deg)
 
-    def axis(which: Axis, limits: Range) -> AxisSettings | PositionedSettings:
+    def axis(which: Axis, limits: Range) -> AxisSettings:
         table = config.axis(which)
         in_degrees = config.in_degrees(which)
         points = None if which is commissioning and not in_degrees else own_points(config, which)
@@ -95,9 +95,10 @@ def build_controller(
                 source(config, which),
                 near_deg(config, which),
                 getattr(config.moteus, which.value).accel_limit_dps2 if config.rotor.type == "moteus" else None,
+                confirmable=config.rotor.type == "moteus",
             )
         known = (learnt or {}).get(which)
-        return AxisSettings(
+        return SwitchedSettings(
             axis=which,
             limits=limits,
             tolerance_deg=table.tolerance_deg,
@@ -126,11 +127,11 @@ def build_controller(
     )
 
 
-EVERYTHING = ("calibration", "limits", "direction check")
-"""What is missing on an axis that nobody has set up."""
+EVERYTHING = (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK)
+"""What an axis lacks that has never been commissioned."""
 
 
-def missing(table: AxisTable, *, calibrated: bool) -> tuple[str, ...]:
+def missing(table: AxisTable, *, calibrated: bool) -> tuple[Missing, ...]:
     """What a person has still to do before an axis of real hardware may be aimed."""
     said = table.model_fields_set
     done = (calibrated, {"min_deg", "max_deg"} <= said, table.direction_checked)
@@ -150,21 +151,21 @@ def own_points(config: Config, axis: Axis) -> Points | None:
     return None
 
 
-def source(config: Config, axis: Axis) -> str:
-    """How the axis's angle is known: measured, counted or modelled."""
+def source(config: Config, axis: Axis) -> AngleSource:
+    """How the axis's angle is known."""
     if config.counts(axis):
-        return "counted"
+        return AngleSource.COUNTED
     own = config.axis(axis).sensor.kind == "own"
-    return "modelled" if own and config.rotor.type in ("servo", "digipot") else "measured"
+    return AngleSource.MODELLED if own and config.rotor.type in ("servo", "digipot") else AngleSource.MEASURED
 
 
 def near_deg(config: Config, axis: Axis) -> float:
     """How far from its place a motor that goes there by itself may come to rest."""
     if config.rotor.type != "digipot":
-        return COMING_DEG
+        return NEAR_DEG
     table = getattr(config.digipot, axis.value)
     (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
-    return float(COMING_DEG + table.dead_band_deg + abs((high_deg - low_deg) / (high_step - low_step)))
+    return float(NEAR_DEG + table.dead_band_deg + abs((high_deg - low_deg) / (high_step - low_step)))
 
 
 def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings:

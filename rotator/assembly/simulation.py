@@ -13,14 +13,13 @@ from firmware_sim.panel import PanelSpec
 from firmware_sim.parts.contact import ContactSpec
 from firmware_sim.parts.motor import MotorSpec
 from firmware_sim.parts.pot import PotSpec
-from firmware_sim.parts.servo import ServoSpec
-from firmware_sim.rotors.digipot import BoxSpec, DigipotRotor
-from firmware_sim.rotors.moteus import AxisSpec as MoteusAxisSpec
-from firmware_sim.rotors.moteus import MoteusWorld
-from firmware_sim.rotors.relay_pot import AxisSpec, World, WorldSpec
-from firmware_sim.rotors.relay_pulse import PulseAxisSpec, PulseRotor
+from firmware_sim.parts.servo import SimServoSpec
+from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
+from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
+from firmware_sim.rotors.relay_pot import RelayPotAxisSpec, RelayPotSpec, SimRelayPotRotor
+from firmware_sim.rotors.relay_pulse import RelayPulseAxisSpec, SimRelayPulseRotor
 from firmware_sim.rotors.rotor import LcdSpec, SimRotor
-from firmware_sim.rotors.servo import ServoAxisSpec, ServoRotor
+from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
 from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS
 from hw.ports import Axis
 from rotator.config.axes import AxisTable
@@ -103,15 +102,15 @@ class Plan:
         adc = self._config.adc
         return adc.azimuth_channel if axis is Axis.AZIMUTH else adc.elevation_channel
 
-    def _relay_pot(self) -> World:
-        def axis(which: Axis) -> AxisSpec:
-            return AxisSpec(
+    def _relay_pot(self) -> SimRelayPotRotor:
+        def axis(which: Axis) -> RelayPotAxisSpec:
+            return RelayPotAxisSpec(
                 self._motor(which), self._pot(which), self.start_deg(which), *self._pins(which), self._channel(which)
             )
 
         relays, adc = self._config.relays, self._config.adc
-        return World(
-            WorldSpec(
+        return SimRelayPotRotor(
+            RelayPotSpec(
                 azimuth=axis(Axis.AZIMUTH),
                 elevation=axis(Axis.ELEVATION),
                 relays_active_low=relays.active == "low",
@@ -124,14 +123,14 @@ class Plan:
             self._sleep,
         )
 
-    def _relay_pulse(self) -> PulseRotor:
-        def axis(which: Axis) -> PulseAxisSpec:
+    def _relay_pulse(self) -> SimRelayPulseRotor:
+        def axis(which: Axis) -> RelayPulseAxisSpec:
             table, limits = getattr(self._config.pulses, which.value), self._config.axis(which)
             motor = motor_spec(limits, self._sim(which), stop_low_deg=table.home_deg)
             cam = ContactSpec(table.spacing_deg, table.closed_deg, table.closes_at_deg, table.play_deg, SIM_BOUNCE_S)
-            return PulseAxisSpec(*self._pins(which), table.contact, motor, cam, self.start_deg(which))
+            return RelayPulseAxisSpec(*self._pins(which), table.contact, motor, cam, self.start_deg(which))
 
-        return PulseRotor(
+        return SimRelayPulseRotor(
             axis(Axis.AZIMUTH),
             axis(Axis.ELEVATION),
             self._clock,
@@ -141,20 +140,20 @@ class Plan:
             master_pin=self._config.relays.master,
         )
 
-    def _moteus(self) -> MoteusWorld:
+    def _moteus(self) -> SimMoteusRotor:
         def axis(which: Axis) -> MoteusAxisSpec:
             table = getattr(self._config.moteus, which.value)
             return MoteusAxisSpec(table.id, self.start_deg(which), table.rev_per_turn, table.zero_rev)
 
-        return MoteusWorld(axis(Axis.AZIMUTH), axis(Axis.ELEVATION), self._clock, self._sleep)
+        return SimMoteusRotor(axis(Axis.AZIMUTH), axis(Axis.ELEVATION), self._clock, self._sleep)
 
-    def _servo(self) -> ServoRotor:
+    def _servo(self) -> SimServoRotor:
         def axis(which: Axis) -> ServoAxisSpec:
             table = getattr(self._config.servo, which.value)
             return ServoAxisSpec(table.channel, self.start_deg(which), _servo(table.pulses_us, self._sim(which)))
 
         servo = self._config.servo
-        return ServoRotor(
+        return SimServoRotor(
             axis(Axis.AZIMUTH),
             axis(Axis.ELEVATION),
             self._clock,
@@ -164,16 +163,18 @@ class Plan:
             osc_hz=servo.osc_hz,
         )
 
-    def _digipot(self) -> DigipotRotor:
-        def axis(which: Axis) -> BoxSpec:
+    def _digipot(self) -> SimDigipotRotor:
+        def axis(which: Axis) -> DigipotAxisSpec:
             table = getattr(self._config.digipot, which.value)
             (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
             # The box compares with the end of its own pot, where the chip would be at its last step.
             full_deg = low_deg + (high_deg - low_deg) * (256 - low_step) / (high_step - low_step)
-            return BoxSpec(table.select, self.start_deg(which), self._motor(which), full_deg, table.dead_band_deg)
+            return DigipotAxisSpec(
+                table.select, self.start_deg(which), self._motor(which), full_deg, table.dead_band_deg
+            )
 
         digipot = self._config.digipot
-        return DigipotRotor(
+        return SimDigipotRotor(
             axis(Axis.AZIMUTH),
             axis(Axis.ELEVATION),
             self._clock,
@@ -267,10 +268,10 @@ def arduino_station(
     )
 
 
-def _servo(pulses_us: list[tuple[float, float]], sim: SimAxisTable) -> ServoSpec:
+def _servo(pulses_us: list[tuple[float, float]], sim: SimAxisTable) -> SimServoSpec:
     """A servo that turns as its table says."""
     (low_deg, low_us), (high_deg, high_us) = min(pulses_us), max(pulses_us)
-    return ServoSpec(low_us, high_us, low_deg, high_deg - low_deg, sim.speed_dps)
+    return SimServoSpec(low_us, high_us, low_deg, high_deg - low_deg, sim.speed_dps)
 
 
 def _mounted(forward: str, up: str) -> Callable[[float, float], tuple[float, float, float]]:

@@ -24,15 +24,17 @@ from rotator.views import terminal
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     config = load(path)
     app = App(config, path)
-    asyncio.run(_run(app, parse_faults(faults, app.station.world), plain=plain))
+    recent = LogRows()
+    log_to(logging.StreamHandler() if plain else recent)  # before a thread of the app can log above the picture
+    asyncio.run(_run(app, parse_faults(faults, app.station.world), None if plain else recent))
 
 
-async def _run(app: App, faults: list[tuple[float, str]], *, plain: bool) -> None:
+async def _run(app: App, faults: list[tuple[float, str]], recent: LogRows | None) -> None:
     stop = stop_on_signals()
     for at_s, name in faults:
         assert app.station.world is not None, "faults are for the simulator"
         asyncio.get_running_loop().call_later(at_s, app.station.world.inject, name)
-    watcher = asyncio.create_task(_plain(app) if plain else _picture(app, stop))
+    watcher = asyncio.create_task(_plain(app) if recent is None else _picture(app, stop, recent))
     try:
         await app.run(stop)
     finally:
@@ -41,15 +43,12 @@ async def _run(app: App, faults: list[tuple[float, str]], *, plain: bool) -> Non
 
 
 async def _plain(app: App) -> None:
-    log_to(logging.StreamHandler())
     wires = [link.wire for link in app.links]
     hardware = app.config.rotor.hardware
     await print_lines(lambda: terminal.greeting(__version__, hardware, wires), lambda: terminal.line(app.loop.status))
 
 
-async def _picture(app: App, stop: asyncio.Event) -> None:
-    recent = LogRows()
-    log_to(recent)
+async def _picture(app: App, stop: asyncio.Event, recent: LogRows) -> None:
     wires = [link.wire for link in app.links]
 
     def glass() -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from rotator.cli.reach import monitor_places, reach
 from rotator.links.console import console_path
 from rotator.links.wire import LinkError
 from rotator.orders import Confirm, Home, LetGo, Release, Stop
-from rotator.protocols.console import Ask, Said, encode
+from rotator.protocols.console import Ask, ConsoleCommand, encode
 from rotator.protocols.console_session import ERROR, OK
 
 ANSWER_S = 5.0
@@ -52,7 +52,7 @@ class Talk:
         self._answers.close()
         self._box.close()
 
-    def say(self, said: Said) -> list[str]:
+    def say(self, said: ConsoleCommand) -> list[str]:
         return self.line(encode(said))
 
     def line(self, line: bytes) -> list[str]:

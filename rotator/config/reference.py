@@ -1,6 +1,6 @@
-"""The key table of docs/configuration.md, made from the model, so that the page cannot drift from the program.
+"""The key tables of docs/configuration.md, made from the model, so that the page cannot drift from the program.
 
-Knows Markdown and what a person calls the kinds of value. Knows no key: those are the model's.
+Knows Markdown, and the short names of the kinds of value. Does not know any key: those are the model's.
 """
 
 from __future__ import annotations
@@ -14,50 +14,86 @@ from pydantic.fields import FieldInfo
 
 from rotator.config.model import Config
 from rotator.config.rotors import USUAL
-from rotator.config.table import I2CAddress
+from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus
 
 _KINDS = {
     str: "text",
-    bool: "true or false",
-    int: "whole number",
+    bool: "true/false",
+    int: "whole",
     float: "number",
-    list[tuple[float, float]]: "list of [number, number]",
-    list[str]: "list of texts",
+    list[tuple[float, float]]: "pairs",
+    list[str]: "texts",
 }
 _EDGES = {"ge": "from {}", "gt": "above {}", "le": "to {}", "lt": "below {}"}
 _LENGTHS = {"min_length": "{} or more", "max_length": "up to {}"}
-"""How limits are worded; that a text is not empty goes without saying."""
-_HEADINGS = ("key", "value", "allowed", "default", "meaning")
+"""How limits are worded. A text may never be empty, and the page does not repeat it."""
+_HEADINGS = ("key", "default; allowed", "meaning")
+_LEFT_OUT = "–"
+_LEGEND = """\
+The default comes first (–: none, the key may be left out), then what is allowed: the bounds of a number, or
+after *whole* of a whole number. *GPIO*: 0 to 57, the BCM number, not the pin of the header. *Bus*: the N of
+/dev/i2c-N, 0 to 255. *Address*: an I2C address, 0x08 to 0x77. *Input*: A0 to A3 of an ADS1115, as 0 to 3.
+*Pairs*: a list of [number, number]. *Texts*: a list of texts. One table stands for both axes."""
+_AXES = ("azimuth", "elevation")
+"""Two tables with the same keys, which the page shows as one."""
 
 
 def reference() -> str:
-    """A heading, a sentence and a table of keys for each table of the file; then what differs by kind of rotor."""
-    return "\n\n".join([*_tables("", Config), _usual()]) + "\n"
+    """A legend; a heading, a sentence and a table of keys for each table of the file; the defaults of each kind."""
+    return "\n\n".join([_LEGEND, *_tables([("", Config)]), _usual()]) + "\n"
 
 
 def _usual() -> str:
-    rows: list[tuple[str, ...]] = [("`rotor.type`", "key", "default"), ("---", "---", "---")]
+    rows: list[tuple[str, ...]] = [("`rotor.type`", "defaults"), ("---", "---")]
     for kind, places in USUAL.items():
-        for place, keys in places.items():
-            rows += [(f"`{kind}`", f"`{place}.{key}`", f"`{_toml(value)}`") for key, value in keys.items()]
-    said = (
-        "Other kinds of rotor than relay-pot have these in place of the defaults above (the limits in simulation only)."
-    )
-    return f"### By kind of rotor\n\n{said}\n\n{_rows(rows)}"
-
-
-def _tables(prefix: str, model: type[BaseModel]) -> Iterator[str]:
-    for name, field in model.model_fields.items():
-        table, many = _table_of(field)
-        if table is None:
+        if not places:
             continue
-        heading = f"[[{prefix}{name}]]" if many else f"[{prefix}{name}]"
-        keys = [(key, each) for key, each in table.model_fields.items() if _table_of(each)[0] is None]
-        yield f"### `{heading}`"
-        yield _described(heading, field)
-        if keys:
-            yield _rows([_HEADINGS, tuple("---" for _ in _HEADINGS), *(_row(heading, *key) for key in keys)])
-        yield from _tables(f"{prefix}{name}.", table)
+        said: dict[str, list[str]] = {}
+        for place, keys in places.items():
+            for key, value in keys.items():
+                said.setdefault(f"`{key} = {_toml(value)}`", []).append(f"`{place}`")
+        rows.append((f"`{kind}`", "; ".join(f"{each} in {', '.join(tables)}" for each, tables in said.items())))
+    intro = "Defaults that differ from those above (limits: on the simulated rotor only)."
+    return f"### By kind of rotor\n\n{intro}\n\n{_rows(rows)}"
+
+
+def _tables(models: list[tuple[str, type[BaseModel]]]) -> Iterator[str]:
+    """The tables below these: one, or those of both axes, which have the same keys."""
+    fields = models[0][1].model_fields
+    for name, field in fields.items():
+        if _table_of(field)[0] is None or (name == _AXES[1] and _AXES[0] in fields):
+            continue
+        names = _AXES if name == _AXES[0] and _AXES[1] in fields else (name,)
+        tables = [(f"{prefix}{each}", model.model_fields[each]) for prefix, model in models for each in names]
+        yield from _section(tables)
+        yield from _tables([(f"{path}.", kind) for path, each in tables if (kind := _table_of(each)[0]) is not None])
+
+
+def _section(tables: list[tuple[str, FieldInfo]]) -> Iterator[str]:
+    headings = [f"[[{path}]]" if _table_of(field)[1] else f"[{path}]" for path, field in tables]
+    yield f"### {' and '.join(f'`{heading}`' for heading in headings)}"
+    said = [_described(*each) for each in zip(headings, (field for _, field in tables), strict=True)]
+    if len(set(said)) == 1:
+        yield said[0]
+    rows = [
+        [_row(path, key, each) for key, each in kind.model_fields.items() if _table_of(each)[0] is None]
+        for path, field in tables
+        if (kind := _table_of(field)[0]) is not None
+    ]
+    if rows[0]:
+        both = [_merged(*each) for each in zip(*rows, strict=True)]
+        shown = [(key, "; ".join(filter(None, (default, allowed))), meaning) for key, default, allowed, meaning in both]
+        yield _rows([_HEADINGS, tuple("---" for _ in _HEADINGS), *shown])
+
+
+def _merged(row: tuple[str, ...], other: tuple[str, ...] | None = None) -> tuple[str, ...]:
+    """One row of a key that both axes have; a cell names what differs for elevation."""
+    if other is None:
+        return row
+    *cells, meaning = (a if a == b else f"{a}, elevation {b}" for a, b in zip(row, other, strict=True))
+    if row[-1] != other[-1]:
+        meaning = f"{row[-1]} Elevation: {other[-1][0].lower()}{other[-1][1:]}"
+    return *cells, meaning
 
 
 def _table_of(field: FieldInfo) -> tuple[type[BaseModel] | None, bool]:
@@ -73,16 +109,24 @@ def _rows(rows: list[tuple[str, ...]]) -> str:
 
 
 def _row(heading: str, key: str, field: FieldInfo) -> tuple[str, ...]:
+    """Key, default, what else is allowed, meaning."""
     kind, limits = _bare(field.annotation, list(field.metadata))
+    default = _default(field)
+    named = next((name for name, known in _NAMED.items() if kind is int and limits == known), "")
+    if named == "address" and field.default is not None:
+        default = f"`0x{field.default:02x}`"
+    return f"`{key}`", default, named or _allowed(kind, limits, field), _described(f"{heading} {key}", field)
+
+
+def _allowed(kind: Any, limits: list[Any], field: FieldInfo) -> str:
+    """What may be written for a key beside its default: the other choices, or the kind and its bounds."""
     if get_origin(kind) is Literal:
-        value, allowed = _KINDS[type(get_args(kind)[0])], ", ".join(_toml(choice) for choice in get_args(kind))
-    else:
-        value, allowed = _KINDS[kind], _bounds(limits, kind)
-    if limits == _I2C_LIMITS:
-        allowed, default = "0x08 to 0x77", "left out" if field.default is None else f"`0x{field.default:02x}`"
-    else:
-        default = _default(field)
-    return f"`{key}`", value, allowed, default, _described(f"{heading} {key}", field)
+        others = ", ".join(_toml(choice) for choice in get_args(kind) if choice != field.default)
+        return f"or {others}" if field.default in get_args(kind) else others
+    bounds = _bounds(limits, kind)
+    if kind is float or kind is str:
+        return bounds or (_KINDS[kind] if field.default is None else "")
+    return "" if kind is bool else f"{_KINDS[kind]} {bounds}".strip()
 
 
 def _described(what: str, field: FieldInfo) -> str:
@@ -107,7 +151,11 @@ def _bare(kind: Any, limits: list[Any]) -> tuple[Any, list[Any]]:
     return kind, limits
 
 
-_I2C_LIMITS = _bare(I2CAddress, [])[1]
+_NAMED = {
+    name: _bare(kind, [])[1]
+    for name, kind in {"GPIO": Gpio, "bus": I2CBus, "address": I2CAddress, "input": Channel}.items()
+}
+"""Kinds of whole number that the legend explains, by their limits."""
 
 
 def _bounds(limits: list[Any], kind: Any) -> str:
@@ -115,15 +163,16 @@ def _bounds(limits: list[Any], kind: Any) -> str:
     edges = {name: getattr(limit, name) for limit in limits for name in wording if hasattr(limit, name)}
     if kind is str:
         edges.pop("min_length", None)
-    words = [wording[name].format(edge) for name, edge in edges.items()]
+    words = [wording[name].format(int(edge) if edge == int(edge) else edge) for name, edge in edges.items()]
     text = " ".join(words).replace("from ", "", 1) if len(words) == 2 else " ".join(words)
-    return f"{text} {'characters' if kind is str else 'of them'}" if text and wording is _LENGTHS else text
+    return f"{text} characters" if text and kind is str else text
 
 
 def _default(field: FieldInfo) -> str:
     if field.is_required():
         return "must be given"
-    return "left out" if field.default is None else f"`{_toml(field.default)}`"
+    value = field.get_default(call_default_factory=True)
+    return _LEFT_OUT if value is None else f"`{_toml(value)}`"
 
 
 def _toml(value: object) -> str:
@@ -134,5 +183,7 @@ def _toml(value: object) -> str:
             return f'"{value}"'
         case [*points]:
             return f"[{', '.join(_toml(point) for point in points)}]"
+        case float() if value == int(value):
+            return f"{int(value)}"
         case _:
             return f"{value}"

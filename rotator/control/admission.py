@@ -1,37 +1,48 @@
-"""Which orders are refused outright, so that the sender can be told in its protocol's own words.
+"""Which orders are refused outright, so that the protocol can answer in its own words.
 
-Knows the mount and the latest status. An order that is admitted may still have no effect (a latch, a silenced stream):
-those are answered like any other, as a person at the box expects. What is admitted the controller looks at again:
-things change in between.
+Knows the mount and the latest status. An order that is admitted may still have no effect (a latched stop, a silenced
+stream): it is answered like any other. The controller checks again what is admitted, for things change in between.
 """
 
 from __future__ import annotations
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
+from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount, Unreachable
-from rotator.orders import Aim, Calibrate, Home, LoadTimed, Order, Park, Refusal
+from rotator.orders import Aim, Calibrate, Confirm, Home, LoadTimed, Order, Park, Refusal
 from rotator.status import Status
 
 
 def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
     """Why `order` will not be obeyed, or None."""
     match order:
-        case Aim(azimuth_deg, elevation_deg):
-            return _uncalibrated(order, status) or _unreachable(((azimuth_deg, elevation_deg),), mount)
+        case Aim():
+            aim = joined(mount, order, (status.wanted_azimuth_deg, status.wanted_elevation_deg), _places(status))
+            return _uncalibrated(order, status) or _unreachable(((aim.azimuth_deg, aim.elevation_deg),), mount)
         case LoadTimed(_, points):
             return _uncalibrated(order, status) or _unreachable(points, mount)
         case Park():
             return _uncalibrated(order, status)
         case Calibrate(axis) if status.moving:
             return Refusal(f"{axis.value} cannot be calibrated while the antenna moves")
-        case Home(axis) if status.axis(axis).source != "counted":
+        case Home(axis) if status.axis(axis).source is not AngleSource.COUNTED:
             return Refusal(f"{axis.value} knows where it stands: there is no end stop to be found")
+        case Confirm(axis) if not status.axis(axis).confirmable:
+            return Refusal(f"{axis.value} measures where it stands: there is nothing to confirm")
         case _:
             return None
 
 
+def _places(status: Status) -> tuple[float | None, float | None]:
+    """Where each axis goes, or stands where it has no target."""
+    places = [
+        axis.angle_deg if axis.target_deg is None else axis.target_deg for axis in (status.azimuth, status.elevation)
+    ]
+    return places[0], places[1]
+
+
 def _uncalibrated(order: Order, status: Status) -> Refusal | None:
-    """One axis that nobody has commissioned keeps the other from nothing; all that an order is for keep it all."""
+    """An order is refused when every axis that it moves is uncalibrated. One calibrated axis is enough to admit it."""
     match order:
         case Aim(_, None):
             axes: tuple[Axis, ...] = (Axis.AZIMUTH,)

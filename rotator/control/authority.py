@@ -1,6 +1,6 @@
-"""Whose orders move the antenna: latches, a panel's mode switch, and streams that a stop has silenced.
+"""Which source may move the antenna: latched stops, the panel's mode switch, and streams that a stop has silenced.
 
-Knows sources and moments. Knows nothing of what the orders say beyond stop, release and the rest.
+Knows sources and moments. Of an order it knows whether it stops, releases or moves.
 """
 
 from __future__ import annotations
@@ -8,24 +8,24 @@ from __future__ import annotations
 from rotator.orders import Mode, Source
 
 PAUSE_S = 10.0
-"""A stream stopped from elsewhere counts as ended once it has paused this long."""
+"""A stream that another source stopped has an effect again once it has paused for so long."""
 
 
 class Authority:
-    """Every order that would move something is asked about here first."""
+    """Every order that would move an axis asks here first."""
 
     def __init__(self, mode: Mode = Mode.AUTO) -> None:
         self.latched = ""
-        """Who pressed a stop that only a person releases; empty: nobody."""
+        """The source of a stop that only a person releases; empty: there is none."""
         self.mode = mode
         self.controlled_by: Source | None = None
         self._panel: Source | None = None
-        """Who switched to this mode: in MANUAL and JOG the only one who moves the antenna."""
+        """The panel that switched to this mode. In MANUAL and JOG it alone moves the antenna."""
         self._last_heard_s: dict[Source, float] = {}
         self._silenced: set[Source] = set()
 
     def stopped(self, source: Source, now_s: float, *, latch: bool) -> None:
-        """`source` said stop: whatever else is streaming stays without effect until it pauses or reconnects."""
+        """`source` stopped the antenna. Other sources that send have no effect until they pause or reconnect."""
         self._forget(now_s)
         self._silenced |= set(self._last_heard_s) - {source}
         self._silenced.discard(source)
@@ -34,12 +34,12 @@ class Authority:
             self.latched = str(source)
 
     def take(self, source: Source, why: str) -> None:
-        """A person takes the antenna for something that nobody may interrupt until released."""
+        """A person takes the antenna; no order interrupts that until a person releases it."""
         self.latched = f"{source}: {why}"
         self.controlled_by = source
 
     def released(self) -> None:
-        """A person lets the box move again; nobody stays silenced."""
+        """A person lets the box move again. No source stays silenced."""
         self.latched = ""
         self._silenced.clear()
 
@@ -49,7 +49,7 @@ class Authority:
         self.controlled_by = None
 
     def may_move(self, source: Source, now_s: float) -> bool:
-        """Whether an order that moves, from `source` at this moment, has effect. Asking counts as being heard."""
+        """Whether an order from `source` that moves an axis has an effect now. The source counts as sending."""
         self._forget(now_s)
         self._last_heard_s[source] = now_s
         if self.latched or not self._in_mode(source):
@@ -64,7 +64,7 @@ class Authority:
             case Mode.PARK:
                 return False
             case Mode.MANUAL | Mode.JOG:
-                # Whoever stands at the panel is never silenced by a stop that comes over a link.
+                # A stop that comes over a link never silences the person at the panel.
                 return source == self._panel
 
     def _forget(self, now_s: float) -> None:

@@ -1,6 +1,6 @@
-"""What the controller tells a rotor: commands, which expire and are told anew every cycle, and errands, told once.
+"""What the controller gives a rotor: commands, which expire and are renewed every cycle, and errands, given once.
 
-Knows values. Who makes them and who obeys are elsewhere.
+Knows values. The axes decide on commands; `rotator.rotors` carries them out.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from rotator.orders import LetGo
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Drive that way until that moment at the latest."""
+    """Drive in that direction until the moment `until_s` at the latest."""
 
     direction: Direction
     until_s: float
@@ -21,7 +21,7 @@ class Run:
 
 @dataclass(frozen=True, slots=True)
 class Steer:
-    """Be at that angle now, moving on at that rate, until that moment at the latest."""
+    """Be at `angle_deg` now, moving on at `rate_dps`, until the moment `until_s` at the latest."""
 
     angle_deg: float
     rate_dps: float
@@ -30,7 +30,7 @@ class Steer:
 
 @dataclass(frozen=True, slots=True)
 class Hold:
-    """Stay where you come to rest."""
+    """Decelerate and stay there."""
 
 
 HOLD = Hold()
@@ -40,17 +40,26 @@ Command = Run | Steer | Hold
 
 @dataclass(frozen=True, slots=True)
 class Acknowledge:
-    """A person or a stop has taken note of what the rotor says is wrong with the axis."""
+    """A person or a stop has acknowledged the fault that the rotor reports on this axis."""
 
     axis: Axis
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """The axis stands at that angle, says its end stop or a person: its reading did not know."""
+    """The axis stands at this angle: its end stop was found, or a person has said so."""
 
     axis: Axis
     angle_deg: float
 
 
 Errand = Acknowledge | Place | LetGo
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What one axis is to do from now on."""
+
+    command: Command
+    homed_deg: float | None = None
+    """The axis has just found its end stop, which is at this angle; None: it has not."""

@@ -23,8 +23,9 @@ from hw.chips.pca9685 import MODE1, PRE_SCALE, SLEEP
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.faults import LIMITS, explain
-from hw.moteus.library import CanChannel, MoteusInStep, SerialPort
-from hw.moteus.orders import AxisSpec, Mode
+from hw.moteus.library import CanChannel, SerialPort
+from hw.moteus.orders import Mode, MoteusSpec
+from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, HardwareError
 from hw.sensors.pot import Reference
 from rotator.assembly.simulation import simulated_rotor
@@ -84,9 +85,9 @@ BOOTED_S = 2.0
 
 
 def moteus_drive(config: Config, clock: Callable[[], float]) -> MoteusDrive:
-    def spec(axis: Axis) -> AxisSpec:
+    def spec(axis: Axis) -> MoteusSpec:
         table = getattr(config.moteus, axis.value)
-        return AxisSpec(table.id, table.rev_per_turn, table.zero_rev, geared=table.geared)
+        return MoteusSpec(table.id, table.rev_per_turn, table.zero_rev, geared=table.geared)
 
     return MoteusDrive(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), clock)
 

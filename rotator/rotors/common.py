@@ -34,6 +34,9 @@ class PlainRotor:
     def restore(self) -> None:
         pass
 
+    def check(self) -> None:
+        pass
+
 
 class GuardedRotor(PlainRotor):
     """A drive whose commands expire, with whoever sees to that: a thread, or the alarms of a simulated clock."""
@@ -60,6 +63,9 @@ class GuardedRotor(PlainRotor):
 
     def begin(self, add_alarm: AddAlarm) -> None:
         add_alarm(self._drive.due_s, self._guard.enforce)
+
+    def check(self) -> None:
+        self._guard.check()
 
     def close(self) -> None:
         self._guard.stop()

@@ -10,16 +10,16 @@ import threading
 from collections.abc import Callable, Mapping
 
 from hw.drives.relays import RelayBank
-from hw.ports import AngleSensor, Axis, Direction
+from hw.ports import AngleSensor, AngleSource, Axis, Direction
 from hw.sensors.pulses import PulseCounter
 from rotator.control.axis.run_watch import unstoppable
 from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand, Place, Run
 from rotator.control.sky.offsets import Offsets
+from rotator.faults import Fault, FaultKind
 from rotator.rotors.common import Ends, no_switches
 from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.relays import RelayRotor
-from rotator.status import Fault
 from rotator.store import counts
 
 KEEP_EVERY_S = 0.5
@@ -32,7 +32,7 @@ class CountedAxis:
     `master`: an output switches the motors' supply.
     """
 
-    source = "counted"
+    source = AngleSource.COUNTED
 
     def __init__(
         self,
@@ -61,7 +61,7 @@ class CountedAxis:
             case counts.Standing.KNOWN:
                 self._place(kept.angle_deg)
             case counts.Standing.NEVER:
-                self._doubt = "nobody has yet"
+                self._doubt = "not done yet"
             case _:
                 self._doubt = "the program ended in mid-move, or its count was in doubt"
 
@@ -76,7 +76,7 @@ class CountedAxis:
             why = self._doubt or self._counter.trouble
             return Condition(
                 fault=self._fault(),
-                lost=f"homing ({why})" if why else "",
+                lost=why,
                 scale=self._scale,
                 changes=self._counter.changes,
                 ends=ends,
@@ -106,12 +106,12 @@ class CountedAxis:
     def _fault(self) -> Fault | None:
         unkept = self._counts_writer.trouble(self._axis) if self._counts_writer else ""
         if unkept:
-            return Fault("count not kept", self._axis, f"it does not move: {unkept}", passing=True)
+            return Fault(FaultKind.COUNT_NOT_KEPT, self._axis, f"it does not move: {unkept}", passing=True)
         if self._counter.turning:
             measured = "its contact opens and closes as if its motor ran"
-            return unstoppable("turning with no relay on", self._axis, measured, "", master=self._master)
+            return unstoppable(FaultKind.TURNS_BY_ITSELF, self._axis, measured, "", master=self._master)
         if self._counter.quiet:
-            return Fault("no pulses", self._axis, "driven for three periods, and its contact did not change")
+            return Fault(FaultKind.NO_PULSES, self._axis, "driven for three periods, and its contact did not change")
         return None
 
     def _keep(self, angle_deg: float) -> None:

@@ -10,16 +10,30 @@ from collections.abc import Mapping
 
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
-from hw.moteus.library import MoteusInStep
+from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.sky.offsets import Offsets
+from rotator.faults import Fault, FaultKind, Notice
 from rotator.orders import LetGo
 from rotator.rotors.common import Ends, PlainRotor, no_switches
 from rotator.rotors.port import AddAlarm
 from rotator.rotors.positioned import steered
-from rotator.status import Fault
+
+LCD_LIMITS = {
+    "its velocity limit": "SPEED LIMIT",
+    "its power limit": "POWER LIMIT",
+    "the supply voltage": "SUPPLY VOLTS",
+    "its current limit": "CURRENT LIMIT",
+    "its own temperature": "DRIVER WARM",
+    "the motor's temperature": "MOTOR WARM",
+    "its torque limit": "TORQUE LIMIT",
+    "its position bounds (servopos.position_min, position_max)": "SERVOPOS",
+    "braking that feeds the supply": "BRAKING",
+    "field weakening": "FIELD WEAK",
+}
+"""The texts for the LCD, by the driver's own words."""
 
 
 class MoteusRotor(PlainRotor):
@@ -43,7 +57,7 @@ class MoteusRotor(PlainRotor):
         return Condition(
             fault=self._fault(axis),
             latched=axis in self._drive.faults(),
-            notice=self._drive.limits().get(axis, ""),
+            notice=_held_back(self._drive.limits().get(axis, "")),
             ends=self._ends(axis),
         )
 
@@ -79,13 +93,18 @@ class MoteusRotor(PlainRotor):
     def _fault(self, axis: Axis) -> Fault | None:
         said = self._drive.faults().get(axis)
         if said:
-            return Fault("controller fault", axis, said)
+            return Fault(FaultKind.CONTROLLER_FAULT, axis, said)
         try:
             self._drive.angle_deg(axis)
         except HardwareError as reason:
             if self._drive.answer(axis) is None:
-                return Fault("controller silent", axis, str(reason), passing=True)
+                return Fault(FaultKind.CONTROLLER_SILENT, axis, str(reason), passing=True)
             if self._drive.position_known(axis):
-                return Fault("controller silent", axis, str(reason))
-            return Fault("position unknown", axis, str(reason), passing=True)
+                return Fault(FaultKind.CONTROLLER_SILENT, axis, str(reason))
+            return Fault(FaultKind.POSITION_UNKNOWN, axis, str(reason), passing=True)
         return None
+
+
+def _held_back(limit: str) -> Notice | None:
+    """What holds the controller back, as `hw.moteus.faults.LIMITS` words it; None: nothing."""
+    return Notice(limit, LCD_LIMITS.get(limit, "")) if limit else None

@@ -49,5 +49,8 @@ class Rotor(Protocol):
     def begin(self, add_alarm: AddAlarm) -> None:
         """In place of `start` on a simulated clock, where there are no threads."""
 
+    def check(self) -> None:
+        """Raises HardwareError when the thread that ends expired commands has died: nothing may move without it."""
+
     def close(self) -> None:
-        """The end: everything off, threads joined. Raises HardwareError where a line cannot be switched."""
+        """Switch everything off and join the threads. May be called twice. Raises HardwareError if a line fails."""

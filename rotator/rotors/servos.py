@@ -9,9 +9,9 @@ from hw.drives.servo import ServoDrive
 from hw.ports import AngleSensor, Axis
 from rotator.control.axis.sensing import Condition
 from rotator.control.sky.offsets import Offsets
+from rotator.faults import Fault, FaultKind
 from rotator.rotors.common import Ends, no_switches
 from rotator.rotors.positioned import PositionedRotor
-from rotator.status import Fault
 
 
 class ServoRotor(PositionedRotor):
@@ -24,7 +24,7 @@ class ServoRotor(PositionedRotor):
     def condition(self, axis: Axis) -> Condition:
         said = self._servos.faults().get(axis)
         return Condition(
-            fault=Fault("servo board", axis, said) if said else None,
+            fault=Fault(FaultKind.SERVO_BOARD, axis, said) if said else None,
             settling=not self._servos.position_known(axis),
             ends=self._ends(axis),
         )

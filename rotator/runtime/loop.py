@@ -14,6 +14,7 @@ from collections.abc import Callable
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
 from rotator.control.axis.sensing import Reading
 from rotator.control.controller import Controller
+from rotator.faults import Notice
 from rotator.orders import Jog, Order, Source
 from rotator.rotors.port import Rotor
 from rotator.runtime.log_limit import LogLimit
@@ -54,9 +55,9 @@ class ControlLoop:
         self._must_obey = ("supply", *(f"{axis.value} drive" for axis in Axis))
         self._late_s = 0.0
         self._supply_cut = False
-        self._noticed: dict[Axis, tuple[str, ...]] = dict.fromkeys(Axis, ())
+        self._noticed: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         self._movers = LogLimit(clock)
-        self.status: Status = controller.status(clock(), dict.fromkeys(Axis, Direction.OFF))
+        self.status: Status = controller.status(clock())
         """The latest status; replaced whole, never changed."""
 
     def post(self, source: Source, order: Order, *, can_wait: bool = False) -> None:
@@ -83,7 +84,11 @@ class ControlLoop:
         self.act()
 
     def act(self) -> None:
-        """Take the orders that have come, decide, drive, tell. With the readings as they are."""
+        """Take the orders that have come, decide, drive and log, with the latest readings.
+
+        Raises HardwareError when the rotor is no longer guarded: nothing may move then.
+        """
+        self._rotor.check()
         with self._inbox_lock:
             posted, self._inbox = self._inbox, []
         orders = [(source, order) for source, order, _ in posted]
@@ -98,7 +103,8 @@ class ControlLoop:
                 self._trouble(f"{axis.value} drive", "")
             except HardwareError as fault:
                 self._trouble(f"{axis.value} drive", str(fault))
-        self.status = self._controller.status(now_s, driven, self._late_s)
+        self._controller.note_driven(now_s, driven)
+        self.status = self._controller.status(now_s, self._late_s)
         self._switch_supply()
         self._tell(before)
         self._sign_of_life()

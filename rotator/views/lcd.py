@@ -1,6 +1,6 @@
 """Two rows of sixteen characters: where the satellite is, where the antenna is.
 
-Knows the layout and what may take its place for a moment. Knows no display.
+Knows the layout, and the notices that replace the upper row for a moment. Does not know the display.
 """
 
 from __future__ import annotations
@@ -11,40 +11,8 @@ from rotator.status import Status
 
 COLUMNS = 16
 ALTERNATE_S = 2.0
-"""A fault takes the upper row every other two seconds."""
+"""Satellite and notices take the upper row in turn, for this long each."""
 _SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
-_SHORT_FAULTS = {
-    "pot open or shorted": "POT OPEN/SHRT",
-    "motor runs and pot stands still": "STANDS STILL",
-    "pot moves the wrong way": "WRONG WAY",
-    "turning with no relay on": "TURNS BY SELF",
-    "motor on longer than the travel takes": "RUN TOO LONG",
-    "end stop reached": "END STOP",
-    "control thread late": "CONTROL LATE",
-    "limit switch reached": "LIMIT SWITCH",
-    "count not kept": "COUNT UNKEPT",
-    "axis does not follow": "NOT FOLLOWING",
-    "controller fault": "CTRL FAULT",
-    "controller silent": "CTRL SILENT",
-    "position unknown": "POS UNKNOWN",
-}
-"""Where a fault's own name is longer than the thirteen characters beside the axis."""
-_SHORT_NOTICES = {
-    "turning with no relay on": "TURNS BY SELF",
-    "still turning with the master open": "STILL TURNS",
-    "motor hot": "MOTOR HOT",
-    "its velocity limit": "SPEED LIMIT",
-    "its power limit": "POWER LIMIT",
-    "the supply voltage": "SUPPLY VOLTS",
-    "its current limit": "CURRENT LIMIT",
-    "its own temperature": "DRIVER WARM",
-    "the motor's temperature": "MOTOR WARM",
-    "its torque limit": "TORQUE LIMIT",
-    "its position bounds (servopos.position_min, position_max)": "SERVOPOS",
-    "braking that feeds the supply": "BRAKING",
-    "field weakening": "FIELD WEAK",
-}
-"""What a notice says before its colon. One that is not here would hide the satellite for good: the log has it."""
 
 
 def rows(status: Status, now_s: float) -> tuple[str, str]:
@@ -61,18 +29,15 @@ def rows(status: Status, now_s: float) -> tuple[str, str]:
 
 def _notices(status: Status) -> list[str]:
     notices = [fault.act_now for fault in status.faults if fault.act_now]
-    notices += [
-        (f"{_SHORT[fault.axis]} " if fault.axis else "") + _SHORT_FAULTS.get(fault.name, fault.name.upper())
-        for fault in status.faults
-    ]
+    notices += [f"{_SHORT[fault.axis]} {fault.kind.lcd}" for fault in status.faults]
     if status.latched:
         notices.append("STOP: " + status.latched.upper())
     for axis in Axis:
-        if missing := status.axis(axis).uncalibrated:
-            notices.append(f"{_SHORT[axis]} {'NOT HOMED' if missing.startswith('homing') else 'UNCALIBRATED'}")
+        if missing := status.axis(axis).missing:
+            notices.append(f"{_SHORT[axis]} {missing[0].lcd}")
+    # A notice without a text for the display would hide the satellite for good: the log has it.
     for axis in Axis:
-        heads = [notice.partition(":")[0] for notice in status.axis(axis).notices]
-        notices += [f"{_SHORT[axis]} {_SHORT_NOTICES[head]}" for head in heads if head in _SHORT_NOTICES]
+        notices += [f"{_SHORT[axis]} {notice.lcd}" for notice in status.axis(axis).notices if notice.lcd]
     return list(dict.fromkeys(notices))
 
 

@@ -5,18 +5,16 @@ Knows the layout. Pure: values in, something `rich` can print out.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Protocol
 
-from rich.box import HEAVY, SIMPLE_HEAD
-from rich.columns import Columns
-from rich.console import Group, RenderableType
-from rich.panel import Panel
-from rich.table import Table
+from rich.console import RenderableType
+from rich.style import Style
 from rich.text import Text
 
 from hw.ports import Axis, Direction
 from rotator.status import AxisStatus, Status
+from rotator.views.frame import Column, Framed, Row, beside, boxed, table, wrapped
 
 _WORDS = {
     (Axis.AZIMUTH, Direction.PLUS): "CW",
@@ -24,9 +22,12 @@ _WORDS = {
     (Axis.ELEVATION, Direction.PLUS): "UP",
     (Axis.ELEVATION, Direction.MINUS): "DOWN",
 }
-WIDTH = 88
-_IN_CELLS, _OUT_CELLS = 16, 18
 _BAR_CELLS = 14
+_GLASS = "bold #e8f4ff on #1040c0"
+_BEZEL = Style.parse("#708090")
+_TROUBLE, _ANGLE, _LINK, _NOTE, _FRAME, _HEAD, _RULE, _SPACE, _LOG = range(9)
+"""Ranks of rows: on a low terminal the highest go first. Log lines have one of their own each, from _LOG up."""
+_BLANK = Row(Text(), _SPACE)
 
 
 class WireView(Protocol):
@@ -59,87 +60,99 @@ def line(status: Status) -> str:
 def picture(
     version: str, status: Status, glass: Sequence[str], wires: Sequence[WireView], log_rows: Sequence[str]
 ) -> RenderableType:
-    title = f"rotator {version}" + ("  SIMULATED" if status.simulated else "")
-    parts: list[RenderableType] = [
-        Columns([_glass(glass), _relays(status)], padding=(0, 2)),
-        _axes(status),
-        _links(wires),
-    ]
-    if status.faults or status.latched:
-        parts.append(_alarm(status))
-    uncalibrated = [f"{axis.value} UNCALIBRATED: {each}" for axis in Axis if (each := status.axis(axis).uncalibrated)]
-    notes = uncalibrated + _notes(status)
-    if notes:
-        parts.append(Text("\n".join(notes), style="bold yellow"))
-    if log_rows:
-        parts.append(Text("\n".join(log_rows), style="dim", no_wrap=True, overflow="ellipsis"))
-    parts.append(Text("space STOP   p storm park   r release   q quit", style="bold"))
-    return Panel(Group(*parts), title=title, title_align="left", width=WIDTH)
+    """Everything, as far as the terminal has room: trouble, keys and angles first, log lines last."""
+
+    def rows(width: int) -> Iterator[Row]:
+        yield from _top(glass, _relays(status))
+        yield from _axes(status, width)
+        yield from _links(wires, width)
+        yield _BLANK
+        for fault in status.faults:
+            yield from wrapped(str(fault), width, "bold white on red", _TROUBLE)
+        if status.latched:
+            held = f"held by {status.latched}: no order moves it until released (r)"
+            yield from wrapped(held, width, "bold white on red", _TROUBLE)
+        uncalibrated = {axis: status.axis(axis).uncalibrated for axis in Axis}
+        notes = [f"{axis.value} UNCALIBRATED: {missing}" for axis, missing in uncalibrated.items() if missing]
+        for note in notes + _notes(status):
+            yield from wrapped(note, width, "bold yellow", _NOTE)
+        yield from (Row(Text(line, style="dim"), _LOG + age) for age, line in _newest_last(log_rows))
+        yield Row(Text("space STOP   p storm park   r release   q quit", style="bold"), _TROUBLE)
+
+    return Framed(f"rotator {version}" + ("  SIMULATED" if status.simulated else ""), rows)
 
 
 def sketch_picture(glass: Sequence[str], drives: tuple[int, int], wires: Sequence[WireView]) -> RenderableType:
     """The emulated Arduino: its display, its relays, its serial line."""
     relays = _relay_lamps({Axis.AZIMUTH: Direction(drives[0]), Axis.ELEVATION: Direction(drives[1])})
-    parts = [Columns([_glass(glass), relays], padding=(0, 2)), _links(wires), Text("q quit", style="bold")]
-    return Panel(Group(*parts), title="F1EFW sketch on an emulated UNO  SIMULATED", title_align="left", width=WIDTH)
+
+    def rows(width: int) -> Iterator[Row]:
+        yield from _top(glass, relays)
+        yield from _links(wires, width)
+        yield _BLANK
+        yield Row(Text("q quit", style="bold"), _TROUBLE)
+
+    return Framed("F1EFW sketch on an emulated UNO  SIMULATED", rows)
 
 
-def _glass(rows: Sequence[str]) -> RenderableType:
-    text = Text("\n".join(f" {row} " for row in rows), style="bold #e8f4ff on #1040c0")
-    return Panel(text, box=HEAVY, expand=False, style="#708090")
+def _newest_last(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
+    """Each line with its age in lines: the oldest are left out first."""
+    return ((len(lines) - 1 - at, line) for at, line in enumerate(lines))
 
 
-def _relays(status: Status) -> RenderableType:
-    text = _relay_lamps({axis: status.axis(axis).drive for axis in Axis})
+def _top(glass: Sequence[str], relays: Sequence[Text]) -> Iterator[Row]:
+    """The display as it looks, and the relays beside it."""
+    display = boxed([Text(f" {row} ", style=_GLASS) for row in glass], _BEZEL)
+    for at, text in enumerate(beside(display, relays)):
+        yield Row(text, _FRAME if at in (0, len(display) - 1) else _ANGLE)
+
+
+def _relays(status: Status) -> list[Text]:
     who = f"under {status.controlled_by}" if status.controlled_by else "under nobody's orders"
     if status.timed_points:
         who += f", point {status.timed_point} of {status.timed_points}"
-    text.append(f" {who}", style="dim")
-    return text
+    rows = _relay_lamps({axis: status.axis(axis).drive for axis in Axis})
+    return [*rows, Text(f" {who}", style="dim")]
 
 
-def _relay_lamps(drives: Mapping[Axis, Direction]) -> Text:
-    text = Text()
-    for (axis, direction), word in _WORDS.items():
-        on = drives[axis] is direction
-        text.append(f" {'●' if on else '○'} {word:<5}", style="bold green" if on else "dim")
-        if direction is Direction.MINUS:
-            text.append("\n")
-    return text
-
-
-def _axes(status: Status) -> RenderableType:
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading in ("axis", "angle", "target", "", "range", "reading"):
-        table.add_column(heading, justify="right" if heading in ("angle", "target") else "left", no_wrap=True)
+def _relay_lamps(drives: Mapping[Axis, Direction]) -> list[Text]:
+    """The upper edge of the display's frame, then a row an axis."""
+    rows = [Text()]
     for axis in Axis:
-        each = status.axis(axis)
-        table.add_row(
-            axis.value,
-            _degrees(each.angle_deg),
-            _degrees(each.target_deg),
-            _bar(each),
-            f"{each.min_deg:g}…{each.max_deg:g}°",
-            "" if each.raw is None else f"{each.raw:.4f} {each.source}",
-        )
-    return table
+        row = Text()
+        for direction in (Direction.PLUS, Direction.MINUS):
+            on = drives[axis] is direction
+            row.append(f" {'●' if on else '○'} {_WORDS[axis, direction]:<5}", style="bold green" if on else "dim")
+        rows.append(row)
+    return rows
 
 
-def _links(wires: Sequence[WireView]) -> RenderableType:
-    table = Table(box=SIMPLE_HEAD, pad_edge=False)
-    for heading, cells in (("link", 8), ("where", 14), ("state", 13), ("last in", _IN_CELLS), ("last out", _OUT_CELLS)):
-        table.add_column(heading, width=cells, no_wrap=True, overflow="ellipsis")
-    for wire in wires:
-        last_in, last_out = _bytes(wire.last_in, _IN_CELLS), _bytes(wire.last_out, _OUT_CELLS)
-        table.add_row(wire.name, wire.where, wire.state, last_in, last_out)
-    return table
+def _axes(status: Status, width: int) -> Iterator[Row]:
+    every = [status.axis(axis) for axis in Axis]
+    readings = ["" if each.raw is None else f"{round(each.raw, 4) + 0.0:.4f} {each.source.value}" for each in every]
+    columns = [
+        Column("axis", [Text(axis.value) for axis in Axis]),
+        Column("angle", [Text(_degrees(each.angle_deg)) for each in every], right=True, width=7),
+        Column("target", [Text(_degrees(each.target_deg)) for each in every], right=True, width=7),
+        Column("", [_bar(each) for each in every], rank=2),
+        Column("range", [Text(f"{each.min_deg:g}…{each.max_deg:g}°") for each in every]),
+        Column("reading", [Text(reading) for reading in readings], width=18, rank=1),
+    ]
+    yield _BLANK
+    yield from table(columns, width, rank=_ANGLE, head_rank=_HEAD, rule_rank=_RULE)
 
 
-def _alarm(status: Status) -> RenderableType:
-    rows = [str(fault) for fault in status.faults]
-    if status.latched:
-        rows.append(f"held by {status.latched}: no order moves it until released (r)")
-    return Panel(Text("\n".join(rows), style="bold white on red"), box=HEAVY, style="red", expand=False)
+def _links(wires: Sequence[WireView], width: int) -> Iterator[Row]:
+    """Where each link is stays readable; the bytes have what room is left, and always as much."""
+    columns = [
+        Column("link", [Text(wire.name) for wire in wires]),
+        Column("where", [Text(wire.where) for wire in wires], least=16),
+        Column("state", [Text(wire.state) for wire in wires], least=12),
+        Column("last in", [Text(_bytes(wire.last_in)) for wire in wires], width=16, least=8, rank=1, end=True),
+        Column("last out", [Text(_bytes(wire.last_out)) for wire in wires], width=18, least=10, rank=2, end=True),
+    ]
+    yield _BLANK
+    yield from table(columns, width, rank=_LINK, head_rank=_HEAD, rule_rank=_RULE)
 
 
 def _notes(status: Status) -> list[str]:
@@ -175,7 +188,6 @@ def _degrees(angle_deg: float | None, digits: int = 1) -> str:
     return "---" if angle_deg is None else f"{round(angle_deg, digits) + 0.0:.{digits}f}°"
 
 
-def _bytes(data: bytes, cells: int) -> str:
+def _bytes(data: bytes) -> str:
     """Bytes as a person reads them: printable as they are, the rest escaped."""
-    text = data.decode("latin-1").encode("unicode_escape").decode("ascii")
-    return text if len(text) <= cells else "…" + text[-cells + 1 :]
+    return data.decode("latin-1").encode("unicode_escape").decode("ascii")

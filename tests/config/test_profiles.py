@@ -13,6 +13,7 @@ from rotator.config.axes import AxisTable
 from rotator.config.load import ConfigError, parse, profiles, shipped
 from rotator.config.model import Config
 from rotator.control.axis.calibration_table import Calibration
+from rotator.faults import Missing
 from rotator.rehearsal.flight import fly, plant_maker
 from rotator.rehearsal.passes import read_pass
 
@@ -52,7 +53,7 @@ def test_it_is_for_real_hardware_and_keeps_its_state_there(name: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_as_shipped_it_may_not_be_aimed(name: str) -> None:
     for table in axes(profile(name)):
-        assert missing(table, calibrated=True) == ("direction check",)
+        assert missing(table, calibrated=True) == (Missing.DIRECTION_CHECK,)
 
 
 @pytest.mark.parametrize("name", POTS)

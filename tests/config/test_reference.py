@@ -34,7 +34,7 @@ def is_table(kind: object) -> bool:
 
 @pytest.mark.parametrize("name", [name for name in Config.model_fields if name not in ("sim", "link")])
 def test_every_key_has_its_row(name: str) -> None:
-    section = reference().split(f"### `[{name}]`")[1].split("###")[0]
+    section = next(each for each in reference().split("### ") if f"`[{name}]`" in each.splitlines()[0])
     table = Config.model_fields[name].annotation
     assert isinstance(table, type)
     assert issubclass(table, BaseModel)
@@ -45,21 +45,32 @@ def test_every_key_has_its_row(name: str) -> None:
 @pytest.mark.parametrize(
     "row",
     [
-        '| `hardware` | text | "sim", "pi" | `"sim"` |',
-        "| `tolerance_deg` | number | above 0 to 45 | `4.0` |",
-        "| `address` | whole number | 0x08 to 0x77 | `0x48` |",
-        "| `master` | whole number | 0 to 57 | left out |",
-        "| `calibration` | list of [number, number] |  | left out |",
-        '| `protocol` | text | "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow", "easycomm1", '
+        '| `hardware` | `"sim"`; or "pi" |',
+        "| `tolerance_deg` | `4`; above 0 to 45 |",
+        "| `speed_dps` | `6`, elevation `2.7`; above 0 to 360 |",
+        "| `min_deg` | `0`; -360 to 720, elevation -90 to 180 |",
+        "| `address` | `0x48`; address |",
+        "| `master` | –; GPIO |",
+        "| `osc_hz` | `25000000`; 20000000 to 30000000 |",
+        "| `horizon` | `[]`; pairs |",
+        "| `calibration` | –; pairs |",
+        '| `protocol` | must be given; "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow", "easycomm1", '
         '"easycomm2", "easycomm3", "rot1prog", "rot2prog", "md01", "dcu1", "pstrotator", "n1mm", '
-        '"macdoppler", "wsjtx" | must be given |',
-        "| `pulses_per_degree` | whole number | 1, 2, 4, 10 | left out |",
-        "| `name` | text | up to 24 characters | left out |",
-        "| `direction_checked` | true or false |  | `false` |",
+        '"macdoppler", "wsjtx" |',
+        "| `pulses_per_degree` | –; 1, 2, 4, 10 |",
+        "| `name` | –; up to 24 characters |",
+        "| `id` | `1`, elevation `2`; whole 1 to 126 |",
+        "| `direction_checked` | `false` |",
     ],
 )
 def test_row(row: str) -> None:
     assert row in reference()
+
+
+def test_the_legend_bounds_what_the_rows_only_name() -> None:
+    legend = reference().split("\n\n")[0].replace("\n", " ")
+    for said in ("*GPIO*: 0 to 57", "0 to 255", "0x08 to 0x77", "as 0 to 3"):
+        assert said in legend
 
 
 @pytest.mark.parametrize("text", examples(), ids=lambda text: text.splitlines()[0][:30])

@@ -4,26 +4,34 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import cast
 
 import pytest
 
-from hw.ports import Axis, Direction
-from rotator.control.axis.calibration_table import between_ends
+from hw.ports import AngleSource, Axis, Direction
+from rotator.control.axis.calibration_table import Calibration, between_ends
+from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.sensing import Reading, Window
-from rotator.control.axis.switched import AxisSettings
-from rotator.control.axis.switched_law import Run
+from rotator.control.axis.sensing import ANYTHING, Condition, Reading, Window
+from rotator.control.axis.settings import SwitchedSettings
+from rotator.control.commands import Run
 from rotator.control.controller import Controller, Settings
 from rotator.control.sky.mount import Mount, Range
+from rotator.faults import Missing
 from rotator.orders import Order, Source
 from rotator.status import Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 LOW_RAW, HIGH_RAW = 0.05, 0.95
+EDGE_DEG = 2.5
+"""From one change of a counted axis's contact to the next."""
 
 
 class Desk:
-    """A controller and a simple rotor: 6°/s (2.7°/s up and down) while driven, coasting for 0.17 s of that after."""
+    """A controller and a simple rotor: 6°/s (2.7°/s up and down) while driven, coasting for 0.17 s of that after.
+
+    `counted`: the axes count the changes of a contact, and can be homed; else pots measure them.
+    """
 
     LINK, OTHER, CONSOLE = Source("gs232b", 1), Source("rotctld", 1), Source("console")
     SPEED_DPS: Mapping[Axis, float] = {AZ: 6.0, EL: 2.7}
@@ -36,11 +44,15 @@ class Desk:
         elevation: tuple[float, float] = (0.0, 180.0),
         at: tuple[float, float] = (100.0, 10.0),
         park: tuple[float, float] = (0.0, 0.0),
-        missing: Mapping[Axis, tuple[str, ...]] | None = None,
+        missing: Mapping[Axis, tuple[Missing, ...]] | None = None,
+        counted: bool = False,
+        park_after_s: float = 0.0,
     ) -> None:
         self.range = {AZ: Range(*azimuth), EL: Range(*elevation)}
         self.angle_deg = dict(zip(Axis, at, strict=True))
         self._speed_dps = dict.fromkeys(Axis, 0.0)
+        self._changes = dict.fromkeys(Axis, 0)
+        self._edge = {axis: int(angle_deg // EDGE_DEG) for axis, angle_deg in self.angle_deg.items()}
         self.instead: dict[Axis, float | None] = {}
         """Raw readings in place of the pot's; None: no answer."""
         self.frozen_since_s: dict[Axis, float] = {}
@@ -49,24 +61,37 @@ class Desk:
         self.runs: dict[Axis, Run] = {}
         self.driven = dict.fromkeys(Axis, Direction.OFF)
         missing = missing or {}
+        self.counted = counted
+        self.lost = dict.fromkeys(Axis, "")
+        """Why a counted axis has to be homed; empty: its count is right."""
         self.controller = Controller(
             Settings(
                 azimuth=self._settings(AZ, missing.get(AZ, ())),
                 elevation=self._settings(EL, missing.get(EL, ())),
                 mount=Mount(self.range[AZ], self.range[EL], *park),
+                park_after_s=park_after_s,
             )
         )
-        self.status: Status = self.controller.status(self.now_s, self.driven)
+        self.status: Status = self.controller.status(self.now_s)
 
-    def _settings(self, axis: Axis, missing: tuple[str, ...]) -> AxisSettings:
+    def _settings(self, axis: Axis, missing: tuple[Missing, ...]) -> SwitchedSettings:
         limits = self.range[axis]
         line = between_ends(LOW_RAW, limits.min_deg, HIGH_RAW, limits.max_deg)
-        calibration = None if "calibration" in missing else line
+        calibration = None if Missing.CALIBRATION in missing else line
         motor = Motor(self.SPEED_DPS[axis], self.SPEED_DPS[axis] * self.LAG_S)
-        return AxisSettings(axis, limits, 4.0, motor, Window(0.02, 0.98), calibration, missing)
+        if self.counted:
+            degrees = Calibration(((limits.min_deg, limits.min_deg), (limits.max_deg, limits.max_deg)))
+            travel_s = (limits.max_deg - limits.min_deg) / motor.speed_dps
+            homing = HomingSettings(EDGE_DEG / motor.speed_dps * 2.0, travel_s, 0.5, limits.min_deg)
+            return SwitchedSettings(
+                axis, limits, 4.0, motor, ANYTHING, degrees, missing, AngleSource.COUNTED, homing=homing
+            )
+        return SwitchedSettings(axis, limits, 4.0, motor, Window(0.02, 0.98), calibration, missing)
 
     def raw(self, axis: Axis) -> float:
         limits = self.range[axis]
+        if self.counted:
+            return self.angle_deg[axis]
         share = (self.angle_deg[axis] - limits.min_deg) / (limits.max_deg - limits.min_deg)
         return LOW_RAW + share * (HIGH_RAW - LOW_RAW)
 
@@ -76,19 +101,34 @@ class Desk:
         for axis, way in self.driven.items():
             self._turn(axis, way * self.SPEED_DPS[axis], seconds)
         readings = {
-            axis: Reading(self.frozen_since_s.get(axis, self.now_s), self.instead.get(axis, self.raw(axis)))
+            axis: Reading(
+                self.frozen_since_s.get(axis, self.now_s),
+                self.instead.get(axis, self.raw(axis)),
+                condition=self._condition(axis),
+            )
             for axis in Axis
         }
-        self.runs = self.controller.step(self.now_s, readings, [(by, order) for order in orders])
+        commands = self.controller.step(self.now_s, readings, [(by, order) for order in orders])
+        self.runs = cast(dict[Axis, Run], commands)
         self.driven = {axis: run.direction for axis, run in self.runs.items()}
-        self.status = self.controller.status(self.now_s, self.driven)
+        self.controller.note_driven(self.now_s, self.driven)
+        self.status = self.controller.status(self.now_s)
         return self.driven
+
+    def _condition(self, axis: Axis) -> Condition:
+        return Condition(lost=self.lost[axis], changes=self._changes[axis]) if self.counted else Condition()
 
     def _turn(self, axis: Axis, wanted_dps: float, seconds: float) -> None:
         fade = math.exp(-seconds / self.LAG_S)
         gap_dps = self._speed_dps[axis] - wanted_dps
         self.angle_deg[axis] += wanted_dps * seconds + gap_dps * self.LAG_S * (1.0 - fade)
         self._speed_dps[axis] = wanted_dps + gap_dps * fade
+        if self.counted:
+            # The stops of a counted rotor stand at the ends of its range, and each edge of its contact is counted.
+            self.angle_deg[axis] = self.range[axis].nearest(self.angle_deg[axis])
+            edge = int(self.angle_deg[axis] // EDGE_DEG)
+            self._changes[axis] += abs(edge - self._edge[axis])
+            self._edge[axis] = edge
 
     def place(self, axis: Axis, angle_deg: float) -> None:
         """Stand the axis there, at rest, for as long as anybody may remember that it moved."""

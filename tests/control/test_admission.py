@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount, Range
+from rotator.faults import Missing
 from rotator.orders import (
     Aim,
     Calibrate,
     ClearTimed,
+    Confirm,
     Jog,
     LoadTimed,
     Order,
@@ -35,15 +39,18 @@ ALWAYS: list[Order] = [
 ]
 
 
-def status(*, azimuth: str = "", elevation: str = "", moving: bool = False) -> Status:
+Lacks = tuple[Missing, ...]
+
+
+def status(*, azimuth: Lacks = (), elevation: Lacks = (), moving: bool = False) -> Status:
     return Status(
         at_s=0.0,
-        azimuth=AxisStatus(0, 350, angle_deg=100.0, moving=moving, uncalibrated=azimuth),
-        elevation=AxisStatus(0, 180, angle_deg=10.0, uncalibrated=elevation),
+        azimuth=AxisStatus(0, 350, angle_deg=100.0, moving=moving, missing=azimuth),
+        elevation=AxisStatus(0, 180, angle_deg=10.0, missing=elevation),
     )
 
 
-def refused(order: Order, *, azimuth: str = "", elevation: str = "", moving: bool = False) -> str:
+def refused(order: Order, *, azimuth: Lacks = (), elevation: Lacks = (), moving: bool = False) -> str:
     answer = refusal(order, status(azimuth=azimuth, elevation=elevation, moving=moving), MOUNT)
     return answer.reason if answer else ""
 
@@ -58,7 +65,7 @@ def test_a_commissioned_box_takes_every_order_it_can_carry_out(order: Order) -> 
 
 @pytest.mark.parametrize("order", ALWAYS, ids=str)
 def test_stop_release_and_jog_are_never_refused(order: Order) -> None:
-    assert not refused(order, azimuth="calibration", elevation="calibration", moving=True)
+    assert not refused(order, azimuth=(Missing.CALIBRATION,), elevation=(Missing.CALIBRATION,), moving=True)
 
 
 # --- nobody has commissioned it
@@ -68,27 +75,34 @@ def test_stop_release_and_jog_are_never_refused(order: Order) -> None:
     "order", [Aim(235, 25), Aim(235, None), Aim(235, 25, engaged=False), Park(), LoadTimed(1, ((10, 20),))], ids=str
 )
 def test_an_uncalibrated_box_is_not_aimed_and_says_what_is_missing(order: Order) -> None:
-    reason = refused(order, azimuth="calibration, limits", elevation="calibration")
+    reason = refused(
+        order,
+        azimuth=(
+            Missing.CALIBRATION,
+            Missing.LIMITS,
+        ),
+        elevation=(Missing.CALIBRATION,),
+    )
     assert reason.startswith("UNCALIBRATED")
     assert "calibration, limits" in reason
 
 
 def test_one_uncalibrated_axis_keeps_the_other_from_nothing() -> None:
-    assert not refused(Aim(235, 25), azimuth="calibration")
-    assert not refused(Aim(235, 25), elevation="calibration")
+    assert not refused(Aim(235, 25), azimuth=(Missing.CALIBRATION,))
+    assert not refused(Aim(235, 25), elevation=(Missing.CALIBRATION,))
 
 
 def test_an_azimuth_alone_needs_the_azimuth() -> None:
-    assert refused(Aim(235, None), azimuth="limits")
-    assert not refused(Aim(235, None), elevation="limits")
+    assert refused(Aim(235, None), azimuth=(Missing.LIMITS,))
+    assert not refused(Aim(235, None), elevation=(Missing.LIMITS,))
 
 
 def test_a_timed_list_of_azimuths_alone_needs_the_azimuth_too() -> None:
-    assert refused(LoadTimed(1, ((10, None), (20, None))), azimuth="limits")
+    assert refused(LoadTimed(1, ((10, None), (20, None))), azimuth=(Missing.LIMITS,))
 
 
 def test_an_elevation_alone_needs_the_elevation() -> None:
-    assert refused(Aim(None, 25), elevation="limits")
+    assert refused(Aim(None, 25), elevation=(Missing.LIMITS,))
 
 
 # --- out of reach
@@ -114,3 +128,10 @@ def test_no_calibration_while_anything_moves(axis: Axis) -> None:
         f"{axis.value} cannot be calibrated while the antenna moves"
     )
     assert not refused(Calibrate(axis, high_end=True))
+
+
+def test_only_an_axis_that_cannot_measure_takes_a_confirmed_angle() -> None:
+    assert "nothing to confirm" in refused(Confirm(Axis.AZIMUTH, 42.0))
+    told = status()
+    told = replace(told, azimuth=replace(told.azimuth, confirmable=True))
+    assert refusal(Confirm(Axis.AZIMUTH, 42.0), told, MOUNT) is None

@@ -3,22 +3,30 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, get_args
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
+from rotator.control.commands import Place
+from rotator.faults import Missing
 from rotator.orders import (
     Aim,
     Calibrate,
     ClearTimed,
+    Confirm,
+    Home,
     Jog,
+    LetGo,
     LoadTimed,
+    Mode,
+    Nudge,
     Order,
     Park,
     Release,
     RunTimed,
+    SetMode,
     Source,
     Speed,
     Stop,
@@ -26,6 +34,8 @@ from rotator.orders import (
 
 LINKS = [Source("gs232b", 1), Source("rotctld", 1), Source("console")]
 LONGEST_LEASE_S = 0.5
+PARKED_DEG = 0.0
+"""The desk's park position, on both axes."""
 
 azimuths = st.floats(0, 540)
 elevations = st.floats(-90, 180)
@@ -34,6 +44,7 @@ moves = st.one_of(
     st.builds(Aim, azimuths, st.none() | elevations, st.booleans()),
     st.builds(Jog, axes, st.sampled_from(Direction), st.none() | st.floats(0, 5)),
     st.just(Park()),
+    st.builds(Home, axes),
     st.builds(
         LoadTimed,
         st.integers(1, 3).map(float),
@@ -47,6 +58,11 @@ others = st.one_of(
     st.just(ClearTimed()),
     st.builds(Speed, st.integers(1, 4)),
     st.builds(Calibrate, axes, st.booleans()),
+    st.just(Park(storm=True)),
+    st.builds(SetMode, st.sampled_from(Mode)),
+    st.builds(Nudge, axes, st.floats(-45, 45)),
+    st.builds(Confirm, axes, st.floats(-360, 720)),
+    st.just(LetGo()),
 )
 healthy = st.floats(0.02, 0.98)
 raws = healthy | st.sampled_from([None, 0.0, 0.019, 0.02, 0.05, 0.95, 0.98, 1.0, math.nan, math.inf, -math.inf])
@@ -59,8 +75,23 @@ steps = st.lists(
     min_size=1,
     max_size=40,
 )
-missing = st.sampled_from([(), (), ("calibration",), ("direction check",)])
+missing = st.sampled_from([(), (), (Missing.CALIBRATION,), (Missing.DIRECTION_CHECK,)])
 any_day = settings(max_examples=200, deadline=None)
+
+
+def test_every_order_there_is_takes_part() -> None:
+    """A new order that is missing here would never be tried."""
+    drawn = set()
+
+    @settings(max_examples=500, deadline=None, database=None)
+    @given(moves | others)
+    def draw(order: Order) -> None:
+        drawn.add(type(order))
+
+    draw()
+    assert drawn == set(get_args(Order))
+
+
 Script = list[tuple[float, list[tuple[Source, Order]], tuple[float | None, float | None] | None]]
 
 
@@ -77,31 +108,85 @@ def drives(desk: Any, script: Script) -> Any:
             yield None
 
 
-@any_day
-@given(script=steps, azimuth=missing, elevation=missing)
-def test_nothing_is_driven_against_a_rule(
-    new_desk: Any, script: Script, azimuth: tuple[str, ...], elevation: tuple[str, ...]
-) -> None:
-    desk = new_desk(missing={Axis.AZIMUTH: azimuth, Axis.ELEVATION: elevation})
-    ordered = latched = False
-    for order in drives(desk, script):
-        ordered = ordered or isinstance(order, Aim | Jog | Park | LoadTimed)
+class Rules:
+    """What the orders so far allow, as a person would say it."""
+
+    def __init__(self) -> None:
+        self.ordered = self.latched = self.storm = False
+
+    def note(self, order: Order | None) -> None:
+        self.ordered = self.ordered or isinstance(order, Aim | Jog | Park | LoadTimed | Home)
         match order:
             case Stop(axes, True) if len(axes) == len(Axis):
-                latched = True
+                self.latched, self.storm = True, False
+            case LetGo():
+                self.latched, self.storm = True, False
+            case Park(storm=True):
+                self.latched = self.storm = True
             case Release():
-                latched = False
-        assert bool(desk.status.latched) == latched
+                self.latched = self.storm = False
+
+    def check_driven(self, desk: Any) -> None:
         for axis, run in desk.runs.items():
             if run.direction is Direction.OFF:
                 continue
-            assert ordered, "driven before the first order"
-            assert not latched, "driven while latched"
+            assert self.ordered, "driven before the first order"
+            assert self.storm or not self.latched, "driven while latched"
+            assert not self.storm or desk.status.axis(axis).target_deg == PARKED_DEG, "driven elsewhere in a storm"
             assert desk.status.axis(axis).fault is None, "driven with a fault"
+
+    def check(self, desk: Any) -> None:
+        assert bool(desk.status.latched) == self.latched
+        self.check_driven(desk)
+        for axis, run in desk.runs.items():
+            if run.direction is Direction.OFF:
+                continue
             raw = desk.instead.get(axis, desk.raw(axis))
             assert raw is not None, "driven blind"
             assert 0.02 <= raw <= 0.98, "driven on a reading out of range"
             assert desk.now_s <= run.until_s <= desk.now_s + LONGEST_LEASE_S, "driven on too long a lease"
+
+
+@any_day
+@given(script=steps, azimuth=missing, elevation=missing)
+def test_nothing_is_driven_against_a_rule(
+    new_desk: Any, script: Script, azimuth: tuple[Missing, ...], elevation: tuple[Missing, ...]
+) -> None:
+    desk = new_desk(missing={Axis.AZIMUTH: azimuth, Axis.ELEVATION: elevation})
+    rules = Rules()
+    for order in drives(desk, script):
+        rules.note(order)
+        rules.check(desk)
+
+
+people = st.sampled_from([Source("console", 1), Source("console", 2), LINKS[0]])
+homes = st.builds(Home, axes)
+storm = st.just(Park(storm=True))
+visits = st.lists(st.tuples(people, homes | storm | moves | others, st.sampled_from([0.0, 0.2, 1.0, 6.0])), max_size=12)
+
+
+@settings(max_examples=100, deadline=None)
+@given(visits=visits, lost=st.booleans())
+def test_homing_ends_only_by_an_order_a_stop_found_or_a_fault(
+    new_desk: Any, visits: list[tuple[Source, Order, float]], *, lost: bool
+) -> None:
+    desk = new_desk(counted=True, at=(30.0, 20.0), park_after_s=3.0)
+    desk.lost = dict.fromkeys(Axis, "not done yet" if lost else "")
+    rules = Rules()
+    for person, order, then_s in visits:
+        desk.step(order, by=person)
+        rules.note(order)
+        for _ in range(1 + round(then_s / 0.05)):
+            homing = [axis for axis in Axis if desk.status.axis(axis).homing]
+            assert not (rules.latched and homing), "homes while a person holds the antenna"
+            assert bool(desk.status.latched) == rules.latched
+            rules.check_driven(desk)
+            desk.controller.errands.clear()
+            desk.step()
+            for axis in homing:
+                found = any(isinstance(errand, Place) and errand.axis is axis for errand in desk.controller.errands)
+                ended = not desk.status.axis(axis).homing
+                assert not ended or found or desk.status.axis(axis).fault, "homing ended by itself"
 
 
 @any_day
@@ -118,11 +203,11 @@ def test_nothing_is_driven_outward_beyond_its_limit(new_desk: Any, script: Scrip
 
 @any_day
 @given(
-    lacks=st.sampled_from(["calibration", "limits", "direction check"]),
+    lacks=st.sampled_from([Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK]),
     script=st.lists(st.tuples(st.sampled_from([0.0, 0.05, 0.5, 2.5]), st.none() | moves), min_size=1, max_size=20),
 )
 def test_an_axis_that_lacks_anything_is_driven_by_jogs_alone(
-    new_desk: Any, lacks: str, script: list[tuple[float, Order | None]]
+    new_desk: Any, lacks: Missing, script: list[tuple[float, Order | None]]
 ) -> None:
     desk = new_desk(missing=dict.fromkeys(Axis, (lacks,)))
     pressed_s = dict.fromkeys(Axis, -math.inf)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import pytest
+
 from firmware_sim.clock import SimClock
+from hw.ports import Axis, Direction
 from rotator.config.load import parse
-from rotator.orders import Aim, Order, Park, Release, Source
+from rotator.orders import Aim, Jog, Order, Park, Release, RunTimed, Source
 from rotator.rehearsal.flight import BoxPlant
 
 LINK, CONSOLE = Source("gs232b", 1), Source("console")
@@ -29,6 +32,14 @@ class Station:
 def test_before_any_order_nothing_parks() -> None:
     station = Station()
     station.plant.run_until(120.0)
+    assert station.at(180, 10)
+    assert station.plant.relay_starts() == 0
+
+
+@pytest.mark.parametrize("order", [RunTimed(), Jog(Axis.AZIMUTH, Direction.OFF), Aim(200, 30, engaged=False)], ids=str)
+def test_an_order_that_moves_nothing_does_not_park_it_later(order: Order) -> None:
+    station = Station()
+    station.say(LINK, order, 120.0)
     assert station.at(180, 10)
     assert station.plant.relay_starts() == 0
 

@@ -164,7 +164,7 @@ def test_a_lamp_takes_what_an_output_gives() -> None:
     """A PCA9685 gives 10 mA at high; a red LED takes 2 V of the 3.3."""
     lamp_a = (PI_SUPPLY_V - 2.0) / LAMP_OHM
     assert lamp_a == pytest.approx(0.004, abs=0.0005)
-    assert "330 Ω each | 4 mA" in page("wiring-panel.md")
+    assert "330 Ω each, 4 mA" in page("wiring-panel.md")
 
 
 def test_a_step_of_the_servos_chip() -> None:

@@ -19,8 +19,8 @@ from hw.sensors.cam_count import CamCount
 from rotator.config.load import shipped
 from rotator.config.model import Config
 from rotator.config.panel import LimitsTable, PanelTable
+from rotator.faults import FaultKind
 from rotator.panel.ladder import LEVELS
-from rotator.status import Fault
 
 DOCS = Path(__file__).parents[2] / "docs"
 PAGES = [
@@ -53,13 +53,15 @@ def anchors(name: str) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-@pytest.mark.parametrize("page", PAGES)
+@pytest.mark.parametrize("page", [*sorted(path.name for path in DOCS.glob("*.md")), "../README.md"])
 def test_every_link_leads_somewhere(page: str) -> None:
-    for target in re.findall(r"\]\(([^)]+)\)", text(page)):
+    folder = Path(page).parent
+    for target in re.findall(r"\]\((?!https?:)([^)]+)\)", text(page)):
         path, _, anchor = target.replace("\n", "").partition("#")
-        assert (DOCS / (path or page)).is_file(), target
+        led = str(folder / path) if path else page
+        assert (DOCS / led).is_file(), target
         if anchor:
-            assert anchor in anchors(path or page), target
+            assert anchor in anchors(led), target
 
 
 def test_every_picture_is_shown_on_some_page() -> None:
@@ -171,24 +173,10 @@ def test_the_digital_pots_points_are_ones_that_the_file_accepts() -> None:
     assert len(Config.model_validate(values).digipot.azimuth.steps) == 5
 
 
-@pytest.mark.parametrize(
-    "fault",
-    [
-        "no pulses",
-        "count lost",
-        "count not kept",
-        "not homed",
-        "position unknown",
-        "controller fault",
-        "controller silent",
-        "servo board",
-        "axis does not follow",
-        "limit switch reached",
-    ],
-)
-def test_a_faults_page_is_there(fault: str) -> None:
-    assert f"\n### {fault}\n" in text("troubleshooting.md")
-    assert Fault(fault, None, "").anchor in anchors("troubleshooting.md")
+@pytest.mark.parametrize("kind", FaultKind, ids=lambda kind: kind.text)
+def test_every_fault_has_its_heading_and_anchor(kind: FaultKind) -> None:
+    assert f"\n### {kind.text}\n" in text("troubleshooting.md")
+    assert kind.anchor in anchors("troubleshooting.md")
 
 
 def test_the_moteus_numbers_on_the_page_are_the_controllers() -> None:

@@ -6,7 +6,7 @@ import errno
 import os
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, cast
 
 import pytest
 
@@ -111,7 +111,7 @@ class Pi:
             lambda number: SmbusI2C(StaysOpen(world.bus), f"/dev/i2c-{number}"),
             clock,
             clock.sleep,
-            lambda config: ask_in_step(config, world.transport(), clock),
+            lambda config: ask_in_step(config, cast(Any, world).transport(), clock),
             lambda: None,
         )
         self.machine = replace(self.machine, chips=chips)
@@ -172,7 +172,7 @@ def pi(tmp_path: Path) -> Pi:
         kernel=("6.12.34+rpt-rpi-v8", "aarch64"),
         user="pi",
         free_bytes=lambda _path: 20_000_000_000,
-        chips=Chips(lambda: None, None, lambda _number: None, SimClock(), SimClock().sleep),  # type: ignore[arg-type]
+        chips=Chips(lambda: None, None, lambda _number: cast(Any, None), SimClock(), SimClock().sleep),
     )
     pi = Pi(machine, tmp_path, config, None)
     pi.station("")

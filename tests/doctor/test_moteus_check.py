@@ -9,7 +9,7 @@ from typing import NoReturn
 
 import pytest
 
-from firmware_sim.rotors.moteus import AxisSpec, MoteusWorld
+from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
 from hw.ports import Axis, HardwareError
 from rotator.config.load import parse
 from rotator.doctor.chips import Heard, ask_controllers
@@ -131,7 +131,7 @@ def test_a_can_interface_of_the_kernel(moteus: Pi, files: dict[str, str], words:
 
 def test_over_an_adapter_in_real_time(tmp_path: Path) -> None:
     pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
-    world = MoteusWorld(AxisSpec(1, start_deg=30.0), AxisSpec(2), time.monotonic)
+    world = SimMoteusRotor(MoteusAxisSpec(1, start_deg=30.0), MoteusAxisSpec(2), time.monotonic)
     adapter = world.adapter(tmp_path / "fdcanusb")
     config = parse(
         f'[rotor]\ntype = "moteus"\n[moteus]\nport = "{adapter.path}"\n[moteus.azimuth]\ngeared = false\n', "test"

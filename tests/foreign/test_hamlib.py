@@ -6,10 +6,14 @@ import subprocess
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
-Start = Callable[..., "RunningBox"]  # noqa: F821 - a fixture's type
+if TYPE_CHECKING:
+    from tests.foreign.conftest import RunningBox
+
+Start = Callable[..., "RunningBox"]
 TOLERANCE_DEG = 4.5
 """What the box promises, and half a degree for whole-degree replies."""
 DIALECTS = {
@@ -54,7 +58,7 @@ def position(output: str) -> tuple[float, float]:
     return float(azimuth), float(elevation)
 
 
-def place(box: RunningBox, over: str) -> Path | str:  # noqa: F821 - as above
+def place(box: RunningBox, over: str) -> Path | str:
     return box.pty if over == "pty" else f"127.0.0.1:{box.gs232_port}"
 
 

@@ -39,7 +39,7 @@ class Satellite:
 
     @property
     def _orbit_km(self) -> float:
-        return (GM_KM3_PER_S2 * (self.period_min * 60 / math.tau) ** 2) ** (1 / 3)
+        return math.pow(GM_KM3_PER_S2 * (self.period_min * 60 / math.tau) ** 2, 1 / 3)
 
     @property
     def _from_node_deg(self) -> float:

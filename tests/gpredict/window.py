@@ -82,7 +82,7 @@ class Screen:
         found: list[str] = []
 
         def has_focus() -> bool:
-            assert program.poll() is None, f"{program.args} has ended: {program.returncode}"
+            assert program.poll() is None, f"{program.args!r} has ended: {program.returncode}"
             found[:] = self.xdotool("search", "--onlyvisible", "--name", title).split()
             if not found:
                 return False

@@ -61,6 +61,7 @@ def arm64_visits(
     if not can_run_arm64():
         arch = "amd64"
         report = request.config.pluginmanager.get_plugin("terminalreporter")
+        assert report is not None
         report.write_line("arm64 does not run here (sudo apt install qemu-user-static binfmt-support): amd64 instead")
 
     def go(release: str, layer: Layer) -> Visit:

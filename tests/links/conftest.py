@@ -220,6 +220,7 @@ def running() -> Callable[[Any], AbstractAsyncContextManager[asyncio.Task[None]]
                 task.cancel()
             else:
                 test.uncancel()
+            outcome: BaseException | None
             async with asyncio.timeout(PATIENCE_S):
                 (outcome,) = await asyncio.gather(task, return_exceptions=True)
             if isinstance(outcome, Exception):

@@ -8,7 +8,7 @@ import socket
 import threading
 from collections.abc import Callable
 from contextlib import closing, suppress
-from typing import Any
+from typing import Any, cast
 
 import pytest
 import serial
@@ -57,7 +57,7 @@ class Lender:
     def _lend(self) -> None:
         with suppress(OSError), serial.serial_for_url("loop://") as device:
             self._client, _ = self._server.accept()
-            self._manager = PortManager(device, self)
+            self._manager = PortManager(cast(Any, device), cast(Any, self))
             while data := self._client.recv(1024):
                 for byte in self._manager.filter(data):
                     self._heard.put(byte)

@@ -5,6 +5,8 @@ Knows how an order travels and what the two pots read. Knows no protocol.
 
 from __future__ import annotations
 
+from typing import cast
+
 import pytest
 
 from hw.ports import Axis, Direction
@@ -12,9 +14,11 @@ from rotator.control.admission import refusal
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.sensing import Reading, Window
-from rotator.control.axis.switched import AxisSettings
+from rotator.control.axis.settings import SwitchedSettings
+from rotator.control.commands import Run
 from rotator.control.controller import Controller, Settings
 from rotator.control.sky.mount import Mount, Range
+from rotator.faults import Missing
 from rotator.orders import Aim, Jog, LoadTimed, Order, Park, Refusal, RunTimed, Source
 from rotator.protocols.session import Session
 from rotator.status import Status
@@ -32,7 +36,7 @@ class BenchBox:
         azimuth: tuple[float, float] = (0.0, 450.0),
         elevation: tuple[float, float] = (0.0, 180.0),
         *,
-        missing: tuple[str, ...] = (),
+        missing: tuple[Missing, ...] = (),
         at_once: bool = True,
         blind: bool = False,
     ) -> None:
@@ -46,7 +50,7 @@ class BenchBox:
         self._ranges = {Axis.AZIMUTH: azimuth, Axis.ELEVATION: elevation}
         self._mount = Mount(Range(*azimuth), Range(*elevation))
         axes = {
-            axis: AxisSettings(
+            axis: SwitchedSettings(
                 axis=axis,
                 limits=Range(low_deg, high_deg),
                 tolerance_deg=4.0,
@@ -58,7 +62,7 @@ class BenchBox:
             for axis, (low_deg, high_deg) in self._ranges.items()
         }
         self._controller = Controller(Settings(axes[Axis.AZIMUTH], axes[Axis.ELEVATION], self._mount, PERIOD_S))
-        self._status = self._controller.status(self.now_s, self.driven)
+        self._status = self._controller.status(self.now_s)
         self.stands_at(azimuth[0], elevation[0])
 
     def status(self) -> Status:
@@ -98,9 +102,10 @@ class BenchBox:
         readings = {axis: Reading(self.now_s, None if self._blind else raw) for axis, raw in self._raw.items()}
         orders, self._waiting = self._waiting, []
         runs = self._controller.step(self.now_s, readings, orders)
-        self.driven = {axis: run.direction for axis, run in runs.items()}
+        self.driven = {axis: cast(Run, run).direction for axis, run in runs.items()}
         self.turned |= {axis for axis, direction in self.driven.items() if direction}
-        self._status = self._controller.status(self.now_s, self.driven)
+        self._controller.note_driven(self.now_s, self.driven)
+        self._status = self._controller.status(self.now_s)
 
 
 @pytest.fixture(scope="session")

@@ -70,7 +70,7 @@ def either(word: bytes) -> float | None:
     return decimal(word, b"," if b"," in word else b".")
 
 
-def gs232_aim(letter: bytes, text: bytes) -> list[Order]:
+def gs232_aim(letter: bytes, text: bytes) -> list[Aim] | list[LoadTimed]:
     words = text.split(b" ")
     words = [word for word in words if word]
     if all(word.isdigit() and len(word) <= 3 for word in words) and len(words) > (2 if letter == b"W" else 1):
@@ -79,6 +79,8 @@ def gs232_aim(letter: bytes, text: bytes) -> list[Order]:
         paired = letter == b"M" or len(angles) % 2 == 0
         good = paired and step >= 1 and all(az <= 450 and (el or 0) <= 180 for az, el in pairs)
         return [LoadTimed(step, tuple(pairs))] if good else []
+    azimuth: float | None
+    elevation: float | None
     if letter == b"M":
         azimuth, elevation = (either(words[0]) if len(words) == 1 else None), 0.0
     elif len(words) == 1 and words[0].isdigit() and len(words[0]) == 6:
@@ -111,7 +113,7 @@ def gs232_motions(heard: bytes, dialect: Dialect) -> list[Order]:
             listed = listed and letter != b"M"
         elif letter in (b"M", b"W"):
             for order in gs232_aim(letter, rest.strip(b" ")):
-                points = order.points if isinstance(order, LoadTimed) else ((order.azimuth_deg, None),)
+                points = order.points if isinstance(order, LoadTimed) else ((order.azimuth_deg or 0.0, None),)
                 if max(azimuth for azimuth, _ in points) <= top_deg:
                     listed = isinstance(order, LoadTimed) or (listed and letter == b"W")
                     motions.append(order)
@@ -188,7 +190,7 @@ def test_pieces_make_no_difference(new_box: type[BenchBox], protocol: str, piece
 @given(
     st.binary(max_size=80), st.integers(0, 450), st.integers(1, 180), st.sampled_from([b"%d %d", b"%03d %03d"]), ENDS
 )
-def test_whatever_came_before_a_good_order_is_obeyed(  # noqa: PLR0917
+def test_a_good_order_is_obeyed_after_any_bytes(  # noqa: PLR0917
     new_box: type[BenchBox], protocol: str, junk: bytes, az: int, el: int, form: bytes, end: bytes
 ) -> None:
     box = new_box()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import tracemalloc
+from collections.abc import Callable
 from dataclasses import replace
 
 from hypothesis import given, settings
@@ -38,7 +39,7 @@ LINES = st.one_of(
 PIECES = st.lists(st.one_of(st.binary(max_size=6), WORDS, NUMBERS, BLANKS, ENDS, LINES, LINES), max_size=30)
 
 ANGLE = rb"[+-]?\d{1,3}(?:[.,]\d{0,9})?"
-READINGS = {
+READINGS: dict[re.Pattern[bytes], Callable[..., Order | None]] = {
     re.compile(rb"stop(?: .*)?", re.DOTALL): lambda: Stop(latch=True),
     re.compile(rb"resume"): Release,
     re.compile(rb"let-go"): LetGo,
@@ -57,7 +58,7 @@ WAYS = {
 
 
 class Notebook:
-    """A box that takes every order; not every rotor does. A stop, a park and letting go hold until somebody resumes."""
+    """A box that accepts every order, as few rotors do. A stop, a park and a let-go hold until a resume."""
 
     def __init__(self) -> None:
         self.orders: list[Order] = []
@@ -106,7 +107,7 @@ def orders_in(heard: bytes) -> list[Order]:
 
 
 def held(orders: list[Order]) -> list[Order]:
-    """What is left of them where a stop, a park or letting go holds until somebody resumes."""
+    """The orders that remain when a stop, a park or a let-go holds until a resume."""
     left: list[Order] = []
     holds = False
     for order in orders:
@@ -145,7 +146,7 @@ def test_pieces_make_no_difference(pieces: list[bytes]) -> None:
 
 @settings(max_examples=100, deadline=None)
 @given(junk=st.binary(max_size=300))
-def test_a_stop_is_heard_whatever_came_before(junk: bytes) -> None:
+def test_a_stop_is_obeyed_after_any_bytes(junk: bytes) -> None:
     box = Notebook()
     session = ConsoleSession(box)
     session.receive(junk + b"\n")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from rotator.faults import Missing
 from rotator.orders import Aim, Order, Stop
 from rotator.protocols.dcu1 import VERBS, Command, Dcu1Session, azimuth_reply, encode, parse, tenths_reply
 from rotator.protocols.session import Session
@@ -135,7 +136,7 @@ def test_positions(azimuth_deg: float, whole: bytes, tenths: bytes) -> None:
 
 
 def test_refusals_and_a_position_that_is_not_known_are_silence(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=("calibration",))
+    box = new_box(missing=(Missing.CALIBRATION,))
     assert Dcu1Session(box).receive(b"AP1123;AM1;") == []
     assert box.motions == []
     assert Dcu1Session(new_box(blind=True)).receive(b"AI1;BI1;") == []

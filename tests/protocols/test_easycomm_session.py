@@ -9,6 +9,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator import __version__
+from rotator.faults import Missing
 from rotator.orders import Aim, Jog, Order, Park, Stop
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
@@ -161,7 +162,7 @@ def test_a_pot_that_is_out_is_a_sensor_fault(new_box: type[BenchBox]) -> None:
 def test_a_refused_order_is_not_answered_lest_the_next_question_is_taken_for_answered(
     new_box: type[BenchBox],
 ) -> None:
-    box = new_box(missing=("calibration",))
+    box = new_box(missing=(Missing.CALIBRATION,))
     session = EasycommSession(box, Level.III)
     assert session.receive(b"AZ10 EL20\nPARK\n") == []
     assert box.orders == []

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import Aim
 from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.session import Session
@@ -141,7 +142,7 @@ def test_one_degree_above_the_horizon_it_turns_again(box: BenchBox, session: F1e
 
 
 def test_an_uncommissioned_box_ignores_it_without_a_word(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=("calibration",))
+    box = new_box(missing=(Missing.CALIBRATION,))
     assert F1efwSession(box).receive(b"W235 025\r") == []
     assert box.turned == set()
 

@@ -52,7 +52,8 @@ def test_t_visits_the_points_an_interval_apart_and_stays_at_the_last(box: BenchB
 
 def test_intervals_are_exact_to_a_tenth_of_a_second_and_do_not_drift(box: BenchBox, session: Gs232Session) -> None:
     session.receive(b"M003" + b"".join(b" %03d" % (10 * n) for n in range(41)) + b"\rT\r")
-    started_s, reached = box.now_s, {}
+    started_s = box.now_s
+    reached: dict[int, float] = {}
     while box.status().timed_point < 41 and box.now_s < started_s + 130:
         box.wait(0.05)
         reached.setdefault(box.status().timed_point, box.now_s - started_s)

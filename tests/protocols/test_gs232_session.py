@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import Aim, Calibrate, ClearTimed, Jog, Order, Source, Speed, Stop
 from rotator.protocols.gs232 import MAX_LINE, Dialect
 from rotator.protocols.gs232_session import Gs232Session
@@ -212,8 +213,8 @@ def test_help_comes_in_one_piece_of_whole_lines(session: Gs232Session, feed: Fee
     assert not any(end in reply.replace(b"\r\n", b"") for reply in replies for end in (b"\r", b"\n", b">"))
 
 
-def test_an_axis_nobody_commissioned_obeys_only_jog(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=("calibration",))
+def test_an_axis_that_is_not_set_up_obeys_only_jog(new_box: type[BenchBox]) -> None:
+    box = new_box(missing=(Missing.CALIBRATION,))
     session = Gs232Session(box, Dialect.B)
     assert session.receive(b"W100 045\rM100\rM005 010 020\rT\r") == [WRONG] * 4
     assert box.turned == set()

@@ -39,8 +39,8 @@ TEMPTING = st.sampled_from([
 PIECES = st.lists(st.one_of(TEMPTING, TEMPTING, st.binary(max_size=16)), max_size=20)
 
 
-def fixed(box: BenchBox) -> list[object]:
-    """What nobody on a link may change."""
+def fixed(box: BenchBox) -> list[tuple[object, ...]]:
+    """What no link may change."""
     axes = [box.status().axis(axis) for axis in Axis]
     return [(axis.min_deg, axis.max_deg, axis.calibration, axis.uncalibrated) for axis in axes]
 
@@ -74,7 +74,7 @@ def test_may_calibrate_changes_no_limit_either(new_box: type[BenchBox], protocol
     for piece in pieces:
         session.receive(piece)
     box.wait(0.2)
-    assert [limits[:2] for limits in map(tuple, fixed(box))] == [(0.0, 360.0), (0.0, 90.0)]  # type: ignore[call-overload]
+    assert [limits[:2] for limits in fixed(box)] == [(0.0, 360.0), (0.0, 90.0)]
 
 
 @settings(max_examples=100, deadline=None)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from rotator.faults import Missing
 from rotator.orders import Aim, Order, Park, Stop
 from rotator.protocols.pstrotator import TAGS, Item, PstRotatorSession, encode, parse
 
@@ -83,7 +84,7 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
     (b"<PST><ELEVATION>181</ELEVATION></PST>", [], []),
     (b"<PST><AZIMUTH>9999</AZIMUTH></PST>", [], []),
 ]
-PROGRAMS = {
+PROGRAMS: dict[str, list[tuple[bytes, list[Order]]]] = {
     "Hamlib 4.6, model 3": [
         (b"<PST><AZIMUTH>123.450000.2</AZIMUTH></PST>", [Aim(123.45, None)]),
         (b"<PST><ELEVATION>45.000000.2</ELEVATION></PST>", [Aim(None, 45)]),
@@ -173,7 +174,7 @@ def test_while_the_position_is_not_known_there_is_no_answer(new_box: type[BenchB
 
 
 def test_what_is_refused_moves_nothing_in_silence(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=("calibration",))
+    box = new_box(missing=(Missing.CALIBRATION,))
     assert PstRotatorSession(box).receive(b"<PST><AZIMUTH>85</AZIMUTH><PARK>1</PARK></PST>") == []
     assert box.motions == []
 

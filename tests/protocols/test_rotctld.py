@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from rotator import __version__
+from rotator.faults import Missing
 from rotator.orders import Aim, Order, Park, Stop
 from rotator.protocols.rotctld import BadRequest, Request, encode, requests
 from rotator.protocols.rotctld_session import RotctldSession
@@ -245,7 +246,7 @@ def test_dump_state_tells_what_the_box_accepts(
 
 
 def test_refusals_and_a_blind_sensor_have_numbers(new_box: type[BenchBox]) -> None:
-    session = RotctldSession(new_box(missing=("calibration",)))
+    session = RotctldSession(new_box(missing=(Missing.CALIBRATION,)))
     assert session.receive(b"P 10 20\nK\nS\n") == [INVALID, INVALID, OK]
     blind = RotctldSession(new_box(blind=True))
     assert blind.receive(b"p\n") == [IO_ERROR]

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import Aim, Jog, Order, Park, Speed, Stop
 from rotator.protocols.rotctld_caps import status_words
 from rotator.protocols.rotctld_session import RotctldSession
@@ -105,7 +106,7 @@ def test_a_jog_turns_both_axes_until_stopped(box: BenchBox) -> None:
 
 
 def test_a_box_that_refuses_says_so_once(new_box: type[BenchBox]) -> None:
-    session = RotctldSession(new_box(missing=("calibration",)))
+    session = RotctldSession(new_box(missing=(Missing.CALIBRATION,)))
     assert session.receive(b"+P 10 20\n") == [b"set_pos: 10 20\nRPRT -1\n"]
 
 

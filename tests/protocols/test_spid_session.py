@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import Aim, Jog, Order, Stop
 from rotator.protocols.session import Session
 from rotator.protocols.spid import Command, Frame, Model, Turn, encode
@@ -115,7 +116,7 @@ def test_a_rot2progs_frame_on_a_rot1prog_link_is_out_of_range(box: BenchBox) -> 
 
 @pytest.mark.parametrize("model", Model)
 def test_refused_it_stands_still_and_says_nothing_of_it(new_box: type[BenchBox], model: Model) -> None:
-    box = new_box(missing=("calibration",))
+    box = new_box(missing=(Missing.CALIBRATION,))
     session = SpidSession(box, model)
     assert len(session.receive(encode(Frame(Command.SET, 10, 20), model, 1))) == (model is MD01)
     assert box.motions == []

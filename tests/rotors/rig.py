@@ -17,7 +17,7 @@ import tomlkit
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
@@ -43,7 +43,7 @@ class Kind:
     """A rotor, and the least that may be expected of it."""
 
     profile: str
-    source: str
+    source: AngleSource
     start_deg: tuple[float, float]
     within_deg: float
     """How near to its order the boom comes to rest."""
@@ -54,14 +54,14 @@ class Kind:
 
 
 KINDS = (
-    Kind("g5500", "measured", (90.0, 30.0), 1.0, 1.3),
-    Kind("u100", "counted", (90.0, 70.0), 1.0, 1.0),
+    Kind("g5500", AngleSource.MEASURED, (90.0, 30.0), 1.0, 1.3),
+    Kind("u100", AngleSource.COUNTED, (90.0, 70.0), 1.0, 1.0),
     # From 30°/s, at 20°/s² down.
-    Kind("isel", "measured", (90.0, 30.0), 0.05, 24.0),
+    Kind("isel", AngleSource.MEASURED, (90.0, 30.0), 0.05, 24.0),
     # The servo is somewhat faster than its order moves, and trembles while it holds.
-    Kind("servos", "modelled", (90.0, 90.0), 0.6, 2.0, trembles_deg=1.0),
+    Kind("servos", AngleSource.MODELLED, (90.0, 90.0), 0.6, 2.0, trembles_deg=1.0),
     # The box's dead band, half a step of the chip, and half the play of the gear.
-    Kind("orbit360", "modelled", (90.0, 30.0), 2.0 + 0.7 + 0.25, 1.5),
+    Kind("orbit360", AngleSource.MODELLED, (90.0, 30.0), 2.0 + 0.7 + 0.25, 1.5),
 )
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from hw.drives.relays import RelayBank
-from hw.ports import Direction
+from hw.ports import AngleSource, Direction
 from rotator.control.commands import Place as Placed
 from rotator.control.commands import Run
 from rotator.control.sky.offsets import Offsets
@@ -70,15 +70,15 @@ def test_what_is_known_is_where_it_stands(path: Path) -> None:
     mast = Mast(path, KNOWN)
     assert mast.axis.read() == pytest.approx(180.0, abs=0.3)
     assert mast.axis.condition(NO_ENDS).lost == ""
-    assert mast.axis.source == "counted"
+    assert mast.axis.source is AngleSource.COUNTED
 
 
 @pytest.mark.parametrize(
     ("kept", "why"),
     [
-        (NEVER, "homing (nobody has yet)"),
-        (LOST, "homing (the program ended in mid-move, or its count was in doubt)"),
-        (Place(Standing.MOVING), "homing (the program ended in mid-move, or its count was in doubt)"),
+        (NEVER, "not done yet"),
+        (LOST, "the program ended in mid-move, or its count was in doubt"),
+        (Place(Standing.MOVING), "the program ended in mid-move, or its count was in doubt"),
     ],
     ids=["never", "lost", "moving"],
 )
@@ -153,7 +153,7 @@ def test_a_count_in_doubt_is_lost_on_disk_too(path: Path) -> None:
     mast.rig.rotor.inject("azimuth-contact-stuck-open")
     mast.run(PLUS, 4.0)
     condition = mast.axis.condition(NO_ENDS)
-    assert condition.lost == "homing (driven for three periods, and the contact did not change)"
+    assert condition.lost == "driven for three periods, and the contact did not change"
     assert mast.on_disk().standing is Standing.LOST
     mast.wait(60.0)
     mast.rotor.close()
@@ -166,7 +166,7 @@ def test_turned_by_something_else_at_rest_it_is_lost_on_disk_at_once(path: Path)
     assert mast.on_disk().standing is Standing.KNOWN
     mast.rig.rotor.inject("azimuth-hand-turns")
     mast.wait(4.0)
-    assert mast.axis.condition(NO_ENDS).lost == "homing (it turns with no relay on)"
+    assert mast.axis.condition(NO_ENDS).lost == "it turns with no relay on"
     assert mast.on_disk().standing is Standing.LOST
 
 

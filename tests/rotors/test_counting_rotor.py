@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from firmware_sim.rotors.relay_pulse import PulseRotor
+from firmware_sim.rotors.relay_pulse import SimRelayPulseRotor
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Home, Jog, Stop
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
@@ -50,10 +50,10 @@ def switched_on_again(new_box: NewBox, before: Box, counts: Path, past_deg: floa
 def test_fresh_from_the_box_it_wants_homing(new_box: NewBox, counts: Path) -> None:
     box = new_box(U100, counts=counts)
     box.run(1.0)
-    assert box.axis(AZ).uncalibrated == "homing (nobody has yet)"
+    assert box.axis(AZ).uncalibrated == "homing (not done yet)"
     refused = box.client().order(Aim(120.0, 40.0))
     assert refused is not None
-    assert refused.reason.startswith("UNCALIBRATED: azimuth needs homing (nobody has yet)")
+    assert refused.reason.startswith("UNCALIBRATED: azimuth needs homing (not done yet)")
     homed(box)
     assert box.world.shafts() == (0.0, 0.0)
     assert box.arrives(120.0, 40.0)
@@ -181,5 +181,5 @@ def test_nor_is_it_met_by_the_opposite_relay(new_box: NewBox) -> None:
     box.run(5.0)
     box.order(Stop(), Jog(AZ, MINUS))
     box.run(1.5)
-    assert isinstance(box.world, PulseRotor)
+    assert isinstance(box.world, SimRelayPulseRotor)
     assert box.world.azimuth.motor.shorted_s == 0.0

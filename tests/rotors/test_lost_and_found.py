@@ -7,8 +7,8 @@ from collections.abc import Callable
 
 import pytest
 
-from firmware_sim.rotors.digipot import DigipotRotor
-from firmware_sim.rotors.servo import ServoRotor
+from firmware_sim.rotors.digipot import SimDigipotRotor
+from firmware_sim.rotors.servo import SimServoRotor
 from hw.ports import Direction, HardwareError
 from rotator.control.commands import Steer
 from rotator.orders import Aim, Confirm, Jog, LetGo, Release, Stop
@@ -70,8 +70,8 @@ def test_acknowledged_while_its_cause_is_there_it_keeps_its_name(
 # --- servos
 
 
-def servo_world(box: Box) -> ServoRotor:
-    assert isinstance(box.world, ServoRotor)
+def servo_world(box: Box) -> SimServoRotor:
+    assert isinstance(box.world, SimServoRotor)
     return box.world
 
 
@@ -131,7 +131,7 @@ def test_what_lies_outside_the_table_is_refused_and_nothing_moves(kind: Kind, ne
 def test_the_boxes_have_no_supply_before_the_first_order(new_box: NewBox) -> None:
     """Their chips begin in the middle: fed, they would turn there."""
     box = new_box(ORBIT360, (40.0, 10.0), digipot=knows((40.0, 10.0)))
-    assert isinstance(box.world, DigipotRotor)
+    assert isinstance(box.world, SimDigipotRotor)
     box.run(30.0)
     assert not box.world.azimuth.motor.supply
     assert box.world.antenna() == (40.0, 10.0)

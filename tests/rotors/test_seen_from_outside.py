@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 
-from hw.ports import Axis, Direction
+from hw.ports import AngleSource, Axis, Direction
 from rotator.orders import Home, Jog, LetGo, Stop
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
@@ -122,7 +122,7 @@ def test_the_status_has_the_same_shape_for_all(box: Box) -> None:
 
 def test_homing_is_for_those_that_count(box: Box) -> None:
     refused = box.client(PERSON).order(Home(AZ))
-    assert (refused is None) is (box.kind.source == "counted")
+    assert (refused is None) is (box.kind.source is AngleSource.COUNTED)
     if refused is not None:
         assert "there is no end stop to be found" in refused.reason
 

@@ -10,13 +10,14 @@ import threading
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotors.relay_pot import World
-from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
+from hw.drives.relays import RelayBank
+from hw.ports import AngleSensor, AngleSource, Axis, Direction, HardwareError
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.model import Config
@@ -37,11 +38,12 @@ class Rig:
         self.clock = SimClock()
         self.config = Config()
         self.station = Station(self.config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
-        assert self.station.world is not None
+        assert isinstance(self.station.world, SimRelayPotRotor)
         self.world = self.station.world
         self.loop = self.loop_with(self.station.rotor.sensors)
 
     def loop_with(self, sensors: Mapping[Axis, AngleSensor], period_s: float = PERIOD_S) -> ControlLoop:
+        assert isinstance(self.station.rotor, RelayRotor)
         rotor = RelayRotor(self.station.rotor.bank, sensors)
         return ControlLoop(build_controller(self.config), rotor, self.clock, period_s)
 
@@ -56,7 +58,7 @@ class Rig:
 class Hangs:
     """A sensor that goes well a few times and is then stuck in its reading until let go."""
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
     def __init__(self, sensor: AngleSensor, times: int) -> None:
         self._sensor = sensor
@@ -74,7 +76,7 @@ class Hangs:
 class Relays:
     """The motor relays of a simulated station, watched from another thread."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: SimRelayPotRotor) -> None:
         self._changed = threading.Condition()
         self._drives = (0, 0)
         self._world = world
@@ -184,7 +186,7 @@ def test_a_converter_that_goes_stops_the_axes_is_said_once_and_comes_back(
 def test_a_bus_that_hangs_stops_the_motors() -> None:
     # In real time, and without a guard: the loop itself notices that no readings come.
     station = Station(Config(), time.monotonic, time.sleep, (100.0, 20.0))
-    assert station.world is not None
+    assert isinstance(station.world, SimRelayPotRotor)
     relays = Relays(station.world)
     loop = ControlLoop(build_controller(Config()), station.rotor, time.monotonic, PERIOD_S)
     with running(loop):
@@ -213,7 +215,10 @@ class LinesGone:
 
 def test_a_drive_that_fails_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixture) -> None:
     rig.loop = ControlLoop(
-        build_controller(rig.config), RelayRotor(LinesGone(), rig.station.rotor.sensors), rig.clock, PERIOD_S
+        build_controller(rig.config),
+        RelayRotor(cast(RelayBank, LinesGone()), rig.station.rotor.sensors),
+        rig.clock,
+        PERIOD_S,
     )
     rig.loop.post(LINK, Aim(300.0, 20.0))
     rig.run(2.0)
@@ -255,9 +260,9 @@ def test_who_moves_it_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixture) -
 class Bug:
     """A sensor that goes well until the motors run and then raises, or returns, what no sensor should."""
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
-    def __init__(self, sensor: AngleSensor, world: World, outcome: Any) -> None:
+    def __init__(self, sensor: AngleSensor, world: SimRelayPotRotor, outcome: Any) -> None:
         self._sensor = sensor
         self._world = world
         self._outcome = outcome
@@ -278,3 +283,33 @@ def test_a_bug_ends_the_loop_with_every_relay_off(rig: Rig, outcome: object, err
         loop.run()
     assert rig.world.relay_starts >= 1, "motors were running"
     assert rig.world.drives() == (0, 0)
+
+
+class Unguarded:
+    """A bank whose guard dies when it is to sleep while a relay is closed."""
+
+    def __init__(self, bank: RelayBank) -> None:
+        self._bank = bank
+        self.drive, self.off, self.due_s, self.enforce = bank.drive, bank.off, bank.due_s, bank.enforce
+
+    def wait_until_due(self, patience_s: float) -> None:
+        self._bank.wait_until_due(patience_s)
+        if self._bank.due_s() is not None:
+            raise SystemExit
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_a_guard_that_dies_ends_the_loop_with_every_relay_off() -> None:
+    station = Station(Config(), time.monotonic, time.sleep, (100.0, 20.0))
+    assert isinstance(station.world, SimRelayPotRotor)
+    assert isinstance(station.rotor, RelayRotor)
+    rotor = RelayRotor(cast(RelayBank, Unguarded(station.rotor.bank)), station.rotor.sensors)
+    loop = ControlLoop(build_controller(Config()), rotor, time.monotonic, PERIOD_S)
+    loop.post(LINK, Aim(235.0, 20.0))
+    rotor.start()
+    with pytest.raises(HardwareError, match="the guard, which ends expired commands, has died"):
+        loop.run()
+    assert station.world.relay_starts >= 1, "a motor was running"
+    assert station.world.drives() == (0, 0)
+    rotor.close()
+    station.close()

@@ -5,6 +5,8 @@ Whoever hears it (a one-shot in the motors' supply, the service manager) switche
 
 from __future__ import annotations
 
+from typing import cast
+
 import pytest
 
 from firmware_sim.clock import SimClock
@@ -12,7 +14,7 @@ from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction, HardwareError
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
-from rotator.calibrating.rig import Bench
+from rotator.calibrating.rig import AxisRig
 from rotator.config.load import parse
 from rotator.orders import Aim, Source
 from rotator.rotors.relays import RelayRotor
@@ -60,8 +62,9 @@ class Rig:
         self.clock = SimClock()
         config = CONFIG
         self.station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0))
+        assert isinstance(self.station.rotor, RelayRotor)
         self.drive = Fragile(self.station.rotor.bank)
-        self.rotor = RelayRotor(self.drive, self.station.rotor.sensors)
+        self.rotor = RelayRotor(cast(RelayBank, self.drive), self.station.rotor.sensors)
         self.signs = 0
         self.loop = ControlLoop(build_controller(config), self.rotor, self.clock, 0.05, after_good_step=self.sign)
 
@@ -96,7 +99,7 @@ def test_the_line_changes_with_every_step(rig: Rig) -> None:
 def test_setting_an_axis_up_beats_too() -> None:
     clock = SimClock()
     station = Station(CONFIG, clock, clock.sleep)
-    bench = Bench(CONFIG, Axis.AZIMUTH, station, clock)
+    bench = AxisRig(CONFIG, Axis.AZIMUTH, station, clock)
     seen = edges(station)
     for _ in range(4):
         bench.loop.cycle()

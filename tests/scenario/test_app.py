@@ -9,11 +9,12 @@ import threading
 from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from firmware_sim.rotors.relay_pot import World
-from hw.ports import AngleSensor, Axis
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
+from hw.ports import AngleSensor, AngleSource, Axis
 from rotator.app import App
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
@@ -26,7 +27,7 @@ OFF = (0, 0)
 class Relays:
     """The motor relays of a simulated station, watched from the event loop."""
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: SimRelayPotRotor) -> None:
         self._world = world
         self._events = asyncio.get_running_loop()
         self._changed = asyncio.Event()
@@ -104,10 +105,10 @@ async def links_open(app: App, task: asyncio.Task[None]) -> None:
 
 
 @asynccontextmanager
-async def running(app: App) -> AsyncIterator[tuple[World, Relays]]:
+async def running(app: App) -> AsyncIterator[tuple[SimRelayPotRotor, Relays]]:
     """The box once its links are open; stopped afterwards, with every relay off."""
     world = app.station.world
-    assert world is not None
+    assert isinstance(world, SimRelayPotRotor)
     relays = Relays(world)
     stop = asyncio.Event()
     task = asyncio.create_task(app.run(stop))
@@ -148,7 +149,7 @@ def test_w_moves_c2_answers_s_stops(config: Config, tmp_path: Path) -> None:
 
 
 def test_every_relay_is_off_after_a_stop_in_mid_motion(config: Config, tmp_path: Path) -> None:
-    async def talk() -> World:
+    async def talk() -> SimRelayPotRotor:
         async with running(App(config)) as (world, relays), terminal(tmp_path / "gs232") as line:
             line.send(b"R\rU\r")
             await relays.until((1, 1).__eq__)
@@ -263,9 +264,9 @@ def test_a_terminal_that_cannot_be_made_ends_it_and_leaves_nothing(config: Confi
 class FailsInMotion:
     """A sensor whose driver has a bug that shows once the motors run."""
 
-    source = "measured"
+    source = AngleSource.MEASURED
 
-    def __init__(self, sensor: AngleSensor, world: World) -> None:
+    def __init__(self, sensor: AngleSensor, world: SimRelayPotRotor) -> None:
         self._sensor = sensor
         self._world = world
 
@@ -277,7 +278,7 @@ class FailsInMotion:
 
 def test_a_bug_in_the_control_thread_switches_off_and_is_told(config: Config, tmp_path: Path) -> None:
     async def talk(app: App) -> None:
-        assert app.station.world is not None
+        assert isinstance(app.station.world, SimRelayPotRotor)
         relays = Relays(app.station.world)
         task = asyncio.create_task(app.run(asyncio.Event()))
         await links_open(app, task)
@@ -288,8 +289,8 @@ def test_a_bug_in_the_control_thread_switches_off_and_is_told(config: Config, tm
 
     app = App(config)
     world = app.station.world
-    assert world is not None
-    sensors = app.station.rotor.sensors
+    assert isinstance(world, SimRelayPotRotor)
+    sensors: Any = app.station.rotor.sensors
     sensors[Axis.AZIMUTH] = FailsInMotion(sensors[Axis.AZIMUTH], world)
     with pytest.raises(ZeroDivisionError, match="a bug in a driver"):
         asyncio.run(talk(app))

@@ -199,7 +199,7 @@ def test_a_hot_motor_rests_and_goes_on() -> None:
     mast.order(Aim(400.0, 15.0))
     mast.run(25.0)
     assert mast.world.drives() == (0, 0)
-    assert mast.status.azimuth.notices == ("motor hot: it has run for 20 s and rests",)
+    assert [str(notice) for notice in mast.status.azimuth.notices] == ["motor hot: it has run for 20 s and rests"]
     assert mast.status.azimuth.target_deg == 400.0
     mast.run(200.0)
     assert mast.world.antenna()[0] == pytest.approx(400.0, abs=4.0)
@@ -213,7 +213,7 @@ def test_a_hot_motor_rests_and_goes_on() -> None:
 def noted(mast: Mast, seconds: float, seen: set[str]) -> None:
     for _ in range(round(seconds / 0.5)):
         mast.run(0.5)
-        seen |= {notice for axis in Axis for notice in mast.status.axis(axis).notices}
+        seen |= {notice.text for axis in Axis for notice in mast.status.axis(axis).notices}
         seen |= {fault.name for fault in mast.status.faults}
 
 
@@ -251,7 +251,7 @@ def test_passes_with_four_times_the_noise(name: str) -> None:
 
     def make(clock: SimClock, flown: Pass) -> BoxPlant:
         plant = BoxPlant(config, clock, (flown.rows[0][1], 0.0), "gs232")
-        clock.every(1.0, lambda _: seen.update(n for axis in Axis for n in plant.status.axis(axis).notices))
+        clock.every(1.0, lambda _: seen.update(n.text for axis in Axis for n in plant.status.axis(axis).notices))
         flown_by.append(plant)
         return plant
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from firmware_sim.clock import SimClock
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.load import parse
@@ -111,7 +111,7 @@ def test_pots_on_a_rotor_that_brings_none(kind: str) -> None:
     if kind == "servo":
         limits = limits.replace("max_deg = 350", "max_deg = 170")
     box = Box(rotor(kind) + limits)
-    assert {box.loop.status.axis(axis).source for axis in Axis} == {"measured"}
+    assert {box.loop.status.axis(axis).source for axis in Axis} == {AngleSource.MEASURED}
     box.aim(160.0, 70.0)
     assert box.world.antenna() == pytest.approx((160.0, 70.0), abs=3.0)
     assert box.loop.status.azimuth.angle_deg == pytest.approx(box.world.shafts()[0], abs=0.5)
@@ -132,4 +132,4 @@ def test_a_pot_corrects_the_model_of_a_control_box() -> None:
 
 def test_without_a_pot_a_control_box_is_modelled_and_says_so() -> None:
     box = Box(rotor("digipot"))
-    assert {box.loop.status.axis(axis).source for axis in Axis} == {"modelled"}
+    assert {box.loop.status.axis(axis).source for axis in Axis} == {AngleSource.MODELLED}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import CliRunner
@@ -81,7 +82,7 @@ class Card:
         (self.root / path).write_bytes(text.encode())
         return self.root / path
 
-    def files(self) -> dict[str, bytes | str]:
+    def files(self) -> dict[str, Any]:
         """Everything on it but the copies that were kept, and but empty folders."""
         return {
             str(path.relative_to(self.root)): str(path.readlink()) if path.is_symlink() else path.read_bytes()

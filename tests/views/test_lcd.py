@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import ast
-from collections.abc import Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,13 +11,16 @@ from hypothesis import strategies as st
 
 from hw.moteus.faults import LIMITS
 from hw.ports import Axis, Direction
-from rotator.status import AxisStatus, Fault, Status
-from rotator.views.lcd import _SHORT_FAULTS, _SHORT_NOTICES, rows
+from rotator.control.axis.endurance import Endurance
+from rotator.control.axis.switched import BLIND
+from rotator.faults import Fault, FaultKind, Missing, Notice
+from rotator.rotors.moteus import LCD_LIMITS
+from rotator.status import AxisStatus, Status
+from rotator.views.lcd import rows
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
-POT_OPEN = Fault("pot open or shorted", AZ, "0.001", "0.02 to 0.98")
-STALLED = Fault("stalled", EL, "0.0°/s", "1.0°/s")
-BUS = Fault("bus hung", None, "no answer", "0.1 s")
+POT_OPEN = Fault(FaultKind.POT_OPEN, AZ, "0.001", "0.02 to 0.98")
+STALLED = Fault(FaultKind.STANDS_STILL, EL, "0.0°/s", "1.0°/s")
 
 
 def status(
@@ -40,7 +40,8 @@ def status(
 
 def with_axis(axis: Axis, **more: Any) -> Status:
     now = status()
-    return replace(now, **{axis.value: replace(now.axis(axis), **more)})
+    changed: Any = {axis.value: replace(now.axis(axis), **more)}
+    return replace(now, **changed)
 
 
 def uppers(now: Status, seconds: int = 16) -> list[str]:
@@ -118,7 +119,7 @@ def test_the_lower_row_stays() -> None:
 def test_several_notices_take_turns() -> None:
     now = with_axis(AZ, fault=POT_OPEN)
     now = replace(now, elevation=replace(now.elevation, fault=STALLED), latched="console")
-    assert uppers(now, 16)[2::4] == ["AZ POT OPEN/SHRT", "EL STALLED", "STOP: CONSOLE", "AZ POT OPEN/SHRT"]
+    assert uppers(now, 16)[2::4] == ["AZ POT OPEN/SHRT", "EL STANDS STILL", "STOP: CONSOLE", "AZ POT OPEN/SHRT"]
     assert uppers(now, 16)[::4] == ["SAT A:235 E:025"] * 4
 
 
@@ -128,11 +129,7 @@ def test_a_latched_stop_says_who_pressed_it() -> None:
 
 @pytest.mark.parametrize(("axis", "shown"), [(AZ, "AZ UNCALIBRATED"), (EL, "EL UNCALIBRATED")])
 def test_uncalibrated(axis: Axis, shown: str) -> None:
-    assert uppers(with_axis(axis, uncalibrated="limits"), 4)[2] == shown
-
-
-def test_a_fault_of_no_axis() -> None:
-    assert uppers(with_axis(AZ, fault=BUS), 4)[2] == "BUS HUNG"
+    assert uppers(with_axis(axis, missing=(Missing.LIMITS,)), 4)[2] == shown
 
 
 def test_without_a_notice_the_satellite_keeps_its_row() -> None:
@@ -141,72 +138,57 @@ def test_without_a_notice_the_satellite_keeps_its_row() -> None:
 
 # --- every fault and every notice there is
 
-ROTATOR = Path(__file__).parents[2] / "rotator"
+
+@pytest.mark.parametrize("kind", FaultKind, ids=lambda kind: kind.text)
+def test_every_fault_fits_beside_its_axis(kind: FaultKind) -> None:
+    assert uppers(with_axis(AZ, fault=Fault(kind, AZ, "")), 4)[2] == f"AZ {kind.lcd}"
 
 
-def calls(*names: str) -> Iterator[ast.expr]:
-    """What the code gives these functions first, wherever it calls them."""
-    for file in sorted(ROTATOR.rglob("*.py")):
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and node.args:
-                called = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
-                if called in names:
-                    yield node.args[0]
+@pytest.mark.parametrize("missing", Missing, ids=lambda missing: missing.text)
+def test_whatever_an_axis_lacks_fits(missing: Missing) -> None:
+    assert uppers(with_axis(EL, missing=(missing,)), 4)[2] == f"EL {missing.lcd}"
 
 
-def fault_names() -> set[str]:
-    """Those in the code, and the headings of the page that explains them: a few are told apart in a variable."""
-    said = {each.value for each in calls("Fault", "_closed") if isinstance(each, ast.Constant)}
-    page = (ROTATOR.parent / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
-    faults = page.split("\n## Faults of an axis\n")[1].split("\n## ")[0]
-    notices = {"motor hot", "blind to a broken pot wire"}
-    explained = {line.removeprefix("### ") for line in faults.splitlines() if line.startswith("### ")}
-    return (said | explained) - notices
+def motor_hot() -> Notice:
+    endurance = Endurance(20.0, 20.0)
+    for now_s in (0.0, 30.0):
+        endurance.note(now_s, running=True)
+    assert endurance.notice is not None
+    return endurance.notice
 
 
-def test_the_names_are_found() -> None:
-    names = fault_names()
-    assert {"relay welded", "turning with no relay on", "controller fault", "servo board", "not homed"} <= names
-    assert len(names) >= 21
+NOTICES = [
+    motor_hot(),
+    Notice("turning with no relay on: a hand may be on the control box's switch", "TURNS BY SELF"),
+    *(Notice(limit, LCD_LIMITS[limit]) for limit in LIMITS.values()),
+]
 
 
-@pytest.mark.parametrize("name", sorted(fault_names()))
-def test_every_fault_fits_beside_its_axis(name: str) -> None:
-    shown = uppers(with_axis(AZ, fault=Fault(name, AZ, "")), 4)[2]
-    words = _SHORT_FAULTS.get(name, name.upper())
-    assert shown == f"AZ {words}"
+@pytest.mark.parametrize("notice", NOTICES, ids=str)
+def test_every_notice_fits(notice: Notice) -> None:
+    assert notice.lcd
+    assert uppers(with_axis(EL, notices=(notice,)), 4)[2] == f"EL {notice.lcd}"
 
 
-def test_no_short_name_is_of_a_fault_there_is_not() -> None:
-    assert set(_SHORT_FAULTS) <= fault_names()
+def test_a_notice_without_a_text_for_the_display_leaves_the_satellite_its_row() -> None:
+    assert set(uppers(with_axis(AZ, notices=(BLIND,)))) == {"SAT A:235 E:025"}
 
 
-@pytest.mark.parametrize("limit", LIMITS.values())
-def test_what_holds_a_controller_back_fits_too(limit: str) -> None:
-    assert uppers(with_axis(EL, notices=(limit,)), 4)[2] == f"EL {_SHORT_NOTICES[limit]}"
-
-
-@pytest.mark.parametrize("head", sorted(_SHORT_NOTICES))
-def test_every_notice_fits(head: str) -> None:
-    assert uppers(with_axis(AZ, notices=(f"{head}: more",)), 4)[2] == f"AZ {_SHORT_NOTICES[head]}"
-
-
-# --- whatever the status
+# --- any status
 
 angles = st.none() | st.floats(-720, 1080)
 words = st.text(st.characters(min_codepoint=32, max_codepoint=126), max_size=40)
-faults = st.none() | st.builds(
-    Fault, words.filter(bool), st.none() | st.sampled_from(Axis), words, words, act_now=words
-)
+faults = st.none() | st.builds(Fault, st.sampled_from(FaultKind), st.sampled_from(Axis), words, words, act_now=words)
 axes = st.builds(
     AxisStatus,
     st.just(0.0),
     st.just(450.0),
     angle_deg=angles,
     drive=st.sampled_from(Direction),
-    uncalibrated=words,
+    missing=st.lists(st.sampled_from(Missing), max_size=4).map(tuple),
+    lost=words,
     fault=faults,
-    notices=st.lists(words, max_size=3).map(tuple),
+    notices=st.lists(st.builds(Notice, words, words), max_size=3).map(tuple),
 )
 statuses = st.builds(
     Status,

@@ -5,9 +5,9 @@ Knows straight lines between points. Knows no sensor, no axis and no file.
 
 from __future__ import annotations
 
-from bisect import bisect_right
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import dataclass, field, replace
+
+from hw.interpolation import PiecewiseLinear
 
 LEAST_SPAN_RAW = 0.05
 """Two ends closer than this share of the sensor's range are the same place measured twice."""
@@ -18,22 +18,15 @@ class Calibration:
     """Points (raw, degrees), degrees rising, raw strictly rising or strictly falling. Raises ValueError else."""
 
     points: tuple[tuple[float, float], ...]
+    _line: PiecewiseLinear = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        if len(self.points) < 2:  # a line has two ends
-            raise ValueError("needs two points or more")
-        if any(b[1] <= a[1] for a, b in pairwise(self.points)):
-            raise ValueError("degrees must rise from point to point")
-        steps = [b[0] - a[0] for a, b in pairwise(self.points)]
-        if not (all(step > 0 for step in steps) or all(step < 0 for step in steps)):
-            raise ValueError("readings must rise, or fall, all the way")
+        turned = tuple((degrees, raw) for raw, degrees in self.points)
+        object.__setattr__(self, "_line", PiecewiseLinear(turned, "degrees", "readings"))
 
     def degrees(self, raw: float) -> float:
         """The axis angle for a reading; beyond the ends the last line goes on."""
-        rising = self.points if self.points[-1][0] > self.points[0][0] else self.points[::-1]
-        at = bisect_right(rising, raw, 1, len(rising) - 1, key=lambda point: point[0])
-        (raw_a, deg_a), (raw_b, deg_b) = rising[at - 1], rising[at]
-        return deg_a + (raw - raw_a) * (deg_b - deg_a) / (raw_b - raw_a)
+        return self._line.inverse(raw)
 
     def with_end(self, raw: float, *, high_end: bool) -> Calibration:
         """The same curve with one end found at another reading: stretched, its shape kept. Raises ValueError."""

@@ -1,12 +1,14 @@
-"""How long a motor may run, and how long it then rests: what a small motor stands before its winding is too hot.
+"""How long a motor may run, and how long it must then rest before its winding is cool again.
 
-Knows when the motor ran. Knows no temperature: nobody measures one. Knows nothing of why it runs.
+Knows when the motor ran. Knows no temperature: there is no sensor for it. Does not know why the motor runs.
 """
 
 from __future__ import annotations
 
+from rotator.faults import Notice
+
 RESUME = 0.5
-"""A motor that had to rest may run again when it has cooled this far: till then half its rest has passed."""
+"""A motor that had to rest may run again when it has cooled to this share, after half of its rest."""
 
 
 class Endurance:
@@ -19,7 +21,7 @@ class Endurance:
         self._at_s: float | None = None
         self._running = False
         self.resting = False
-        """It has run for so long that it must not be started."""
+        """It has run for so long that it must not be started now."""
 
     def note(self, now_s: float, *, running: bool) -> None:
         """What the motor does from now on."""
@@ -36,6 +38,8 @@ class Endurance:
             self.resting = False
 
     @property
-    def notice(self) -> str:
-        """For whoever wonders why nothing moves; empty while it may run."""
-        return f"motor hot: it has run for {self._longest_run_s:g} s and rests" if self.resting else ""
+    def notice(self) -> Notice | None:
+        """Why the motor does not move; None while it may run."""
+        if not self.resting:
+            return None
+        return Notice(f"motor hot: it has run for {self._longest_run_s:g} s and rests", "MOTOR HOT")

@@ -1,6 +1,6 @@
-"""What an axis may be at, beside following a target: a person's jog, and the way to its end stop.
+"""What an axis may be at beside following a target: a jog, and the way to its end stop.
 
-Knows values. `pointing.AimGoal` is the third of them. Knows no motor.
+Knows values. `sky.pointing.AimGoal` is the third kind of goal. Knows no motor.
 """
 
 from __future__ import annotations
@@ -10,16 +10,17 @@ from dataclasses import dataclass
 from hw.ports import Axis, Direction
 from rotator.control.axis.homing import Homing
 from rotator.control.axis.run_watch import WAYS
-from rotator.status import Fault
+from rotator.faults import Fault, FaultKind
 
 UNCALIBRATED_JOG_S = 2.0
-"""One press on an axis that nobody has commissioned yet."""
+"""The longest press on an axis that is not commissioned."""
 
 
 @dataclass(frozen=True, slots=True)
 class JogGoal:
     direction: Direction
     until_s: float | None
+    """None: until it is halted, or at its limit."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,13 +31,14 @@ class HomeGoal:
 
 
 def limit_reached(axis: Axis, direction: Direction) -> Fault:
-    return Fault("limit switch reached", axis, f"its switch is open, and it was to turn {WAYS[axis, direction]}")
+    measured = f"its switch is open, and it was to turn {WAYS[axis, direction]}"
+    return Fault(FaultKind.LIMIT_SWITCH, axis, measured)
 
 
-def jog(direction: Direction, seconds: float | None, now_s: float, *, set_up: bool) -> JogGoal | None:
-    """What an order to jog asks for; None: to stop. An axis that nobody has set up obeys short presses only."""
+def jog(direction: Direction, seconds: float | None, now_s: float, *, commissioned: bool) -> JogGoal | None:
+    """The goal of an order to jog; None: to stop. An axis that is not commissioned obeys short presses only."""
     if direction is Direction.OFF:
         return None
-    if not set_up:
+    if not commissioned:
         seconds = UNCALIBRATED_JOG_S if seconds is None else min(seconds, UNCALIBRATED_JOG_S)
     return JogGoal(direction, None if seconds is None else now_s + seconds)

@@ -1,9 +1,9 @@
-"""Finding the low end stop of an axis that counts pulses: only a person orders it, and watches.
+"""Finding the low end stop of an axis that counts pulses. A person orders it, and watches.
 
-Down until no pulse comes for three periods; that may be the stop, or a contact that died. So up again until a pulse has
-come, and down once more: the same pulses must come back before it is quiet again. Then the axis stands at its stop.
-Knows what the relays do and how often the contact has changed. Knows no angle, and cannot tell a stop from a branch
-that the antenna hangs in: that is what the person is for.
+Down until no pulse comes for three periods: that is the stop, or a dead contact. So up again until a pulse has come,
+and down once more: the same pulses must come back before the contact is quiet again. Then the axis stands at its stop.
+Knows what the relays do and how often the contact has changed. Knows no angle, and cannot tell a stop from a branch in
+which the antenna hangs: the person who watches can.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ QUIET_PERIODS = 3.0
 PROOF = 2
 """Changes of the contact on the way up that prove it alive: it has closed and opened."""
 ALIKE = 1
-"""Changes that may be missing on the way back, or too many: the stop may be just at an edge of the contact."""
+"""Changes that may be missing on the way back, or be too many: the stop may be at an edge of the contact."""
 
 
 @dataclass(frozen=True, slots=True)
 class HomingSettings:
-    """What homing has to know of an axis."""
+    """What homing needs to know of an axis."""
 
     period_s: float
     """From one pulse to the next at full speed."""
     travel_s: float
     """From end to end."""
     coast_s: float
-    """From the relay's opening until it stands for certain."""
+    """From the relay's opening until the motor stands for certain."""
     home_deg: float
     """The angle of the low end stop."""
 
@@ -42,27 +42,30 @@ class _Phase(Enum):
 
 
 class Homing:
-    """One axis. Ask `step` every cycle for the direction to drive, until it has `homed` or there is a `failure`."""
+    """One axis. Call `step` every cycle for the direction to drive, until it has `homed` or there is a `failure`."""
 
     def __init__(self, settings: HomingSettings) -> None:
         self.home_deg = settings.home_deg
         self.homed = False
         self.failure = ""
-        """Why it has given up, for a person; empty: it has not."""
+        """Why homing has given up; empty: it has not."""
         self._quiet_after_s = QUIET_PERIODS * settings.period_s
         self._longest_s = 1.5 * settings.travel_s + 2.0 * self._quiet_after_s
         self._coast_s = settings.coast_s
         self._phase = _Phase.DOWN
         self._began_s: float | None = None
         self._still_s = 0.0
-        """Since when nothing has changed: neither the contact nor what the relays do."""
+        """Since when neither the contact nor the relays have changed."""
         self._driven = Direction.OFF
         self._changes = 0
         self._base = 0
         self._up = 0
 
     def step(self, now_s: float, driven: Direction, changes: int) -> Direction:
-        """What to drive now, given what the relays do (a reversal takes its dead time) and the contact's count."""
+        """The direction to drive now.
+
+        `driven`: what the relays really do, for a reversal takes its dead time; `changes`: of the contact, so far.
+        """
         if self._began_s is None:
             self._began_s, self._still_s, self._changes = now_s, now_s, changes
         if driven is not self._driven or changes != self._changes:
@@ -73,7 +76,7 @@ class Homing:
         if self.homed or self.failure:
             return Direction.OFF
         if now_s - self._began_s > self._longest_s:
-            return self._fail("it is driven for longer than its whole travel takes, and pulses still come")
+            return self._fail("it was driven for longer than its whole travel takes, and pulses still come")
         still_s = now_s - self._still_s
         wanted = self._wanted()
         quiet = driven is wanted and still_s > self._quiet_after_s

@@ -1,13 +1,14 @@
-"""What a switched motor does with its axis: where the axis is, how fast, and where it would come to rest.
+"""A model of a switched motor and its axis: where the axis is, how fast it turns, and where it would come to rest.
 
-Knows the readings and what the relays did. Learns the motor's speed and its coast, each in both directions, from every
-run. Knows no target and decides nothing.
+Knows the readings and what the relays did. Learns the motor's speed and coast in each direction from every run. Knows
+no target and decides nothing.
 """
 
 from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hw.ports import Direction
@@ -15,15 +16,15 @@ from hw.ports import Direction
 GAIN_RUNNING = 0.15
 GAIN_RESTING = 0.03
 JUMP_DEG = 3.0
-"""A reading this far from where the motor can have taken the axis is a spark on the wire, unless it stays."""
+"""A reading this far from the model is a spark on the wire, unless it stays."""
 JUMP_READINGS = 3
 SETTLE_S = 0.8
-"""How long a motor takes to come to rest for certain; what it then reads is where it stopped."""
+"""How long a motor takes to come to rest for certain; the readings after that show where it stopped."""
 LANDING_READINGS = 10
 LEARN = 0.35
 """How far one run moves what has been learnt."""
 LEAST_RUN_DEG = 1.0
-"""Shorter runs teach nothing: their readings are as rough as they are long."""
+"""Shorter runs teach nothing: the noise of the readings is as large as they are."""
 FULL_SPEED = 0.8
 """A run that got this near to full speed shows the whole coast."""
 
@@ -61,10 +62,10 @@ class _Landing:
 
 
 class Motion:
-    """One axis. Tell it every reading (`see`) and every change of the relays (`driven`), in order of time."""
+    """One axis. Give it every reading (`see`) and every change of the relays (`driven`), in order of time."""
 
-    def __init__(self, motor: Motor) -> None:
-        self.motors = {Direction.PLUS: motor, Direction.MINUS: motor}
+    def __init__(self, motors: Mapping[Direction, Motor]) -> None:
+        self.motors = dict(motors)
         self.angle_deg: float | None = None
         self._speed_dps = 0.0
         self._at_s = 0.0
@@ -90,7 +91,7 @@ class Motion:
             self._landing = _Landing(run, now_s, wanted_deg, at_speed, [])
 
     def forget_run(self) -> None:
-        """What the present run, or the last one, may yet teach is worth nothing: something was wrong with it."""
+        """Learn nothing from the present or latest run: something was wrong with it."""
         self._run = self._landing = None
 
     def see(self, at_s: float, angle_deg: float) -> None:
@@ -103,7 +104,7 @@ class Motion:
         if abs(stray_deg) > JUMP_DEG:
             self._strays.append((at_s, angle_deg))
             if len(self._strays) == JUMP_READINGS:
-                # It stays: the axis really is there (a hand on another switch, a motor that nobody knew to be so fast).
+                # It stays: the axis really is there (a hand on another switch, or a motor faster than was known).
                 self._correct_speed()
                 self.angle_deg = angle_deg
                 self._strays.clear()
@@ -148,7 +149,7 @@ class Motion:
         self._at_s = now_s
 
     def _correct_speed(self) -> None:
-        """A run that leaves its model far behind is not the motor that we took it for: believe what is seen."""
+        """A motor that leaves its model far behind is faster than was known: take the speed that is seen."""
         (first_s, first_deg), (last_s, last_deg) = self._strays[0], self._strays[-1]
         if self._run is None or last_s <= first_s:
             return
@@ -159,7 +160,7 @@ class Motion:
             self._speed_dps = seen_dps * direction
 
     def _land(self, at_s: float, angle_deg: float) -> None:
-        """Once the axis has come to rest, learn from how far the run took it and from where it was to stand."""
+        """Once the axis has come to rest, learn from how far the run took it and from how far it missed its goal."""
         landing = self._landing
         if landing is None or at_s - landing.off_s < SETTLE_S:
             return
@@ -173,8 +174,8 @@ class Motion:
         motor = self.motors[run.direction]
         speed_dps, coast_deg = motor.speed_dps, motor.coast_deg
         if run.from_deg is not None:
-            # What a motor gains late when it starts it gives back when it stops: from rest to rest it has gone
-            # its full speed times the time it was switched on.
+            # What a motor loses while it starts it gives back while it coasts: from rest to rest it has gone its full
+            # speed times the time for which it was on.
             gone_deg = (rest_deg - run.from_deg) * run.direction
             if gone_deg > LEAST_RUN_DEG:
                 trust = LEARN * min(1.0, gone_deg / (4 * LEAST_RUN_DEG))

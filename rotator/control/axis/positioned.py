@@ -1,132 +1,121 @@
-"""One axis under control whose motor goes to an angle by itself: where it is to be now, and how fast it moves on.
+"""One axis whose motor goes to an angle by itself: where it is to be now, and how fast its target moves on.
 
-The sibling of `axis`, for a drive that is told places instead of directions. Knows its goal, its limits and its faults.
-Knows nothing of the sky, of the other axis, or of who gave the order; and not how the drive gets there: it only sees
-whether it does.
+The sibling of `switched`. Knows its goal, its limits and its faults. Knows nothing of the sky, of the other axis, or of
+who gave the order. It does not know how the drive gets to an angle; it sees whether it does.
 """
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-
-from hw.ports import Axis, Direction
-from rotator.control.axis.calibration_table import Calibration
+from hw.ports import Direction
+from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import JogGoal, jog, limit_reached
-from rotator.control.axis.sensing import Condition, Reading, Sensing, Window
-from rotator.control.commands import HOLD, Hold, Steer
-from rotator.control.sky.mount import Range
+from rotator.control.axis.sensing import Condition, Reading, Sensing
+from rotator.control.axis.settings import PositionedSettings
+from rotator.control.axis.stray_watch import COMING_DEG, StrayWatch
+from rotator.control.commands import HOLD, Decision, Hold, Steer
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
-from rotator.status import AxisStatus, Fault
+from rotator.faults import Fault
+from rotator.status import AxisStatus
 
 RATE_OVER_S = 0.25
-"""The target's rate is looked at over this much of its path, half of it to come."""
-STRAY_DEG = 5.0
-STRAY_S = 3.0
-"""An axis this far from where it was told to be, and not coming nearer for so long, does not follow. One that has to
-turn back first, at 20°/s² from 30°/s, takes half of that."""
-COMING_DEG = 0.5
+"""The target's rate is taken over this much of its path, half of it before now."""
 STILL_DPS = 0.05
-
-
-@dataclass(frozen=True, slots=True)
-class PositionedSettings:
-    axis: Axis
-    limits: Range
-    tolerance_deg: float
-    speed_dps: float
-    window: Window
-    calibration: Calibration | None
-    missing: tuple[str, ...] = ()
-    """What a person has still to do before this axis may be aimed; empty: commissioned."""
-    source: str = "measured"
-    near_deg: float = COMING_DEG
-    """Nearer than this to where it was told to be, the drive may leave it."""
-    accel_dps2: float | None = None
-    """How hard it brakes; None: at once."""
+"""A target slower than this stands still."""
 
 
 class PositionedAxis:
+    """The kind of `ControlledAxis` for drives that take an angle."""
+
     def __init__(self, settings: PositionedSettings, *, lease_s: float) -> None:
         self.settings = settings
-        self.goal: AimGoal | JogGoal | None = None
-        self.fault: Fault | None = None
-        self.speed_dps = settings.speed_dps
-        self.homed_at_deg: float | None = None
-        """Never: it knows where it stands, or a person tells it."""
-        self._missing = settings.missing
+        self._goal: AimGoal | JogGoal | None = None
+        self._faults = FaultLatch()
         self._condition = Condition()
         self._lease_s = lease_s
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
-        self._present: Fault | None = None
-        self._steered: Steer | None = None
-        self._steered_s = 0.0
-        self._astray: tuple[float, float] | None = None
-        """Where it was when it was last seen to come nearer to its place, and when."""
+        self._stray = StrayWatch(settings.axis)
+        self._steered: tuple[Steer, float] | None = None
+        """Where the drive was sent last, and when; None: it holds."""
 
     @property
     def angle_deg(self) -> float | None:
         return self._sensing.angle_deg
 
     @property
-    def uncalibrated(self) -> str:
-        return ", ".join(self._missing)
+    def speed_dps(self) -> float:
+        return self.settings.speed_dps
 
     @property
-    def calibration(self) -> Calibration | None:
-        return self._sensing.calibration
+    def aiming(self) -> AimGoal | None:
+        return self._goal if isinstance(self._goal, AimGoal) else None
+
+    @property
+    def busy(self) -> bool:
+        return self._goal is not None
+
+    @property
+    def fault(self) -> Fault | None:
+        return self._faults.fault
 
     @property
     def driven(self) -> bool:
-        """Whether it was last told to be somewhere else than where it rests."""
-        return self._steered is not None and not self._arrived()
+        """Whether the drive was last sent elsewhere than where the axis is."""
+        return self._steered is not None and not self._arrived(self._steered[0])
+
+    @property
+    def confirmable(self) -> bool:
+        return self.settings.confirmable
+
+    def moving(self, now_s: float) -> bool:
+        return self.driven
+
+    def aim(self, goal: AimGoal) -> None:
+        self._goal = goal
+
+    def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
+        self._goal = jog(direction, seconds, now_s, commissioned=not self.settings.missing)
+
+    def halt(self) -> None:
+        self._goal = None
+
+    def forget_path(self) -> None:
+        if isinstance(self._goal, AimGoal):
+            self._goal = self._goal.standing()
 
     def see(self, reading: Reading, now_s: float) -> None:
         self._condition = reading.condition
-        self._present = self._sensing.take(reading, now_s)
-        # The rotor's own words say more than what can be seen of it from here.
-        said = reading.condition.fault
-        if self.fault and self.fault.passing:
-            self.fault = said or self._present
-        self.fail(said or self._present or self._straying(now_s))
+        unbelievable = self._sensing.take(reading, now_s)
+        # The rotor's own report says more than what can be seen of it from here.
+        reported = reading.condition.fault
+        cause = unbelievable if reading.condition.latched else reported or unbelievable
+        self._faults.note(reported or unbelievable or self._straying(now_s), cause=cause)
 
-    def fail(self, fault: Fault | None) -> None:
-        """Something is wrong with this axis: it holds until that is acknowledged. The first fault is the one told."""
-        if fault is not None and self.fault is None:
-            self.fault = fault
+    def _straying(self, now_s: float) -> Fault | None:
+        steered = self._steered[0] if self._steered else None
+        return self._stray.see(now_s, steered, self._sensing.angle_deg, settling=self._condition.settling)
+
+    def fail(self, fault: Fault) -> None:
+        self._faults.fail(fault)
 
     def acknowledge(self) -> None:
-        self._astray = None
-        said = None if self._condition.latched else self._condition.fault
-        self.fault = said or self._present
+        self._stray.clear()
+        self._faults.acknowledge()
 
-    def decide(self, now_s: float) -> Steer | Hold:
-        """Where the drive is to be from now on: what the goal asks for, as far as it is safe."""
+    def decide(self, now_s: float) -> Decision:
         command = self._wish(now_s)
         if isinstance(command, Steer) and (blocked := self._blocked(command)):
             self.fail(limit_reached(self.settings.axis, blocked))
-            self.goal, command = None, HOLD
-        self._steered, self._steered_s = (command, now_s) if isinstance(command, Steer) else (None, now_s)
+            self._goal, command = None, HOLD
+        self._steered = (command, now_s) if isinstance(command, Steer) else None
         if self._steered is None:
-            self._astray = None
-        return command
+            self._stray.clear()
+        return Decision(command)
 
-    def start_jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
-        self.goal = jog(direction, seconds, now_s, set_up=not self._missing)
+    def note_driven(self, now_s: float, driven: Direction) -> None:
+        """There are no relays to be noted."""
 
-    def start_homing(self) -> None:
-        """Raises ValueError."""
-        raise ValueError("this rotor knows where it stands; there is no end stop to be found")
-
-    def calibrate_end(self, *, high_end: bool) -> None:
-        """Its scale is the drive's own. Raises ValueError."""
-        raise ValueError(f"this rotor knows its own angles; there is no {'upper' if high_end else 'lower'} end to set")
-
-    def moving(self, _now_s: float) -> bool:
-        return self.driven
-
-    def status(self, _now_s: float, _driven: Direction) -> AxisStatus:
+    def status(self, now_s: float) -> AxisStatus:
         limits = self.settings.limits
         return AxisStatus(
             min_deg=limits.min_deg,
@@ -134,22 +123,24 @@ class PositionedAxis:
             angle_deg=self._sensing.angle_deg,
             raw=self._sensing.raw,
             source=self.settings.source,
-            target_deg=self.goal.target_deg if isinstance(self.goal, AimGoal) else None,
+            target_deg=self.aiming.target_deg if self.aiming else None,
             drive=self._direction(),
-            moving=self.driven,
-            uncalibrated=self.uncalibrated,
+            moving=self.moving(now_s),
+            missing=self.settings.missing,
+            confirmable=self.confirmable,
             fault=self.fault,
             notices=(self._condition.notice,) if self._condition.notice else (),
         )
 
     def _wish(self, now_s: float) -> Steer | Hold:
+        """What the goal asks for. A fault ends the goal."""
         if self.fault is not None:
-            self.goal = None
-        if self.goal is None or not self._sensing.believable or self._sensing.angle_deg is None:
+            self._goal = None
+        if self._goal is None or not self._sensing.believable or self._sensing.angle_deg is None:
             return HOLD
         until_s = now_s + self._lease_s
-        match self.goal:
-            case AimGoal() if self._missing:
+        match self._goal:
+            case AimGoal() if self.settings.missing:
                 return HOLD
             case AimGoal(_, _, Path() as path):
                 before_deg = path.angle_deg(now_s - RATE_OVER_S / 2)
@@ -158,23 +149,23 @@ class PositionedAxis:
             case AimGoal(target_deg, _, _):
                 return self._within(target_deg, 0.0, until_s)
             case JogGoal(_, jog_until_s) if jog_until_s is not None and now_s >= jog_until_s:
-                self.goal = None
+                self._goal = None
                 return HOLD
             case JogGoal(direction, _):
-                return self._jog(now_s, direction, until_s)
+                return self._jog(self._sensing.angle_deg, now_s, direction, until_s)
 
-    def _jog(self, now_s: float, direction: Direction, until_s: float) -> Steer | Hold:
-        """On from where it was told to be last, at its own speed, as far as its limit."""
-        assert self._sensing.angle_deg is not None
+    def _jog(self, angle_deg: float, now_s: float, direction: Direction, until_s: float) -> Steer | Hold:
+        """On from where it was sent last, at its own speed, as far as its limit."""
         limits = self.settings.limits
         limit_deg = limits.max_deg if direction > 0 else limits.min_deg
-        from_deg = self._sensing.angle_deg
-        if self._steered is None and (limit_deg - from_deg) * direction <= self.settings.near_deg:
-            self.goal = None
+        if self._steered is None and (limit_deg - angle_deg) * direction <= self.settings.near_deg:
+            self._goal = None
             return HOLD
-        # From where it can just brake it is steered to its limit, on and on: to hold is to come to rest further on.
+        # Where it can just brake, it is steered to its limit again and again: `hold` would let it come to rest beyond.
+        from_deg = angle_deg
         if self._steered is not None and not self._condition.settling:
-            from_deg = self._steered.angle_deg + self._steered.rate_dps * (now_s - self._steered_s)
+            steered, steered_s = self._steered
+            from_deg = steered.angle_deg + steered.rate_dps * (now_s - steered_s)
         if (limit_deg - from_deg) * direction <= self._braking_deg:
             return Steer(limit_deg, 0.0, until_s)
         return self._within(from_deg, self.speed_dps * direction, until_s)
@@ -187,44 +178,28 @@ class PositionedAxis:
 
     def _within(self, angle_deg: float, rate_dps: float, until_s: float) -> Steer:
         """No further than the limits; at a limit the target moves on alone."""
-        kept_deg = self.settings.limits.nearest(angle_deg)
         limits = self.settings.limits
+        kept_deg = limits.nearest(angle_deg)
         outward = (kept_deg == limits.max_deg and rate_dps > 0) or (kept_deg == limits.min_deg and rate_dps < 0)
         return Steer(kept_deg, 0.0 if outward or kept_deg != angle_deg else rate_dps, until_s)
 
     def _blocked(self, command: Steer) -> Direction | None:
-        """The way in which it would turn, where a limit switch lets it go no further."""
-        assert self._sensing.angle_deg is not None
+        """The direction of the command, where a limit switch forbids it."""
+        assert self._sensing.angle_deg is not None, "an axis is steered only where its angle is known"
         ahead_deg = command.angle_deg + command.rate_dps * self._lease_s - self._sensing.angle_deg
         towards = Direction.PLUS if ahead_deg > 0 else Direction.MINUS
         return towards if towards in self._condition.ends and abs(ahead_deg) >= COMING_DEG else None
 
-    def _arrived(self) -> bool:
-        steered, angle_deg = self._steered, self._sensing.angle_deg
-        if steered is None or angle_deg is None:
+    def _arrived(self, steered: Steer) -> bool:
+        angle_deg = self._sensing.angle_deg
+        if angle_deg is None:
             return True
         return abs(steered.angle_deg - angle_deg) < self.settings.near_deg and abs(steered.rate_dps) < STILL_DPS
 
     def _direction(self) -> Direction:
-        if self._steered is None or self._sensing.angle_deg is None or self._arrived():
+        if self._steered is None or self._sensing.angle_deg is None or self._arrived(self._steered[0]):
             return Direction.OFF
-        ahead_deg = self._steered.angle_deg - self._sensing.angle_deg
-        towards = ahead_deg if abs(ahead_deg) >= self.settings.near_deg else self._steered.rate_dps
+        steered = self._steered[0]
+        ahead_deg = steered.angle_deg - self._sensing.angle_deg
+        towards = ahead_deg if abs(ahead_deg) >= self.settings.near_deg else steered.rate_dps
         return Direction.PLUS if towards > 0 else Direction.MINUS
-
-    def _straying(self, now_s: float) -> Fault | None:
-        """Told to be somewhere, and neither there nor coming nearer. A modelled angle always agrees with its model."""
-        steered, angle_deg = self._steered, self._sensing.angle_deg
-        if steered is None or angle_deg is None:
-            return None
-        ahead_deg = steered.angle_deg - angle_deg
-        off_deg = abs(ahead_deg)
-        coming = self._astray is None or (angle_deg - self._astray[0]) * math.copysign(1, ahead_deg) >= COMING_DEG
-        if off_deg < STRAY_DEG or coming or self._condition.settling:
-            self._astray = (angle_deg, now_s)
-            return None
-        assert self._astray is not None
-        if now_s - self._astray[1] < STRAY_S:
-            return None
-        measured = f"stands at {angle_deg:.1f}°, {off_deg:.1f}° from where it was told to be"
-        return Fault("axis does not follow", self.settings.axis, measured, f"{STRAY_DEG:g}° for {STRAY_S:g} s")

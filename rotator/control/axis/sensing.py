@@ -1,7 +1,7 @@
 """Whether a sensor can be believed: one axis's readings in, an angle or a fault out.
 
-Knows the window of plausible readings, how long a bad one may last and how often a reading may jump. Knows no device;
-it does not switch anything.
+Knows the window of plausible readings, how long a bad one may last and how often a reading may jump. Knows no device,
+and stops nothing.
 """
 
 from __future__ import annotations
@@ -12,45 +12,45 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
-from rotator.status import Fault
+from rotator.faults import Fault, FaultKind, Notice
 
 BAD_FOR_S = 0.1
-"""A fault needs this long of bad readings (three at 20 Hz); the very first stops the motor."""
+"""Bad readings are a fault after this time (three readings at 20 Hz). The first one stops the motor."""
 STALE_S = 0.2
-"""A reading older than this says nothing of where the antenna is now."""
+"""A reading older than this does not show where the antenna is now."""
 JUMP_DEG = 5.0
 JUMPS = 3
 JUMPS_WITHIN_S = 0.3
-"""A spark is two jumps, out and back: one more as soon as that, and the wire is loose."""
+"""A spark is two jumps, out and back. One more jump within this time means a loose wire."""
 UNCALIBRATED_SPAN_DEG = 360.0
-"""What a pot's whole range is taken for where nobody has measured it."""
+"""A pot's whole range counts as so many degrees until it is calibrated."""
 
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """What a rotor says of one of its axes beside the angle."""
+    """What a rotor reports of one of its axes beside the angle."""
 
     fault: Fault | None = None
-    """What is wrong with it now, as the rotor itself knows."""
+    """What is wrong with the axis now, as the rotor itself knows."""
     latched: bool = False
-    """The rotor itself keeps that fault until it is told that somebody has taken note of it."""
-    notice: str = ""
+    """The rotor itself keeps that fault until it is acknowledged."""
+    notice: Notice | None = None
     """What a person should know though it stops nothing."""
     lost: str = ""
-    """Why nobody knows where it stands, beginning with what a person is to do; empty: the angle is right."""
+    """Why the axis has to be homed before its angle is known; empty: the angle is right."""
     scale: int = 0
-    """Another number: from now on the same reading means another place."""
+    """When this number changes, the same reading means another place from then on."""
     settling: bool = False
-    """It does not follow yet, for a reason that passes by itself."""
+    """The axis does not follow yet, for a reason that passes by itself."""
     changes: int = 0
     """How often its contact has changed."""
     ends: frozenset[Direction] = frozenset()
-    """The ways in which a limit switch lets it go no further."""
+    """The directions that a limit switch forbids."""
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What a sensor said: its raw value, or why it has none; and how the axis is."""
+    """What a sensor read: its raw value, or why there is none (`problem`); and the condition of the axis."""
 
     at_s: float
     raw: float | None
@@ -60,21 +60,21 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class Window:
-    """Readings of a healthy sensor. With end resistors and a wiper pull, a broken wire falls outside."""
+    """Readings of a healthy sensor. With end resistors and a pulled wiper, a broken wire reads outside."""
 
     low_raw: float
     high_raw: float
     pot: bool = True
-    """It is a pot's; a chip with a broken wire says nothing, rather than something that looks like a reading."""
+    """The sensor is a pot. With a broken wire a chip does not answer; a pot answers with a wrong reading."""
 
     @property
     def blind(self) -> bool:
-        """Whether a pot's wire may break without a reading that shows it: there are no end resistors."""
+        """Whether a broken wire of the pot would read like an angle, because there are no end resistors."""
         return self.pot and (self.low_raw <= 0.0 or self.high_raw >= 1.0)
 
 
 ANYTHING = Window(-math.inf, math.inf, pot=False)
-"""A sensor in degrees that says itself when it is not to be believed."""
+"""A sensor in degrees that reports itself when it cannot be believed."""
 
 
 class Sensing:
@@ -88,17 +88,23 @@ class Sensing:
         self.angle_deg: float | None = None
         """The last believable angle; None before the first and without a calibration."""
         self.believable = False
+        """Whether the latest reading is a good one."""
+        self.fresh = False
+        """Whether the latest reading is a good one that had not been taken before."""
+        self._believed_s: float | None = None
         self._bad_since_s: float | None = None
         self._last: tuple[float, float] | None = None
         self._jumped: Fault | None = None
         self._jumps: deque[tuple[float, float]] = deque(maxlen=JUMPS)
 
     def take(self, reading: Reading, now_s: float) -> Fault | None:
-        """Note a reading (or the same again, if no new one came). Returns the fault it amounts to, if it does."""
+        """Take a reading, or the same one again where no new one came. Returns the fault that it shows, if any."""
         problem = self._problem(reading, now_s)
         jumping = self._jumping(reading)
         self.believable = problem is None
+        self.fresh = problem is None and reading.at_s != self._believed_s
         if problem is None:
+            self._believed_s = reading.at_s
             self._bad_since_s = None
             self.raw = reading.raw
             if self.calibration is not None and reading.raw is not None:
@@ -111,17 +117,20 @@ class Sensing:
     def _problem(self, reading: Reading, now_s: float) -> Fault | None:
         low, high = self._window.low_raw, self._window.high_raw
         if reading.raw is None:
-            return Fault("sensor silent", self._axis, reading.problem or "no answer", f"an answer in {STALE_S:g} s")
+            return Fault(
+                FaultKind.SENSOR_SILENT, self._axis, reading.problem or "no answer", f"an answer in {STALE_S:g} s"
+            )
         if now_s - reading.at_s > STALE_S:
-            return Fault("sensor late", self._axis, f"last reading {now_s - reading.at_s:.1f} s old", f"{STALE_S:g} s")
+            age = f"last reading {now_s - reading.at_s:.1f} s old"
+            return Fault(FaultKind.SENSOR_LATE, self._axis, age, f"{STALE_S:g} s")
         if not low <= reading.raw <= high:
             self.raw = reading.raw
-            return Fault("pot open or shorted", self._axis, f"reads {reading.raw:.3f}", f"{low:g} to {high:g}")
+            return Fault(FaultKind.POT_OPEN, self._axis, f"reads {reading.raw:.3f}", f"{low:g} to {high:g}")
         return None
 
     def _jumping(self, reading: Reading) -> Fault | None:
-        """Back and forth, and back again: no motor does that, whether or not each place is a plausible one."""
-        # No answer at all is a place too, far from any other.
+        """Out, back, and out again: no motor does that, even where each reading is plausible."""
+        # No answer counts as a place too, far from any other.
         raw = reading.raw if reading.raw is not None and math.isfinite(reading.raw) else -1.0
         angle_deg = self.calibration.degrees(raw) if self.calibration else raw * UNCALIBRATED_SPAN_DEG
         if self._last is not None and reading.at_s <= self._last[0]:
@@ -137,5 +146,5 @@ class Sensing:
         if min(sizes_deg) > 0 or max(sizes_deg) < 0:
             return None  # all one way: that may be a fast rotor
         measured = f"by {max(map(abs, sizes_deg)):.0f}°, {JUMPS} times in {JUMPS_WITHIN_S:g} s"
-        self._jumped = Fault("pot jumps", self._axis, measured, f"{JUMP_DEG:g}° from one reading to the next")
+        self._jumped = Fault(FaultKind.POT_JUMPS, self._axis, measured, f"{JUMP_DEG:g}° from one reading to the next")
         return self._jumped

@@ -1,13 +1,16 @@
 """The law for a motor that is only on or off: when to start it, when to stop it.
 
-A target that stands still is bang-bang with a tolerance: left alone until the error exceeds it, then hit. A moving one
-is followed in steps that run past it, so that it drifts back through the window (`plan`). A stop falls where the motor,
-as learnt, coasts onto its goal. Knows one axis. Knows nothing of the sky, of limits, of faults or of relays.
+A target that stands still is followed bang-bang: the motor rests until the error exceeds the tolerance, then runs to
+the target. A moving target is followed in steps that run past it: it then drifts back through the window (`sky.plan`).
+The motor is stopped where its coast, as learnt, ends on the goal. Knows one axis. Knows nothing of the sky, of limits,
+of faults or of relays.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 from hw.ports import Direction
 from rotator.control.axis.motion import Motion, Motor
@@ -19,13 +22,23 @@ FLOOR = 0.55
 LEAST_MOVE_DEG = 0.3
 
 
-class SwitchedLaw:
-    """`period_s`: how soon the law will be asked again; a stop nearer than that is left to the lease's end."""
+@dataclass(frozen=True, slots=True)
+class Timing:
+    lease_s: float
+    """How long a command to a drive lives unless renewed."""
+    period_s: float
+    """How soon the next cycle comes. A stop that is due before it is left to the end of the lease."""
 
-    def __init__(self, motor: Motor, *, lease_s: float, period_s: float) -> None:
-        self.motion = Motion(motor)
-        self._lease_s = lease_s
-        self._period_s = period_s
+
+class SwitchedLaw:
+    """`motors`: what is known of each direction's motor."""
+
+    def __init__(self, motors: Mapping[Direction, Motor], timing: Timing) -> None:
+        self.motion = Motion(motors)
+        self._timing = timing
+        self._taught = dict(motors)
+        """What was known of the motors before the present or latest run."""
+        self._relay = Direction.OFF
         self._running = Direction.OFF
         self._goal_deg = 0.0
         self._stop_s: float | None = None
@@ -33,15 +46,23 @@ class SwitchedLaw:
         self._planned: tuple[Path, float] | None = None
 
     def see(self, at_s: float, angle_deg: float) -> None:
-        """A new believable reading of the axis."""
+        """A new good reading of the axis."""
         self._note_stop(at_s)
         self.motion.see(at_s, angle_deg)
 
     def driven(self, now_s: float, direction: Direction) -> None:
         """What the relays do from now on."""
+        if direction is not Direction.OFF and self._relay is Direction.OFF:
+            self._taught = dict(self.motion.motors)
+        self._relay = direction
         self._note_stop(now_s)
         wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
         self.motion.driven(now_s, direction, wanted_deg)
+
+    def forget_run(self) -> None:
+        """Something was wrong with the present or latest run: what it has taught is dropped."""
+        self.motion.forget_run()
+        self.motion.motors.update(self._taught)
 
     def rest(self, now_s: float) -> Run:
         self._running = Direction.OFF
@@ -74,7 +95,7 @@ class SwitchedLaw:
         return self._go(now_s, place_deg)
 
     def _place_deg(self, path: Path, rest_deg: float, speed_dps: float, tolerance_deg: float) -> float:
-        """The place planned on this path; planned once, for a path is only good for half a second."""
+        """The place planned on this path. Planned once a path, for a path is only good for half a second."""
         if self._planned is None or self._planned[0] is not path:
             self._planned = (path, next_place_deg(path, rest_deg, speed_dps, tolerance_deg))
         return self._planned[1]
@@ -96,8 +117,8 @@ class SwitchedLaw:
             return self.rest(now_s)
         # The point where the axis would come to rest runs ahead at full speed from the first moment on.
         left_s = left_deg / self.motion.motors[self._running].speed_dps
-        if left_s > self._period_s:
-            return Run(self._running, now_s + self._lease_s)
+        if left_s > self._timing.period_s:
+            return Run(self._running, now_s + self._timing.lease_s)
         self._stop_s = now_s + left_s
         return Run(self._running, self._stop_s)
 

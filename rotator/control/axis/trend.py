@@ -1,4 +1,4 @@
-"""How fast an axis really turns: a straight line through its latest readings, and how far that line can be trusted.
+"""How fast an axis really turns: a straight line through its latest readings, and how exact that line is.
 
 Knows readings, when they were taken and how much they scatter. Knows no motor, no relay and no rule.
 """
@@ -11,12 +11,12 @@ from dataclasses import dataclass
 
 KEPT_S = 5.0
 LEAST_GAP_S = 0.035
-"""Readings nearer than this to the last one kept are left out: a fast loop would only make the sums longer."""
+"""A reading that comes sooner after the last one is left out: a fast loop would only make the sums longer."""
 LONGEST_GAP_S = 0.3
-"""After a longer gap nothing is known of what happened in between: the line begins anew."""
+"""After a longer gap the line begins anew: the motion in between is not known."""
 JUMP_DEG = 3.0
 JUMP_READINGS = 3
-"""A reading off by more than that, and than the axis can have turned, is a spark, unless this many say the same."""
+"""A reading further off than this, and than the axis can have turned, is a spark, unless so many in a row agree."""
 
 _FIRST_NOISE_DEG = 0.1
 _LEAST_NOISE_DEG, _MOST_NOISE_DEG = 0.02, 1.5
@@ -29,7 +29,7 @@ _BEND_MEDIAN = 0.6745 * math.sqrt(6.0)
 class Slope:
     speed_dps: float
     rough_dps: float
-    """Standard error: the noise of the readings lets the speed be off by so much."""
+    """Standard error of the speed, from the noise of the readings."""
 
 
 class Trend:
@@ -41,7 +41,7 @@ class Trend:
 
     @property
     def since_s(self) -> float:
-        """From when on there are readings without a break."""
+        """Since when there are readings without a gap."""
         return self._kept[0][0] if self._kept else math.inf
 
     @property
@@ -49,7 +49,7 @@ class Trend:
         return self._kept[-1][0] if self._kept else -math.inf
 
     def see(self, at_s: float, angle_deg: float, fastest_dps: float) -> bool:
-        """A believable reading of an axis that can turn that fast. Says whether it was taken for one of the line."""
+        """A good reading of an axis that turns at most that fast. Returns whether it lies on the line."""
         passed_s = at_s - self.last_s
         if passed_s < LEAST_GAP_S:
             return False
@@ -61,7 +61,7 @@ class Trend:
             self._strays = [stray for stray in self._strays if abs(stray[1] - angle_deg) <= near_deg]
             self._strays.append((at_s, angle_deg))
             if len(self._strays) == JUMP_READINGS:
-                # It stays there: the axis is elsewhere than was thought, and from here on it is watched anew.
+                # It stays there: the axis is elsewhere than the line says. The line begins anew.
                 self._begin(self._strays)
             return False
         self._strays.clear()
@@ -72,7 +72,7 @@ class Trend:
         return True
 
     def jump_deg(self, passed_s: float, fastest_dps: float) -> float:
-        """How far apart two readings must be for no motor to have done it."""
+        """Two readings further apart than this cannot be the motor's doing."""
         return max(JUMP_DEG, 6.0 * self.noise_deg) + 2.0 * fastest_dps * passed_s
 
     def slope(self, from_s: float) -> Slope | None:
@@ -95,7 +95,7 @@ class Trend:
         return Slope((sum_tx - sum_t * sum_x / count) / spread, self.noise_deg / math.sqrt(spread))
 
     def window_s(self, rough_dps: float) -> float:
-        """How long the readings must be looked at for a speed that is only so rough."""
+        """How long the line must be for a standard error of `rough_dps`."""
         gap_s = LEAST_GAP_S
         if len(self._kept) > 1:
             gap_s = (self.last_s - self.since_s) / (len(self._kept) - 1)
@@ -106,7 +106,7 @@ class Trend:
         self._strays = []
 
     def _note_noise(self) -> None:
-        """Follow the median of how much three readings in a row bend: sparks and starting motors hardly move it."""
+        """Follow the median of the bend of three readings in a row: sparks and starting motors hardly change it."""
         if len(self._kept) < 3:
             return
         bend_deg = abs(self._kept[-1][1] - 2.0 * self._kept[-2][1] + self._kept[-3][1])

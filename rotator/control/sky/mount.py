@@ -15,8 +15,8 @@ from rotator.control.sky.angles import turn_deg
 ZENITH_DEG = 90.0
 
 
-class Unreachable(ValueError):  # noqa: N818 - an answer about a direction, not a failure
-    """No axis angle within the range points there; the text says why."""
+class Unreachable(ValueError):  # noqa: N818 - it tells about a direction, it is no failure
+    """No axis angle within the range points there. The text gives the reason."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
-"""How far a person at the panel has shifted everything that is asked for.
+"""The shift of every order that a person sets with the panel's jog switches.
 
-Knows two angles. Knows nothing of who asks, or of where the antenna is.
+Knows one angle an axis. Does not know the sender of an order, nor where the antenna is.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class Nudges:
         self._deg = dict.fromkeys(Axis, 0.0)
 
     def applied(self, asked: Aim) -> Aim:
-        """What is asked for, shifted; an azimuth that does not name a turn of the overlap stays one of the circle."""
+        """The order, shifted. An azimuth up to 360° stays on the circle; a larger one names the turn of the overlap."""
         azimuth_deg, elevation_deg = asked.azimuth_deg, asked.elevation_deg
         if azimuth_deg is not None and (by_deg := self._deg[Axis.AZIMUTH]):
             names_turn = azimuth_deg > FULL_TURN_DEG

@@ -1,14 +1,15 @@
 """From orders for directions to goals for the axes, now and over the next minute.
 
-Knows what was asked for, where the target is going (`track`), and on which way the antenna follows it (`route`). Knows
-nothing of who asks, of faults, or of how an axis reaches its goal.
+Knows the direction ordered, where the target is going (`track`), and on which way the antenna follows it (`route`).
+Knows nothing of the sender, of faults, or of how an axis reaches its goal.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from rotator.control.sky.joining import direction
 from rotator.control.sky.mount import ZENITH_DEG, Mount
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way
@@ -18,9 +19,9 @@ from rotator.orders import Aim
 PLAN_EVERY_S = 0.5
 ROUTE_EVERY_S = 3.0
 SURE_AFTER_S = 45.0
-"""A track this long tells well enough where the pass will end; until then the antenna stays on its turn."""
+"""A track this long predicts the end of the pass well enough. Until then the antenna stays on its turn."""
 LEAST_WEIGHT = 0.1
-"""Near the zenith azimuth hardly matters, but an antenna sent there by hand is to turn all the same."""
+"""Near the zenith azimuth hardly matters, but an antenna that a person sends there shall turn all the same."""
 EVEN = (1.0,) * len(OFFSETS_S)
 
 
@@ -31,6 +32,10 @@ class AimGoal:
     target_deg: float
     tolerance_deg: float
     path: Path | None = None
+
+    def standing(self) -> AimGoal:
+        """The same target without its path."""
+        return self if self.path is None else replace(self, path=None)
 
 
 Goals = tuple[AimGoal, AimGoal | None]
@@ -47,28 +52,28 @@ class Pointing:
         self._planned_s: float | None = None
         self._routed_s: float | None = None
         self.wanted = Aim(None, None)
-        """What was last asked for, as asked: the display's SAT."""
+        """The direction last ordered, as ordered: the display's SAT."""
 
     def forget(self, *, azimuth: bool = True, elevation: bool = True) -> None:
-        """Nothing is asked for any more, on these axes."""
+        """Forget the order on these axes."""
         self._track.clear()
         self._way = None
         kept = self.wanted
         self.wanted = Aim(None if azimuth else kept.azimuth_deg, None if elevation else kept.elevation_deg)
 
     def show(self, aim: Aim) -> None:
-        """Something is asked for that is not to be followed."""
+        """Show a direction without following it."""
         self.forget()
         self.wanted = aim
 
     def aim(self, now_s: float, aim: Aim, azimuth_deg: float, elevation_deg: float) -> Goals:
-        """Goals for an order, with the antenna where it is. Raises Unreachable; then all is as it was."""
+        """Goals for an order, with the antenna at these axis angles. Raises Unreachable; then nothing has changed."""
         assert aim.azimuth_deg is not None, "every order that points has an azimuth"
         again = self._way is not None and (aim.azimuth_deg, aim.elevation_deg) == (
             self.wanted.azimuth_deg,
             self.wanted.elevation_deg,
         )
-        # The same order again: stay on the turn chosen, though the antenna has moved since.
+        # The same order again: stay on the turn chosen, wherever the antenna is now.
         near_deg = self._way.azimuth_deg if again and self._way is not None else azimuth_deg
         axis_azimuth_deg, axis_elevation_deg = self._mount.axis_angles(aim.azimuth_deg, aim.elevation_deg, near_deg)
         kept_deg = self.wanted.elevation_deg if aim.elevation_deg is None else aim.elevation_deg
@@ -81,9 +86,9 @@ class Pointing:
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
         moving = self._track.moving(now_s)
         if self._way is not None and moving:
-            # On its way the antenna stays there, wherever it has got to.
+            # The antenna stays on its way, wherever it is now.
             flown_deg, _ = self._mount.on_the_way(
-                *_direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
+                *direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
             )
             self._way = Way(flown_deg, self._way.flipped)
         elif not again:
@@ -96,7 +101,7 @@ class Pointing:
         return AimGoal(self._mount.clear_deg(azimuth_deg, elevation_deg), self._elevation_tolerance_deg)
 
     def look_ahead(self, now_s: float, speeds: Speeds, *, had_path: bool) -> Goals | None:
-        """New goals where the target moves, or has stopped moving; None: the present ones hold."""
+        """New goals where the target moves or has stopped; None: the present goals stay."""
         if self._way is None:
             return None
         if not self._track.moving(now_s):
@@ -139,8 +144,8 @@ class Pointing:
         self._way = best_way(self._mount, directions, self._way, speeds, may_flip=may_flip)
 
     def _standing(self, *, settled: bool) -> Goals:
-        """Goals for the last order as it stands, on the way chosen; a target that has settled beyond the end of its
-        turn is worth going round for."""
+        """Goals for the last order, on the way chosen. For a target that has settled beyond the end of its turn the
+        antenna turns round."""
         wanted = self.wanted
         assert self._way is not None
         assert wanted.azimuth_deg is not None
@@ -153,7 +158,7 @@ class Pointing:
         if wanted.elevation_deg is None:
             return AimGoal(self._mount.azimuth.nearest(way.azimuth_deg), self._azimuth_tolerance_deg), None
         azimuth_deg, elevation_deg = self._mount.on_the_way(
-            *_direction(wanted.azimuth_deg, wanted.elevation_deg), way.azimuth_deg, flipped=way.flipped
+            *direction(wanted.azimuth_deg, wanted.elevation_deg), way.azimuth_deg, flipped=way.flipped
         )
         azimuth_deg = self._mount.azimuth.nearest(azimuth_deg)
         elevation_deg = self._mount.clear_deg(azimuth_deg, elevation_deg)
@@ -166,10 +171,3 @@ class Pointing:
         """The tolerance is on the sky: high up, a degree of azimuth moves the antenna less than a degree."""
         weight = max(LEAST_WEIGHT, abs(math.cos(math.radians(elevation_deg))))
         return self._azimuth_tolerance_deg / weight
-
-
-def _direction(azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
-    """An order past the zenith as the direction that it means."""
-    if elevation_deg > ZENITH_DEG:
-        return (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
-    return azimuth_deg, elevation_deg

@@ -1,6 +1,6 @@
-"""Which turn of the overlap, and whether over the top: the way of the antenna through the rest of a pass.
+"""The way of the antenna through the rest of a pass: which turn of the overlap, and whether over the top.
 
-Knows the target's path to where it sets, the ranges and the motors' speeds; a way that leaves the range, and a change
+Knows the target's path to where it sets, the ranges and the motors' speeds. A way that leaves the range, and a change
 from one way to another, cost the seconds in which the antenna points elsewhere. Knows nothing of steps, relays or
 sensors.
 """
@@ -19,11 +19,11 @@ STEP_S = 5.0
 """The path is looked at this often; `LOOKS` times, or until the target sets."""
 LOOKS = 180
 LOST_DEG = 10.0
-"""Off by this much the antenna might as well point anywhere: a second here is a second lost."""
+"""With this error the pass is lost: each such second counts as a lost second."""
 WORTH_S = 5.0
-"""A change of way must save this much, or predictions that waver would make the antenna waver."""
+"""A change of way must save this much, so that small changes of the prediction do not turn the antenna."""
 EQUAL_S = 2.0
-"""Moments for the change that differ by less are equally good, and the earliest is taken."""
+"""Moments for the change that differ by less are equally good; the earliest is taken."""
 
 Direction = tuple[float, float]
 

@@ -2,10 +2,10 @@
 
 Knows directions ordered and when. A satellite flies past in nearly a straight line, and a straight line in space,
 projected onto the plane that touches the sky at the target (gnomonic), is x(s) = (a + b s) / (1 + g s) for both
-coordinates with one g: five numbers, fitted to the last minute's orders by least squares. That tells the direction now
-to 0.2 degrees and in 40 seconds to 1.2 (real passes, whole degrees). Orders with decimals need less averaging: then a
-few seconds tell, and the rest of the line, which the earth's turning bends a little, is left out. Knows nothing of
-axes, motors or tolerances.
+coordinates with one g: five numbers, fitted to the last minute's orders by least squares. The fit
+gives the direction now to 0.2 degrees and in 40 seconds to 1.2 (real passes, whole degrees). Orders with decimals need
+less averaging: a few seconds are enough, and the older part of the line, which the earth's rotation bends a little, is
+left out. Knows nothing of axes, motors or tolerances.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from collections.abc import Sequence
 from rotator.control.sky.angles import great_circle_deg
 
 MEMORY_S = {1.0: 25.0, 0.1: 8.0, 0.01: 4.0}
-"""By what orders are rounded to: their weight falls by e in this time. Longer averages the rounding better, shorter
-bends more easily."""
+"""By the rounding of the orders: their weight falls by e in this time. A longer time averages the rounding better; a
+shorter one follows a bend better."""
 KEPT_S = 4 * max(MEMORY_S.values())
 THIN_S = 0.4
-"""Orders that come faster tell no more: of those within this time the latest counts."""
+"""Of the orders within this time only the latest counts: faster ones carry no more information."""
 REFIT_S = 0.2
 LEAST_ORDERS = 4
 LONGEST_GAP_S = 5.0
-"""Orders further apart are no stream: each is a place of its own."""
+"""Orders further apart are no stream: each is a target of its own."""
 LEAST_TRAVEL = 1.0
 """Orders that differ by less than this share of their rounding may be one standing target, rounded two ways."""
 LARGEST_SURPRISE_DEG = 4.0
@@ -35,9 +35,9 @@ COASTING_S = 3.0
 
 _SIDEWAYS_PRIOR = 1e-3
 _APPROACH_PRIOR = 0.3
-"""How strongly, in orders of whole degrees, the fit holds to `not coming nearer` while there is little to go by."""
+"""How strongly the fit assumes that the target does not come nearer, while there are few orders of whole degrees."""
 _LEAST_FACING = 0.3
-"""Cosine beyond which the touching plane says nothing."""
+"""Orders whose cosine to the last one is smaller do not reach the touching plane."""
 
 Vector = tuple[float, float, float]
 
@@ -120,7 +120,7 @@ class _Fit:
                         for j in range(5):
                             matrix[i][j] += weight * row[i] * row[j]
         for i, prior in ((1, _SIDEWAYS_PRIOR), (3, _SIDEWAYS_PRIOR), (4, _APPROACH_PRIOR)):
-            # The finer the orders, the less is believed in advance: as errors do, it goes with the square.
+            # The finer the orders, the weaker the assumptions: they go with the square, as the errors do.
             matrix[i][i] += prior * grain_deg * grain_deg
         self._a, self._b, self._c, self._d, self._g = _solve(matrix, side)
 

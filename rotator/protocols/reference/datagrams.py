@@ -1,6 +1,6 @@
-"""The tag list of docs/protocols.md for PstRotator's UDP control, made as the tables of `reference` are.
+"""The tag list of docs/protocols.md for PstRotator's UDP control, made as the tables in gs232.py.
 
-Knows one example of each tag. Does not know what any does or answers: it asks.
+Knows one example of each tag. Does not know what a tag does or answers: the protocol's session is asked.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ _VALUES = {
     "ELEVATION": f"{ELEVATION_DEG:g}",
     "TRACK": f"{AZIMUTH_DEG:g} {ELEVATION_DEG:g}",
 }
-"""All others are switched on with a 1."""
+"""The values of the examples; the other tags take a 1."""
 
 
 def pstrotator_table() -> str:
-    """Every tag that the box knows, with an example and its answer."""
-    rows: list[tuple[str, ...]] = [("tag", "what it does", "example", "answer")]
+    """An example of every tag that the box knows, and its answer."""
+    rows: list[tuple[str, ...]] = [("example", "what it does", "answer")]
     for tag in pstrotator.TAGS:
         item = Item(tag.text) if tag.text.endswith("?") else Item(tag.text, _VALUES.get(tag.text, "1"))
         sent = pstrotator.encode(item)
         answer = b"".join(PstRotatorSession(Example()).receive(sent))
-        rows.append((f"`{tag.text}`", tag.help, f"`{sent.decode()}`", shown(answer)))
+        rows.append((f"`{sent.decode()}`", tag.help, shown(answer)))
     return table(rows)

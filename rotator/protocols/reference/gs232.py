@@ -17,9 +17,9 @@ AZIMUTH_DEG, ELEVATION_DEG = 235.0, 25.0
 LONGEST_SHOWN = 40
 
 _GS232_EXAMPLES = {"M": "M235", "W": "W235 025"}
-"""Commands that are written with numbers; all others stand alone."""
+"""Commands that take numbers; all others have none."""
 _TIMED_LIST = b"W010 235 025 240 030 245 035\r"
-"""What has been sent before T and N, which make no sense without."""
+"""Sent before T and N, which need a loaded list."""
 _ROTCTLD_EXAMPLES = {
     "set_pos": "235 25",
     "reset": "1",
@@ -47,7 +47,7 @@ _ROTCTLD_EXAMPLES = {
 
 
 class Example:
-    """A box that stands at 235/25 and agrees to everything."""
+    """A box whose antenna is at 235/25 and which accepts every order."""
 
     def status(self) -> Status:
         return Status(0.0, AxisStatus(0, 450, AZIMUTH_DEG), AxisStatus(0, 180, ELEVATION_DEG))
@@ -57,27 +57,27 @@ class Example:
 
 
 def gs232_table() -> str:
-    """Every GS-232 command with an example and what either dialect answers to it."""
-    rows: list[tuple[str, ...]] = [("command", "what it does", "example", "GS-232A answers", "GS-232B answers")]
+    """Every GS-232 command and its answer; both answers where the two dialects differ."""
+    rows: list[tuple[str, ...]] = [("command", "what it does", "answer")]
     for verb in gs232.VERBS:
         example = _GS232_EXAMPLES.get(verb.text, verb.text)
-        rows.append((f"`{verb.text}`", verb.help, f"`{example}`", *(_gs232_answer(each, example) for each in Dialect)))
+        a, b = (_gs232_answer(dialect, example) for dialect in (Dialect.A, Dialect.B))
+        rows.append((f"`{verb.text}`", verb.help, a if a == b else f"A: {a}, B: {b}"))
     return table(rows)
 
 
 def rotctld_table() -> str:
-    """Every rotctld command that the box knows, with an example and its answer."""
-    rows: list[tuple[str, ...]] = [("command", "long form", "what it does", "example", "answer")]
+    """Every rotctld command that the box knows: an example, its long name, and the answer to the example."""
+    rows: list[tuple[str, ...]] = [("example", "long form", "what it does", "answer")]
     for verb in rotctld.VERBS:
         request = rotctld.Request(verb.name, tuple(_ROTCTLD_EXAMPLES.get(verb.name, "").split()))
         session = RotctldSession(Example())
         answer = b"".join(session.receive(rotctld.encode(request)))
-        letter = f"`{verb.letter}`" if verb.letter.isascii() else ""
-        said = "the connection ends" if session.closed else shown(answer)
+        answer_text = "the connection ends" if session.closed else shown(answer)
         example = rotctld.encode(request).decode().strip()
         if verb.letter.isascii():
             example = verb.letter + example[1:]
-        rows.append((letter, f"`\\{verb.name}`", verb.help, f"`{example}`", said))
+        rows.append((f"`{example}`", f"`\\{verb.name}`", verb.help, answer_text))
     return table(rows)
 
 
@@ -89,17 +89,17 @@ def _gs232_answer(dialect: Dialect, example: str) -> str:
 
 
 def shown(answer: bytes) -> str:
-    """An answer as the page has it."""
+    """An answer as the page shows it: escaped text, a number of lines where it is long."""
     if not answer:
         return "nothing"
     if len(answer) > LONGEST_SHOWN:
         return f"{len(answer.splitlines())} lines"
-    # The page is not to change with every release.
+    # The page must not change with each release.
     text = answer.decode().replace(__version__, "VERSION").encode("unicode_escape").decode()
     return f"`{text}`"
 
 
 def table(rows: list[tuple[str, ...]]) -> str:
-    """Markdown, with the first row for a head."""
+    """A Markdown table; the first row is its head."""
     ruled = [rows[0], tuple("---" for _ in rows[0]), *rows[1:]]
     return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |\n" for row in ruled)

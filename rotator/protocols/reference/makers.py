@@ -1,10 +1,12 @@
-"""More command tables of docs/protocols.md: EasyComm, SPID and DCU-1, made as those of `reference` are.
+"""More command tables of docs/protocols.md: EasyComm, SPID and DCU-1, made as those in gs232.py.
 
-Knows one example of each command, and how bytes that are no text are shown. Does not know what any command does or
-answers: it asks.
+Knows one example of each command, and how binary bytes are shown. Does not know what a command does or answers: the
+protocol's session is asked.
 """
 
 from __future__ import annotations
+
+from itertools import islice
 
 from rotator.protocols import dcu1, easycomm, spid
 from rotator.protocols.dcu1 import Dcu1Session
@@ -15,38 +17,51 @@ from rotator.protocols.spid import Command, Frame, Model, Turn
 from rotator.protocols.spid_session import PULSES, SpidSession
 
 _EASYCOMM_EXAMPLES = {"VL": "VL4900", "VR": "VR4900", "VU": "VU4900", "VD": "VD4900"}
-"""Commands that are written with numbers; all others stand alone."""
+"""Commands that take numbers; all others have none."""
+_FIELDS = {13: (1, 4, 1, 4, 1, 1, 1), 12: (1, 4, 1, 4, 1, 1), 5: (1, 3, 1)}
+"""The bytes of each field of a SPID frame, by its length: start, azimuth, pulses, elevation, pulses, K, end."""
 _DCU1_EXAMPLES = {"AP1": "AP1235;"}
 
 
 def easycomm_table() -> str:
-    """Every EasyComm command that concerns a rotor, from which standard on, with an example and its answer."""
-    rows: list[tuple[str, ...]] = [("command", "from", "what it does", "example", "answer")]
+    """Every EasyComm command that concerns a rotor: an example, the first standard that has it, and the answer."""
+    rows: list[tuple[str, ...]] = [("example", "from", "what it does", "answer")]
     for verb in easycomm.VERBS:
         example = _EASYCOMM_EXAMPLES.get(verb.text, verb.text)
         answer = b"".join(EasycommSession(Example(), Level.III).receive(example.encode() + b"\n"))
-        rows.append((f"`{verb.text}`", verb.level.name, verb.help, f"`{example}`", shown(answer)))
+        rows.append((f"`{example}`", verb.level.name, verb.help, shown(answer)))
     return table(rows)
 
 
 def spid_table() -> str:
-    """Every SPID command with the frame that means 235/25, or left, and what each controller answers, in hex."""
+    """Every SPID command with the frame that means 235/25, or left, and each controller's answer, in hex.
+
+    Controllers that get the same frame and answer alike share a row. An answer equal to that of a read is not repeated.
+    """
     rows: list[tuple[str, ...]] = [("K", "what it does", "for", "sent", "answer")]
     for row in spid.ROWS:
+        models: dict[tuple[str, str], list[str]] = {}
         for model in row.models:
-            sent = spid.encode(_example(row.command, model), model, PULSES[model])
-            answer = b"".join(SpidSession(Example(), model).receive(sent))
-            rows.append((f"`{row.command:02X}`", row.help, model.value, _hex(sent), _hex(answer)))
+            sent, answer = _exchange(row.command, model)
+            as_read = row.command is not Command.STATUS and answer == _exchange(Command.STATUS, model)[1]
+            answer_text = f"as `{Command.STATUS:02X}`" if as_read else _hex(answer)
+            models.setdefault((_hex(sent), answer_text), []).append(model.value)
+        rows += [(f"`{row.command:02X}`", row.help, ", ".join(names), *cells) for cells, names in models.items()]
     return table(rows)
 
 
+def _exchange(command: Command, model: Model) -> tuple[bytes, bytes]:
+    sent = spid.encode(_example(command, model), model, PULSES[model])
+    return sent, b"".join(SpidSession(Example(), model).receive(sent))
+
+
 def dcu1_table() -> str:
-    """Every DCU-1 command with an example and its answer."""
-    rows: list[tuple[str, ...]] = [("command", "what it does", "example", "answer")]
+    """An example of every DCU-1 command, and its answer."""
+    rows: list[tuple[str, ...]] = [("example", "what it does", "answer")]
     for verb in dcu1.VERBS:
         example = _DCU1_EXAMPLES.get(verb.text, verb.text + ";")
         answer = b"".join(Dcu1Session(Example()).receive(example.encode()))
-        rows.append((f"`{verb.text}`" if verb.text else "", verb.help, f"`{example}`", shown(answer)))
+        rows.append((f"`{example}`", verb.help, shown(answer)))
     return table(rows)
 
 
@@ -61,4 +76,8 @@ def _example(command: Command, model: Model) -> Frame:
 
 
 def _hex(octets: bytes) -> str:
-    return f"`{octets.hex(' ').upper()}`" if octets else "nothing"
+    """A frame in hex, one group for each field."""
+    if not octets:
+        return "nothing"
+    digits = iter(octets.hex().upper())
+    return f"`{' '.join(''.join(islice(digits, 2 * size)) for size in _FIELDS[len(octets)])}`"

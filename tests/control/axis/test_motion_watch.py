@@ -8,9 +8,10 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.motion_watch import CUT_BY_HAND, MotionWatch
+from rotator.control.axis.motion_watch import MotionWatch
+from rotator.control.axis.run_watch import CUT_BY_HAND
 from rotator.control.sky.mount import Range
-from rotator.status import Fault
+from rotator.faults import Fault
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05
@@ -196,7 +197,9 @@ def test_at_half_its_speed_for_a_second(speed_dps: float, share: float, noise_de
 def test_slower_than_that_it_is_a_notice_that_goes_again(share: float) -> None:
     bench = Bench()
     assert bench.pass_by(10.0, share * 6.0) is None
-    assert bench.watch.notices == ("turning with no relay on: a hand may be on the control box's switch",)
+    assert [str(notice) for notice in bench.watch.notices] == [
+        "turning with no relay on: a hand may be on the control box's switch"
+    ]
     assert bench.pass_by(5.0) is None
     assert bench.watch.notices == ()
 
@@ -244,7 +247,7 @@ def test_what_still_turns_with_the_master_open_is_said() -> None:
     bench, _ = welded(master=True)
     for _ in range(100):
         bench.pass_by(STEP_S, 6.0)
-    assert bench.watch.notices == (f"still turning with the master open: {CUT_BY_HAND}",)
+    assert [str(notice) for notice in bench.watch.notices] == [f"still turning with the master open: {CUT_BY_HAND}"]
 
 
 # --- never the opposite relay

@@ -6,12 +6,15 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.positioned import STRAY_S, PositionedAxis, PositionedSettings
+from rotator.control.axis.positioned import PositionedAxis
 from rotator.control.axis.sensing import Reading, Window
+from rotator.control.axis.settings import PositionedSettings
+from rotator.control.axis.stray_watch import STRAY_S
 from rotator.control.commands import HOLD, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import AimGoal
+from rotator.faults import Missing
 
 LEASE_S = 0.25
 STEP_S = 0.02
@@ -20,7 +23,7 @@ STEP_S = 0.02
 class Motor:
     """A drive that does what it is told at once, or is stuck; its sensor tells degrees."""
 
-    def __init__(self, missing: tuple[str, ...] = ()) -> None:
+    def __init__(self, missing: tuple[Missing, ...] = ()) -> None:
         self.axis = PositionedAxis(
             PositionedSettings(
                 axis=Axis.AZIMUTH,
@@ -42,8 +45,7 @@ class Motor:
         command: object = HOLD
         for _ in range(max(1, round(seconds / STEP_S))):
             self.axis.see(Reading(self.now_s, self.angle_deg), self.now_s)
-            command = self.axis.decide(self.now_s)
-            self.axis.status(self.now_s, Direction.OFF)
+            command = self.axis.decide(self.now_s).command
             if isinstance(command, Steer) and not self.stuck:
                 self.angle_deg = command.angle_deg
             self.now_s += STEP_S
@@ -67,12 +69,12 @@ def test_without_a_goal_it_holds(motor: Motor) -> None:
 
 
 def test_a_standing_target_is_told_as_it_is_and_for_a_lease(motor: Motor) -> None:
-    motor.axis.goal = AimGoal(235.0, 1.0)
+    motor.axis.aim(AimGoal(235.0, 1.0))
     assert motor.step() == Steer(235.0, 0.0, LEASE_S)
 
 
 def test_a_moving_target_is_told_with_its_rate(motor: Motor) -> None:
-    motor.axis.goal = AimGoal(100.0, 1.0, path(3.0))
+    motor.axis.aim(AimGoal(100.0, 1.0, path(3.0)))
     motor.step(1.0)
     command = motor.step()
     assert command is not None
@@ -81,7 +83,7 @@ def test_a_moving_target_is_told_with_its_rate(motor: Motor) -> None:
 
 
 def test_at_its_limit_it_stands_while_the_target_moves_on(motor: Motor) -> None:
-    motor.axis.goal = AimGoal(449.0, 1.0, path(3.0, first_deg=449.0))
+    motor.axis.aim(AimGoal(449.0, 1.0, path(3.0, first_deg=449.0)))
     command = motor.step(1.0)
     assert command is not None
     assert (command.angle_deg, command.rate_dps) == (450.0, 0.0)
@@ -89,22 +91,22 @@ def test_at_its_limit_it_stands_while_the_target_moves_on(motor: Motor) -> None:
 
 def test_before_anything_is_known_of_its_place_it_holds() -> None:
     motor = Motor()
-    motor.axis.goal = AimGoal(235.0, 1.0)
-    assert motor.axis.decide(0.0) is HOLD
+    motor.axis.aim(AimGoal(235.0, 1.0))
+    assert motor.axis.decide(0.0).command is HOLD
 
 
 def test_an_axis_that_nobody_has_set_up_is_not_aimed() -> None:
-    motor = Motor(missing=("home",))
-    motor.axis.goal = AimGoal(235.0, 1.0)
+    motor = Motor(missing=(Missing.HOMING,))
+    motor.axis.aim(AimGoal(235.0, 1.0))
     assert motor.step() is None
-    assert motor.axis.uncalibrated == "home"
+    assert motor.axis.status(motor.now_s).missing == (Missing.HOMING,)
 
 
 # --- jogging
 
 
 def test_a_jog_goes_on_from_where_it_is_at_its_own_speed(motor: Motor) -> None:
-    motor.axis.start_jog(Direction.PLUS, None, 0.0)
+    motor.axis.jog(Direction.PLUS, None, 0.0)
     command = motor.step(1.0)
     assert command is not None
     assert command.rate_dps == 30.0
@@ -112,7 +114,7 @@ def test_a_jog_goes_on_from_where_it_is_at_its_own_speed(motor: Motor) -> None:
 
 
 def test_a_jog_ends_at_the_limit(motor: Motor) -> None:
-    motor.axis.start_jog(Direction.MINUS, None, 0.0)
+    motor.axis.jog(Direction.MINUS, None, 0.0)
     told = motor.step(5.0)
     assert told is not None
     assert (told.angle_deg, told.rate_dps) == (0.0, 0.0), "to let go of it would be to come to rest further on"
@@ -120,14 +122,14 @@ def test_a_jog_ends_at_the_limit(motor: Motor) -> None:
 
 
 def test_a_jog_for_a_while_ends_by_itself(motor: Motor) -> None:
-    motor.axis.start_jog(Direction.PLUS, 0.5, 0.0)
+    motor.axis.jog(Direction.PLUS, 0.5, 0.0)
     assert motor.step(1.0) is None
     assert motor.angle_deg == pytest.approx(115.0, abs=1.0)
 
 
 def test_not_set_up_a_press_lasts_two_seconds() -> None:
-    motor = Motor(missing=("home",))
-    motor.axis.start_jog(Direction.PLUS, None, 0.0)
+    motor = Motor(missing=(Missing.HOMING,))
+    motor.axis.jog(Direction.PLUS, None, 0.0)
     assert motor.step(1.9) is not None
     assert motor.step(0.2) is None
 
@@ -137,7 +139,7 @@ def test_not_set_up_a_press_lasts_two_seconds() -> None:
 
 def test_an_axis_that_does_not_follow_is_stopped_and_named(motor: Motor) -> None:
     motor.stuck = True
-    motor.axis.goal = AimGoal(235.0, 1.0)
+    motor.axis.aim(AimGoal(235.0, 1.0))
     motor.step(STRAY_S + 0.1)
     assert motor.axis.fault is not None
     assert str(motor.axis.fault).startswith("azimuth: axis does not follow: stands at 100.0°, 135.0° from where")
@@ -146,7 +148,7 @@ def test_an_axis_that_does_not_follow_is_stopped_and_named(motor: Motor) -> None
 
 def test_one_that_comes_nearer_slowly_follows(motor: Motor) -> None:
     motor.stuck = True
-    motor.axis.goal = AimGoal(235.0, 1.0)
+    motor.axis.aim(AimGoal(235.0, 1.0))
     for _ in range(100):
         motor.angle_deg += 1.0
         motor.step(0.5)
@@ -155,22 +157,22 @@ def test_one_that_comes_nearer_slowly_follows(motor: Motor) -> None:
 
 def test_acknowledged_it_obeys_again(motor: Motor) -> None:
     motor.stuck = True
-    motor.axis.goal = AimGoal(235.0, 1.0)
+    motor.axis.aim(AimGoal(235.0, 1.0))
     motor.step(STRAY_S + 0.1)
     motor.stuck = False
     motor.axis.acknowledge()
     assert motor.axis.fault is None
-    motor.axis.goal = AimGoal(235.0, 1.0)
+    motor.axis.aim(AimGoal(235.0, 1.0))
     motor.step(0.1)
     assert motor.angle_deg == 235.0
 
 
 def test_a_silent_sensor_holds_it_and_is_a_fault(motor: Motor) -> None:
-    motor.axis.goal = AimGoal(235.0, 1.0)
+    motor.axis.aim(AimGoal(235.0, 1.0))
     motor.step()
     for _ in range(10):
         motor.axis.see(Reading(motor.now_s, None, "no answer from controller 1"), motor.now_s)
-        assert motor.axis.decide(motor.now_s) is HOLD
+        assert motor.axis.decide(motor.now_s).command is HOLD
         motor.now_s += STEP_S
     assert motor.axis.fault is not None
     assert "no answer from controller 1" in str(motor.axis.fault)
@@ -181,16 +183,11 @@ def test_a_silent_sensor_holds_it_and_is_a_fault(motor: Motor) -> None:
 
 def test_it_moves_until_it_is_there(motor: Motor) -> None:
     motor.stuck = True
-    motor.axis.goal = AimGoal(235.0, 1.0)
+    motor.axis.aim(AimGoal(235.0, 1.0))
     motor.step()
-    status = motor.axis.status(motor.now_s, Direction.OFF)
+    status = motor.axis.status(motor.now_s)
     assert (status.moving, status.drive, status.target_deg) == (True, Direction.PLUS, 235.0)
     motor.angle_deg = 235.0
     motor.step()
-    status = motor.axis.status(motor.now_s, Direction.OFF)
+    status = motor.axis.status(motor.now_s)
     assert (status.moving, status.drive) == (False, Direction.OFF)
-
-
-def test_its_scale_is_not_set_over_a_link(motor: Motor) -> None:
-    with pytest.raises(ValueError, match="knows its own angles"):
-        motor.axis.calibrate_end(high_end=True)

@@ -8,7 +8,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.run_watch import WAYS, RunWatch
 from rotator.control.sky.mount import Range
-from rotator.status import Fault
+from rotator.faults import Fault
 
 MINUS, OFF, PLUS = Direction
 QUIET_S = 0.5 + 5.0 / 6.0

@@ -9,7 +9,7 @@ import pytest
 from hw.ports import Axis
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.sensing import ANYTHING, BAD_FOR_S, STALE_S, Reading, Sensing, Window
-from rotator.status import Fault
+from rotator.faults import Fault, FaultKind
 
 HALF_CIRCLE = Calibration(((0.05, 0.0), (0.95, 180.0)))
 STEP_S = 0.05
@@ -106,7 +106,7 @@ def test_the_same_reading_again_grows_old(bench: Bench) -> None:
 
 def test_a_broken_pot_explains_itself(bench: Bench) -> None:
     fault = bench.read_for(0.5, 0.004)[-1]
-    assert fault == Fault("pot open or shorted", Axis.ELEVATION, "reads 0.004", "0.02 to 0.98")
+    assert fault == Fault(FaultKind.POT_OPEN, Axis.ELEVATION, "reads 0.004", "0.02 to 0.98")
     assert str(fault) == (
         "elevation: pot open or shorted: reads 0.004, limit 0.02 to 0.98"
         " (see docs/troubleshooting.md#pot-open-or-shorted)"

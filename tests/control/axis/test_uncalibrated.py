@@ -7,13 +7,14 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
 RESTING = {AZ: OFF, EL: OFF}
-FRESH = dict.fromkeys(Axis, ("calibration", "limits", "direction check"))
-BARE_POTS = dict.fromkeys(Axis, ("calibration",))
+FRESH = dict.fromkeys(Axis, (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK))
+BARE_POTS = dict.fromkeys(Axis, (Missing.CALIBRATION,))
 
 
 @pytest.fixture
@@ -30,9 +31,9 @@ def test_it_says_what_is_missing(fresh: Any) -> None:
     assert fresh.status.azimuth.raw == pytest.approx(0.25)
 
 
-@pytest.mark.parametrize("missing", ["calibration", "limits", "direction check"])
+@pytest.mark.parametrize("missing", [Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK])
 @pytest.mark.parametrize("order", [Aim(235, 60), Aim(235, None), Park(), LoadTimed(1.0, ((235, 60), (30, 0)))], ids=str)
-def test_any_one_thing_missing_keeps_it_from_being_aimed(new_desk: Any, order: Order, missing: str) -> None:
+def test_any_one_thing_missing_keeps_it_from_being_aimed(new_desk: Any, order: Order, missing: Missing) -> None:
     desk = new_desk(missing=dict.fromkeys(Axis, (missing,)))
     desk.step()
     assert desk.step(order, RunTimed()) == RESTING
@@ -74,7 +75,7 @@ def test_a_pot_that_is_not_there_lets_not_even_a_jog_pass(fresh: Any) -> None:
 
 
 def test_one_fresh_axis_keeps_the_other_from_nothing(new_desk: Any) -> None:
-    desk = new_desk(missing={EL: ("direction check",)})
+    desk = new_desk(missing={EL: (Missing.DIRECTION_CHECK,)})
     desk.step()
     assert desk.step(Aim(235, 60)) == {AZ: PLUS, EL: OFF}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from hw.ports import Axis, Direction
+from hw.ports import Axis
 from rotator.assembly.settings import build_controller, build_mount, build_offsets
 from rotator.config.load import ConfigError, parse
 from rotator.control.sky.offsets import Offsets, offsets
@@ -65,6 +65,6 @@ def test_the_limits_stay_at_the_stops() -> None:
 
 def test_the_controller_works_in_shifted_degrees() -> None:
     controller = build_controller(parse(config(""), "test"))
-    status = controller.status(0.0, dict.fromkeys(Axis, Direction.OFF))
+    status = controller.status(0.0)
     assert status.azimuth.calibration == ((0.05, 20.0), (0.95, 470.0))
     assert status.elevation.calibration == ((0.05, -2.0), (0.95, 178.0))

@@ -9,7 +9,7 @@ import pytest
 
 from firmware_sim.buses.i2c import Nack
 from firmware_sim.chips.pca9685 import Pca9685
-from firmware_sim.parts.servo import ServoSpec, SimServo
+from firmware_sim.parts.servo import SimServo, SimServoSpec
 
 SERVO_50_HZ = 0x79
 
@@ -144,7 +144,7 @@ class Wire:
     def __init__(self, start_deg: float) -> None:
         self.now_s = 0.0
         self.us: float | None = None
-        self.servo = SimServo(ServoSpec(jitter_deg=0.0), start_deg, lambda: self.now_s, lambda: self.us)
+        self.servo = SimServo(SimServoSpec(jitter_deg=0.0), start_deg, lambda: self.now_s, lambda: self.us)
 
     def after(self, seconds: float, us: float | None) -> float:
         self.servo.advance()
@@ -168,6 +168,6 @@ def test_a_servo_presses_against_the_stops_in_its_case() -> None:
 
 
 def test_jitter_is_what_was_asked_for() -> None:
-    servo = SimServo(ServoSpec(jitter_deg=0.5), 90.0, lambda: 0.0, lambda: 1500.0)
+    servo = SimServo(SimServoSpec(jitter_deg=0.5), 90.0, lambda: 0.0, lambda: 1500.0)
     angles_deg = [servo.angle_deg() - 90.0 for _ in range(500)]
     assert (sum(error**2 for error in angles_deg) / 500) ** 0.5 == pytest.approx(0.5, rel=0.15)

@@ -16,12 +16,12 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 import moteus
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotors.moteus import AxisSpec, MoteusWorld
+from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
 
 
-def on_the_adapter(tmp_path: Path, talk: Callable[[Any], Awaitable[None]]) -> MoteusWorld:
+def on_the_adapter(tmp_path: Path, talk: Callable[[Any], Awaitable[None]]) -> SimMoteusRotor:
     """Open the library's transport on a world of two controllers, at 90° and -540°, and let `talk` use it."""
-    world = MoteusWorld(AxisSpec(1, start_deg=90.0), AxisSpec(2, start_deg=-540.0), time.monotonic)
+    world = SimMoteusRotor(MoteusAxisSpec(1, start_deg=90.0), MoteusAxisSpec(2, start_deg=-540.0), time.monotonic)
     adapter = world.adapter(tmp_path / "fdcanusb")
     adapter.plug()
 
@@ -93,7 +93,7 @@ def test_the_librarys_own_move_to_arrives(tmp_path: Path) -> None:
 
 def test_in_simulated_time_the_library_runs_on_the_transport_alone() -> None:
     clock = SimClock()
-    world = MoteusWorld(AxisSpec(1), AxisSpec(2), clock)
+    world = SimMoteusRotor(MoteusAxisSpec(1), MoteusAxisSpec(2), clock)
     controller = moteus.Controller(id=2, transport=world.transport())
 
     async def talk() -> None:
@@ -110,6 +110,6 @@ def test_in_simulated_time_the_library_runs_on_the_transport_alone() -> None:
 
 
 def test_faults_are_injected_by_name_and_the_names_are_told() -> None:
-    world = MoteusWorld(AxisSpec(1), AxisSpec(2), SimClock())
+    world = SimMoteusRotor(MoteusAxisSpec(1), MoteusAxisSpec(2), SimClock())
     with pytest.raises(ValueError, match=r"no fault called 'gremlin'; there are: .*azimuth-jammed.*lines-garbled"):
         world.inject("gremlin")

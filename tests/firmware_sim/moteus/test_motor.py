@@ -8,7 +8,7 @@ from itertools import pairwise
 import pytest
 
 from firmware_sim.clock import SimClock
-from firmware_sim.moteus.motor import ENABLE_S, Home, Mode, Settings, SimMotor
+from firmware_sim.moteus.motor import ENABLE_S, Home, Mode, MoteusSettings, SimMoteusMotor
 from firmware_sim.moteus.registers import COMMAND_DEFAULTS, Register
 
 NAMES = {
@@ -24,7 +24,7 @@ NAMES = {
 class Bench:
     def __init__(self, shaft_rev: float = 0.0, **settings: float) -> None:
         self.clock = SimClock()
-        self.motor = SimMotor(self.clock, Settings(**settings), shaft_rev)  # type: ignore[arg-type]
+        self.motor = SimMoteusMotor(self.clock, MoteusSettings(**settings), shaft_rev)  # type: ignore[arg-type]
 
     def go(self, **command: float) -> None:
         self.motor.advance()
@@ -35,7 +35,7 @@ class Bench:
         self.motor.advance()
         self.motor.obey(Mode.STOPPED)
 
-    def after(self, seconds: float) -> SimMotor:
+    def after(self, seconds: float) -> SimMoteusMotor:
         self.clock.sleep(seconds)
         self.motor.advance()
         return self.motor

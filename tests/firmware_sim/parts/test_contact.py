@@ -10,7 +10,7 @@ import pytest
 from firmware_sim.clock import SimClock
 from firmware_sim.parts.contact import ContactFault, ContactSpec, SimContact
 from firmware_sim.parts.motor import MotorSpec, SimMotor
-from firmware_sim.rotors.relay_pulse import PulseAxisSpec, PulseRotor
+from firmware_sim.rotors.relay_pulse import RelayPulseAxisSpec, SimRelayPulseRotor
 
 QUIET = ContactSpec(spacing_deg=5.0, closed_deg=1.0, closes_at_deg=0.0, bounce_s=0.0)
 MOTOR = MotorSpec(speed_dps=6.0, lag_s=0.0, relay_delay_s=0.0, backlash_deg=0.0, stop_low_deg=-50.0, stop_high_deg=50.0)
@@ -120,7 +120,9 @@ def test_put_right_it_shows_what_it_is() -> None:
 
 def test_a_rotor_pulls_the_line_low_while_the_contact_is_closed() -> None:
     clock = SimClock()
-    rotor = PulseRotor(PulseAxisSpec(22, 23, 17, start_deg=0.5), PulseAxisSpec(24, 25, 27, start_deg=2.0), clock)
+    rotor = SimRelayPulseRotor(
+        RelayPulseAxisSpec(22, 23, 17, start_deg=0.5), RelayPulseAxisSpec(24, 25, 27, start_deg=2.0), clock
+    )
     assert (rotor.gpio.level(17), rotor.gpio.level(27)) == (False, True)
     rotor.gpio.drive_input(22, True)  # as if a relay line were driven
     clock.sleep(0.3)
@@ -129,6 +131,6 @@ def test_a_rotor_pulls_the_line_low_while_the_contact_is_closed() -> None:
 
 
 def test_an_unknown_fault_is_answered_with_the_list() -> None:
-    rotor = PulseRotor(PulseAxisSpec(22, 23, 17), PulseAxisSpec(24, 25, 27), SimClock())
+    rotor = SimRelayPulseRotor(RelayPulseAxisSpec(22, 23, 17), RelayPulseAxisSpec(24, 25, 27), SimClock())
     with pytest.raises(ValueError, match="no fault called 'fire'; there are: azimuth-contact-stuck-closed"):
         rotor.inject("fire")

@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotors.digipot import BoxSpec, DigipotRotor
+from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
 
 
 class Bench:
     def __init__(self, start_deg: float = 180.0) -> None:
         self.clock = SimClock()
-        self.rotor = DigipotRotor(BoxSpec(8, start_deg), BoxSpec(7, 180.0), self.clock)
+        self.rotor = SimDigipotRotor(DigipotAxisSpec(8, start_deg), DigipotAxisSpec(7, 180.0), self.clock)
         self.device = self.rotor.spidev.SpiDev()
         self.device.open(0, 0)
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from functools import partial
+from typing import Any
+
 import pytest
 
 from firmware_sim.buses.i2c import SimI2CBus
@@ -24,7 +27,7 @@ class Bench:
         self.wire = SimI2CBus(self.clock.sleep)
         self.chip = SimAds1115(self.clock, oscillator_error=oscillator_error)
         self.volts = list(INPUTS_V)
-        self.chip.inputs[:] = [lambda pin=pin: self.volts[pin] for pin in range(4)]
+        self.chip.inputs[:] = [partial(self.volts.__getitem__, pin) for pin in range(4)]
         self.clock.add_alarm(self.chip.due_s, lambda _now_s: self.chip.settle())
         self.wire.attach(address, self.chip)
 
@@ -48,7 +51,7 @@ class Bench:
         (3, {"rate_sps": 8, "full_scale_v": 6.144}, 0xF103),
     ],
 )
-def test_one_shot_against_ground_with_the_comparator_off(channel: int, settings: dict[str, float], config: int) -> None:
+def test_one_shot_against_ground_with_the_comparator_off(channel: int, settings: dict[str, Any], config: int) -> None:
     bench = Bench()
     bench.driver(**settings).volts(channel)
     assert bench.config() == config  # OS reads 1: the conversion has ended

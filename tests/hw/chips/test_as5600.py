@@ -10,7 +10,7 @@ from firmware_sim.chips.as5600 import MagnetFault
 from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.as5600 import ADDRESS, ADDRESS_L, As5600
-from hw.ports import AngleSensor, HardwareError
+from hw.ports import AngleSensor, AngleSource, HardwareError
 
 STEP = 1 / 4096
 
@@ -36,7 +36,7 @@ def bench() -> Bench:
 
 def test_it_is_an_angle_sensor_that_measures(bench: Bench) -> None:
     sensor: AngleSensor = bench.driver()
-    assert sensor.source == "measured"
+    assert sensor.source is AngleSource.MEASURED
 
 
 @pytest.mark.parametrize("turn", [0.0, STEP, 0.25, 0.5, 0.75, 1.0 - STEP])

@@ -11,7 +11,7 @@ from firmware_sim.chips.mpu6050 import Mpu6050 as SimMpu6050
 from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.mpu6050 import LASTS_S, Mounting, Mpu6050
-from hw.ports import AngleSensor, HardwareError
+from hw.ports import AngleSensor, AngleSource, HardwareError
 
 CYCLE_S = 0.05
 
@@ -52,7 +52,7 @@ def bench() -> Bench:
 
 def test_it_is_an_angle_sensor_that_measures(bench: Bench) -> None:
     sensor: AngleSensor = bench.driver()
-    assert sensor.source == "measured"
+    assert sensor.source is AngleSource.MEASURED
 
 
 def test_the_chip_is_woken_and_set_up(bench: Bench) -> None:

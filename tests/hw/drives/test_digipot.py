@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 
 from firmware_sim.clock import SimClock
-from firmware_sim.rotors.digipot import BoxSpec as SimBoxSpec
-from firmware_sim.rotors.digipot import DigipotRotor
+from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
 from hw.buses.gpio import GpioOutputs
 from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus
 from hw.chips.mcp41010 import Mcp41010
-from hw.drives.digipot import ENABLE, REFRESH_S, BoxSpec, DigipotDrive
+from hw.drives.control_box import BoxSpec
+from hw.drives.digipot import ENABLE, REFRESH_S, DigipotDrive
 from hw.drives.relays import LONGEST_LEASE_S
-from hw.ports import Axis, HardwareError
+from hw.ports import AngleSource, Axis, HardwareError
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 ENABLE_PIN = 22
@@ -26,9 +26,9 @@ class Bench:
 
     def __init__(self, *, relay: bool = True, kernel: bool = False, start_deg: float = 40.0) -> None:
         self.clock = SimClock(100.0)
-        self.rotor = DigipotRotor(
-            SimBoxSpec(select_pin=8, start_deg=40.0),
-            SimBoxSpec(select_pin=7, start_deg=30.0),
+        self.rotor = SimDigipotRotor(
+            DigipotAxisSpec(select_pin=8, start_deg=40.0),
+            DigipotAxisSpec(select_pin=7, start_deg=30.0),
             self.clock,
             enable_pin=ENABLE_PIN if relay else None,
         )
@@ -103,7 +103,7 @@ def test_the_box_goes_where_the_wiper_says_and_the_model_with_it(kernel: bool, a
     bench.follow(AZ, angle_deg, 60.0)
     assert bench.antenna(AZ) == pytest.approx(angle_deg, abs=BAND_DEG)
     assert bench.drive.sensor(AZ).read() == pytest.approx(bench.antenna(AZ), abs=1.5)
-    assert bench.drive.sensor(AZ).source == "modelled"
+    assert bench.drive.sensor(AZ).source is AngleSource.MODELLED
 
 
 def test_on_the_way_the_model_is_where_the_antenna_is() -> None:

@@ -1,21 +1,21 @@
-"""Calibration tables between degrees and what a device is told."""
+"""The calibration table between degrees and the number a device is given."""
 
 from __future__ import annotations
 
 import pytest
 
-from hw.drives.scale import Scale
+from hw.drives.scale import CommandScale
 from hw.ports import HardwareError
 
-SERVO = Scale("azimuth servo", ((0, 520), (90, 1470), (180, 2480)))
-UPSIDE_DOWN = Scale("elevation servo", ((90, 1000), (0, 2000)))
+SERVO = CommandScale("azimuth servo", ((0, 520), (90, 1470), (180, 2480)))
+UPSIDE_DOWN = CommandScale("elevation servo", ((90, 1000), (0, 2000)))
 
 
 @pytest.mark.parametrize(
     ("scale", "angle_deg", "value"),
     [(SERVO, 0, 520), (SERVO, 45, 995), (SERVO, 90, 1470), (SERVO, 180, 2480), (UPSIDE_DOWN, 22.5, 1750)],
 )
-def test_a_straight_line_between_points_both_ways(scale: Scale, angle_deg: float, value: float) -> None:
+def test_a_straight_line_between_points_both_ways(scale: CommandScale, angle_deg: float, value: float) -> None:
     assert scale.value(angle_deg) == pytest.approx(value)
     assert scale.angle_deg(value) == pytest.approx(angle_deg)
 
@@ -29,13 +29,13 @@ def test_outside_the_table(angle_deg: float) -> None:
 @pytest.mark.parametrize(
     ("points", "said"),
     [
-        ((), "at least two"),
-        (((0, 500),), "at least two"),
-        (((0, 500), (0, 600)), "turns back"),
-        (((0, 500), (90, 1500), (180, 1400)), "turns back"),
-        (((0, 500), (90, 500)), "the same value"),
+        ((), "needs two points or more"),
+        (((0, 500),), "needs two points or more"),
+        (((0, 500), (0, 600)), "angles must rise from point to point"),
+        (((0, 500), (90, 1500), (180, 1400)), "numbers must rise, or fall, all the way"),
+        (((0, 500), (90, 500)), "numbers must rise, or fall, all the way"),
     ],
 )
 def test_a_table_that_is_none(points: tuple[tuple[float, float], ...], said: str) -> None:
     with pytest.raises(HardwareError, match=said):
-        Scale("elevation servo", points)
+        CommandScale("elevation servo", points)

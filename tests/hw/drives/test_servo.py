@@ -9,15 +9,15 @@ from itertools import pairwise
 import pytest
 
 from firmware_sim.clock import SimClock
-from firmware_sim.parts.servo import ServoSpec as SimSpec
-from firmware_sim.rotors.servo import ServoAxisSpec, ServoRotor
+from firmware_sim.parts.servo import SimServoSpec
+from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
 from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
 from hw.chips.pca9685 import Pca9685
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.drives.servo import ENABLE, LOOK_S, RETRY_S, ServoDrive
 from hw.drives.servo_axis import ServoSpec
-from hw.ports import Axis, HardwareError
+from hw.ports import AngleSource, Axis, HardwareError
 from hw.safety.guard import PATIENCE_S
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -33,8 +33,8 @@ class Bench:
 
     def __init__(self, idle_off_s: float | None = None, *, on_the_wire: bool = False) -> None:
         self.clock = SimClock(100.0)
-        still = SimSpec(jitter_deg=0.0)
-        self.rotor = ServoRotor(
+        still = SimServoSpec(jitter_deg=0.0)
+        self.rotor = SimServoRotor(
             ServoAxisSpec(0, servo=still),
             ServoAxisSpec(1, servo=still),
             self.clock,
@@ -128,7 +128,7 @@ def test_a_moving_target_is_followed_between_orders() -> None:
     bench.follow(AZ, 60.0, 10.0, rate_dps=3.0)
     assert bench.antenna(AZ) == pytest.approx(90.0, abs=0.5)
     assert bench.drive.sensor(AZ).read() == pytest.approx(90.0, abs=0.1)
-    assert bench.drive.sensor(AZ).source == "modelled"
+    assert bench.drive.sensor(AZ).source is AngleSource.MODELLED
 
 
 def test_a_course_that_runs_out_is_held_where_it_is() -> None:
@@ -290,7 +290,7 @@ def test_on_a_bus_that_takes_its_time() -> None:
     [
         (ServoSpec(channel=1), "azimuth and elevation are both on output 1"),
         (ServoSpec(channel=0, start_deg=200.0), "azimuth servo: 200.0° is outside"),
-        (ServoSpec(channel=0, pulses_us=((0.0, 500.0),)), "at least two points"),
+        (ServoSpec(channel=0, pulses_us=((0.0, 500.0),)), "calibration table: needs two points or more"),
     ],
 )
 def test_a_specification_that_contradicts_itself(azimuth: ServoSpec, said: str) -> None:

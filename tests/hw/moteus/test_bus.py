@@ -15,12 +15,11 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 
 from firmware_sim.moteus.bus import Frame, padded
 from firmware_sim.moteus.motor import Mode
-from firmware_sim.rotors.moteus import AxisSpec as SimAxis
-from firmware_sim.rotors.moteus import MoteusWorld
+from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import CanChannel, SerialPort
-from hw.moteus.orders import AxisSpec
+from hw.moteus.orders import MoteusSpec
 from hw.ports import Axis, HardwareError
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -38,9 +37,11 @@ def wait_for(what: Callable[[], bool]) -> float:
 
 class Bench:
     def __init__(self, path: Path) -> None:
-        self.world = MoteusWorld(SimAxis(1), SimAxis(2, rev_per_turn=-1.0, zero_rev=-0.25), time.monotonic)
+        self.world = SimMoteusRotor(
+            MoteusAxisSpec(1), MoteusAxisSpec(2, rev_per_turn=-1.0, zero_rev=-0.25), time.monotonic
+        )
         self.adapter = self.world.adapter(path)
-        self.drive = MoteusDrive(AxisSpec(1), AxisSpec(2, rev_per_turn=-1.0, zero_rev=-0.25), time.monotonic)
+        self.drive = MoteusDrive(MoteusSpec(1), MoteusSpec(2, rev_per_turn=-1.0, zero_rev=-0.25), time.monotonic)
         self.bus = MoteusBus(self.drive, SerialPort(str(path)))
 
     def aim(self, axis: Axis, angle_deg: float, rate_dps: float = 0.0) -> None:
@@ -191,7 +192,7 @@ def test_no_adapter_is_a_sentence_and_it_is_found_when_it_comes(tmp_path: Path) 
 
 
 @contextlib.contextmanager
-def on_a_can_channel(world: MoteusWorld, channel: str) -> Iterator[None]:
+def on_a_can_channel(world: SimMoteusRotor, channel: str) -> Iterator[None]:
     """The simulated controllers as nodes of python-can's in-process bus."""
     can = pytest.importorskip("can", reason="python-can is missing: pip install python-can")
     node = can.Bus(interface="virtual", channel=channel, fd=True)
@@ -222,8 +223,8 @@ def on_a_can_channel(world: MoteusWorld, channel: str) -> Iterator[None]:
 
 
 def test_a_can_channel_does_as_well_and_there_the_library_itself_never_gives_up() -> None:
-    world = MoteusWorld(SimAxis(1), SimAxis(2), time.monotonic)
-    drive = MoteusDrive(AxisSpec(1), AxisSpec(2), time.monotonic)
+    world = SimMoteusRotor(MoteusAxisSpec(1), MoteusAxisSpec(2), time.monotonic)
+    drive = MoteusDrive(MoteusSpec(1), MoteusSpec(2), time.monotonic)
     bus = MoteusBus(drive, CanChannel("bench", interface="virtual"))
 
     def reached() -> bool:
@@ -252,7 +253,7 @@ def _complaint(drive: MoteusDrive, axis: Axis) -> str:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="SocketCAN is Linux's")
 def test_no_can_interface_is_a_sentence() -> None:
-    drive = MoteusDrive(AxisSpec(1), AxisSpec(2), time.monotonic)
+    drive = MoteusDrive(MoteusSpec(1), MoteusSpec(2), time.monotonic)
     bus = MoteusBus(drive, CanChannel("can77"))
     bus.start()
     try:

@@ -13,20 +13,19 @@ import pytest
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
 from firmware_sim.clock import SimClock
-from firmware_sim.moteus.motor import Mode, Settings
-from firmware_sim.rotors.moteus import FAULT_CODES, MoteusWorld
-from firmware_sim.rotors.moteus import AxisSpec as SimAxis
+from firmware_sim.moteus.motor import Mode, MoteusSettings
+from firmware_sim.rotors.moteus import FAULT_CODES, MoteusAxisSpec, SimMoteusRotor
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import ERRAND_S, STALE_S
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.faults import FAULTS
-from hw.moteus.library import MoteusInStep
-from hw.moteus.orders import WATCHDOG_S, AxisSpec
-from hw.ports import Axis, HardwareError
+from hw.moteus.orders import WATCHDOG_S, MoteusSpec
+from hw.moteus.wire import MoteusInStep
+from hw.ports import AngleSource, Axis, HardwareError
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
-AZIMUTH = AxisSpec(can_id=1)
-ELEVATION = AxisSpec(can_id=2, rev_per_turn=-1.0, zero_rev=-0.25)
+AZIMUTH = MoteusSpec(can_id=1)
+ELEVATION = MoteusSpec(can_id=2, rev_per_turn=-1.0, zero_rev=-0.25)
 CYCLE_S = 0.05
 """The control loop's."""
 
@@ -34,22 +33,23 @@ CYCLE_S = 0.05
 class Bench:
     def __init__(self, start_deg: tuple[float, float] = (0.0, 0.0), *, geared: bool = True, rotor_turns: float = 50):
         self.clock = SimClock(100.0)
-        settings = Settings(rotor_turns=rotor_turns, timeout_mode=Mode.POSITION)
-        self.world = MoteusWorld(
-            SimAxis(1, start_deg[0], settings=settings),
-            SimAxis(2, start_deg[1], rev_per_turn=-1.0, zero_rev=-0.25, settings=Settings(rotor_turns=rotor_turns)),
+        settings = MoteusSettings(rotor_turns=rotor_turns, timeout_mode=Mode.POSITION)
+        self.world = SimMoteusRotor(
+            MoteusAxisSpec(1, start_deg[0], settings=settings),
+            MoteusAxisSpec(
+                2, start_deg[1], rev_per_turn=-1.0, zero_rev=-0.25, settings=MoteusSettings(rotor_turns=rotor_turns)
+            ),
             self.clock,
         )
-        self.specs = AxisSpec(can_id=1, geared=geared), ELEVATION
+        self.specs = MoteusSpec(can_id=1, geared=geared), ELEVATION
         self.start_program()
 
     def start_program(self) -> None:
         self.drive = MoteusDrive(*self.specs, self.clock)
         self.alive = True
         wire = MoteusInStep(self.drive, self.world.transport())
-        self.clock.add_alarm(
-            lambda drive=self.drive: wire.due_s() if self.drive is drive and self.alive else None, wire.serve
-        )  # type: ignore[misc]
+        drive = self.drive
+        self.clock.add_alarm(lambda: wire.due_s() if self.drive is drive and self.alive else None, wire.serve)
         self.clock.sleep(0.1)
 
     def follow(self, axis: Axis, angle_deg: float, seconds: float, rate_dps: float = 0.0) -> None:
@@ -79,10 +79,10 @@ class Bench:
         (ELEVATION, 0.0, -0.25),
         (ELEVATION, 90.0, -0.5),
         (ELEVATION, 180.0, -0.75),
-        (AxisSpec(1, rev_per_turn=80.0, zero_rev=3.0), 90.0, 23.0),
+        (MoteusSpec(1, rev_per_turn=80.0, zero_rev=3.0), 90.0, 23.0),
     ],
 )
-def test_degrees_are_revolutions(spec: AxisSpec, angle_deg: float, position_rev: float) -> None:
+def test_degrees_are_revolutions(spec: MoteusSpec, angle_deg: float, position_rev: float) -> None:
     assert spec.revolutions(angle_deg) == pytest.approx(position_rev, abs=1e-12)
     assert spec.degrees(position_rev) == pytest.approx(angle_deg, abs=1e-9)
 
@@ -94,7 +94,7 @@ def test_it_goes_there_and_tells_so(axis: Axis) -> None:
     bench.follow(axis, 47.3, 10.0)
     assert bench.antenna(axis) == pytest.approx(47.3, abs=1e-3)
     assert bench.drive.sensor(axis).read() == pytest.approx(47.3, abs=1e-3)
-    assert bench.drive.sensor(axis).source == "measured"
+    assert bench.drive.sensor(axis).source is AngleSource.MEASURED
 
 
 # --- motion
@@ -373,4 +373,4 @@ def test_a_controller_that_lost_its_supply_is_looked_at_before_it_is_told_to_mov
 
 def test_two_axes_cannot_share_an_id() -> None:
     with pytest.raises(HardwareError, match="both have CAN id 1"):
-        MoteusDrive(AxisSpec(1), AxisSpec(1), SimClock())
+        MoteusDrive(MoteusSpec(1), MoteusSpec(1), SimClock())

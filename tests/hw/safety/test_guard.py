@@ -1,6 +1,6 @@
-"""The guard's thread in real time: whatever else hangs or dies, relays open when their command ends.
+"""The guard's thread in real time: relays open when their command expires, whatever else hangs, fails or dies.
 
-Waits for edges with timeouts far longer than anything should take; asserts on the moments the edges themselves carry.
+Waits for edges with timeouts far longer than anything should take. Asserts on the moments that the edges carry.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
 from hw.drives.relays import LONGEST_LEASE_S, RelayBank
 from hw.ports import Axis, Direction, HardwareError
-from hw.safety.guard import Guard
+from hw.safety.guard import GUARD_THREAD, Guard
 
 PINS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25, "master": 26}
 PATIENCE_S = 20.0
@@ -25,18 +25,23 @@ SLACK_S = 2.0
 """How late a busy machine may wake a thread."""
 
 
+LINE_FAILS = HardwareError("GPIO: cannot switch azimuth_cw: Input/output error")
+
+
 class FragileLines:
-    """GPIO lines that can be made to fail."""
+    """GPIO lines that can be made to fail, all of them or only where fewer than `spared` are set at once."""
 
     def __init__(self, lines: GpioOutputs) -> None:
         self._lines = lines
         self.broken = False
+        self.failure: BaseException = LINE_FAILS
+        self.spared = len(PINS) + 1
         self.refused = threading.Event()
 
     def set(self, levels: dict[str, bool]) -> None:
-        if self.broken:
+        if self.broken and len(levels) < self.spared:
             self.refused.set()
-            raise HardwareError("GPIO: cannot switch azimuth_cw: Input/output error")
+            raise self.failure
         self._lines.set(levels)
 
     def close(self) -> None:
@@ -154,6 +159,106 @@ def test_a_command_given_just_before_the_guard_falls_asleep_ends_in_time() -> No
     finally:
         guard.stop()
         bench.rouse()
+
+
+# --- bugs
+
+
+@pytest.mark.usefixtures("guard")
+def test_a_bug_in_the_drive_is_logged_once_and_the_guard_goes_on(
+    bench: Bench, caplog: pytest.LogCaptureFixture
+) -> None:
+    bench.lines.failure = ZeroDivisionError("a bug")
+    bench.drive(0.05)
+    bench.lines.broken = True
+    for _ in range(3):
+        assert bench.lines.refused.wait(PATIENCE_S), "no further try"
+        bench.lines.refused.clear()
+    bench.lines.broken = False
+    assert bench.opened.wait(PATIENCE_S)
+    said = [record for record in caplog.records if "a bug" in record.getMessage()]
+    assert len(said) == 1
+    assert said[0].exc_info is not None, "its traceback says where"
+    assert "CUT THE MOTOR POWER" in said[0].getMessage()
+    bench.drive(0.05)
+    assert bench.opened.wait(PATIENCE_S), "it still guards"
+
+
+@pytest.mark.usefixtures("guard")
+def test_after_a_bug_the_relays_open_by_the_way_that_still_works(bench: Bench) -> None:
+    """One motor's relays cannot be switched, all relays together can."""
+    bench.lines.failure = ValueError("a bug that only two lines meet")
+    bench.lines.spared = 3
+    bench.drive(0.05)
+    bench.lines.broken = True
+    assert bench.opened.wait(PATIENCE_S)
+
+
+class CannotWait:
+    """The bank, but for the way in which the guard sleeps."""
+
+    def __init__(self, bank: RelayBank, failure: BaseException) -> None:
+        self._bank = bank
+        self._failure = failure
+        self.off, self.due_s, self.enforce = bank.off, bank.due_s, bank.enforce
+
+    def wait_until_due(self, patience_s: float) -> None:
+        self._bank.wait_until_due(patience_s)
+        if self._bank.due_s() is not None:
+            raise self._failure
+
+
+def test_a_guard_that_cannot_wait_opens_the_relays(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    guard = Guard(CannotWait(bench.bank, RuntimeError("a bug")), time.monotonic)
+    guard.start()
+    try:
+        for _ in range(2):
+            bench.drive(LONGEST_LEASE_S)
+            assert bench.opened.wait(PATIENCE_S)
+        guard.check()
+    finally:
+        guard.stop()
+    assert caplog.text.count("Traceback") == 1
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_a_guard_that_has_died_says_so_when_it_is_asked(bench: Bench) -> None:
+    guard = Guard(CannotWait(bench.bank, SystemExit()), time.monotonic)
+    guard.check()
+    guard.start()
+    guard.check()
+    bench.drive(0.01)
+    for thread in threading.enumerate():
+        if thread.name == GUARD_THREAD:
+            thread.join(PATIENCE_S)
+    with pytest.raises(HardwareError, match="the guard, which ends expired commands, has died"):
+        guard.check()
+    guard.stop()
+    guard.check()
+    assert not any(bench.gpio.level(pin) for pin in PINS.values())
+
+
+# --- the end
+
+
+def test_it_can_be_stopped_twice(bench: Bench, guard: Guard) -> None:
+    guard.stop()
+    guard.stop()
+    assert GUARD_THREAD not in [thread.name for thread in threading.enumerate()]
+    bench.drive(0.5)
+    guard.stop()
+    assert not any(bench.gpio.level(pin) for pin in PINS.values()), "each time it switches everything off"
+
+
+def test_a_stop_that_fails_can_be_tried_again(bench: Bench, guard: Guard) -> None:
+    bench.drive(0.5)
+    bench.lines.broken = True
+    with pytest.raises(HardwareError, match="Input/output error"):
+        guard.stop()
+    assert GUARD_THREAD not in [thread.name for thread in threading.enumerate()], "the thread has ended all the same"
+    bench.lines.broken = False
+    guard.stop()
+    assert not any(bench.gpio.level(pin) for pin in PINS.values())
 
 
 def test_stopping_the_guard_opens_everything(bench: Bench, guard: Guard) -> None:

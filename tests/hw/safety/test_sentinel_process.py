@@ -98,6 +98,24 @@ def test_silence_with_a_relay_on_ends_the_program_first(program: Program) -> Non
     assert program.off_s - begun_s >= SILENCE_S
 
 
+def test_a_program_that_is_gone_already_leaves_the_relays_to_be_opened(program: Program) -> None:
+    """Its end of the pipe is still open in another process, so its death shows as silence."""
+    program.process.kill()
+    program.process.wait()
+    program.says(b"+")
+    assert program.watch_ended()
+    assert program.off_s is not None
+
+
+def test_a_pipe_that_cannot_be_read_is_no_reason_to_leave_them_closed() -> None:
+    offs: list[bool] = []
+    reading, writing = os.pipe()
+    os.close(reading)
+    watch(reading, -1, lambda: offs.append(True))
+    os.close(writing)
+    assert offs == [True]
+
+
 def test_a_program_that_runs_is_never_silent_for_so_long() -> None:
     assert SILENCE_S > LONGEST_LEASE_S
 

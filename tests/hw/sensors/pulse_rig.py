@@ -8,7 +8,7 @@ from __future__ import annotations
 from firmware_sim.clock import SimClock
 from firmware_sim.parts.contact import ContactSpec
 from firmware_sim.parts.motor import MotorSpec
-from firmware_sim.rotors.relay_pulse import U100_MOTOR, PulseAxisSpec, PulseRotor
+from firmware_sim.rotors.relay_pulse import U100_MOTOR, RelayPulseAxisSpec, SimRelayPulseRotor
 from hw.buses.gpio import GpioContact, GpioOutputs
 from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction
@@ -40,9 +40,9 @@ class PulseRig:
     ) -> None:
         self.clock = SimClock(1000.0)
         contact = ContactSpec(cam.spacing_deg, cam.closed_deg, cam.closes_at_deg, cam.play_deg, bounce_s)
-        self.rotor = PulseRotor(
-            PulseAxisSpec(22, 23, CONTACT_PIN, motor, contact, start_deg, seed),
-            PulseAxisSpec(24, 25, OTHER_CONTACT_PIN, motor),
+        self.rotor = SimRelayPulseRotor(
+            RelayPulseAxisSpec(22, 23, CONTACT_PIN, motor, contact, start_deg, seed),
+            RelayPulseAxisSpec(24, 25, OTHER_CONTACT_PIN, motor),
             self.clock,
         )
         self.rotor.azimuth.motor.pace = pace

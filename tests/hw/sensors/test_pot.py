@@ -9,7 +9,7 @@ from firmware_sim.chips.ads1115 import Ads1115 as SimAds1115
 from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.ads1115 import Ads1115
-from hw.ports import HardwareError
+from hw.ports import AngleSource, HardwareError
 from hw.sensors.pot import LEAST_REFERENCE_V, REFERENCE_EVERY_S, PotSensor, Reference
 
 WIPER, SUPPLY = 0, 3
@@ -45,7 +45,7 @@ def bench() -> Bench:
 
 
 def test_the_angle_is_measured(bench: Bench) -> None:
-    assert bench.ratiometric().source == "measured"
+    assert bench.ratiometric().source is AngleSource.MEASURED
 
 
 @pytest.mark.parametrize("share", [0.0, 0.05, 0.5, 0.95, 1.0])

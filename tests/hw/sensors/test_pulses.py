@@ -14,7 +14,7 @@ import pytest
 from firmware_sim.parts.motor import MotorSpec
 from firmware_sim.rotors.relay_pulse import U100_MOTOR
 from hw.buses.gpio import GpioContact
-from hw.ports import Axis, Direction, HardwareError
+from hw.ports import AngleSource, Axis, Direction, HardwareError
 from hw.sensors.cam import Cam
 from hw.sensors.pulses import PulseCounter
 from tests.hw.sensors.pulse_rig import AZ, CAM, PATH, STANDS_S, PulseRig
@@ -26,7 +26,7 @@ PLUS, MINUS = Direction.PLUS, Direction.MINUS
 
 
 def test_it_says_how_it_knows() -> None:
-    assert PulseRig().counter.source == "counted"
+    assert PulseRig().counter.source is AngleSource.COUNTED
 
 
 def test_a_long_run_is_followed_all_the_way() -> None:

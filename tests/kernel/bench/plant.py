@@ -12,7 +12,7 @@ from typing import Self
 import gpiod
 from gpiod.line import Direction, Value
 
-from firmware_sim.rotors.relay_pot import World
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from tests.kernel.bench.gpio import GpioChip
 
 PERIOD_S = 0.02
@@ -22,7 +22,7 @@ PERIOD_S = 0.02
 class Plant:
     """A thread that turns the motors as the pins of `chip` say. `world.bus` is for an adapter to carry."""
 
-    def __init__(self, chip: GpioChip, world: World, pins: tuple[int, ...]) -> None:
+    def __init__(self, chip: GpioChip, world: SimRelayPotRotor, pins: tuple[int, ...]) -> None:
         self.world = world
         self._chip = chip
         self._pins = pins

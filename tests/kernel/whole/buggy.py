@@ -10,6 +10,7 @@ import logging
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction
@@ -38,7 +39,8 @@ def main() -> None:
     path = Path(sys.argv[-1])
     config = load(path)
     station = Station(config, time.monotonic, time.sleep)
-    bank = BuggyDrive(station.rotor.bank, path.with_name("bug"))
+    assert isinstance(station.rotor, RelayRotor)
+    bank: Any = BuggyDrive(station.rotor.bank, path.with_name("bug"))
     station.rotor = RelayRotor(bank, station.rotor.sensors)
     app = App(config, path, station)
     asyncio.run(app.run(asyncio.Event()))

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator
 from pathlib import Path
+from typing import cast
 
 import pytest
 
-from tests.kernel.whole.site import Nursery
+from tests.kernel.whole.site import Nursery, Site
 
 
 @pytest.fixture(scope="session")
@@ -37,7 +38,7 @@ def pytest_runtest_makereport(item: pytest.Function) -> Generator[None, pytest.T
     """What the box said stands below a failure."""
     report = yield
     if report.failed and "site" in item.funcargs:
-        report.sections.append(("what the box said", item.funcargs["site"].log.read_text()))
+        report.sections.append(("what the box said", cast(Site, item.funcargs["site"]).log.read_text()))
     return report
 
 

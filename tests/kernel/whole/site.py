@@ -17,7 +17,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Self
 
-from firmware_sim.rotors.relay_pot import World
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from rotator.assembly.simulation import SIM_CALIBRATION_RAW, simulated_rotor
 from rotator.config.load import parse
 from tests.kernel.bench.edges import EdgeRecorder
@@ -110,7 +110,8 @@ class Site:
         with ExitStack() as stack:
             stack.enter_context(persisting(True))
             self.chip = stack.enter_context(GpioChip())
-            self.world: World = simulated_rotor(parse(ROTOR, "rotor"), time.monotonic, None, (100.0, 20.0))
+            self.world = simulated_rotor(parse(ROTOR, "rotor"), time.monotonic, None, (100.0, 20.0))
+            assert isinstance(self.world, SimRelayPotRotor)
             self.adapter = stack.enter_context(I2CAdapter(self.world.bus))
             stack.enter_context(Plant(self.chip, self.world, (*RELAYS, MASTER)))
             self.edges = stack.enter_context(EdgeRecorder(self.chip))

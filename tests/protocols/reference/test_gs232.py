@@ -28,9 +28,10 @@ def test_every_command_has_its_row() -> None:
 @pytest.mark.parametrize(
     "row",
     [
-        r"| `C2` | Read azimuth and elevation | `C2` | `+0235+0025\r\n` | `AZ=235  EL=025\r\n` |",
-        r"| `P45` | Azimuth 0 to 450 degrees | `P45` | `?>\r\n` | `Mode 450 degree\r\n` |",
-        r"| `N` | Read point number and number of points | `N` | `+0001+0003\r\n` | `+0001+0003\r\n` |",
+        r"| `C2` | Read azimuth and elevation | A: `+0235+0025\r\n`, B: `AZ=235  EL=025\r\n` |",
+        r"| `P45` | Azimuth 0 to 450 degrees | A: `?>\r\n`, B: `Mode 450 degree\r\n` |",
+        r"| `N` | Read point number and number of points | `+0001+0003\r\n` |",
+        "| `M` | Maaa: go to azimuth; Msss aaa aaa ...: timed list | nothing |",
     ],
 )
 def test_gs232_row(row: str) -> None:
@@ -40,9 +41,10 @@ def test_gs232_row(row: str) -> None:
 @pytest.mark.parametrize(
     "row",
     [
-        r"| `p` | `\get_pos` | Read azimuth, then elevation | `p` | `235.00\n25.00\n` |",
-        r"| `P` | `\set_pos` | Go there: azimuth, elevation | `P 235 25` | `RPRT 0\n` |",
-        r"| `Q` | `\quit` | Close the connection | `Q` | the connection ends |",
+        r"| `p` | `\get_pos` | Read azimuth, then elevation | `235.00\n25.00\n` |",
+        r"| `P 235 25` | `\set_pos` | Go there: azimuth, elevation | `RPRT 0\n` |",
+        r"| `\get_conf max_az` | `\get_conf` | Read one value of the list of `3`; `?`: all | `max_az=450.000000\n` |",
+        r"| `Q` | `\quit` | Close the connection | the connection ends |",
     ],
 )
 def test_rotctld_row(row: str) -> None:

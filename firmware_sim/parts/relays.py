@@ -1,0 +1,90 @@
+"""A relay board: a relay for each direction of two motors, and a master relay in the motors' supply.
+
+Knows which line switches which coil, at which level, and how often a relay was closed. Does not know how long a contact
+takes to follow its coil, nor that a contact can weld: both belong to the motor behind it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from typing import Any
+
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.parts.motor import SimMotor
+
+
+@dataclass(frozen=True, slots=True)
+class RelayPins:
+    """The lines of the board, as GPIO numbers: plus is clockwise or up, minus is counter-clockwise or down."""
+
+    azimuth_plus: int
+    azimuth_minus: int
+    elevation_plus: int
+    elevation_minus: int
+    master: int | None = None
+    """The relay that feeds both motors; None: they are always fed."""
+
+
+@dataclass(slots=True)
+class _MotorRelays:
+    motor: SimMotor
+    plus_pin: int
+    minus_pin: int
+    plus: bool = False
+    minus: bool = False
+    """Whether each coil is fed."""
+
+
+class SimRelays:
+    """Follows the lines of `gpio` and tells the motors. `lock` is the rotor's: its parts change under that lock only.
+
+    `active_low`: a coil is fed while its line is low, as on most boards with opto-isolators.
+    """
+
+    def __init__(
+        self,
+        pins: RelayPins,
+        gpio: SimGpio,
+        motors: tuple[SimMotor, SimMotor],
+        now_s: float,
+        lock: AbstractContextManager[Any],
+        *,
+        active_low: bool = False,
+    ) -> None:
+        self.starts = 0
+        """How often a motor relay has closed."""
+        self._gpio = gpio
+        self._lock = lock
+        self._active_low = active_low
+        self._master_pin = pins.master
+        azimuth, elevation = motors
+        self._motors = (
+            _MotorRelays(azimuth, pins.azimuth_plus, pins.azimuth_minus),
+            _MotorRelays(elevation, pins.elevation_plus, pins.elevation_minus),
+        )
+        gpio.on_edges.append(self._lines_changed)
+        if pins.master is not None:
+            self._lines_changed(now_s, {pins.master: gpio.level(pins.master)})
+
+    def drives(self) -> tuple[int, int]:
+        """What the coils ask of azimuth and elevation: -1, 0 or 1."""
+        with self._lock:
+            azimuth, elevation = (int(relays.plus) - int(relays.minus) for relays in self._motors)
+            return azimuth, elevation
+
+    def _lines_changed(self, now_s: float, changes: Mapping[int, bool]) -> None:
+        with self._lock:
+            for relays in self._motors:
+                if changed := changes.keys() & {relays.plus_pin, relays.minus_pin}:
+                    relays.plus, relays.minus = self._fed(relays.plus_pin), self._fed(relays.minus_pin)
+                    relays.motor.coils(relays.plus, relays.minus, now_s)
+                    self.starts += sum(self._fed(pin) for pin in changed)
+            if self._master_pin is not None and self._master_pin in changes:
+                for relays in self._motors:
+                    relays.motor.advance(now_s)
+                    relays.motor.supply = self._fed(self._master_pin)
+
+    def _fed(self, pin: int) -> bool:
+        return self._gpio.level(pin) != self._active_low

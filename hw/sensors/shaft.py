@@ -1,0 +1,95 @@
+"""Where a shaft is between two edges of its cam contact, from how its motor was fed: dead reckoning.
+
+Knows the motor's speed in each direction, its lag, and how long it has been fed. Knows no contact and counts nothing:
+the caller gives the two edges between which the shaft must be. Knows no clock: moments are arguments, in seconds.
+"""
+
+from __future__ import annotations
+
+import math
+
+from hw.ports import Direction
+from hw.sensors.cam import Cam
+
+STANDS_BELOW = 0.001
+"""Below this share of its full speed the shaft is taken to stand."""
+LEARN = 0.25
+"""The weight of a newly measured speed against what was known before."""
+
+
+class ReckonedShaft:
+    """Angles are degrees on the rotor's own scale, speeds degrees a second, positive clockwise or up."""
+
+    def __init__(self, cam: Cam) -> None:
+        self.at_s = -math.inf
+        """The moment up to which everything here holds."""
+        self.angle_deg = 0.0
+        self.speed_dps = 0.0
+        self.fed = Direction.OFF
+        """The direction in which the motor is fed."""
+        self.fed_s = 0.0
+        """How long it has been fed that way since the last edge."""
+        self.held_deg = 0.0
+        """How far it should have turned beyond its two edges: the sign of a missed pulse, or of a held motor."""
+        self._cam = cam
+        self._off_s = -math.inf
+        self._speeds_dps = dict.fromkeys((Direction.PLUS, Direction.MINUS), cam.speed_dps)
+
+    @property
+    def top_speed_dps(self) -> float:
+        """The faster of the two directions."""
+        return max(self._speeds_dps.values())
+
+    @property
+    def fed_deg(self) -> float:
+        """How far it should have turned since the last edge."""
+        return self.fed_s * self._speeds_dps.get(self.fed, 0.0)
+
+    @property
+    def at_rest(self) -> bool:
+        """The motor has not been fed for as long as it coasts."""
+        return self.fed is Direction.OFF and self.at_s - self._off_s >= self._cam.coast_s
+
+    def place(self, at_s: float, angle_deg: float) -> None:
+        """It stands at that angle at that moment."""
+        self.at_s, self.angle_deg, self.speed_dps, self.held_deg = at_s, angle_deg, 0.0, 0.0
+
+    def feed(self, direction: Direction) -> None:
+        """The motor is fed that way from the present moment on."""
+        if direction is self.fed:
+            return
+        if direction is Direction.OFF:
+            self._off_s = self.at_s
+        elif self.speed_dps * direction <= 0.0:
+            self.held_deg = 0.0
+        self.fed, self.fed_s = direction, 0.0
+
+    def cross(self, edge_deg: float) -> None:
+        """It is at an edge of the contact now."""
+        self.angle_deg, self.fed_s, self.held_deg = edge_deg, 0.0, 0.0
+
+    def advance(self, at_s: float, low_deg: float, high_deg: float) -> bool:
+        """Turn on up to `at_s`, and stay between these angles. False: no time passed, or nothing moves."""
+        seconds = at_s - self.at_s
+        if not 0.0 < seconds < math.inf:
+            self.at_s = max(at_s, self.at_s)
+            return False
+        self.at_s = at_s
+        if self.fed is not Direction.OFF:
+            self.fed_s += seconds
+        elif self.speed_dps == 0.0:
+            return False
+        wanted_dps = self.fed * self._speeds_dps.get(self.fed, 0.0)
+        gap_dps, lag_s = self.speed_dps - wanted_dps, self._cam.lag_s
+        fade = math.exp(-seconds / lag_s) if lag_s > 0 else 0.0
+        self.speed_dps = wanted_dps + gap_dps * fade
+        if abs(self.speed_dps) < STANDS_BELOW * self._cam.speed_dps:
+            self.speed_dps = 0.0
+        reckoned_deg = self.angle_deg + wanted_dps * seconds + gap_dps * lag_s * (1.0 - fade)
+        self.angle_deg = max(min(reckoned_deg, high_deg), low_deg)
+        self.held_deg += abs(reckoned_deg - self.angle_deg)
+        return True
+
+    def learn(self, direction: Direction, measured_dps: float) -> None:
+        """A speed measured in that direction, without its sign."""
+        self._speeds_dps[direction] += LEARN * (measured_dps - self._speeds_dps[direction])

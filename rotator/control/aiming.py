@@ -1,0 +1,113 @@
+"""What both axes are asked to point at, and the goals that follow from it.
+
+Knows the latest order as it was asked, the nudges of the panel, and both axes. Gives each axis its goal. Knows nothing
+of who asks, of stops that latch, or of faults.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from hw.ports import Axis
+from rotator.control.axis.port import ControlledAxis
+from rotator.control.sky.joining import joined
+from rotator.control.sky.mount import Mount
+from rotator.control.sky.nudges import Nudges
+from rotator.control.sky.pointing import Goals, Pointing
+from rotator.control.sky.route import Speeds
+from rotator.orders import BOTH, Aim
+
+
+class Aiming:
+    def __init__(self, mount: Mount, axes: Mapping[Axis, ControlledAxis], pointing: Pointing) -> None:
+        self._mount = mount
+        self._axes = axes
+        self._azimuth, self._elevation = axes[Axis.AZIMUTH], axes[Axis.ELEVATION]
+        self._pointing = pointing
+        self._nudges = Nudges()
+        self._asked: Aim | None = None
+        """The order in force, without the nudges; None: there is none."""
+
+    @property
+    def wanted(self) -> Aim:
+        """The direction last ordered, as the display shows it."""
+        return self._pointing.wanted
+
+    def point_at(self, asked: Aim, now_s: float) -> None:
+        """Raises Unreachable; then everything is as it was."""
+        wanted = self._pointing.wanted
+        asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
+        aim = self._nudges.applied(asked)
+        if not aim.engaged:
+            for axis in self._axes.values():
+                axis.halt()
+            self._asked = None
+            self._pointing.show(aim)
+        elif aim.azimuth_deg is not None:
+            stands_deg = self._azimuth.angle_deg
+            from_deg = self._mount.azimuth.min_deg if stands_deg is None else stands_deg
+            self._set_goals(self._pointing.aim(now_s, aim, from_deg, self._elevation.angle_deg or 0.0))
+            self._asked = asked
+        elif aim.elevation_deg is not None:
+            self.forget((Axis.ELEVATION,))
+            self._elevation.aim(self._pointing.raise_to(aim.elevation_deg, self._azimuth.angle_deg or 0.0))
+            self._asked = asked
+
+    def park(self, now_s: float) -> None:
+        """Go to the park position. Raises Unreachable."""
+        # A place on the rotor's own scale, not a direction: the other turn of the overlap would wind the cables.
+        self.forget(BOTH)
+        azimuth_deg, elevation_deg = self._mount.park_azimuth_deg, self._mount.park_elevation_deg
+        park = Aim(azimuth_deg, elevation_deg)
+        self._set_goals(self._pointing.aim(now_s, park, azimuth_deg, elevation_deg))
+
+    def nudge(self, axis: Axis, offset_deg: float) -> None:
+        """Shift this axis by so much, for all orders from now on."""
+        self._nudges.set(axis, offset_deg)
+
+    def clear_nudges(self) -> None:
+        self._nudges.clear()
+
+    def repeat(self, now_s: float) -> None:
+        """Point again at the order in force, with the nudges of now. Raises Unreachable."""
+        if self._asked is not None and self._asked.engaged:
+            self.point_at(self._asked, now_s)
+
+    def drop(self) -> None:
+        """The order in force is not to be repeated."""
+        self._asked = None
+
+    def halt(self, axes: tuple[Axis, ...]) -> None:
+        """Stop these axes and forget what they were asked for."""
+        for axis in axes:
+            self._axes[axis].halt()
+        self.forget(axes)
+
+    def forget(self, axes: tuple[Axis, ...]) -> None:
+        """Nothing is asked of these axes any more. A path needs both, so the other axis stays where it is."""
+        self._asked = None
+        self._pointing.forget(azimuth=Axis.AZIMUTH in axes, elevation=Axis.ELEVATION in axes)
+        for axis in self._axes.values():
+            axis.forget_path()
+
+    def look_ahead(self, now_s: float) -> None:
+        """Keep the goals up with a target that moves, on the axes that still aim at it."""
+        aims = [axis.aiming for axis in self._axes.values() if axis.aiming is not None]
+        if not aims:
+            return
+        speeds = Speeds(self._azimuth.speed_dps, self._elevation.speed_dps)
+        goals = self._pointing.look_ahead(now_s, speeds, had_path=any(aim.path is not None for aim in aims))
+        for axis, goal in zip((self._azimuth, self._elevation), goals or (None, None), strict=True):
+            if goal is not None and axis.aiming is not None:
+                axis.aim(goal)
+
+    def _places(self) -> tuple[float | None, float | None]:
+        """Where each axis goes, or stands where it has no target."""
+        places = [axis.aiming.target_deg if axis.aiming else axis.angle_deg for axis in self._axes.values()]
+        return places[0], places[1]
+
+    def _set_goals(self, goals: Goals) -> None:
+        azimuth_goal, elevation_goal = goals
+        self._azimuth.aim(azimuth_goal)
+        if elevation_goal is not None:
+            self._elevation.aim(elevation_goal)

@@ -1,0 +1,63 @@
+"""Whether an axis that is driven turns, the right way, and not for too long.
+
+Knows the motion as observed. Decides nothing: it returns a fault, and the axis stops.
+"""
+
+from __future__ import annotations
+
+from rotator.control.axis.observed_motion import ObservedMotion, Window
+from rotator.control.axis.run_watch import endless
+from rotator.faults import Fault, FaultKind
+
+STANDING = Window(1.4, 1.5, 4.0)
+STANDING_SHARE, SLOW_STANDING_SHARES = 0.25, (0.5, 0.4)
+"""Slower than this share of the reference speed is standing; of a slow axis before, and after, it has turned."""
+WRONG_WAY = Window(0.4, 0.65, 3.0)
+WRONG_WAY_SHARE = 0.5
+"""This share of the reference speed backwards is the wrong way."""
+NEAR_END_DEG = 5.0
+"""Standing this near to a limit while driven towards it is an end stop."""
+
+
+class DrivenWatch:
+    def __init__(self, seen: ObservedMotion) -> None:
+        self._seen = seen
+
+    def judge(self, at_s: float, angle_deg: float, *, on_line: bool) -> Fault | None:
+        """The fault that the latest reading shows. `on_line`: the reading lies on the line of the others."""
+        return (on_line and (self._wrong_way(at_s) or self._standing(at_s, angle_deg))) or self._endless(at_s)
+
+    def _wrong_way(self, at_s: float) -> Fault | None:
+        seen, direction = self._seen, self._seen.relays.direction
+        slope = seen.speed(at_s, WRONG_WAY, seen.reference_dps / 5.0)
+        limit_dps = WRONG_WAY_SHARE * seen.reference_dps
+        if slope is None or slope.speed_dps * direction > -max(limit_dps, 3.0 * slope.rough_dps):
+            return None
+        measured = f"driven {seen.name(direction)}, it reads {slope.speed_dps:+.1f}°/s"
+        return Fault(FaultKind.WRONG_WAY, seen.axis, measured, f"{limit_dps:.2g}°/s backwards")
+
+    def _standing(self, at_s: float, angle_deg: float) -> Fault | None:
+        seen, direction = self._seen, self._seen.relays.direction
+        reference_dps = seen.reference_dps
+        slow_dps = SLOW_STANDING_SHARES[seen.shown_dps is not None] * reference_dps
+        limit_dps = max(STANDING_SHARE * reference_dps, min(STANDING_SHARE, slow_dps))
+        slope = seen.speed(at_s, STANDING, limit_dps / 4.5)
+        if slope is None:
+            return None
+        speed_dps = slope.speed_dps * direction
+        if speed_dps >= limit_dps:
+            certain_dps = speed_dps - 2.0 * slope.rough_dps
+            if certain_dps > limit_dps:
+                seen.show(certain_dps)
+            return None
+        way = seen.name(direction)
+        end_deg = seen.limits.max_deg if direction > 0 else seen.limits.min_deg
+        if (end_deg - angle_deg) * direction <= NEAR_END_DEG:
+            measured = f"stands at {angle_deg:.1f}°, driven {way}"
+            return Fault(FaultKind.END_STOP, seen.axis, measured, f"{end_deg:g}° without touching the stop")
+        measured = f"driven {way}, it reads {slope.speed_dps + 0.0:.2f}°/s at {angle_deg:.1f}°"
+        return Fault(FaultKind.STANDS_STILL, seen.axis, measured, f"{limit_dps:.2g}°/s within 2 s")
+
+    def _endless(self, at_s: float) -> Fault | None:
+        seen, relays = self._seen, self._seen.relays
+        return endless(seen.axis, relays.direction, at_s - relays.since_s, seen.limits, seen.reference_dps)

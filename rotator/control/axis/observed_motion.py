@@ -1,0 +1,96 @@
+"""What has been seen of one axis: its readings as a line, what its relays do, and how fast it has turned for certain.
+
+Knows facts alone. `driven_watch` and `weld_watch` judge them. Time is an argument.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.motion import Motor
+from rotator.control.axis.run_watch import WAYS
+from rotator.control.axis.trend import Slope, Trend
+from rotator.control.sky.mount import Range
+
+SLOWEST_DPS = 0.5
+"""Until an axis has shown how fast it turns it may be as slow as this, whatever the configuration says of its motor."""
+RELAY_S = 0.05
+"""A relay and the cycle in which it closed take this long at most."""
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """For how long the readings are looked at before a speed is believed, in seconds."""
+
+    least_s: float
+    first_s: float
+    """At most, until the axis has shown that it turns."""
+    most_s: float
+    """At most, where the noise asks for it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Relays:
+    """What the relays do since `since_s`, and what they did last."""
+
+    motor: Motor
+    """The motor of the present or latest run, as it was known when the run began."""
+    direction: Direction = Direction.OFF
+    last: Direction = Direction.OFF
+    """The direction of the latest run that has ended."""
+    since_s: float = -math.inf
+
+
+class ObservedMotion:
+    """`motors` is read, never changed: what is learnt meanwhile counts from the next run on."""
+
+    def __init__(self, axis: Axis, limits: Range, motors: Mapping[Direction, Motor]) -> None:
+        self.axis = axis
+        self.limits = limits
+        self.motors = motors
+        self.trend = Trend()
+        self.relays = Relays(motors[Direction.PLUS])
+        self.shown_dps: float | None = None
+        """The fastest that the axis has been seen to turn for certain; None: it has not yet."""
+
+    def driven(self, now_s: float, direction: Direction) -> None:
+        """The relays change to `direction`."""
+        was = self.relays
+        self.relays = Relays(
+            motor=was.motor if direction is Direction.OFF else self.motors[direction],
+            direction=direction,
+            last=was.last if was.direction is Direction.OFF else was.direction,
+            since_s=now_s,
+        )
+
+    def see(self, at_s: float, angle_deg: float) -> bool:
+        """A good reading. Returns whether it lies on the line of the others."""
+        return self.trend.see(at_s, angle_deg, max(motor.speed_dps for motor in self.motors.values()))
+
+    def show(self, speed_dps: float) -> None:
+        """The axis turns that fast for certain."""
+        self.shown_dps = max(self.shown_dps or SLOWEST_DPS, speed_dps)
+
+    @property
+    def reference_dps(self) -> float:
+        """What the axis must live up to: the speed of its motor as known, but no more than it has shown."""
+        return min(self.relays.motor.speed_dps, SLOWEST_DPS if self.shown_dps is None else self.shown_dps)
+
+    def speed(self, at_s: float, window: Window, rough_dps: float) -> Slope | None:
+        """The speed over a stretch long enough for `rough_dps`, since the relays are as they are; None: too early."""
+        shown, relays = self.shown_dps is not None, self.relays
+        width_s = min(max(window.least_s, self.trend.window_s(rough_dps)), window.most_s if shown else window.first_s)
+        ready_s = relays.since_s + RELAY_S
+        ready_s += relays.motor.lag_s if relays.direction else 2.0 * relays.motor.lag_s + 3.0 * RELAY_S
+        from_s = max(ready_s, self.trend.since_s)
+        if at_s - width_s < from_s:
+            return None
+        # A first run that has not convinced yet is looked at whole: there is nothing else to go by.
+        return self.trend.slope(at_s - width_s if shown or not relays.direction else from_s)
+
+    def name(self, direction: Direction) -> str:
+        """The direction in a person's words: clockwise, down."""
+        return WAYS[self.axis, direction]

@@ -1,0 +1,79 @@
+"""One axis as the controller sees it, whether relays switch its motor or the motor goes to an angle by itself.
+
+Knows the shape that both kinds share. An axis owns its goal: the controller sets it by `aim`, `jog` and `halt`, and
+reads it back only as values. A question changes nothing.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from hw.ports import Direction
+from rotator.control.axis.sensing import Reading
+from rotator.control.commands import Decision
+from rotator.control.sky.pointing import AimGoal
+from rotator.faults import Fault
+from rotator.status import AxisStatus
+
+
+class ControlledAxis(Protocol):
+    @property
+    def angle_deg(self) -> float | None:
+        """The last believable angle, on the axis's own scale; None before the first."""
+
+    @property
+    def speed_dps(self) -> float:
+        """How fast the motor is, as known now."""
+
+    @property
+    def aiming(self) -> AimGoal | None:
+        """The target that the axis points at; None: it rests, jogs or homes."""
+
+    @property
+    def busy(self) -> bool:
+        """Whether the axis has a goal: it aims, jogs or homes."""
+
+    @property
+    def driven(self) -> bool:
+        """Whether the motor was on after the last cycle."""
+
+    @property
+    def confirmable(self) -> bool:
+        """Whether a person may say at which angle the axis stands."""
+
+    def moving(self, now_s: float) -> bool:
+        """Driven, or still coasting."""
+
+    def see(self, reading: Reading, now_s: float) -> None:
+        """Take the latest reading. The same reading again is not new, but it may have grown too old."""
+
+    def aim(self, goal: AimGoal) -> None:
+        """Point there from now on."""
+
+    def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
+        """Turn that way for `seconds`, or until halted (None). OFF halts."""
+
+    def halt(self) -> None:
+        """Stop and have no goal."""
+
+    def forget_path(self) -> None:
+        """Keep the target where it is now: its further path is not known any more."""
+
+    def fail(self, fault: Fault) -> None:
+        """Stop until the fault is acknowledged."""
+
+    def acknowledge(self) -> None:
+        """A person or a stop has acknowledged the fault. While its cause is there, the fault stays."""
+
+    @property
+    def fault(self) -> Fault | None:
+        """What stopped the axis; None: it may be driven."""
+
+    def decide(self, now_s: float) -> Decision:
+        """What the drive is to do from now on: what the goal asks for, as far as it is safe."""
+
+    def note_driven(self, now_s: float, driven: Direction) -> None:
+        """After the cycle: the direction in which its relays are really closed (OFF where there are none)."""
+
+    def status(self, now_s: float) -> AxisStatus:
+        """The axis as others see it."""

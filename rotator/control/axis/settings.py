@@ -1,0 +1,64 @@
+"""What is known of an axis before the box starts, for both kinds: switched and positioned.
+
+Knows values, made from the configuration. Knows no file.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hw.ports import AngleSource, Axis
+from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.homing import HomingSettings
+from rotator.control.axis.motion import Motor
+from rotator.control.axis.sensing import Window
+from rotator.control.sky.mount import Range
+from rotator.faults import Missing
+
+NEAR_DEG = 0.5
+"""How far from its place a positioned axis may come to rest, where its drive leaves no dead band."""
+
+
+@dataclass(frozen=True, slots=True)
+class SwitchedSettings:
+    axis: Axis
+    limits: Range
+    tolerance_deg: float
+    motor: Motor
+    """The motor as the configuration describes it."""
+    window: Window
+    calibration: Calibration | None
+    missing: tuple[Missing, ...] = ()
+    """What a person has still to do before this axis may be aimed; empty: commissioned."""
+    source: AngleSource = AngleSource.MEASURED
+    learnt: tuple[Motor, Motor] | None = None
+    """The motor as an earlier run learnt it, clockwise or up first, then the other way."""
+    longest_run_s: float = 0.0
+    rest_s: float = 0.0
+    """How long the motor may run in one go, and how long it then takes to cool; zero: no limit."""
+    master: bool = False
+    """Whether an output switches the motors' supply."""
+    homing: HomingSettings | None = None
+    """How to find its end stop, where it counts; None: its sensor needs no homing."""
+
+
+@dataclass(frozen=True, slots=True)
+class PositionedSettings:
+    axis: Axis
+    limits: Range
+    tolerance_deg: float
+    speed_dps: float
+    window: Window
+    calibration: Calibration | None
+    missing: tuple[Missing, ...] = ()
+    """What a person has still to do before this axis may be aimed; empty: commissioned."""
+    source: AngleSource = AngleSource.MEASURED
+    near_deg: float = NEAR_DEG
+    """How far from its place the drive may leave the axis."""
+    accel_dps2: float | None = None
+    """How hard the motor brakes; None: it stops at once."""
+    confirmable: bool = False
+    """A person may say at which angle the axis stands."""
+
+
+AxisSettings = SwitchedSettings | PositionedSettings

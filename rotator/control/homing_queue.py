@@ -1,0 +1,53 @@
+"""The axes that are to find their end stops, one after another, so that a person can watch each.
+
+Knows which axes can be homed, which wait, and who has asked. While it is active only that source may move the antenna.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Mapping
+
+from hw.ports import Axis
+from rotator.control.axis.switched import SwitchedAxis
+from rotator.orders import Source
+
+
+class HomingQueue:
+    """`axes`: those that count, and so can be homed."""
+
+    def __init__(self, axes: Mapping[Axis, SwitchedAxis]) -> None:
+        self._axes = axes
+        self._waiting: deque[Axis] = deque()
+        self._asked_by: Source | None = None
+
+    @property
+    def active(self) -> bool:
+        """An axis homes, or waits to."""
+        return bool(self._waiting) or self._homing
+
+    def belongs_to(self, source: Source) -> bool:
+        return source == self._asked_by
+
+    def ask(self, axis: Axis, source: Source) -> None:
+        """Raises ValueError where the axis has no end stop to be found."""
+        if axis not in self._axes:
+            raise ValueError(f"{axis.value} is not homed: it knows where it stands, there is no end stop to be found")
+        self._asked_by = source
+        self._waiting.append(axis)
+
+    def due(self) -> bool:
+        """Whether the next axis can begin now."""
+        return bool(self._waiting) and not self._homing
+
+    def begin(self) -> None:
+        """The next axis goes to its end stop. Only where `due`, and with both axes at rest."""
+        self._axes[self._waiting.popleft()].home()
+
+    def clear(self) -> None:
+        """No axis waits any more. The one that homes goes on until it is halted."""
+        self._waiting.clear()
+
+    @property
+    def _homing(self) -> bool:
+        return any(axis.homing for axis in self._axes.values())

@@ -1,0 +1,108 @@
+"""What can be wrong with an axis: every kind of fault, every reason not to be commissioned, and notices.
+
+Knows the short texts that displays and protocols have for them. Knows neither when a fault arises nor what it stops.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum, IntFlag
+
+from hw.ports import Axis
+
+
+class EasycommError(IntFlag):
+    """The bits of EasyComm III's error register (`GE`)."""
+
+    SENSOR = 1
+    JAM = 2
+    NOT_CALIBRATED = 4
+    MOTOR = 8
+
+
+class FaultKind(Enum):
+    """Every kind of fault: its name, its text on the LCD beside the axis (13 characters at most), its EasyComm bit."""
+
+    POT_OPEN = "pot open or shorted", "POT OPEN/SHRT", EasycommError.SENSOR
+    SENSOR_SILENT = "sensor silent", "SENSOR SILENT", EasycommError.SENSOR
+    SENSOR_LATE = "sensor late", "SENSOR LATE", EasycommError.SENSOR
+    POT_JUMPS = "pot jumps", "POT JUMPS", EasycommError.SENSOR
+    WRONG_WAY = "pot moves the wrong way", "WRONG WAY", EasycommError.SENSOR
+    STANDS_STILL = "motor runs and pot stands still", "STANDS STILL", EasycommError.JAM
+    RUN_TOO_LONG = "motor on longer than the travel takes", "RUN TOO LONG", EasycommError.JAM
+    END_STOP = "end stop reached", "END STOP", EasycommError.JAM
+    LIMIT_SWITCH = "limit switch reached", "LIMIT SWITCH", EasycommError.JAM
+    NOT_FOLLOWING = "axis does not follow", "NOT FOLLOWING", EasycommError.JAM
+    RELAY_WELDED = "relay welded", "RELAY WELDED", EasycommError.MOTOR
+    TURNS_BY_ITSELF = "turning with no relay on", "TURNS BY SELF", EasycommError.MOTOR
+    CONTROL_LATE = "control thread late", "CONTROL LATE", EasycommError.MOTOR
+    NO_PULSES = "no pulses", "NO PULSES", EasycommError.JAM
+    COUNT_LOST = "count lost", "COUNT LOST", EasycommError.NOT_CALIBRATED
+    COUNT_NOT_KEPT = "count not kept", "COUNT UNKEPT", EasycommError.SENSOR
+    NOT_HOMED = "not homed", "NOT HOMED", EasycommError.NOT_CALIBRATED
+    CONTROLLER_FAULT = "controller fault", "CTRL FAULT", EasycommError.MOTOR
+    CONTROLLER_SILENT = "controller silent", "CTRL SILENT", EasycommError.SENSOR
+    POSITION_UNKNOWN = "position unknown", "POS UNKNOWN", EasycommError.NOT_CALIBRATED
+    SERVO_BOARD = "servo board", "SERVO BOARD", EasycommError.MOTOR
+
+    def __init__(self, text: str, lcd: str, easycomm: EasycommError) -> None:
+        self.text = text
+        self.lcd = lcd
+        self.easycomm = easycomm
+
+    @property
+    def anchor(self) -> str:
+        """The heading of this fault on its page of the documentation, as the page's links name it."""
+        return self.text.replace(" ", "-")
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """One fault that stopped an axis: what was measured, the limit it broke, and the page that explains it."""
+
+    kind: FaultKind
+    axis: Axis
+    measured: str
+    limit: str = ""
+    """The limit that was exceeded, with its unit; empty where the fault has no limit."""
+    page: str = "docs/troubleshooting.md"
+    cut: bool = False
+    """Opening the relay does not stop the motor: its supply has to be switched off."""
+    act_now: str = ""
+    """What a person must do this moment, in a few words in capitals; empty: nothing."""
+    passing: bool = False
+    """The fault ends with its cause, without being acknowledged."""
+
+    @property
+    def name(self) -> str:
+        return self.kind.text
+
+    def __str__(self) -> str:
+        loud = f"{self.act_now} " if self.act_now else ""
+        limit = f", limit {self.limit}" if self.limit else ""
+        return f"{loud}{self.axis.value}: {self.kind.text}: {self.measured}{limit} (see {self.page}#{self.kind.anchor})"
+
+
+class Missing(Enum):
+    """Why an axis may not be aimed yet: its text, and its text on the LCD beside the axis."""
+
+    CALIBRATION = "calibration", "UNCALIBRATED"
+    LIMITS = "limits", "UNCALIBRATED"
+    DIRECTION_CHECK = "direction check", "UNCALIBRATED"
+    HOMING = "homing", "NOT HOMED"
+
+    def __init__(self, text: str, lcd: str) -> None:
+        self.text = text
+        self.lcd = lcd
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """Something that a person should know of an axis though it stops nothing."""
+
+    text: str
+    lcd: str = ""
+    """Its text on the LCD beside the axis, 13 characters at most; empty: only the log and the screens show it."""
+
+    def __str__(self) -> str:
+        return self.text

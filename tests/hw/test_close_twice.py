@@ -1,0 +1,86 @@
+"""Everything in the hardware layer that has a `close` may be closed twice; the second call changes nothing."""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import pkgutil
+import time
+from collections.abc import Callable
+from typing import Protocol
+
+import pytest
+
+import hw
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.buses.i2c import SimI2CBus
+from firmware_sim.chips.mcp41010 import Mcp41010, SimSpidev
+from firmware_sim.clock import SimClock
+from hw.buses.gpio import GpioContact, GpioInputs, GpioOutputs
+from hw.buses.i2c import SmbusI2C
+from hw.buses.spi import KernelSpi
+from hw.moteus.bus import MoteusBus
+from hw.moteus.drive import MoteusDrive
+from hw.moteus.library import SerialPort
+from hw.moteus.orders import MoteusSpec
+from hw.sensors.pulses import TappedLines
+
+PATH, PINS = "/dev/gpiochip0", {"azimuth_cw": 22, "azimuth_ccw": 23}
+
+
+class Closable(Protocol):
+    def close(self) -> None: ...
+
+
+def gpio() -> SimGpio:
+    return SimGpio(SimClock())
+
+
+def outputs() -> GpioOutputs:
+    return GpioOutputs(gpio(), PATH, PINS, consumer="test")
+
+
+def moteus() -> MoteusBus:
+    pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
+    return MoteusBus(MoteusDrive(MoteusSpec(1), MoteusSpec(2), time.monotonic), SerialPort("/dev/no-such-adapter"))
+
+
+def started_moteus() -> MoteusBus:
+    bus = moteus()
+    bus.start()
+    return bus
+
+
+CLOSABLES: dict[str, Callable[[], Closable]] = {
+    "outputs": outputs,
+    "inputs": lambda: GpioInputs(gpio(), PATH, PINS, consumer="test"),
+    "contact": lambda: GpioContact(gpio(), PATH, 17, consumer="test"),
+    "tapped lines": lambda: TappedLines(outputs(), SimClock()),
+    "I2C": lambda: SmbusI2C(SimI2CBus(), "bus 1"),
+    "SPI": lambda: KernelSpi(SimSpidev({(0, 0): Mcp41010()}), 0, {"azimuth": 0}),
+    "moteus": started_moteus,
+    "moteus, never started": moteus,
+}
+
+
+TRIED = {kind.__name__ for kind in (GpioOutputs, GpioInputs, GpioContact, TappedLines, SmbusI2C, KernelSpi, MoteusBus)}
+ELSEWHERE = {"Sentinel"}
+"""A process of its own, which needs a real GPIO chip: tests/kernel."""
+
+
+@pytest.mark.parametrize("make", CLOSABLES.values(), ids=CLOSABLES.keys())
+def test_closed_twice(make: Callable[[], Closable]) -> None:
+    thing = make()
+    thing.close()
+    thing.close()
+
+
+def test_no_driver_is_left_out() -> None:
+    modules = [importlib.import_module(module.name) for module in pkgutil.walk_packages(hw.__path__, "hw.")]
+    drivers = {
+        kind.__name__
+        for module in modules
+        for _, kind in inspect.getmembers(module, inspect.isclass)
+        if kind.__module__ == module.__name__ and hasattr(kind, "close") and not getattr(kind, "_is_protocol", False)
+    }
+    assert drivers == TRIED | ELSEWHERE, "give it a line in CLOSABLES"
