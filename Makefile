@@ -4,6 +4,9 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
+# Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
+export PYTHONDONTWRITEBYTECODE :=
+
 .PHONY: run test check tests test-kernel test-install test-gpredict test-rotors bench fuzz picture picture-gpredict drawings clean
 
 run: $(VENV)/.run
@@ -17,16 +20,16 @@ check: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-# Several files at once: many tests wait for a foreign program's own pauses.
+# More at once than there are cores, for many tests wait for a foreign program's own pauses.
 tests: $(VENV)/.dev
-	$(BIN)/pytest -n 3 --dist loadfile $(TESTS)
+	$(BIN)/pytest -n 4 --dist worksteal $(TESTS)
 
 # Every kind of rotor: one contract, every fault by name, finding north; then twelve real passes on each.
 test-rotors: $(VENV)/.dev
-	$(BIN)/pytest -n 3 --dist loadfile tests/rotors tests/calibrating/test_north.py tests/cli/test_calibrate_north.py
+	$(BIN)/pytest -n 3 --dist worksteal tests/rotors tests/calibrating/test_north.py tests/cli/test_calibrate_north.py
 	$(BIN)/pytest tests/flights
 
-# install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in build/roots.
+# install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in ~/.cache/gs232-rotator.
 test-install: $(VENV)/.dev
 	$(BIN)/pytest tests/install
 
@@ -60,9 +63,10 @@ picture: $(VENV)/.dev
 picture-gpredict: $(VENV)/.dev
 	$(BIN)/pytest tests/gpredict -k follows --picture docs/img/gpredict.png
 
-# The wiring pictures, from their source in docs/drawings.
+# The wiring pictures, from their source in docs/drawings, and the rooms of the source, from its imports.
 drawings: $(VENV)/.dev
 	$(BIN)/python -m docs.drawings
+	$(BIN)/python -m docs.architecture
 
 $(BIN)/python:
 	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 14))' || \

@@ -2,7 +2,7 @@
 
 Twelve real passes flown in simulated time by the emulated sketch and by the box at 4, 2 and 1 degrees, beside the least
 error that any relay controller could reach with as many starts, knowing the future (tests/passes/optimum.json).
-Prints a Markdown table; `--svg FILE` draws it. Every figure is the same on every machine.
+Prints a Markdown table; `--svg FILE` keeps the means and draws them. Every figure is the same on every machine.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
-from benchmarks.picture import draw
+from benchmarks.picture import FIGURES, kept
 from rotator.config.load import parse
 from rotator.rehearsal.flight import Summary, fly, plant_maker
 from rotator.rehearsal.passes import read_pass
@@ -123,7 +123,8 @@ def main() -> None:
     quiet = series["box at 4°"][0]
     print(means_line("box at 4°, noise x 4", chosen) + f", {mean([f.starts for f in chosen]) / quiet:.2f} x the starts")
     if "--svg" in sys.argv:
-        Path(sys.argv[sys.argv.index("--svg") + 1]).write_text(draw(series, list(optimum_points().values())))
+        FIGURES.write_text(json.dumps(series, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+        Path(sys.argv[sys.argv.index("--svg") + 1]).write_text(kept(), encoding="utf-8")
 
 
 if __name__ == "__main__":

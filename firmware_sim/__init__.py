@@ -1,4 +1,5 @@
-"""The simulated world the real drivers and the real protocols are run against: boards, chips, motors, rotors.
+"""The simulated world on which the real drivers and protocols run: buses, chips, motors, rotors, an Arduino.
 
-Knows hardware as the datasheets describe it. Knows nothing of the product: it imports neither `rotator` nor `hw`.
+Knows hardware as the datasheets describe it. Does not know the program: it imports neither `rotator` nor `hw`, because
+a mistake in a shared table would stay hidden.
 """

@@ -1,7 +1,7 @@
-"""Simulated time: it moves only when somebody sleeps.
+"""Simulated time: it moves on only in `sleep`.
 
-Knows the present moment and the alarms that must ring on the way to a later one. Knows nothing of rotors, chips or
-threads: everything that lives on a `SimClock` runs in one thread, so an hour of tracking takes a second.
+Knows the present moment, and the alarms that ring on the way to a later one. Knows no rotor, no chip and no thread:
+everything on a `SimClock` runs in one thread, so that an hour of tracking takes a second.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Alarm:
-    """Something that must happen at its moment even when everybody else is asleep: a guard, a sampler.
+    """Something that must happen at its moment while the caller sleeps: a guard, a sampler.
 
-    Of two due at once the one that was added first rings first.
+    Of two alarms due at one moment, the one added first rings first.
     """
 
     due_s: Callable[[], float | None]
@@ -23,7 +23,7 @@ class Alarm:
 
 
 class SimClock:
-    """A clock to read (`clock()`, seconds) and to sleep on (`clock.sleep(seconds)`)."""
+    """`clock()` reads the time in seconds; `clock.sleep(seconds)` lets it pass."""
 
     def __init__(self, start_s: float = 0.0) -> None:
         self._now_s = start_s
@@ -33,11 +33,11 @@ class SimClock:
         return self._now_s
 
     def add_alarm(self, due_s: Callable[[], float | None], ring: Callable[[float], None]) -> None:
-        """Ring `ring(now_s)` whenever time passes `due_s()` (None: nothing due). It must move its own due time on."""
+        """Call `ring(now_s)` when the time reaches `due_s()` (None: nothing is due). `ring` must move `due_s()` on."""
         self._alarms.append(Alarm(due_s, ring))
 
     def every(self, period_s: float, ring: Callable[[float], None]) -> None:
-        """Ring now and then every `period_s`, exactly: moments count from the start."""
+        """Ring now, and then every `period_s` seconds, without drift."""
         start_s, count = self._now_s, 0
 
         def due_s() -> float:
@@ -51,9 +51,11 @@ class SimClock:
         self.add_alarm(due_s, ring_once)
 
     def sleep(self, seconds: float) -> None:
+        """Let `seconds` pass, and ring the alarms on the way."""
         self.sleep_until(self._now_s + max(0.0, seconds))
 
     def sleep_until(self, moment_s: float) -> None:
+        """Let time pass up to that moment, and ring the alarms that are due by then."""
         while True:
             first, first_s = None, math.inf
             for alarm in self._alarms:

@@ -1,7 +1,7 @@
-"""A simulated front panel: a mode switch, jog switches, knobs, a stop button, lamps and meters, and whoever uses them.
+"""A simulated front panel: a mode switch, jog switches, knobs, a stop button, lamps and meters.
 
-Knows what is wired where, its resistors, and its faults by name. Knows no driver: it hangs on lines in the shape of
-gpiod and a bus in the shape of smbus2, and the rest is Ohm's law.
+Knows what is wired where, its resistors, and its faults by name. Knows no driver: it is connected to lines in the shape
+of gpiod and a bus in the shape of smbus2, and the rest is Ohm's law.
 """
 
 from __future__ import annotations
@@ -17,12 +17,15 @@ from firmware_sim.chips.pca9685 import Pca9685
 from firmware_sim.faults import Fallible, SimFault
 
 BOUNCES_HZ = 7.3
-"""How often a worn mode switch changes while it bounces: out of step with whoever looks 20 times a second."""
+"""How often a worn mode switch changes while it bounces: out of step with a reader that reads 20 times a second."""
 
 
 @dataclass(frozen=True, slots=True)
 class PanelSpec:
-    """Pins and inputs that are None are not fitted. Lamps and meters: the output of each, by name."""
+    """How the panel is wired: GPIO numbers of switches, converter inputs of knobs, outputs of lamps and meters by name.
+
+    None: not fitted.
+    """
 
     mode_msb: int | None = None
     mode_lsb: int | None = None
@@ -38,17 +41,19 @@ class PanelSpec:
     outputs_address: int = 0x41
     supply_v: float = 3.3
     meter_full_share: float = 1.0
-    """The share of the time for which its output must be on to bring a needle to its end: the trimmer."""
+    """The share of the time for which an output must be on to bring its needle to the end: set by the trimmer."""
     bias_ohm: tuple[float, float] = (10e3, 10e3)
-    """From the jog input to the supply, and to ground."""
+    """The resistors from the jog input to the supply, and to ground."""
     azimuth_ohm: float = 6.8e3
+    """The resistor behind the azimuth jog switch."""
     elevation_ohm: float = 12e3
+    """The resistor behind the elevation jog switch."""
     knob_end: float = 1.0
-    """What share of the supply a knob has at its maximum."""
+    """The share of the supply at a knob's wiper at its maximum."""
 
 
 class SimPanel(Fallible):
-    """Hangs itself on `gpio`, and on `bus` what of its two chips is needed."""
+    """Connects its switches to `gpio`, and its two chips to `bus` where they are needed."""
 
     def __init__(self, spec: PanelSpec, gpio: SimGpio, bus: SimI2CBus, clock: Callable[[], float]) -> None:
         self.spec = spec
@@ -81,7 +86,7 @@ class SimPanel(Fallible):
         self._wire_up()
         self.faults = self._fault_table(bus)
 
-    # --- a person's hands
+    # --- what the operator does
 
     def turn_mode(self, position: int) -> None:
         """0 MANUAL, 1 PARK, 2 AUTO, 3 JOG."""
@@ -89,19 +94,20 @@ class SimPanel(Fallible):
         self._wire_up()
 
     def throw(self, axis: str, way: int) -> None:
-        """A jog switch: +1 CW or up, -1 CCW or down, 0 let go."""
+        """A jog switch: +1 CW or up, -1 CCW or down, 0 released."""
         self._thrown[axis] = way
 
     def turn_knob(self, axis: str, share: float) -> None:
-        """0 is its minimum, 1 its maximum."""
+        """Turn a knob: 0 is its minimum, 1 its maximum."""
         self._knobs[axis] = share
 
     def press_stop(self) -> None:
+        """Press the stop button, which stays in."""
         self._stop_closed = False
         self._wire_up()
 
     def pull_stop(self) -> None:
-        """The button stays in until it is pulled out again."""
+        """Pull the stop button out again."""
         self._stop_closed = True
         self._wire_up()
 
@@ -109,22 +115,24 @@ class SimPanel(Fallible):
         self._calibrate_closed = closed
         self._wire_up()
 
-    # --- and eyes
+    # --- what the operator sees
 
     def lamp(self, name: str) -> bool:
+        """Whether that lamp is lit."""
         return self.board.high_share(self.spec.lamps[name]) > 0.5
 
     def lit(self) -> set[str]:
+        """The names of the lamps that are lit."""
         return {name for name in self.spec.lamps if self.lamp(name)}
 
     def needle(self, axis: str) -> float:
-        """How far a meter's needle stands along its scale; it cannot go beyond its end."""
+        """Where a meter's needle stands, 0 to 1 of its scale; it cannot go beyond the end."""
         return min(self.board.high_share(self.spec.meters[axis]) / self.spec.meter_full_share, 1.0)
 
     # --- the wires
 
     def jog_v(self) -> float:
-        """Millman's theorem: the input is where all its resistors' currents add up to nothing."""
+        """The voltage of the jog input, by Millman's theorem: there the currents of all resistors add up to zero."""
         if "jog-shorted" in self._broken:
             return 0.0
         up_ohm, down_ohm = self.spec.bias_ohm
@@ -142,13 +150,13 @@ class SimPanel(Fallible):
         return self._wiper_v("elevation")
 
     def _wiper_v(self, axis: str) -> float:
-        """A resistor to ground holds the input where the wire to the wiper is broken."""
+        """The voltage of a knob's wiper. Where its wire is broken, a resistor pulls the input to ground."""
         if f"{axis}-knob-wire-broken" in self._broken:
             return 0.0
         return self._knobs[axis] * self.spec.knob_end * self.supply_v
 
     def _wire_up(self) -> None:
-        """Every switch is between its line and ground; an open one leaves the line to the Pi's own resistor."""
+        """Put the switches' states on the lines. Each is between its line and ground; the Pi pulls an open one high."""
         spec, position = self.spec, self._position
         if "mode-switch-bouncing" in self._broken:
             position ^= int(self._clock() * BOUNCES_HZ) % 2
@@ -167,7 +175,7 @@ class SimPanel(Fallible):
             self._wire_up()
 
     def _advance(self) -> None:
-        """Nothing here goes on by itself."""
+        """Nothing to do: no part of a panel moves by itself."""
 
     def _fault_table(self, bus: SimI2CBus) -> dict[str, SimFault]:
         spec = self.spec
@@ -193,6 +201,6 @@ class SimPanel(Fallible):
         return SimFault(lambda: become(broken=True), lambda: become(broken=False))
 
     def _dip(self) -> None:
-        """The board's supply goes for an instant, which resets the chip."""
+        """The board's supply fails for an instant, which resets the chip."""
         self.board.supply = False
         self.board.supply = True

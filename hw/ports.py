@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, IntEnum
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 # --- values that all drivers share
 
@@ -149,6 +149,56 @@ class ContactInput(Protocol):
 
     def changes(self) -> list[ContactChange]:
         """The changes since the last call, in order of time. Never waits. Raises HardwareError."""
+
+
+class SwitchInputs(Protocol):
+    """A few contacts that are read together."""
+
+    def read(self) -> dict[str, bool]:
+        """Each contact by name, True: closed. Raises HardwareError."""
+
+
+@dataclass(frozen=True, slots=True)
+class Attitude:
+    """Degrees: heading 0 up to 360 clockwise from magnetic north, roll and pitch about level."""
+
+    heading_deg: float
+    roll_deg: float
+    pitch_deg: float
+
+
+class CompassCalibration(NamedTuple):
+    """How well a compass has found its own errors, each part 0 (not at all) to 3."""
+
+    system: int = 0
+    gyroscope: int = 0
+    accelerometer: int = 0
+    magnetometer: int = 0
+
+    @property
+    def complete(self) -> bool:
+        return min(self) == 3
+
+    def __str__(self) -> str:
+        return (
+            f"system {self.system}, gyroscope {self.gyroscope}, accelerometer {self.accelerometer}, "
+            f"magnetometer {self.magnetometer} of 3"
+        )
+
+
+class Compass(Protocol):
+    """A compass with a level sensor, on the boom. Every call may take a second and raises HardwareError."""
+
+    def attitude(self) -> Attitude:
+        """All three angles of one moment."""
+
+    def calibration(self) -> CompassCalibration: ...
+
+    def offsets(self) -> bytes:
+        """The corrections that the compass has found, to be kept while it has no power."""
+
+    def restore(self, offsets: bytes) -> None:
+        """Give back what `offsets` returned. Raises ValueError where the length is wrong."""
 
 
 # --- display

@@ -1,13 +1,14 @@
-"""The composition root: from a configuration to hardware, controller and links, running.
+"""The box: from a configuration to hardware, controller and links, running.
 
-With `rotator.assembly` and `rotator.rotors`, its other parts, the only code that names concrete classes. Knows how the
-parts fit together, and in which order they start and stop.
+Knows how the parts fit together, and in which order they start and stop. Knows no concrete driver, rotor or link: those
+are chosen in `rotator.assembly`.
 """
 
 from __future__ import annotations
 
 import asyncio
 import itertools
+import logging
 import os
 import time
 from collections.abc import Mapping
@@ -28,6 +29,7 @@ from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
 from rotator.runtime.autosave import Autosave
 from rotator.runtime.client import Client
+from rotator.runtime.closing import Part, closing
 from rotator.runtime.display import DisplayThread
 from rotator.runtime.engine import Engine, process_end
 from rotator.runtime.loop import ControlLoop
@@ -35,29 +37,32 @@ from rotator.runtime.service_manager import ServiceManager, runtime_folder
 from rotator.store import counts, knobs
 from rotator.views import lcd
 
+log = logging.getLogger(__name__)
+
 RELAY_LINES = "relay-lines.json"
-"""What the unit's ExecStopPost reads to open the relays of a program that has died."""
+"""The unit's ExecStopPost reads this file to open the relays of a program that has died."""
 
 
 def monitor_path(config: Config, environment: Mapping[str, str]) -> Path:
-    """Where the socket for watchers is."""
+    """The path of the monitor's socket."""
     beside = runtime_folder(environment) or Path(config.state.path).parent
     return Path(config.monitor.path) if config.monitor.path else beside / "monitor"
 
 
 def open_station(config: Config) -> Station:
-    """The hardware, in real time; what counts goes on from where it was when the program ended."""
+    """The hardware, in real time. Counted axes of real hardware go on from the file of the last run."""
     kept = None if config.rotor.hardware == "sim" else Path(config.state.path).with_name(counts.FILE_NAME)
     return Station(config, time.monotonic, time.sleep, counts=kept)
 
 
 class App:
-    """The whole box, in real time. Build it, `await run(stop)`, and every relay is off when that returns."""
+    """The whole box, in real time. Build it, then `await run(stop)` once. Every relay is off when that returns."""
 
     def __init__(self, config: Config, path: Path | None = None, station: Station | None = None) -> None:
+        """`path`: the configuration's file, where calibrations are saved. Raises HardwareError."""
         self.config = config
         self.station = station or open_station(config)
-        self._supervisor = ServiceManager(os.environ, time.monotonic)
+        self._service_manager = ServiceManager(os.environ, time.monotonic)
         mount = build_mount(config)
         learnt = build_learnt(config)
         self.loop = ControlLoop(
@@ -68,65 +73,98 @@ class App:
             after_good_step=self._sign_of_life,
         )
         self.console = Client(self.loop, mount, Source("console"))
-        people = itertools.count(1)
-        self._people = ConsoleSocket(
+        numbers = itertools.count(1)
+        self._console_socket = ConsoleSocket(
             console_path(monitor_path(config, os.environ)),
-            lambda: ConsoleSession(Client(self.loop, mount, Source("console", next(people)))),
+            lambda: ConsoleSession(Client(self.loop, mount, Source("console", next(numbers)))),
         )
         self._tap = Tap(datetime.now, lambda: self.loop.status)
         self.links = build_links(config.link, self.loop, mount, self._tap)
+        self._monitor_socket = MonitorSocket(monitor_path(config, os.environ), self._tap.listeners, self._tap.greeting)
         self._panel = self._fit_panel()
+        display = self.station.display
+        self._display = DisplayThread(display, self.lcd_rows, time.monotonic) if display else None
         self._engine = Engine(self.loop, self.station.rotor)
         self._autosave = Autosave(self.loop, path, build_offsets(config), learnt)
+        self._tasks: list[asyncio.Task[Any]] = []
+        """The end of one of these is the end of the box."""
+        self._side_tasks: list[asyncio.Task[Any]] = []
+        """When one of these ends, the box goes on."""
 
     def lcd_rows(self, now_s: float) -> tuple[str, str]:
         return lcd.rows(self.loop.status, now_s)
 
     async def run(self, stop: asyncio.Event) -> None:
-        """Run until `stop` is set. Raises LinkError, or whatever stopped the control thread."""
-        display = DisplayThread(self.station.display, self.lcd_rows, time.monotonic) if self.station.display else None
-        tasks: list[asyncio.Task[Any]] = []
-        beside: list[asyncio.Task[None]] = []
-        try:
-            if self.station.sentinel and self.station.lines:
-                self._supervisor.leave(RELAY_LINES, self.station.lines.to_json())
-                tasks.append(asyncio.create_task(process_end(self.station.sentinel.pid), name="sentinel"))
-            ended = self._engine.start()
-            for link in self.links:
-                await link.open()
-                tasks.append(asyncio.create_task(link.run(), name=link.wire.name))
-                # Its first turn: a task cancelled before that would never close what has been opened.
-                await asyncio.sleep(0)
-            if display:
-                display.start()
-            if self._panel:
-                self._panel.start()
-            watching = MonitorSocket(monitor_path(self.config, os.environ), self._tap.listeners, self._tap.greeting)
-            beside.append(asyncio.create_task(watching.run(), name="monitor"))
-            beside.append(asyncio.create_task(self._people.run(), name="console"))
-            tasks.append(asyncio.create_task(self._autosave.run()))
-            tasks.append(asyncio.create_task(stop.wait()))
-            self._supervisor.ready()
-            ending: list[asyncio.Future[Any]] = [ended, *tasks]
-            await asyncio.wait(ending, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            self._supervisor.stopping()
-            if self._panel:
-                await asyncio.to_thread(self._panel.stop)
-            outcomes: list[object] = [await self._engine.halt()]
-            # Whatever becomes of these, the box goes on: they are not among those whose end is the end.
-            tasks += beside
-            for task in tasks:
-                task.cancel()
-            outcomes += await asyncio.gather(*tasks, return_exceptions=True)
-            if display:
-                await asyncio.to_thread(display.stop)
-            await asyncio.to_thread(self.station.close)
-            await asyncio.to_thread(self._autosave.close)
-            self._supervisor.close()
-        for outcome in outcomes:
-            if isinstance(outcome, Exception):
-                raise outcome
+        """Run until `stop` is set. Raises LinkError, HardwareError, or the exception that ended the control thread."""
+        async with closing(self._parts()) as failures:
+            motion_ended = await self._start()
+            self._tasks.append(asyncio.create_task(stop.wait(), name="stop"))
+            self._service_manager.ready()
+            await asyncio.wait([motion_ended, *self._tasks], return_when=asyncio.FIRST_COMPLETED)
+            if motion_ended.done() and (failure := motion_ended.result()):
+                failures.note("the control thread", failure)
+            for task in self._tasks:
+                if task.done() and isinstance(ended_by := task.exception(), Exception):
+                    failures.note(task.get_name(), ended_by)
+
+    def _parts(self) -> list[Part]:
+        """What is stopped, in this order.
+
+        Motion ends first: the engine opens the relays, and then their guard ends. What may hang or fail comes later.
+        The station dismisses the sentinel once all lines are off.
+        """
+        parts = [
+            Part.quick("the service manager", self._service_manager.stopping),
+            Part("the control thread", self._end_motion),
+            Part("a task", self._end_tasks),
+            *(Part.quick(link.wire.name, link.close) for link in self.links),
+        ]
+        if self._panel:
+            parts.append(Part.blocking("the panel", self._panel.stop))
+        if self._display:
+            parts.append(Part.blocking("the display", self._display.stop))
+        return [
+            *parts,
+            Part.blocking("closing the hardware", self.station.close),
+            Part.blocking("the last autosave", self._autosave.close),
+            Part.quick("the service manager", self._service_manager.close),
+        ]
+
+    async def _start(self) -> asyncio.Future[Exception | None]:
+        """Start everything. Returns the future that is done when the control thread ends. Raises LinkError."""
+        if self.station.sentinel and self.station.lines:
+            self._service_manager.leave(RELAY_LINES, self.station.lines.to_json())
+            self._tasks.append(asyncio.create_task(process_end(self.station.sentinel.pid), name="sentinel"))
+        motion_ended = self._engine.start()
+        for link in self.links:
+            await link.open()
+            self._tasks.append(asyncio.create_task(link.run(), name=link.wire.name))
+        if self._display:
+            self._display.start()
+        if self._panel:
+            self._panel.start()
+        for name, work in (("monitor", self._monitor_socket.run()), ("console", self._console_socket.run())):
+            self._side_tasks.append(asyncio.create_task(work, name=name))
+        self._tasks.append(asyncio.create_task(self._autosave.run(), name="autosave"))
+        return motion_ended
+
+    async def _end_motion(self) -> None:
+        failure = await self._engine.halt()
+        if failure is not None:
+            raise failure
+
+    async def _end_tasks(self) -> None:
+        """Cancel all tasks. Raises the first failure; the others are in the log."""
+        tasks = [*self._tasks, *self._side_tasks]
+        self._tasks, self._side_tasks = [], []
+        for task in tasks:
+            task.cancel()
+        outcomes = await asyncio.gather(*tasks, return_exceptions=True)
+        failed = [outcome for outcome in outcomes if isinstance(outcome, Exception)]
+        for failure in failed[1:]:
+            log.error("another task failed: %s", failure)
+        if failed:
+            raise failed[0]
 
     def _fit_panel(self) -> PanelThread | None:
         parts, source = self.station.panel, Source("panel")
@@ -142,9 +180,9 @@ class App:
             knobs=None if simulated else Path(self.config.state.path).with_name(knobs.FILE_NAME),
             pulses=self.station.rotor.closed_contacts,
         )
-        self._tap.on_data = panel.heard
+        self._tap.on_data = panel.data_received
         return panel
 
     def _sign_of_life(self) -> None:
-        self._supervisor.alive()
+        self._service_manager.alive()
         self.station.beat()

@@ -1,1 +1,1 @@
-"""The Arduino that the product replaces: the board, the display library, the sketch, the station around it."""
+"""The Arduino that this program replaces: the board, the display library, the sketch, and the station around it."""

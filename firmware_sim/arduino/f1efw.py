@@ -1,20 +1,21 @@
 """The sketch this program replaces: F1EFW's "V4" azimuth and elevation tracker for the Arduino UNO.
 
-Knows the sketch as its author describes it, warts and all. Of the rotor it knows two coefficients and nothing else:
-not where the stops are, not that 359 and 1 degrees are neighbours, not that a motor coasts or a reversal wants a pause.
+Knows the sketch as its author describes it, with its faults. Of the rotor it knows two coefficients only. It does not
+know where the stops are, that 359 and 1 degrees are neighbours, that a motor coasts, or that a reversal needs a pause.
 
-Its text is not public, so this is a model. Described: the pins; `W` or `w` found anywhere in what was received, then
-azimuth and elevation; everything else ignored, no replies; angle = ADC x coefficient; a relay on while target and pot
-differ by more than `marge`, 4 degrees; both motors stopped at zero or negative elevation; the two LCD rows.
+The sketch's text is not public, so this is a model. The author describes: the pins; `W` or `w` anywhere in the received
+text, then azimuth and elevation; no reply, and any other text ignored; angle = ADC x coefficient; a relay on while
+target and pot differ by more than `marge`, 4 degrees; both motors stopped at zero or negative elevation; the two LCD
+rows.
 
 Assumed:
 
-- Characters are taken as they come and an order counts once it cannot grow: at the next character, or after a turn
-  of the loop without one (a terminal may send no line end). `Serial.readString()` cannot be what the sketch uses: it
-  returns after a second of silence, and orders that come every second never leave one.
-- Between the numbers stand blanks, tabs or commas. Of two orders received in one turn the later stands.
-- Before the first order the target is azimuth 0, elevation 0, as for any C variable without a value; that stops the
-  motors, and the LCD says so.
+- Characters are read as they come, and an order counts when it is complete: at the next character, or after a turn of
+  the loop without one (a terminal may send no line end). The sketch cannot use `Serial.readString()`: that returns
+  after a second of silence, and with orders every second there is no such silence.
+- Between the numbers are blanks, tabs or commas. Of two orders received in one turn of the loop, the later one counts.
+- Before the first order the target is azimuth 0, elevation 0, as for any C variable without a value. That stops the
+  motors, and the LCD shows it.
 - Angles are compared with their fractions and shown without.
 - The loop's period, below.
 """
@@ -38,23 +39,23 @@ BAUD = 9600
 MARGE_DEG = 4
 
 PAUSE_MS = 100
-"""Makes a turn about 107 ms long: 6.5 ms go on 34 characters and two cursor moves, 0.2 ms on two conversions.
+"""A turn of the loop takes about 107 ms: 6.5 ms for 34 characters and two cursor moves, 0.2 ms for two conversions.
 
-The pause is a guess; 100 ms is what such sketches mostly have. Some pause there must be, or the last digits of a pot
-reading would change 150 times a second and nobody could read them. Two things hang on it: how far a motor runs past
-the edge of the margin (0.6 degrees at 6 degrees a second), and how often pot noise restarts it there. Over twelve
-satellite passes with 0.1 degrees of noise, relay starts fall from 300 a pass at 20 ms to 230 at 50, 200 at 100 and 170
-at 200 ms, while the pointing error stays within 0.3 degrees. So 100 ms flatters the sketch rather than otherwise.
+The pause is a guess; most sketches of this kind have 100 ms. There must be one: without it the last digits of a pot
+reading would change 150 times a second and be unreadable. Two things depend on it: how far a motor runs past the edge
+of the margin (0.6 degrees at 6 degrees a second), and how often pot noise restarts it there. Over twelve satellite
+passes with 0.1 degrees of noise, relay starts fall from 300 a pass at 20 ms to 230 at 50, 200 at 100 and 170 at 200 ms,
+while the pointing error stays within 0.3 degrees. So 100 ms is rather favourable to the sketch.
 """
 
 ORDER = re.compile(rb"[Ww](\d{1,3})[ \t,]+(-?\d{1,3})(?!\d)")
 HEARD_BYTES = 32
-"""More than any order; what is older cannot become one."""
+"""Longer than any order; older characters cannot become part of one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Coefficients:
-    """Degrees a converter count, measured on each rotor from its pot's voltage over full travel."""
+    """Degrees for each count of the converter, measured on each rotor over its full travel."""
 
     azimuth_deg: float
     elevation_deg: float
@@ -70,13 +71,13 @@ class Direction:
 
 
 class F1efwV4:
-    """Call `setup` once, then `loop` for ever; the board's clock moves on inside them."""
+    """Call `setup` once, then `loop` again and again; the board's clock moves on inside them."""
 
     def __init__(self, board: Uno, coefficients: Coefficients) -> None:
         self.target = Direction()
-        """What the program asked: SAT on the display."""
+        """The direction of the last order: SAT on the display."""
         self.antenna = Direction()
-        """What the pots say: ANT on the display."""
+        """The direction from the pots: ANT on the display."""
         self._board = board
         self._coefficients = coefficients
         self._lcd = LiquidCrystal(board, LCD)

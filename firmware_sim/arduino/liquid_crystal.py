@@ -1,7 +1,7 @@
 """What a sketch's LiquidCrystal object does to six pins of a UNO: an HD44780 driven blind, four bits at a time.
 
-Knows the controller's wake-up sequence, the order of the nibbles and how long to wait, since with R/W on ground it
-cannot ask whether the display is ready. Knows nothing of what the display makes of it; the display may be missing.
+Knows the controller's wake-up sequence, the order of the nibbles, and how long to wait: with R/W on ground it cannot
+read whether the display is ready. Does not know whether a display is connected at all.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ FUNCTION_4_BIT_2_LINES = 0x28
 SET_ADDRESS = 0x80
 
 POWER_UP_MS = 50
-"""The controller wants 40 ms from the moment its supply is good."""
+"""The controller needs 40 ms from the moment its supply is good."""
 WAKE_NIBBLES = ((0x3, 4500), (0x3, 4500), (0x3, 150), (0x2, 0))
-"""Three times "8 bits" brings it to a known state from any other, then "4 bits"; each with its wait in us."""
+"""Three times "8 bits" brings it to a known state from any other, then "4 bits"; each with its wait in µs."""
 CLEAR_US = 2000
 SETTLE_US = 100
-"""Every other instruction is done in 37 us; slow displays take more."""
+"""Every other instruction takes 37 µs; slow displays take longer."""
 SECOND_ROW = 0x40
 
 
@@ -37,6 +37,8 @@ class LcdPins:
 
 
 class LiquidCrystal:
+    """The Arduino library's object of that name, as far as the sketch uses it."""
+
     def __init__(self, board: Uno, pins: LcdPins) -> None:
         self._board = board
         self._pins = pins
@@ -65,7 +67,7 @@ class LiquidCrystal:
         self._command(SET_ADDRESS | (column + SECOND_ROW * row))
 
     def print(self, text: str) -> None:
-        """Put characters from the cursor on. What runs past the right edge goes into memory nobody sees."""
+        """Write characters from the cursor on. Those beyond the right edge go into memory that is not shown."""
         self._board.digital_write(self._pins.rs, HIGH)
         for byte in text.encode("latin-1", "replace"):
             self._put_byte(byte)
@@ -79,7 +81,7 @@ class LiquidCrystal:
         self._put_nibble(byte & 0xF)
 
     def _put_nibble(self, nibble: int) -> None:
-        """Lay four bits on the data pins and pulse E; the display takes them on its falling edge."""
+        """Put four bits on the data pins and pulse E; the display takes them when E falls."""
         board, enable = self._board, self._pins.enable
         for bit, pin in enumerate(self._pins.data):
             board.digital_write(pin, bool(nibble >> bit & 1))

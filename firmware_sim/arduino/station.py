@@ -1,8 +1,8 @@
-"""The station the product takes over: a UNO with the F1EFW sketch, two motors, two pots and a display, wired up.
+"""The station before this program: a UNO with the F1EFW sketch, two motors, two pots and a display, wired up.
 
-Knows which wire goes where. Knows nothing of tracking and decides nothing; the sketch does that, the mechanics are in
-`motor.py` and `pot.py`. It lives on any clock: in simulated time call `run_until`; in real time give it
-`time.monotonic` and `time.sleep` and let a thread call `run`, while others send orders and look on.
+Knows which wire goes where. Does not know tracking, which the sketch does, nor mechanics, which are in `parts`. It
+works with any clock: in simulated time call `run_until`; in real time give it `time.monotonic` and `time.sleep`, and
+let a thread call `run` while other threads send orders and read the antenna.
 """
 
 from __future__ import annotations
@@ -19,30 +19,30 @@ from firmware_sim.chips.hd44780 import Hd44780
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.parts.pot import PotSpec, SimPot
 
-# The pots' ends stand on the supply rails, so the wiper uses the converter's whole range.
+# The pots have no end resistors, so the wiper uses the converter's whole range.
 AZIMUTH_POT = PotSpec(low_deg=0.0, high_deg=450.0, low_ratio=0.0, high_ratio=1.0)
 ELEVATION_POT = PotSpec(low_deg=0.0, high_deg=180.0, low_ratio=0.0, high_ratio=1.0)
 
 LCD_WIRES = (f1efw.LCD.rs, f1efw.LCD.enable, *f1efw.LCD.data)
-"""In the order in which the display's pins are listed; R/W is on ground."""
+"""In the order of `Hd44780.pins`; R/W is on ground."""
 
 
 @dataclass(frozen=True, slots=True)
 class Boom:
-    """Where the antenna really points, on the rotor's own scale; the pots may see it otherwise."""
+    """Where the antenna really points, on the rotor's own scale; the pots may show another angle."""
 
     azimuth_deg: float
     elevation_deg: float
 
 
 def coefficient(pot: PotSpec) -> float:
-    """Degrees a count, found as the sketch's user finds it: turn to the end, read the converter, divide."""
+    """Degrees for each count, found as a user of the sketch does: turn to the end, read the converter, divide."""
     end_count = min(int(pot.high_ratio * ADC_STEPS), ADC_STEPS - 1)
     return pot.high_deg / end_count
 
 
 class WiredAxis:
-    """A motor on two relay pins with its pot. Time comes with every call."""
+    """A motor on two relay pins with its pot. Moments are arguments, in seconds."""
 
     def __init__(self, motor: SimMotor, pot: SimPot, plus: int, minus: int) -> None:
         self.motor = motor
@@ -65,7 +65,7 @@ class WiredAxis:
 
 
 class ArduinoStation:
-    """Switched on when built: the sketch's `setup` runs at once and takes about 60 ms of the clock."""
+    """The constructor switches it on: the sketch's `setup` runs at once and takes about 60 ms of the clock."""
 
     def __init__(
         self,
@@ -98,7 +98,7 @@ class ArduinoStation:
         self.sketch = F1efwV4(self.board, Coefficients(coefficient(azimuth_pot), coefficient(elevation_pot)))
         self._lcd_levels = dict.fromkeys(LCD_WIRES, False)
         self._clock = clock
-        # The sketch may run in one thread while another asks for the antenna; both let the motors advance.
+        # One thread may run the sketch while another reads the antenna; both advance the motors.
         self._mechanics = threading.Lock()
         self.board.analog_inputs[f1efw.AZIMUTH_POT] = lambda: self._wiper_v(self.azimuth)
         self.board.analog_inputs[f1efw.ELEVATION_POT] = lambda: self._wiper_v(self.elevation)
@@ -106,15 +106,15 @@ class ArduinoStation:
         self.sketch.setup()
 
     def run_until(self, moment_s: float) -> None:
-        """Let the sketch loop until the clock has passed `moment_s`, by less than one turn of the loop.
+        """Run the sketch until the clock has passed `moment_s`, by less than one turn of its loop.
 
-        What must happen at an exact moment on the way (an order, a sample) belongs on an alarm of the clock.
+        For an event at an exact moment on the way (an order, a sample), use an alarm of the clock.
         """
         while self._clock() < moment_s:
             self.sketch.loop()
 
     def run(self, stop: threading.Event) -> None:
-        """Loop until told to stop, in the thread that calls this. The pins then stay as they are."""
+        """Run the sketch in the calling thread until `stop` is set. The pins then keep their levels."""
         while not stop.is_set():
             self.sketch.loop()
 
@@ -143,7 +143,7 @@ class ArduinoStation:
             return axis.wiper_v(self._clock())
 
     def _follow(self, now_s: float, pin: int, level: bool) -> None:
-        """What the wires on the board's pins carry it to."""
+        """Pass a pin's new level on to the display or the relay that is wired to it."""
         if pin in LCD_WIRES:
             self._lcd_levels[pin] = level
             self.display.pins(*self._lcd_levels.values())

@@ -1,9 +1,9 @@
 """An Arduino UNO R3 as a sketch sees it: pins, converter, clock, serial port.
 
-Knows the ATmega328P behind the Arduino core: a pin is an input until told otherwise, a conversion is 10 bits against
-the 5 V supply and takes 104 us, the serial port holds 63 bytes each way. Knows nothing of what is wired to it, nor of
-the sketch. It does not spend time on instructions (a few microseconds a pin change), and it leaves out interrupts, PWM
-and the bootloader, which keeps a real UNO deaf for about 1.5 s after the port is opened.
+Knows the ATmega328P behind the Arduino core: each pin starts as an input, a conversion has 10 bits against the 5 V
+supply and takes 104 µs, the serial port holds 63 bytes each way. Knows neither what is wired to it nor the sketch. Not
+simulated: the time of instructions (some microseconds a pin change), interrupts, PWM, and the bootloader, which makes a
+real UNO deaf for about 1.5 s after the port is opened.
 """
 
 from __future__ import annotations
@@ -29,21 +29,23 @@ COUNTER_SPAN = 2**32
 """`millis` wraps after 49.7 days, `micros` after 71.6 minutes."""
 
 BUFFER_BYTES = 63
-"""The core's rings have 64 places, of which one stays empty to tell full from empty."""
+"""The core's ring buffers have 64 places; one stays empty, so that full and empty differ."""
 BITS_A_BYTE = 10
 """8N1: a start bit, eight data bits, a stop bit."""
 
 
 class PinMode(Enum):
+    """As the Arduino core's `pinMode`."""
+
     INPUT = "input"
     INPUT_PULLUP = "input with pull-up"
     OUTPUT = "output"
 
 
 class UnoSerial:
-    """`Serial` on D0 and D1. The sketch's side is here; the other end of the line is `host_send`, `host_receive`.
+    """`Serial` on D0 and D1 as the sketch uses it; the PC's end of the line is `host_send` and `host_receive`.
 
-    The host may sit in another thread: the two sides share nothing but queues.
+    The PC's end may run in another thread: the two sides share only queues.
     """
 
     def __init__(self, clock: Callable[[], float], sleep: Callable[[float], None]) -> None:
@@ -60,6 +62,7 @@ class UnoSerial:
         self._byte_s = BITS_A_BYTE / baud
 
     def available(self) -> int:
+        """How many bytes can be read."""
         self._listen()
         return len(self._received)
 
@@ -69,7 +72,7 @@ class UnoSerial:
         return self._received.popleft() if self._received else -1
 
     def write(self, data: bytes) -> int:
-        """Queue bytes for the host; like the real one, wait for room when the ring is full."""
+        """Queue bytes for the PC; like the real one, wait when the buffer is full. Returns how many were queued."""
         if self._byte_s is None:
             return 0
         for byte in data:
@@ -82,7 +85,7 @@ class UnoSerial:
         return self.write(text.encode("latin-1", "replace"))
 
     def host_send(self, data: bytes) -> None:
-        """What the PC sends, at the sketch's own baud rate. Before `begin` nobody listens and it is lost."""
+        """Bytes from the PC, at the sketch's own baud rate. Before `begin` they are lost."""
         if self._byte_s is None:
             return
         for byte in data:
@@ -90,7 +93,7 @@ class UnoSerial:
             self._incoming.append((self._incoming_free_s, byte))
 
     def host_receive(self) -> bytes:
-        """What has come over the line to the PC since the last look."""
+        """The bytes that reached the PC since the last call."""
         now_s = self._clock()
         came = bytearray()
         while self._outgoing and self._outgoing[0][0] <= now_s:
@@ -98,7 +101,7 @@ class UnoSerial:
         return bytes(came)
 
     def _listen(self) -> None:
-        """The receive interrupt. Only a read makes room, so it may run late, just before one."""
+        """The receive interrupt. Only a read makes room, so it is enough to run it just before one."""
         now_s = self._clock()
         while self._incoming and self._incoming[0][0] <= now_s:
             byte = self._incoming.popleft()[1]
@@ -106,7 +109,7 @@ class UnoSerial:
                 self._received.append(byte)
 
     def _wait_for_room(self, byte_s: float) -> None:
-        # Judged by the line's time, not by the queue: the host may not have fetched what has long arrived.
+        # The line's time decides, not the queue: the PC may not have fetched bytes that arrived long ago.
         full_s = BUFFER_BYTES * byte_s
         behind_s = self._outgoing_free_s - self._clock()
         if behind_s > full_s:
@@ -119,11 +122,11 @@ class Uno:
     def __init__(self, clock: Callable[[], float], sleep: Callable[[float], None]) -> None:
         self.serial = UnoSerial(clock, sleep)
         self.analog_inputs: dict[int, Callable[[], float]] = {}
-        """Volts at A0 to A5, by pin."""
+        """The volts at A0 to A5, by pin."""
         self.digital_inputs: dict[int, Callable[[], bool]] = {}
-        """Levels put on pins from outside."""
+        """The levels from outside, by pin."""
         self.on_pin: list[Callable[[float, int, bool], None]] = []
-        """Told the time, the pin and its level whenever the level an output drives changes."""
+        """Called with the time, the pin and its new level when an output changes."""
         self._clock = clock
         self._sleep = sleep
         self._start_s = clock()
@@ -145,19 +148,19 @@ class Uno:
         self._tell(pin, before)
 
     def digital_read(self, pin: int) -> bool:
-        """An output reads its own level; an input what is put on it, else its pull-up."""
+        """An output reads its own level; an input reads the level from outside, or its pull-up."""
         if self._modes[pin] is PinMode.OUTPUT or pin not in self.digital_inputs:
             return self._latches[pin]
         return self.digital_inputs[pin]()
 
     def level(self, pin: int) -> bool:
-        """What the pin drives; an input drives nothing, and a relay board takes that for LOW."""
+        """The level that the pin drives. An input drives none, which a relay board takes for LOW."""
         return self._modes[pin] is PinMode.OUTPUT and self._latches[pin]
 
     def analog_read(self, pin: int) -> int:
         """0 to 1023. Takes A0 to A5, or the channel 0 to 5, as the core does.
 
-        An open input reads what the sampling capacitor still holds from the conversion before.
+        An open input reads the voltage that the sampling capacitor still has from the conversion before.
         """
         pin = pin if pin >= A0 else pin + A0
         if pin in self.analog_inputs:

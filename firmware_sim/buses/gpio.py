@@ -1,7 +1,7 @@
 """Simulated GPIO chips in the shape of the `gpiod` module (libgpiod 2.x).
 
-Knows which chips there are and offers a bench: hands that put levels on pins and eyes that see every change. Knows
-nothing of what hangs on the pins.
+Knows which chips there are. For simulated hardware and tests it offers a bench: put a level on a pin, and see every
+change of a pin. Does not know what is wired to the pins.
 """
 
 from __future__ import annotations
@@ -43,6 +43,8 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class ChipInfo:
+    """In the shape of `gpiod.ChipInfo`."""
+
     name: str
     label: str
     num_lines: int
@@ -50,6 +52,8 @@ class ChipInfo:
 
 @dataclass(frozen=True, slots=True)
 class LineInfo:
+    """In the shape of `gpiod.LineInfo`."""
+
     offset: int
     name: str
     used: bool
@@ -57,11 +61,11 @@ class LineInfo:
 
 
 class SimGpio:
-    """Stands where the module `gpiod` stands: `request_lines`, `Chip`, `is_gpiochip_device`.
+    """Takes the place of the module `gpiod`: `request_lines`, `Chip`, `is_gpiochip_device`.
 
-    `level`, `edges`, `on_edges`, `on_look` and `drive_input` are about the chip on the pin header: the first one whose
-    label says pinctrl. `strict` is mainline's way with released lines: back to inputs. Raspberry Pi kernels leave them
-    driven unless `dtparam=strict_gpiod` is set.
+    `level`, `edges`, `on_edges`, `on_look` and `drive_input` are for the chip with the pin header: the first one whose
+    label begins with pinctrl-. `strict`: released lines become inputs again, as in the mainline kernel. Raspberry Pi
+    kernels leave them driven unless `dtparam=strict_gpiod` is set.
     """
 
     def __init__(
@@ -70,20 +74,20 @@ class SimGpio:
         self.strict = strict
         self.edges: deque[Edge] = deque(maxlen=EDGES_KEPT)
         self.on_edges: list[Listener] = []
-        """Called once an instant, in order, with every physical level that changed. The lines are locked meanwhile."""
+        """Called at each instant with the physical levels that changed then. The lines are locked during the call."""
         labels = DEFAULT_CHIPS if chips is None else chips
         self._banks = {path: Bank(path, label, clock) for path, label in labels.items()}
         banks = list(self._banks.values()) or [Bank("", "", clock)]
         self._header = next((bank for bank in banks if bank.label.startswith("pinctrl-")), banks[0])
         self._header.changed = self._record
         self.on_look = self._header.on_look
-        """Called with the present moment before an input is looked at, with the lines locked: what moves by itself
-        tells with `drive_input` what has become of its pins, and when, in order of time."""
+        """Called with the present moment before an input is read. Simulated hardware that moves by itself then reports
+        its pins' changes with `drive_input`, in order of time. The lines are locked during the call."""
 
     # --- gpiod
 
     def paths(self) -> list[str]:
-        """What a look for /dev/gpiochip* would find."""
+        """The paths of the chips, as a search for /dev/gpiochip* finds them."""
         return list(self._banks)
 
     def is_gpiochip_device(self, path: str) -> bool:
@@ -101,7 +105,7 @@ class SimGpio:
         output_values: Mapping[int, Enum] | None = None,
     ) -> SimLineRequest:
         settings = by_offset(config)
-        if output_values:  # libgpiod: then it speaks for every line, and a line it leaves out is INACTIVE
+        if output_values:  # libgpiod: these then hold for every line, and a line left out is INACTIVE
             outputs = {offset: is_active(output_values.get(offset)) for offset in settings}
         else:
             outputs = {offset: is_active(wanted.output_value) for offset, wanted in settings.items()}
@@ -128,7 +132,7 @@ class SimGpio:
         return self._header.lines[offset].level
 
     def drive_input(self, offset: int, level: bool | None, at_s: float | None = None) -> None:
-        """Put a level on a pin of the header from outside, now or since `at_s`; None lets go of it."""
+        """Put a level on a pin of the header from outside, now or from the earlier moment `at_s`; None: open."""
         with self._header.instant([offset], at_s):
             self._header.lines[offset].outside = level
 
@@ -139,7 +143,7 @@ class SimGpio:
 
 
 class SimChip:
-    """An opened chip, as `gpiod.Chip`, to be looked at."""
+    """An open chip in the shape of `gpiod.Chip`: its name, its label and its lines' users."""
 
     def __init__(self, bank: Bank) -> None:
         self._bank = bank
@@ -151,7 +155,7 @@ class SimChip:
         self.close()
 
     def close(self) -> None:
-        """Nothing to let go of."""
+        """Nothing to release."""
 
     def get_info(self) -> ChipInfo:
         return ChipInfo(os.path.basename(self._bank.path), self._bank.label, LINES)

@@ -1,7 +1,7 @@
 """Edge events of simulated GPIO lines, as Linux makes them (drivers/gpio/gpiolib-cdev.c).
 
-Knows debouncing, sequence numbers and the buffer that drops its oldest event when nobody reads. Knows nothing of pins:
-it is told when a level changed.
+Knows debouncing, sequence numbers, and the buffer that drops its oldest event when it is full. Knows no pins: the
+caller reports each change of a level.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 EVENTS_PER_LINE = 16
-"""What the kernel keeps where nobody asks for more, and never more than this for each of 64 lines."""
+"""The kernel's default buffer, in events a line; the largest buffer is this for each of 64 lines."""
 LARGEST_BUFFER = 64 * EVENTS_PER_LINE
 
 
@@ -33,7 +33,7 @@ class EdgeEvent:
 
 
 class EventQueue:
-    """What a request has to tell. `size` is what was asked for; None or 0: the kernel's own choice."""
+    """The events of a request that were not read yet. `size`: the requested buffer; None or 0: the kernel's default."""
 
     def __init__(self, lines: int, size: int | None) -> None:
         wanted = min(size or lines * EVENTS_PER_LINE, LARGEST_BUFFER)
@@ -46,6 +46,7 @@ class EventQueue:
         return len(self._events)
 
     def put(self, offset: int, at_s: float, *, rising: bool) -> None:
+        """Add an event; when the buffer is full, the oldest is dropped."""
         self._seqno += 1
         line_seqno = self._line_seqnos[offset] = self._line_seqnos.get(offset, 0) + 1
         kind = EdgeEvent.Type.RISING_EDGE if rising else EdgeEvent.Type.FALLING_EDGE
@@ -53,6 +54,7 @@ class EventQueue:
         self._signal()
 
     def take(self, most: int) -> list[EdgeEvent]:
+        """Remove and return the oldest events, `most` at most."""
         taken = [self._events.popleft() for _ in range(min(most, len(self._events)))]
         if self._fd is not None and not self._events and taken:
             os.eventfd_read(self._fd)
@@ -60,7 +62,7 @@ class EventQueue:
 
     @property
     def fd(self) -> int:
-        """A descriptor that is readable while there are events. Made when first asked for."""
+        """A file descriptor that is readable while there are events. Opened at the first use."""
         if self._fd is None:
             self._fd = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
             if self._events:
@@ -80,8 +82,8 @@ class EventQueue:
 class EdgeDetector:
     """One line of a request. `edges`: NONE, RISING, FALLING or BOTH, of the logical value.
 
-    With a debounce period, every change of the pin starts it anew; when it ends, the line has the pin's level, and the
-    event carries that moment, not the one of the first contact.
+    With a debounce period, each change of the pin starts the period again. When it ends, the line takes the pin's
+    level, and the event carries that moment, not the moment of the first contact.
     """
 
     def __init__(

@@ -1,7 +1,7 @@
-"""The lines of one simulated GPIO chip: who has them, what level each pin is at, and when that changes.
+"""The lines of one simulated GPIO chip: which program holds them, each pin's level, and when it changes.
 
-Knows pulls, outputs, what somebody outside puts on a pin, and the detectors that watch inputs. Knows nothing of the
-interface of gpiod, nor of what hangs on the pins.
+Knows pull resistors, outputs, levels from outside, and the detectors that watch inputs. Knows neither the interface of
+gpiod nor what is wired to the pins.
 """
 
 from __future__ import annotations
@@ -19,15 +19,19 @@ PULLED_UP_AT_BOOT = range(9)  # BCM2835 ARM Peripherals, table 6-31: GPIO 0-8 up
 
 @dataclass(slots=True)
 class Line:
+    """One line; `pull`: the level of its pull resistor."""
+
     pull: bool
     driven: bool | None = None
     """The level of an output; None: the line is an input."""
     outside: bool | None = None
-    """The level somebody else puts on the pin; None: nobody does. A driven output wins."""
+    """The level that the hardware outside puts on the pin; None: none. A driven output wins."""
     consumer: str | None = None
+    """The name of the program that holds the line; None: it is free."""
 
     @property
     def level(self) -> bool:
+        """The physical level of the pin."""
         if self.driven is not None:
             return self.driven
         return self.pull if self.outside is None else self.outside
@@ -47,7 +51,7 @@ class Bank:
         self.lock = threading.RLock()
 
     def look(self) -> None:
-        """Before an input is looked at: what should have happened to it by now happens."""
+        """Bring all inputs up to the present moment; called before an input is read."""
         with self.lock:
             now_s = self.clock()
             for catch_up in self.on_look:
@@ -56,7 +60,7 @@ class Bank:
 
     @contextmanager
     def instant(self, offsets: Iterable[int], at_s: float | None = None) -> Iterator[None]:
-        """Whatever the body does to these lines happens to all of them at once: now, or at that earlier moment."""
+        """The changes that the body makes to these lines happen in one instant: now, or at an earlier moment `at_s`."""
         with self.lock:
             moment_s = self.clock() if at_s is None else at_s
             self._settle(moment_s)
@@ -72,7 +76,7 @@ class Bank:
             self.changed(moment_s, changes)
 
     def _settle(self, until_s: float) -> None:
-        """Let every debounce period that is over by then end, in order of time."""
+        """End the debounce periods that are over by then, in order of time."""
         due = [detector for detector in self.detectors.values() if detector.due_s <= until_s]
         for detector in sorted(due, key=lambda detector: detector.due_s):
             detector.settle()

@@ -1,8 +1,8 @@
 """Lines held by a program, in the shape of `gpiod.LineRequest`.
 
-Knows what may be asked of a line and what is left when it is let go of. Settings are told by their attributes and enum
-members by their names, so that the real ones of the gpiod package fit without importing it. Open-drain outputs and
-other clocks are not built: asking for them raises NotImplementedError, because silence would pass for a dead wire.
+Knows the settings of a line, and its state after release. It reads settings by their attributes and enum members by
+their names, so that the real ones of the gpiod package fit without importing it. Open-drain outputs and other clocks
+are not simulated: a request for them raises NotImplementedError, because a line without events looks like a dead wire.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from firmware_sim.buses.gpio_lines import LINES, Bank
 Settings = Any
 """A `gpiod.LineSettings`."""
 Config = Mapping[Any, Settings]
-"""An offset or a tuple of offsets -> what they shall be."""
+"""From an offset, or a tuple of offsets, to their settings."""
 EVENTS_A_READ = 64
 LOOK_EVERY_S = 0.005
-"""Simulated contacts move when somebody looks; who waits looks this often."""
+"""Simulated contacts move only when they are read; a wait for events reads this often."""
 
 
 class RequestReleasedError(Exception):
@@ -36,7 +36,10 @@ class RequestReleasedError(Exception):
 
 
 class SimLineRequest:
-    """Lines that are ours until released. Values come in the caller's own enum."""
+    """Lines held until released. Values are members of the caller's own enum.
+
+    Raises OSError (EBUSY) where another request holds one of them.
+    """
 
     def __init__(
         self,
@@ -55,13 +58,18 @@ class SimLineRequest:
         self._events = EventQueue(len(settings), event_buffer_size)
         self._events_a_read = min(event_buffer_size or EVENTS_A_READ, LARGEST_BUFFER)
         bank.look()
-        with bank.instant(settings):
-            if any(bank.lines[offset].consumer is not None for offset in settings):
+        self._take_lines(outputs, consumer)
+        self._watch_edges()
+
+    def _take_lines(self, outputs: Mapping[int, bool], consumer: str) -> None:
+        bank = self._bank
+        with bank.instant(self._settings):
+            if any(bank.lines[offset].consumer is not None for offset in self._settings):
                 raise OSError(errno.EBUSY, os.strerror(errno.EBUSY))
-            for offset, wanted in settings.items():
+            for offset, wanted in self._settings.items():
                 line = bank.lines[offset]
                 line.consumer = consumer
-                # libgpiod: a line whose edges are wanted is an input, whatever else was said.
+                # libgpiod: edge detection makes a line an input, also against its direction.
                 if wanted.edge_detection.name != "NONE" or wanted.direction.name == "INPUT":
                     line.driven = None
                 elif wanted.direction.name == "OUTPUT":
@@ -69,13 +77,15 @@ class SimLineRequest:
                 match wanted.bias.name:
                     case "PULL_UP":
                         line.pull = True
-                    case "PULL_DOWN" | "DISABLED":  # a floating pin has to read as something
+                    case "PULL_DOWN" | "DISABLED":  # a floating pin must have some level; here it is low
                         line.pull = False
-        for offset, wanted in settings.items():
+
+    def _watch_edges(self) -> None:
+        for offset, wanted in self._settings.items():
             if wanted.edge_detection.name != "NONE" or wanted.debounce_period:
-                bank.detectors[offset] = EdgeDetector(
+                self._bank.detectors[offset] = EdgeDetector(
                     offset,
-                    bank.lines[offset].level,
+                    self._bank.lines[offset].level,
                     self._events,
                     edges=wanted.edge_detection.name,
                     active_low=wanted.active_low,
@@ -90,6 +100,7 @@ class SimLineRequest:
         self.release()
 
     def release(self) -> None:
+        """Release the lines. May be called twice, as gpiod's own."""
         with self._bank.instant(self._settings):
             if not self._live:
                 return
@@ -138,7 +149,7 @@ class SimLineRequest:
         return self.fd
 
     def wait_edge_events(self, timeout: timedelta | float | None = None) -> bool:
-        """Whether there are events, after waiting `timeout` seconds of real time (None: for ever) for the first."""
+        """Whether there are events; waits for the first, `timeout` seconds of real time at most (None: for ever)."""
         self._check_live()
         seconds = timeout.total_seconds() if isinstance(timeout, timedelta) else timeout
         until_s = float("inf") if seconds is None else time.monotonic() + seconds
@@ -150,7 +161,7 @@ class SimLineRequest:
         return True
 
     def read_edge_events(self, max_events: int | None = None) -> list[EdgeEvent]:
-        """Events in order; waits for the first, as the kernel does."""
+        """The oldest events, in order. Waits for the first, as the kernel does."""
         self.wait_edge_events(None)
         with self._bank.lock:
             return self._events.take(min(max_events or self._events_a_read, self._events_a_read))
@@ -178,7 +189,7 @@ def is_active(value: Enum | None) -> bool:
 
 
 def by_offset(config: Config) -> dict[int, Settings]:
-    """What each line shall be. Raises ValueError, OSError or NotImplementedError for what cannot be."""
+    """Each line's settings. Raises ValueError, OSError or NotImplementedError for settings that cannot be."""
     settings: dict[int, Settings] = {}
     for key, wanted in config.items():
         for offset in (key,) if isinstance(key, int) else key:

@@ -1,7 +1,7 @@
 """A simulated I2C adapter in the shape of `smbus2.SMBus`.
 
-Knows how transfers are put together, how long they take on the wire, what Linux says when nobody answers, and how an
-adapter misbehaves. Knows no chip: whatever is attached gets the bytes and makes sense of them itself.
+Knows the parts of a transfer, its time on the wire, Linux's error numbers, and the faults of an adapter. Knows no chip:
+each attached chip gets the bytes of its address.
 """
 
 from __future__ import annotations
@@ -23,8 +23,7 @@ class Nack(Exception):  # noqa: N818 - the field's word
 
 
 class I2CChip(Protocol):
-    """What sits at an address. A chip that acts on every byte as it arrives, rather than on the whole message, says so
-    with an attribute `bytewise = True` and is then given one byte at a time."""
+    """A chip at an address. It gets whole messages; with an attribute `bytewise = True` it gets one byte at a time."""
 
     def write(self, data: bytes) -> None:
         """The data bytes of one write message, address not included. Raises Nack."""
@@ -52,10 +51,10 @@ class _Read(NamedTuple):
 
 
 class SimI2CBus:
-    """The adapter. One transfer at a time, whoever asks; each takes `byte_s` for every address and data byte.
+    """The adapter. One transfer at a time, from any thread; each address and data byte takes `byte_s` seconds.
 
-    The caller's time is spent in one `sleep` a transfer, because real sleeps are too coarse for 90 us. Chips learn of a
-    transfer when it is over; a chip that must know when each byte came reads its clock through `wire_time`.
+    A transfer calls `sleep` once, because a real sleep of 90 µs a byte is too coarse. Chips get the bytes when the
+    transfer is over. A chip that needs the moment of each byte reads its clock through `wire_time`.
     """
 
     def __init__(self, sleep: Callable[[float], None] | None = None, byte_s: float = 90e-6) -> None:
@@ -65,7 +64,7 @@ class SimI2CBus:
         self._byte_s = byte_s
         self._chips: dict[int, I2CChip] = {}
         self._bytewise: set[int] = set()
-        # In simulated time all is one thread: what an alarm sends while another transfer sleeps goes before that one.
+        # Simulated time has one thread: a transfer that an alarm starts while another one sleeps comes before that one.
         self._transfer_lock = threading.RLock()
         self._flowing = threading.Event()
         self._flowing.set()
@@ -88,10 +87,7 @@ class SimI2CBus:
         self._bytewise.discard(address)
 
     def hang(self, hang_timeout_s: float | None = None) -> None:
-        """Fault: from now on every transfer blocks until `release`, or fails with ETIMEDOUT after so many seconds.
-
-        These are seconds of real time: a blocked caller is a blocked thread.
-        """
+        """Fault: each transfer blocks until `release`, or fails with ETIMEDOUT after so many seconds of real time."""
         self._hang_timeout_s = hang_timeout_s
         self._flowing.clear()
 
@@ -99,10 +95,10 @@ class SimI2CBus:
         self._flowing.set()
 
     def wire_time(self, clock: Callable[[], float]) -> Callable[[], float]:
-        """`clock` as a chip on this bus sees it: during a transfer, the moment at which the byte in hand was complete.
+        """A clock for a chip on this bus: during a transfer it gives the moment at which the present byte was complete.
 
-        On a bus without `sleep` the wire still takes its time, so this clock runs ahead of `clock` by all the transfers
-        so far: differences are right, and a display is not blamed for bytes that no wire could bring so fast.
+        Without `sleep` a transfer takes no time on `clock`, but it does on this clock, which therefore runs ahead. Its
+        differences are right: a display is not blamed for bytes that came faster than a wire can carry them.
         """
         return lambda: clock() + self._unslept_s - self._undelivered_bytes * self._byte_s
 
@@ -119,7 +115,7 @@ class SimI2CBus:
         self._closed = True
 
     def i2c_rdwr(self, *i2c_msgs: Any) -> None:
-        """Real `smbus2.i2c_msg` objects; reads fill their buffers. Messages are joined by repeated starts."""
+        """One transfer of real `smbus2.i2c_msg` objects, joined by repeated starts; reads fill their buffers."""
         if not 0 < len(i2c_msgs) <= MESSAGES_MAX:
             raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
         replies = iter(self._transfer(*[_part(message) for message in i2c_msgs]))
@@ -156,7 +152,7 @@ class SimI2CBus:
     # --- the wire
 
     def _transfer(self, *parts: _Write | _Read) -> list[bytes]:
-        """Carry out one transfer; returns the answers to its reads, in order."""
+        """One transfer. Returns the answers to its reads, in order. Raises OSError."""
         if self._closed:
             raise OSError(errno.EBADF, os.strerror(errno.EBADF))
         with self._transfer_lock:
@@ -195,7 +191,7 @@ class SimI2CBus:
         if isinstance(part, _Read):
             reply = chip.read(part.length)  # a chip fixes its answer when it is addressed, not when the last bit is out
             self._undelivered_bytes -= part.length
-            return reply[: part.length].ljust(part.length, b"\xff")  # nobody pulls SDA down: ones
+            return reply[: part.length].ljust(part.length, b"\xff")  # no chip pulls SDA down: ones
         if part.address in self._bytewise:
             for value in part.data:
                 self._undelivered_bytes -= 1

@@ -1,1 +1,1 @@
-"""Simulated chips, at register level."""
+"""Simulated chips, at register level, as their datasheets describe them."""

@@ -1,7 +1,7 @@
 """A simulated ADS1115: four inputs, one 16-bit converter, I2C registers.
 
-Knows the register map, how long a conversion takes and what it makes of the volts at the pins. Knows nothing of pots or
-angles, and has no comparator: the thresholds can be written and read, the ALERT pin does nothing.
+Knows the register map (TI SBAS444), the time of a conversion, and how volts become counts. Knows no pots and no angles.
+It has no comparator: the thresholds can be written and read, and the ALERT pin does nothing.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ PINS = ((0, 1), (0, 3), (1, 3), (2, 3), (0, None), (1, None), (2, None), (3, Non
 
 WAKE_UP_S = 25e-6
 COUNTS = 32768
-CLAMP_V = 0.3  # the protection diodes carry whatever goes further beyond the rails
+CLAMP_V = 0.3  # beyond this, the protection diodes conduct
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,10 +33,10 @@ class _Conversion:
 
 
 class Ads1115:
-    """The chip. `inputs` are the volts at AIN0..3, asked for when a conversion ends.
+    """The chip. `inputs` give the volts at AIN0 to AIN3; a conversion samples them when it ends.
 
-    Python runs the chip only when somebody looks at it, so a conversion that ended unobserved takes its sample at the
-    next look. Whoever simulates time can have it exact: call `settle` at the moment `due_s` names.
+    The chip's code runs only when it is read or written, so a conversion that ended before then samples at that moment.
+    For an exact sample in simulated time, call `settle` at the moment that `due_s` returns.
     """
 
     def __init__(
@@ -51,12 +51,12 @@ class Ads1115:
         self.inputs: list[Callable[[], float]] = [lambda: 0.0] * 4
         self.vdd_v = vdd_v
         self.oscillator_error = oscillator_error
-        """+0.1: an oscillator so slow that conversions take 10 % longer, the worst the datasheet allows."""
+        """+0.1: a slow oscillator, with which conversions take 10 % longer: the datasheet's limit."""
         self.noise_v_rms = noise_v_rms
         self.frozen = False
-        """Fault: conversions end as ever, and the result stays what it was."""
+        """Fault: conversions end as usual, and the result does not change."""
         self.early_reads = 0
-        """Reads of the conversion register, in single-shot mode, while the conversion was still running."""
+        """How often the conversion register was read, in single-shot mode, before the conversion had ended."""
         self._clock = clock
         self._noise = noise or random.Random(1115)
         self._lock = threading.RLock()
@@ -100,7 +100,7 @@ class Ads1115:
         return self._running.ends_at_s if self._running else None
 
     def settle(self) -> None:
-        """Finish what has ended by now."""
+        """Finish the conversions that have ended by now."""
         if self._running is None:
             return
         with self._lock:
@@ -120,7 +120,7 @@ class Ads1115:
             self._running = _Conversion(value, self._clock() + WAKE_UP_S + self._period_s)
 
     def _latest_by(self, now_s: float, first: _Conversion) -> _Conversion:
-        """In continuous mode, the last of the back-to-back conversions that ended since anybody looked."""
+        """In continuous mode, the last of the conversions that ended since the chip was read."""
         more = int((now_s - first.ends_at_s) / self._period_s)
         if more == 0:
             return first

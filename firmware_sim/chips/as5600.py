@@ -1,7 +1,7 @@
 """A simulated AS5600: a magnet over a chip with twelve bits a turn, I2C registers.
 
-Knows the register map, how the gain follows the magnet, and what burning would do. Knows nothing of axes. Leaves out
-the analog output, the low-power modes and the hysteresis at the ends of a narrowed range.
+Knows the register map (ams AS5600), how the gain follows the magnet, and the command that burns settings. Knows no
+axis. Not simulated: the analog output, the low-power modes, and the hysteresis at the ends of a narrowed range.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ ZMCO, ZPOS, MPOS, MANG, CONF = 0x00, 0x01, 0x03, 0x05, 0x07
 STATUS, RAW_ANGLE, ANGLE, AGC, MAGNITUDE = 0x0B, 0x0C, 0x0E, 0x1A, 0x1B
 BURN = 0xFF
 HELD = (RAW_ANGLE, ANGLE, MAGNITUDE)
-"""Once addressed here the pointer stays, so that the two bytes can be read over and over."""
+"""At these registers the pointer does not move on, so that the two bytes can be read again and again."""
 
 WEAKEST_MT, STRONGEST_MT, DETECTED_MT = 30.0, 90.0, 8.0
 GAIN_MAX_3V3 = 128
@@ -23,6 +23,8 @@ STEPS = 4096
 
 
 class MagnetFault(Enum):
+    """What can be wrong with the magnet."""
+
     NONE = ""
     MISSING = "magnet-missing"
     WEAK = "magnet-weak"
@@ -33,14 +35,14 @@ FIELD_MT = {MagnetFault.NONE: 60.0, MagnetFault.MISSING: 1.0, MagnetFault.WEAK: 
 
 
 class As5600:
-    """The chip. `turn` tells where the magnet is, in turns (2.25 reads like 0.25)."""
+    """The chip. `turn` gives the magnet's angle in turns; 2.25 reads like 0.25."""
 
     def __init__(
         self, turn: Callable[[], float], *, noise_deg_rms: float = 0.015, noise: random.Random | None = None
     ) -> None:
         self.fault = MagnetFault.NONE
         self.burns: list[int] = []
-        """What was written to BURN: on a real chip that cannot be undone."""
+        """The values written to BURN. On a real chip they cannot be undone."""
         self._turn = turn
         self._noise_turn_rms = noise_deg_rms / 360.0
         self._noise = noise or random.Random(5600)
@@ -94,11 +96,11 @@ class As5600:
 
     def _raw(self) -> int:
         if self.fault is MagnetFault.MISSING:
-            return self._noise.randrange(STEPS)  # the angle of nothing
+            return self._noise.randrange(STEPS)  # without a magnet the angle is random
         return round((self._turn() + self._noise.gauss(0.0, self._noise_turn_rms)) * STEPS) % STEPS
 
     def _narrowed(self, raw: int) -> int:
-        """From ZPOS to MPOS is the whole output range; outside it the nearer end."""
+        """ANGLE: the range from ZPOS to MPOS becomes 0 to 4095; outside it, the nearer end."""
         zero, end = (int.from_bytes(self._settings[at : at + 2], "big") % STEPS for at in (ZPOS, MPOS))
         width = (end - zero) % STEPS or STEPS
         beyond = (raw - zero) % STEPS

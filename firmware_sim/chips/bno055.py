@@ -1,7 +1,7 @@
-"""A simulated BNO055: a compass that takes its time to boot, to change modes and to learn its own errors.
+"""A simulated BNO055: a compass that needs time to start, to change its mode and to calibrate itself.
 
-Knows the register map of page 0, the modes, and what goes wrong with compasses and with the Raspberry Pi's I2C. Knows
-no rotor. Leaves out the raw sensors, the modes besides CONFIG and NDOF, and what the axis map does to the angles.
+Knows the register map of page 0 (Bosch BST-BNO055-DS000), two modes, and the faults of compasses and of the Raspberry
+Pi's I2C. Knows no rotor. Not simulated: the raw sensors, modes other than CONFIG and NDOF, and the axis map's effect.
 """
 
 from __future__ import annotations
@@ -25,14 +25,15 @@ INTO_CONFIG_S, OUT_OF_CONFIG_S = 0.019, 0.007
 FUSION_HZ = 100
 FIRST_ANGLES_S = 0.05
 LEARNT_S = {"system": 15.0, "gyroscope": 3.0, "accelerometer": 8.0, "magnetometer": 12.0}
-"""When each part reaches 3, the antenna being turned about; after a restore five times as fast."""
+"""When each part's calibration reaches 3 while the antenna is turned; after a restore five times as fast."""
 LEARNT = struct.pack("<11h", -12, 30, -7, 210, -145, 88, -1, 2, 0, 1000, 730)
 """Offsets of accelerometer, magnetometer and gyroscope, and the two radii."""
 UNLEARNT_DEG = 70.0
+"""How far the heading is off before the magnetometer is calibrated."""
 
 
 class Bno055:
-    """The chip. `heading_deg` is where it points from magnetic north; it gives noise of its own on top."""
+    """The chip. `heading_deg` gives its true angle from magnetic north; the chip adds noise."""
 
     def __init__(
         self,
@@ -49,11 +50,11 @@ class Bno055:
         self.nack_share = 0.0
         """Fault `busy`: this share of the transfers is not acknowledged."""
         self.learns = True
-        """Fault `not-calibrated`, when False: nobody turned it about, and it never learns."""
+        """Fault `not-calibrated`, when False: the antenna was not turned, and the chip never calibrates itself."""
         self.hard_iron_deg = 0.0
-        """Fault `steel-near`: off by so much at most, once to each side in a turn."""
+        """Fault `steel-near`: the largest error of the heading, once to each side in a turn."""
         self.wander_deg = 0.0
-        """Fault `magnetic-disturbance`: swings by so much to each side, every seven seconds."""
+        """Fault `magnetic-disturbance`: the heading swings by this to each side, every seven seconds."""
         self.system_error = 0
         """Fault `system-error`: the code in SYS_ERR."""
         self.identity = IDENTITIES[0]
@@ -64,7 +65,7 @@ class Bno055:
         self._boot(POWER_ON_S)
 
     def brown_out(self) -> None:
-        """Fault: the supply dips, and everything is as after power-on."""
+        """Fault: the supply dips, and the chip starts as after power-on."""
         self._boot(POWER_ON_S)
 
     def _boot(self, duration_s: float) -> None:
@@ -146,7 +147,7 @@ class Bno055:
             return LEARNT[register - OFFSETS]
         return self._registers[register]
 
-    # --- what it feels
+    # --- fusion
 
     def _calibrated(self) -> int:
         if not self.learns:
@@ -158,7 +159,7 @@ class Bno055:
         return stat
 
     def _sample(self) -> None:
-        """Fusion: once in 10 ms, whoever asks how often."""
+        """Fusion: new angles every 10 ms, however often they are read."""
         tick = int(self._clock() * FUSION_HZ)
         if self._mode != NDOF or self._clock() < self._mode_from_s + FIRST_ANGLES_S or tick == self._sampled:
             return

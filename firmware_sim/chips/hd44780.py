@@ -1,8 +1,8 @@
 """A simulated HD44780 character LCD at its pins: RS, RW, E, D4 to D7.
 
-Knows the instruction set, the nibbles, how long each instruction keeps the chip busy, and what a person then sees on
-the glass. Knows nothing of what drives its pins. D0 to D3 are open and read as 0; reading (RW high) puts nothing on the
-pins; set-up times of RS and data are not checked.
+Knows the instruction set (Hitachi ADE-207-272), the nibbles, how long each instruction keeps the chip busy, and the
+text on the glass. Does not know what drives its pins. D0 to D3 are open and read as 0. Not simulated: reading (RW
+high), and the set-up times of RS and data.
 """
 
 from __future__ import annotations
@@ -34,19 +34,19 @@ class _Pins:
 
 
 class Hd44780:
-    """The display. Call `pins` whenever a pin changes; look with `text`.
+    """The display. Call `pins` when a pin changes; read the glass with `text`.
 
-    The chip takes what stood on its pins just before E fell, so a byte that drops E and changes the data at once does
-    no harm, as on the real one.
+    The chip takes the levels from just before E fell. A byte that drops E and changes the data at the same time is
+    therefore harmless, as on the real chip.
     """
 
     def __init__(self, clock: Callable[[], float], columns: int = 16, rows: int = 2) -> None:
         self.columns = columns
         self.rows = rows
         self.busy_violations = 0
-        """Instructions and data that came while the chip was busy. They are lost."""
+        """How many instructions and data bytes came while the chip was busy; they are lost."""
         self.short_pulses = 0
-        """E pulses shorter than 450 ns. Counted, and taken all the same; not counted where the clock stood still."""
+        """How many E pulses were shorter than 450 ns; they work. Not counted where the clock stood still."""
         self.display_on = False
         self.cgram = bytearray(64)
         self._clock = clock
@@ -83,7 +83,7 @@ class Hd44780:
                 self._latch(before.rs, before.nibble, now_s)
 
     def text(self) -> tuple[str, ...]:
-        """What a person sees, row by row. A glyph of one's own shows as its number in a circle, U+24EA to U+2466."""
+        """The text on the glass, row by row. A custom character shows as its number in a circle, U+24EA to U+2466."""
         return tuple(self._row(row) for row in range(self.rows))
 
     def glyph(self, code: int) -> tuple[int, ...]:
@@ -113,10 +113,10 @@ class Hd44780:
         else:
             self._busy_until_s = now_s + self._execute(value)
 
-    # --- the instruction set: the highest bit that is set says which
+    # --- the instruction set: the highest set bit selects the instruction
 
     def _execute(self, value: int) -> float:
-        """Carry out an instruction; returns how long that keeps the chip busy."""
+        """Carry out an instruction. Returns how long the chip is busy with it, in seconds."""
         busy_s = INSTRUCTION_S
         match value.bit_length():
             case 8:

@@ -13,7 +13,7 @@ WRITE, SHUTDOWN = 0b01, 0b10
 
 
 class Mcp41010:
-    """The chip. `before_change` is called before the wiper moves: what hangs there catches up."""
+    """The chip. `before_change` is called before the wiper moves, so that the parts behind it catch up first."""
 
     so = None
     """It has no output: nothing can be read back."""
@@ -23,24 +23,24 @@ class Mcp41010:
         self.deaf = False
         """Fault: its select line is broken."""
         self.frames = 0
-        """How many it has obeyed."""
+        """How many frames it has obeyed."""
         self.step = POWER_ON_STEP
         self.shut_down = False
         self._cs, self._sck = True, False
         self._shifted, self._count = 0, 0
 
     def share(self) -> float:
-        """Where the wiper is between B (0) and A (1), with nothing drawn from it."""
+        """The wiper's place between B (0) and A (1), without a load."""
         return 0.0 if self.shut_down else self.step / 256
 
     def power_on(self) -> None:
-        """Its supply has been away for a moment."""
+        """Its supply comes back after an interruption: the wiper is in the middle."""
         self._announce()
         self.step, self.shut_down = POWER_ON_STEP, False
         self._shifted, self._count = 0, 0
 
     def pins(self, *, cs: bool, sck: bool, si: bool) -> None:
-        """The levels from now on."""
+        """The levels of its pins from now on."""
         cs = cs or self.deaf
         if self._cs and not cs:
             self._shifted, self._count = 0, 0

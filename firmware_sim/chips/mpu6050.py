@@ -1,7 +1,7 @@
 """A simulated MPU6050: three accelerometers with noise, I2C registers.
 
-Knows the register map, sleep and reset, the ranges, and that noise goes with the root of the low-pass's bandwidth.
-Knows nothing of booms. Leaves out the gyroscopes (they read 0), the FIFO, interrupts, and the low-pass's delay.
+Knows the register map (InvenSense RM-MPU-6000A), sleep and reset, the ranges, and how noise depends on the low-pass
+filter. Knows no boom. Not simulated: the gyroscopes (they read 0), the FIFO, interrupts, and the filter's delay.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ IDENTITY = 0x68
 BANDWIDTH_HZ = (260, 184, 94, 44, 21, 10, 5, 260)
 STEPS_PER_G = (16384, 8192, 4096, 2048)
 WAKE_UP_S = 0.03
-"""After sleep the outputs stay what they were for so long."""
+"""For so long after sleep the outputs do not change."""
 
 Acceleration = tuple[float, float, float]
 
 
 class Mpu6050:
-    """The chip. `feels_g` is what a perfect one would feel along its x, y and z: at rest, 1 g upwards."""
+    """The chip. `feels_g` gives the true acceleration along its x, y and z: at rest, 1 g upwards."""
 
     def __init__(
         self,
@@ -36,7 +36,7 @@ class Mpu6050:
         self.shaken_g = 0.0
         """Fault `shaken`: a motor or the wind shakes the board, rms on each axis."""
         self.offset_g: Acceleration = (0.0, 0.0, 0.0)
-        """Where its zeros lie: up to 0.05 g on x and y, 0.08 g on z, as the chip comes from the factory."""
+        """The zero offsets: a new chip has up to 0.05 g on x and y, 0.08 g on z."""
         self.identity = IDENTITY
         self._clock = clock
         self._feels_g = feels_g
@@ -46,7 +46,7 @@ class Mpu6050:
         self.brown_out()
 
     def brown_out(self) -> None:
-        """Fault: the supply dips, and everything is as after power-on: asleep, outputs 0."""
+        """Fault: the supply dips, and the chip is as after power-on: asleep, its outputs 0."""
         self._registers = bytearray(0x80)
         self._registers[POWER_1] = SLEEP_BIT
         self._runs_from_s = math.inf

@@ -1,7 +1,7 @@
 """A simulated PCA9685: sixteen pulse outputs, one oscillator, I2C registers.
 
-Knows the register map, what sleep stops, and the pulse at each output. Knows nothing of servos or meters. It does not
-answer its all-call and sub-addresses, and takes no software reset.
+Knows the register map (NXP PCA9685 rev. 4), sleep, and the pulse at each output. Knows no servo and no meter. Not
+simulated: its all-call and sub-addresses, and the software reset.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ STABLE_S = 500e-6
 
 
 class Pca9685:
-    """The chip. `osc_hz` is what its oscillator really does."""
+    """The chip. `osc_hz` is its oscillator's real frequency."""
 
     def __init__(self, clock: Callable[[], float], *, osc_hz: float = 25e6) -> None:
         self.osc_hz = osc_hz
         self.before_change: list[Callable[[], None]] = []
-        """Called before a write that may change an output: what hangs there catches up with the old pulse."""
+        """Called before a write that may change an output, so that the parts behind it catch up with the old pulse."""
         self.early_writes = 0
-        """Writes to outputs before the oscillator was stable, which the datasheet does not vouch for."""
+        """How many writes to outputs came before the oscillator was stable, which the datasheet does not allow."""
         self._clock = clock
         self._lock = threading.RLock()
         self._supply = True
@@ -51,7 +51,7 @@ class Pca9685:
 
     @supply.setter
     def supply(self, on: bool) -> None:
-        """VCC: without it nothing answers and every output is dead; coming back is a reset."""
+        """VCC: without it the chip does not answer and no output works; its return is a reset."""
         with self._lock:
             self._announce()
             if on and not self._supply:

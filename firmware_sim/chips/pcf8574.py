@@ -1,7 +1,7 @@
-"""A simulated PCF8574 port expander, and the backpack that puts one behind a character LCD.
+"""A simulated PCF8574 port expander, and the backpack with one behind a character LCD.
 
-Knows which byte is on the eight pins, and which LCD pin hangs on which of them. Knows nothing of time (the bus brings
-the bytes when it brings them) and nothing of what the LCD makes of its pins.
+Knows the byte on its eight pins, and which LCD pin is wired to which of them. Knows no time: the bus decides when a
+byte comes. Does not know what the LCD does with its pins.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ POWER_ON = 0xFF
 
 
 class Pcf8574:
-    """The expander: every byte written is on the pins at its ACK; `on_change` hears of each new state."""
+    """The expander: each byte written is on the pins at its ACK. `on_change` is called with each new state."""
 
     bytewise = True
 
@@ -22,7 +22,7 @@ class Pcf8574:
         self.on_change = on_change
         self.port = POWER_ON
         self.inputs = 0xFF
-        """What the world does to the pins: a 0 pulls one down. A pin written 1 is only weakly high, hence an input."""
+        """Levels from outside: a 0 pulls that pin down. A pin written 1 is only weakly high, and works as an input."""
 
     def write(self, data: bytes) -> None:
         for value in data:

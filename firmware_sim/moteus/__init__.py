@@ -1,1 +1,1 @@
-"""Simulated mjbots moteus controllers, from the line on the serial port down to the trajectory of the shaft."""
+"""Simulated mjbots moteus controllers, from the line on the serial port to the trajectory of the shaft."""

@@ -1,6 +1,6 @@
-"""The CAN bus between a computer and its controllers: which frame reaches whom, and who answers.
+"""The CAN bus between a computer and its controllers: which controller gets a frame, and which ones answer.
 
-Knows CAN ids as moteus uses them, and faults of the wire. Knows neither the line nor the Python library in front of it;
+Knows CAN ids as moteus uses them, and silent controllers. Knows neither the adapter's text lines nor the library:
 `SimTransport` has the shape of the library's own transport, so that the library runs on it in simulated time.
 """
 
@@ -22,19 +22,21 @@ LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
 
 @dataclass(frozen=True, slots=True)
 class Frame:
+    """A CAN-FD frame."""
+
     arbitration_id: int
     data: bytes
 
 
 class SimCan:
-    """`controllers` by CAN id. Whoever stands in `muted` hears and says nothing: no supply, or a broken wire."""
+    """`controllers` by CAN id. Those in `muted` get nothing and answer nothing: no supply, or a broken wire."""
 
     def __init__(self, controllers: Mapping[int, SimController]) -> None:
         self.controllers = controllers
         self.muted: set[int] = set()
 
     def send(self, frame: Frame) -> list[Frame]:
-        """Put a frame on the bus; returns the replies."""
+        """Put a frame on the bus. Returns the replies."""
         destination, source = frame.arbitration_id & 0x7F, frame.arbitration_id >> 8 & 0x7F
         prefix = frame.arbitration_id >> 16
         replies = []
@@ -49,7 +51,7 @@ class SimCan:
 
 @dataclass(slots=True)
 class _Received:
-    """A reply as the library's parser wants it."""
+    """A reply in the shape that the library's parser needs."""
 
     arbitration_id: int
     data: bytes
@@ -57,7 +59,7 @@ class _Received:
 
 
 class SimTransport:
-    """Stands where `moteus.Fdcanusb` stands; every command is answered at once, and a muted one by nobody."""
+    """Takes the place of `moteus.Fdcanusb`. Each command is answered at once, except by a muted controller."""
 
     def __init__(self, can: SimCan) -> None:
         self._can = can
@@ -76,5 +78,5 @@ class SimTransport:
 
 
 def padded(data: bytes) -> bytes:
-    """Filled up to a length that a CAN-FD frame can have."""
+    """`data` filled up to the next length that a CAN-FD frame can have."""
     return data.ljust(LENGTHS[bisect_left(LENGTHS, len(data))], NOP)

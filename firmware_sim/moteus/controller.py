@@ -1,7 +1,7 @@
-"""One moteus controller on the bus: its registers, and what a frame makes of them.
+"""One moteus controller on the bus: its registers, and how a frame reads and writes them.
 
-Knows what can be read and written, in which order a frame is worked off, and its own name (UUID). Knows no CAN ids, no
-serial line and nothing of motion. A write of a mode that the motor has not is refused.
+Knows which registers can be read and written, the order in which a frame is processed, and its UUID. Knows no CAN ids,
+no serial line and no motion. A mode that the simulated motor does not have is refused.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from firmware_sim.moteus.registers import COMMAND_DEFAULTS, Register
 
 
 class SimController:
-    """`clock` tells seconds; `serial` makes its UUID."""
+    """`clock` gives seconds; `serial` makes its UUID."""
 
     def __init__(
         self,
@@ -32,7 +32,7 @@ class SimController:
         self.uuid = uuid.uuid5(uuid.NAMESPACE_OID, f"simulated moteus {serial}").bytes
 
     def handle(self, data: bytes) -> bytes | None:
-        """The answer to a frame's payload, empty if nothing was asked; None: it was meant for another controller."""
+        """The answer to a frame's payload, empty without a read; None: the frame was for another controller."""
         motor = self.motor
         motor.advance()
         answer, mode = b"", None
@@ -110,7 +110,7 @@ class SimController:
                 return motor.command.get(register)
 
     def _write(self, write: multiplex.Write) -> int:
-        """Returns what is wrong with it, or 0."""
+        """Returns the error's code, or 0."""
         motor = self.motor
         match write.register:
             case Register.SET_OUTPUT_NEAREST:

@@ -1,7 +1,7 @@
 """The text protocol of an mjbots CAN-FD adapter, as a moteus controller's own UART speaks it.
 
-Knows lines, checksums and the two commands' answers; in: bytes, out: lines with the moment they are due. Knows no port.
-Checksums are asked for from the first line on that carries a good one.
+Knows lines, checksums and the answers to commands. Bytes go in; lines come out, each with the moment it is due. Knows
+no port. After the first line with a good checksum, each line must have one.
 """
 
 from __future__ import annotations
@@ -29,21 +29,21 @@ def crc8(data: bytes) -> int:
 
 @dataclass(slots=True)
 class Mishaps:
-    """What happens to lines on their way to the computer."""
+    """Faults of the lines on their way to the computer."""
 
     deaf: bool = False
-    """The adapter takes lines and says nothing at all."""
+    """The adapter takes lines and never answers."""
     dropped: bool = False
-    """Replies get lost; the adapter's own OK comes."""
+    """Replies are lost; the adapter's own OK still comes."""
     garbled: bool = False
-    """A letter of each reply is wrong."""
+    """One character of each reply is wrong."""
     late_s: float = 0.0
-    """Replies come so much later."""
+    """The delay of each reply."""
 
 
 @dataclass(slots=True)
 class LineServer:
-    """`transcript` keeps the latest lines, `>` from the computer and `<` to it, without their ends."""
+    """The adapter. `transcript` has the latest lines without their ends: `>` from the computer, `<` to it."""
 
     can: SimCan
     clock: Callable[[], float]
@@ -53,7 +53,7 @@ class LineServer:
     _summed: bool = False
 
     def receive(self, data: bytes) -> list[tuple[float, bytes]]:
-        """Bytes from the computer; returns lines for it, each with the moment it is due."""
+        """Take bytes from the computer. Returns the lines for it, each with the moment it is due."""
         *lines, self._pending = re.split(rb"[\r\n]", self._pending + data)
         self._pending = self._pending if len(self._pending) <= LONGEST_LINE else b""
         return [] if self.mishaps.deaf else [due for line in lines if line for due in self._answer(line)]

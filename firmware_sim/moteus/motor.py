@@ -1,7 +1,7 @@
-"""The motor of a moteus with its firmware: modes, watchdog, position bounds, and what it forgets at power-off.
+"""The motor of a moteus with its firmware: modes, watchdog, position bounds, and what it loses at power-off.
 
-Knows what a command does and where the shaft is. Knows no frames. Of the modes it has stopped, fault, enabling,
-position, timeout, zero velocity and brake. The shaft follows the set point exactly, unless it is jammed.
+Knows what a command does and where the shaft is. Knows no frames. Its modes are stopped, fault, enabling, position,
+timeout, zero velocity and brake. The shaft follows the set point exactly, unless it is jammed.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Mode(IntEnum):
 
 
 class Home(IntEnum):
-    """How its position came about: arbitrary, good within a turn of the rotor, or good for the output."""
+    """What its position is worth: arbitrary, right within a turn of the rotor, or right for the output."""
 
     RELATIVE = 0
     ROTOR = 1
@@ -38,17 +38,17 @@ class Home(IntEnum):
 STOP_WITH_LIMITS = 45
 START_OUTSIDE_LIMIT = 39
 AT_BOUNDS = 103
-"""Not a fault: the position bounds hold the set point back."""
+"""No fault: the position bounds limit the set point."""
 
 ENABLE_S = 0.02
 COMMANDABLE = {Mode.STOPPED, Mode.POSITION, Mode.ZERO_VELOCITY, Mode.BRAKE}
 LATCHED = {Mode.FAULT, Mode.TIMEOUT}
-"""Nothing but a stop leads out of these."""
+"""Only a stop leaves these modes."""
 
 
 @dataclass(slots=True)
 class MoteusSettings:
-    """What tview would set and the controller keep: `servo.*`, `servopos.*`, in revolutions of the output."""
+    """The controller's stored settings, which tview sets: `servo.*`, `servopos.*`, in revolutions of the output."""
 
     position_min_rev: float = math.nan
     position_max_rev: float = math.nan
@@ -57,16 +57,16 @@ class MoteusSettings:
     default_velocity_limit_rev_s: float = math.nan
     default_accel_limit_rev_s2: float = 50.0
     rotor_turns: float = 1.0
-    """Turns of the rotor for one of the output; its encoder sees only the rotor."""
+    """Turns of the rotor for one turn of the output. The encoder is on the rotor."""
 
 
 class SimMoteusMotor:
-    """`clock` tells seconds. Look at its fields after `advance`; its methods do that themselves."""
+    """`clock` gives seconds. Call `advance` before reading a field; the methods call it themselves."""
 
     def __init__(self, clock: Callable[[], float], settings: MoteusSettings, shaft_rev: float) -> None:
         self.settings = settings
         self.shaft_rev = shaft_rev
-        """Where the output really is, on the scale that the controller had when it was set up."""
+        """Where the output really is, on the controller's scale at the start."""
         self.home = Home.OUTPUT
         self.jammed = False
         """Fault: the set point moves and the shaft does not."""
@@ -75,21 +75,21 @@ class SimMoteusMotor:
         self.set_point = SetPoint(shaft_rev, 0.0, clock(), arrived=True)
         self._clock = clock
         self._scale_rev = 0.0
-        """What the controller's position has beyond the shaft's own."""
+        """The controller's position minus the shaft's."""
         self._mode = Mode.STOPPED
         self._enabled_at_s = 0.0
         self._expires_s = math.inf
         self._target = Target(math.nan, 0.0, clock())
 
-    # --- what a person or the weather does to it
+    # --- faults
 
     def fail(self, code: int) -> None:
-        """A fault by the firmware's number: no torque until it has been told to stop."""
+        """A fault by the firmware's number: no torque until it gets a stop."""
         self.advance()
         self._fault(code)
 
     def power_cycle(self) -> None:
-        """Off and on: stopped, and where in its many turns the rotor stands is forgotten."""
+        """Power off and on: stopped, and it no longer knows which of its turns the rotor is in."""
         self.advance()
         self.command = dict(COMMAND_DEFAULTS)
         self._become(Mode.STOPPED)
@@ -102,6 +102,7 @@ class SimMoteusMotor:
 
     @property
     def mode(self) -> Mode:
+        """The mode register; after a command it passes through the stages of enabling."""
         left_s = self._enabled_at_s - self._clock()
         if self._mode is not Mode.POSITION or left_s <= 0:
             return self._mode
@@ -110,10 +111,11 @@ class SimMoteusMotor:
 
     @property
     def position_rev(self) -> float:
-        """What it believes, in revolutions of the output."""
+        """The position that the controller reports, in revolutions of the output."""
         return self.shaft_rev + self._scale_rev
 
     def obey(self, mode: Mode) -> None:
+        """A write to the mode register, with the command registers as they are."""
         if mode is not Mode.STOPPED and self._mode in LATCHED:
             return
         if mode is not Mode.POSITION:
@@ -137,12 +139,12 @@ class SimMoteusMotor:
         self._aim()
 
     def set_output(self, position_rev: float, *, exactly: bool) -> None:
-        """It stands at this position: exactly, or whole turns of the rotor away from what it believed."""
+        """Take this position for the present one: `exactly`, or whole turns of the rotor from the reported one."""
         by_rev = position_rev - self.position_rev
         if not exactly:
             turn_rev = 1 / self.settings.rotor_turns
             by_rev = round(by_rev / turn_rev) * turn_rev
-        self._scale_rev += by_rev  # the set point stays: one that holds drives there, as older firmware does
+        self._scale_rev += by_rev  # the set point stays: a motor that holds then turns there, as with older firmware
         self.home = Home.OUTPUT
 
     def _aim(self) -> None:
@@ -175,7 +177,7 @@ class SimMoteusMotor:
     # --- time
 
     def advance(self) -> None:
-        """Let time pass up to now."""
+        """Bring it up to the present moment."""
         now_s = self._clock()
         if self._mode is Mode.POSITION and self._expires_s <= now_s:
             self._move(self._expires_s)

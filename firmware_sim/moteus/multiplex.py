@@ -1,7 +1,8 @@
-"""The register protocol that moteus controllers speak inside a CAN-FD frame: subframes that write, read and answer.
+"""The register protocol inside a moteus's CAN-FD frame: subframes that write, read and answer.
 
-Knows opcodes, number formats and varuints (mjbots, "moteus reference", subframes). Does not know which registers there
-are; their integer scales are looked up. Streams (opcodes 0x40 to 0x44) are not built: a frame ends where one begins.
+Knows opcodes, number formats and varuints (mjbots, "moteus reference", subframes). Does not know what a register does;
+the integer scales come from `registers`. Streams (opcodes 0x40 to 0x44) are not simulated: a frame ends where one
+begins.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ UNKNOWN_REGISTER, NOT_WRITEABLE = 1, 2
 
 
 class Kind(IntEnum):
-    """How a number travels; bits 2 and 3 of the opcode."""
+    """The format of a number; bits 2 and 3 of the opcode."""
 
     INT8 = 0
     INT16 = 1
@@ -41,12 +42,16 @@ _LARGEST = {Kind.INT8: 0x7F, Kind.INT16: 0x7FFF, Kind.INT32: 0x7FFFFFFF}
 
 
 class Write(NamedTuple):  # a dozen of these a frame, 200 frames a second: a tuple is made faster
+    """A subframe that writes one register."""
+
     register: int
     value: float
     """In the register's own unit; NaN where the sender gave the format's NaN."""
 
 
 class Read(NamedTuple):
+    """A subframe that asks for `length` registers from `first` on."""
+
     first: int
     length: int
     kind: Kind
@@ -57,7 +62,7 @@ class ShortFrameError(ValueError):
 
 
 def subframes(data: bytes) -> Iterator[Write | Read]:
-    """What a frame asks for, in order. Ends at an unknown opcode, as the firmware does. Raises ShortFrameError."""
+    """The subframes of a frame, in order. Ends at an unknown opcode, as the firmware does. Raises ShortFrameError."""
     at = 0
     while at < len(data):
         opcode = data[at]
@@ -80,7 +85,7 @@ def subframes(data: bytes) -> Iterator[Write | Read]:
 
 
 def reply(read: Read, values: list[float]) -> bytes:
-    """The answer to a read: the same shape, with the values, given in the registers' own units."""
+    """The answer to a read, with the same opcode bits; `values` are in the registers' own units."""
     head = (
         bytes([REPLY | read.kind << 2 | read.length])
         if 1 <= read.length <= 3
@@ -91,10 +96,12 @@ def reply(read: Read, values: list[float]) -> bytes:
 
 
 def error(opcode: int, register: int, code: int) -> bytes:
+    """The answer to a read or a write that failed."""
     return bytes([opcode]) + varuint(register) + varuint(code)
 
 
 def from_wire(register: int, kind: Kind, number: float) -> float:
+    """A number of the frame in the register's own unit."""
     step = steps_of(register)[kind] if kind is not Kind.F32 else 1
     if step == 1:  # a whole number has no NaN
         return number
@@ -104,6 +111,7 @@ def from_wire(register: int, kind: Kind, number: float) -> float:
 
 
 def to_wire(register: int, kind: Kind, value: float) -> bytes:
+    """A value in the register's own unit as bytes of the frame."""
     if kind is Kind.F32:
         return _FORMATS[kind].pack(value)
     largest = _LARGEST[kind]
@@ -117,6 +125,7 @@ def to_wire(register: int, kind: Kind, value: float) -> bytes:
 
 
 def varuint(value: int) -> bytes:
+    """A number in groups of seven bits, lowest first; bit 7 is set on all bytes but the last."""
     if value < 0x80:
         return bytes((value,))
     octets = bytearray()

@@ -1,7 +1,7 @@
-"""The registers of a moteus controller, as many of them as this simulation has.
+"""The registers of a moteus controller that this simulation has.
 
-Knows their numbers and what one step of an integer means (mjbots, "moteus reference", register map 5). Knows neither
-what a register does nor how it travels.
+Knows their numbers, and what one step of an integer means (mjbots, "moteus reference", register map 5). Knows neither
+what a register does nor how a frame carries it.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Register(IntEnum):
 
 
 COMMAND_DEFAULTS: dict[int, float] = {
-    Register.COMMAND_POSITION: 0.0,  # not "stay": whoever leaves it out sends the shaft to 0
+    Register.COMMAND_POSITION: 0.0,  # not "stay": a command without a position sends the shaft to 0
     Register.COMMAND_VELOCITY: 0.0,
     Register.COMMAND_TORQUE: 0.0,
     Register.COMMAND_KP_SCALE: 1.0,
@@ -73,10 +73,10 @@ COMMAND_DEFAULTS: dict[int, float] = {
     Register.COMMAND_CURRENT: math.nan,
     Register.COMMAND_IGNORE_BOUNDS: 0.0,
 }
-"""What a write to the mode register puts into the command registers."""
+"""The values that a write to the mode register puts into the command registers."""
 
 Steps = tuple[float, float, float]
-"""What one step means as int8, int16 and int32."""
+"""The value of one step as int8, int16 and int32."""
 
 _POSITION_REV: Steps = (0.01, 1e-4, 1e-5)
 _VELOCITY_REV_S: Steps = (0.1, 0.00025, 1e-5)
@@ -123,4 +123,5 @@ STEPS: dict[int, Steps] = {
 
 
 def steps_of(register: int) -> Steps:
+    """The steps of that register; 1 for a register with whole numbers."""
     return STEPS.get(register, _COUNT)

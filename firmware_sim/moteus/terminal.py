@@ -1,6 +1,6 @@
-"""The simulated adapter on a pseudo-terminal, at a path of its own, in real time. It can be unplugged and plugged in.
+"""The simulated adapter on a pseudo-terminal at its own path, in real time. It can be unplugged and plugged in.
 
-Knows bytes, a path and when a late line is due. Knows nothing of what the lines say.
+Knows bytes, a path, and when a late line is due. Does not know what the lines mean.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ PATIENCE_S = 0.5
 
 
 class SimAdapter:
-    """`path` is a symlink to the terminal while it is plugged in. `receive` answers bytes with lines that are due."""
+    """`path` is a symlink to the terminal while plugged in. `receive` answers bytes with lines and their moments."""
 
     def __init__(self, path: Path, receive: Receive, clock: Callable[[], float]) -> None:
         self.path = path
@@ -30,6 +30,7 @@ class SimAdapter:
         self._bell = (-1, -1)
 
     def plug(self) -> None:
+        """Plug the adapter in: its path appears, and a thread serves it."""
         if self._thread:
             return
         master, slave = os.openpty()
@@ -41,6 +42,7 @@ class SimAdapter:
         self._thread.start()
 
     def unplug(self) -> None:
+        """Unplug it: the path goes, and the terminal closes. May be called twice."""
         if not self._thread:
             return
         self.path.unlink(missing_ok=True)

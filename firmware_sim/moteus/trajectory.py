@@ -1,4 +1,4 @@
-"""How a moteus moves its set point: a trapezoid of speed towards a target that may itself be moving.
+"""How a moteus moves its set point: a trapezoid of speed towards a target, which may move too.
 
 Knows positions, speeds and limits, in revolutions and seconds. Knows no registers and no modes.
 """
@@ -9,12 +9,12 @@ import math
 from dataclasses import dataclass
 
 STEP_S = 1e-3
-"""While it accelerates it is worked out step by step; a controller does it at 15 to 30 kHz."""
+"""The step of the calculation while it accelerates; a real controller calculates at 15 to 30 kHz."""
 
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """Be at `position_rev` at the moment `at_s`, moving on at `velocity_rev_s`. No position: only the speed counts."""
+    """Be at `position_rev` at the moment `at_s`, moving on at `velocity_rev_s`. Position NaN: only the speed counts."""
 
     position_rev: float
     velocity_rev_s: float
@@ -32,13 +32,13 @@ class Target:
 
 @dataclass(slots=True)
 class SetPoint:
-    """Where the shaft is told to be, at the moment `now_s`."""
+    """Where the shaft is ordered to be at the moment `now_s`."""
 
     position_rev: float
     velocity_rev_s: float
     now_s: float
     arrived: bool = False
-    """It moves as the target does; nothing is left to catch up with."""
+    """It is at the target and moves as the target does."""
 
     def advance(self, target: Target, until_s: float) -> None:
         while self.now_s < until_s and not self.arrived:
@@ -62,7 +62,7 @@ class SetPoint:
         gap_rev = target.position_at(self.now_s) - self.position_rev
         if math.isinf(target.accel_limit_rev_s2):
             closing_rev_s = math.inf if gap_rev else 0.0
-        else:  # what can still be braked away over the gap, half a step's gain early
+        else:  # the speed that can still be braked to zero over the gap, less half a step's change
             half = gain_rev_s / 2
             closing_rev_s = math.sqrt(2 * target.accel_limit_rev_s2 * abs(gap_rev) + half * half) - half
         wanted_rev_s = target.velocity_rev_s + math.copysign(closing_rev_s, gap_rev)

@@ -1,1 +1,1 @@
-"""Simulated motors, pots, contacts and servos."""
+"""Simulated motors, relays, pots, contacts and servos: mechanics, without chips and protocols."""

@@ -1,7 +1,7 @@
-"""A cam on a rotor's shaft that closes a contact every few degrees: all that an Alliance U-100 tells of itself.
+"""A cam on a rotor's shaft that closes a contact every few degrees: the only signal of an Alliance U-100.
 
-Knows where the contact closes and opens, how long it bounces, and its faults. It tells neither the direction nor the
-place. Knows nothing of pins: it hands out changes of the contact with their moments.
+Knows where the contact closes and opens, how long it bounces, and its faults. The contact shows neither the direction
+nor the place. Knows no GPIO line: it returns changes of the contact with their moments.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 BISECTIONS = 40
-"""A stretch of an hour halved so often is some nanoseconds."""
+"""An hour halved so many times is some nanoseconds: the precision of an edge's moment."""
 DOUBLED_AT_S, DOUBLED_FOR_S = 0.04, 0.03
-"""A doubled pulse opens again this soon after it closed, for so long: a debounce of 20 ms lets that through."""
+"""When a doubled pulse opens again after it closed, and for how long: a debounce of 20 ms does not remove that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,15 +24,18 @@ class ContactSpec:
     spacing_deg: float = 5.0
     """From one closure to the next."""
     closed_deg: float = 1.0
-    """How much of that it is closed."""
+    """For how much of that it is closed."""
     closes_at_deg: float = 0.0
-    """Where one of the closures begins, for a shaft that turns clockwise or up."""
+    """The angle at which one of the closures begins, for a shaft that turns clockwise or up."""
     play_deg: float = 0.0
-    """Play between the shaft and the cam: turning back, everything happens this much later."""
+    """Play between the shaft and the cam: after a reversal each edge comes this much later."""
     bounce_s: float = 0.005
+    """How long the contact bounces after each change."""
 
 
 class ContactFault(Enum):
+    """How a contact fails."""
+
     NONE = "none"
     STUCK_OPEN = "stuck open"
     STUCK_CLOSED = "stuck closed"
@@ -41,10 +44,11 @@ class ContactFault(Enum):
 
 
 FAULTY_EACH = 5
+"""Every fifth closure is missed, or doubled."""
 
 
 class SimContact:
-    """Hand `turned` to a motor's `on_turn`, and `take` what has happened."""
+    """Give `turned` to a motor's `on_turn`; call `take` for the changes."""
 
     def __init__(self, spec: ContactSpec, shaft_deg: float, seed: int = 0) -> None:
         self.spec = spec
@@ -52,7 +56,7 @@ class SimContact:
         self._random = random.Random(seed)
         self._cam_deg = shaft_deg
         self.zone = 2 * math.floor((shaft_deg - spec.closes_at_deg) / spec.spacing_deg)
-        """Which stretch of the cam it is on: even ones are closed, odd ones the gaps above them."""
+        """The zone of the cam: even zones are closed, odd ones are the gaps above them."""
         if shaft_deg >= self._low_deg(self.zone + 1):
             self.zone += 1
         self._told = self.zone % 2 == 0
@@ -60,7 +64,7 @@ class SimContact:
         self._closures = 0
 
     def take(self, until_s: float) -> list[tuple[float, bool]]:
-        """Moments and states (True: closed) in order of time, each handed out once."""
+        """The changes up to that moment since the last call: moment and state (True: closed), in order of time."""
         taken: list[tuple[float, bool]] = []
         while self._changes and self._changes[0][0] <= until_s:
             at_s, closed = self._changes.popleft()
@@ -71,18 +75,18 @@ class SimContact:
 
     @property
     def closed(self) -> bool:
-        """What it was when that was last told."""
+        """The state after the last change that `take` returned."""
         return self._told
 
     def break_down(self, fault: ContactFault, now_s: float) -> None:
-        """Something goes wrong at this moment, or is put right (NONE)."""
+        """That fault begins at this moment; NONE ends it."""
         self.fault = fault
         self._change(now_s, self._shown(self.zone % 2 == 0))
 
     def turned(self, from_s: float, seconds: float, shaft_deg: Callable[[float], float]) -> None:
-        """The shaft has turned, in one direction, along `shaft_deg`."""
+        """The shaft has turned in one direction; see `firmware_sim.parts.motor.Stretch`."""
         end_deg = self._follow(shaft_deg(seconds))
-        # Each edge is looked for at once, before the loop goes on to the next: B023 fears that it is not.
+        # The lambdas are used at once, before the loop changes `edge_deg`: the warning B023 does not apply.
         while end_deg >= self._low_deg(self.zone + 1):
             self.zone += 1
             edge_deg = self._low_deg(self.zone)
@@ -94,15 +98,16 @@ class SimContact:
         self._cam_deg = end_deg
 
     def _follow(self, shaft_deg: float) -> float:
-        """Turning back, the cam hangs behind the shaft by the play."""
+        """Where the cam is: after a reversal it follows the shaft once the play is taken up."""
         return min(max(self._cam_deg, shaft_deg), shaft_deg + self.spec.play_deg)
 
     def _low_deg(self, zone: int) -> float:
-        """Where a zone begins."""
+        """The lower edge of a zone."""
         turns, gap = divmod(zone, 2)
         return self.spec.closes_at_deg + turns * self.spec.spacing_deg + gap * self.spec.closed_deg
 
     def _when(self, beyond: Callable[[float], bool], shaft_deg: Callable[[float], float], seconds: float) -> float:
+        """After how many seconds the cam is first `beyond` an edge, by bisection."""
         early_s, late_s = 0.0, seconds
         for _ in range(BISECTIONS):
             middle_s = (early_s + late_s) / 2
@@ -128,7 +133,7 @@ class SimContact:
         return {ContactFault.STUCK_OPEN: False, ContactFault.STUCK_CLOSED: True}.get(self.fault, closed)
 
     def _change(self, at_s: float, closed: bool) -> None:
-        """To that state, after some bouncing; what was still to come of an earlier change is overtaken."""
+        """Change to that state, with some bounces; bounces of an earlier change that are still to come are dropped."""
         while self._changes and self._changes[-1][0] >= at_s:
             self._changes.pop()
         before = self._changes[-1][1] if self._changes else self._told

@@ -1,8 +1,8 @@
 """One axis of a rotor: relay contacts, motor, gear play, end stops.
 
-Knows mechanics: how long a contact takes, how a motor gathers speed and coasts, how much play the gear has, where the
-stops are. Knows nothing of volts, pins or protocols, and decides nothing. Motion between two contact changes is a
-closed formula, so time may be asked for in any steps and the answer is the same.
+Knows mechanics: how long a contact takes, how a motor gathers speed and coasts, the play of the gear, the end stops.
+Knows no volts, no GPIO line and no protocol. Motion between two contact changes is a closed formula, so the result does
+not depend on how often `advance` is called.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ class MotorSpec:
     speed_dps: float
     lag_s: float
     relay_delay_s: float
+    """How long a contact takes to follow its coil."""
     backlash_deg: float
     """Total play between the shaft (where the pot sits) and the boom (where the antenna is)."""
     stop_low_deg: float
@@ -27,7 +28,7 @@ class MotorSpec:
 
 
 Stretch = Callable[[float, float, Callable[[float], float]], None]
-"""From which moment, for how many seconds, and where the shaft is after so many of them. Nothing turns back within."""
+"""A turn of the shaft in one direction: the moment it begins, how long it lasts, the angle after so many seconds."""
 
 
 class SimMotor:
@@ -39,25 +40,25 @@ class SimMotor:
         self.boom_deg = start_deg
         self.speed_dps = 0.0
         self.drive = 0
-        """What the contacts tell the motor: -1, 0, 1."""
+        """How the contacts feed the motor: -1, 0, 1."""
         self.supply = True
-        """Mains at the contacts; a master relay takes it away."""
+        """Whether the contacts are fed; a master relay switches that."""
         self.stalled = False
         """Fault: the motor hums and nothing turns."""
         self.welded = 0
-        """Fault: the contact of this direction (-1, 1) stays closed whatever the coil does."""
+        """Fault: the contact of this direction (-1, 1) stays closed, also without its coil."""
         self.reversed = False
         """Fault: its two wires are swapped."""
         self.pace = 1.0
-        """Fault: the share of its speed that it reaches; cold grease, a weak supply."""
+        """Fault: the share of its speed that it reaches: cold grease, a weak supply."""
         self.pushed = 0.0
-        """Fault: something else turns it while it is not fed, at this share of its speed: a hand, a gale."""
+        """Fault: a hand or a gale turns it while it is not fed, at this share of its speed."""
         self.stop_low_deg, self.stop_high_deg = spec.stop_low_deg, spec.stop_high_deg
-        """Where it can turn no further; a fault may move them."""
+        """The end stops; a fault may move them."""
         self.shorted_s = 0.0
-        """How long both directions were fed at once: what burns a motor. Must stay 0."""
+        """How long both directions were fed at once, which burns a motor. Must stay 0."""
         self.on_turn: list[Stretch] = []
-        """Told of every stretch that the shaft has turned, in order."""
+        """Called with each turn of the shaft, in order of time."""
         self._now_s = now_s
         self._contacts = (False, False)
         self._moving_contacts: deque[tuple[float, tuple[bool, bool]]] = deque()
@@ -69,7 +70,7 @@ class SimMotor:
         self.advance(now_s)
 
     def advance(self, now_s: float) -> None:
-        """Let time pass up to `now_s`."""
+        """Bring the motor up to `now_s`."""
         while self._moving_contacts and self._moving_contacts[0][0] <= now_s:
             moment_s, contacts = self._moving_contacts.popleft()
             self._run(moment_s)
@@ -95,7 +96,7 @@ class SimMotor:
         wanted_dps = 0.0 if self.stalled else share * self.spec.speed_dps
         if self.stalled:
             self.speed_dps = 0.0
-        # A reversal is two runs, so that the play is taken up where the shaft really turned.
+        # A reversal is two turns, so that the play is taken up from the angle where the shaft really turned back.
         turn_s = self._time_to_standstill(wanted_dps)
         if turn_s is not None and turn_s < left_s:
             self._glide(wanted_dps, turn_s, from_s)
@@ -108,7 +109,7 @@ class SimMotor:
         return self.spec.lag_s * math.log((wanted_dps - self.speed_dps) / wanted_dps)
 
     def _glide(self, wanted_dps: float, seconds: float, from_s: float) -> None:
-        """Run with the speed closing in on `wanted_dps`."""
+        """Turn for so many seconds while the speed approaches `wanted_dps`."""
         if wanted_dps == 0.0 and self.speed_dps == 0.0:
             return
         lag_s, start_deg = self.spec.lag_s, self.shaft_deg

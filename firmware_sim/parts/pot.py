@@ -1,6 +1,6 @@
 """The potentiometer on a rotor's shaft: shaft angle in, wiper volts out.
 
-Knows the pot's ends, its bow, its noise and how it breaks. Knows nothing of motors or converters.
+Knows the pot's ends, its non-linearity, its noise and its faults. Knows no motor and no converter.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from enum import Enum
 
 
 class PotFault(Enum):
-    """How a pot goes wrong, in the words of the person who finds it."""
+    """How a pot fails."""
 
     NONE = "none"
     OPEN = "open"
@@ -22,29 +22,33 @@ class PotFault(Enum):
 
 @dataclass(frozen=True, slots=True)
 class PotSpec:
-    """A pot between two rails. `low_ratio` and `high_ratio` are the wiper at the ends of travel, end resistors in."""
+    """A pot between ground and its supply. `low_ratio` and `high_ratio`: the wiper at the ends of travel, as shares of
+    the supply, with end resistors included.
+    """
 
     low_deg: float
     high_deg: float
     low_ratio: float = 0.05
     high_ratio: float = 0.95
     noise_deg: float = 0.0
-    """Gaussian, rms, anew at every look."""
+    """Gaussian noise, rms, new at each reading."""
     bow_deg: float = 0.0
-    """How far the middle of the travel lies off a straight line."""
+    """How far the middle of the travel is off a straight line."""
     pull_ratio: float = 0.0
-    """Where the wiper's pull resistor takes the converter when the wire breaks."""
+    """The converter's reading when the wire to the wiper breaks: its pull resistor sets it."""
 
 
 @dataclass(slots=True)
 class SimPot:
+    """One pot on `supply_v` volts; `chance` makes its noise."""
+
     spec: PotSpec
     supply_v: float
     fault: PotFault = PotFault.NONE
     jump_deg: float = 0.0
-    """Fault: added to the next look only, as a spark on the wire does."""
+    """Fault: added to the next reading only, as by a spark on the wire."""
     loose_deg: float = 0.0
-    """Fault: every look is off by anything up to this, either way, as with a wire that hangs loose."""
+    """Fault: each reading is off by a random angle up to this, either way, as with a loose wire."""
     chance: random.Random = field(default_factory=lambda: random.Random(1))
     _stuck_ratio: float = 0.0
 
@@ -53,6 +57,7 @@ class SimPot:
         return self.ratio(shaft_deg) * self.supply_v
 
     def ratio(self, shaft_deg: float) -> float:
+        """The wiper as a share of the supply, 0 to 1."""
         match self.fault:
             case PotFault.OPEN:
                 return self.spec.pull_ratio
@@ -65,7 +70,7 @@ class SimPot:
                 return 1.0 - ratio if self.fault is PotFault.REVERSED else ratio
 
     def stick(self, shaft_deg: float) -> None:
-        """From now on the wiper stands where it is, whatever the shaft does."""
+        """Fault: from now on the wiper stays where it is while the shaft turns."""
         self._stuck_ratio = self._healthy(shaft_deg)
         self.fault = PotFault.STUCK
 

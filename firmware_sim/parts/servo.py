@@ -1,6 +1,6 @@
-"""A simulated hobby servo: it turns to the angle that its pulse means, as fast as it can, and tells nobody.
+"""A simulated hobby servo: it turns to the angle of its pulse as fast as it can, and reports nothing.
 
-Knows pulses, its speed, its stops and its jitter. Does not know who makes the pulses.
+Knows pulses, its speed, its stops and its jitter. Does not know which chip makes the pulses.
 """
 
 from __future__ import annotations
@@ -12,33 +12,36 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class SimServoSpec:
+    """What the servo really is, which a driver's table may describe wrongly."""
+
     low_us: float = 500.0
+    """The pulse for `low_deg`."""
     high_us: float = 2500.0
-    """The pulses that mean `low_deg`, and `range_deg` more."""
+    """The pulse for `low_deg` + `range_deg`."""
     low_deg: float = 0.0
     range_deg: float = 180.0
     slew_dps: float = 60.0
     stop_margin_deg: float = 4.0
-    """How far beyond its range the stops in its case stand."""
+    """How far beyond its range its mechanical stops are."""
     jitter_deg: float = 0.1
-    """rms, while it holds."""
+    """Jitter while it holds, rms."""
 
 
 class SimServo:
-    """`pulse_us` tells the width at its wire now (None: no pulse). Call `advance` before that changes."""
+    """`pulse_us` gives the present width of its pulse (None: no pulse). Call `advance` before the pulse changes."""
 
     def __init__(
         self, spec: SimServoSpec, start_deg: float, clock: Callable[[], float], pulse_us: Callable[[], float | None]
     ) -> None:
         self.spec = spec
         self.powered = True
-        """Fault when False: its own 5 V is missing; it is limp, whatever the pulse."""
+        """Fault when False: its own 5 V supply fails, and it is limp even with a pulse."""
         self.stalled = False
         """Fault: something holds it."""
         self.pushed_dps = 0.0
         """Fault: the wind turns it while it is limp."""
         self.strained_s = 0.0
-        """How long it has pressed against a stop of its own: what burns a servo."""
+        """How long it has pressed against one of its stops, which burns a servo."""
         self._shaft_deg = start_deg
         self._clock = clock
         self._pulse_us = pulse_us
@@ -46,13 +49,13 @@ class SimServo:
         self._noise = random.Random(9685)
 
     def angle_deg(self) -> float:
-        """Where it stands now."""
+        """Where it stands now, with its jitter."""
         self.advance()
         jitter_deg = self._noise.gauss(0.0, self.spec.jitter_deg) if self._holds() else 0.0
         return self._shaft_deg + jitter_deg
 
     def advance(self) -> None:
-        """Let time pass up to now, with the pulse as it is."""
+        """Bring it up to the present moment, with the present pulse."""
         now_s = self._clock()
         past_s, self._now_s = now_s - self._now_s, now_s
         if past_s <= 0 or self.stalled:

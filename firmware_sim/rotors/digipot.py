@@ -18,18 +18,18 @@ BOX_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.15, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=-3.0, stop_high_deg=363.0
 )
 COMPARE_S = 0.005
-"""The box compares all the time; here, this often."""
+"""A real box compares continuously; here it compares this often."""
 
 
 @dataclass(frozen=True, slots=True)
 class DigipotAxisSpec:
-    """One axis: its box, and the pin at its chip's select."""
+    """One axis: its box, and the GPIO number of its chip's select line."""
 
     select_pin: int
     start_deg: float = 0.0
     motor: MotorSpec = BOX_MOTOR
     full_deg: float = 360.0
-    """Where the rotor's pot stands at the end of the knob; 0° is the other end."""
+    """Where the rotor stands when the knob is at its end; 0° is the other end."""
     dead_band_deg: float = 2.0
 
 
@@ -41,7 +41,7 @@ class SimBox:
         self.chip = Mcp41010()
         self.motor = SimMotor(spec.motor, spec.start_deg, now_s)
         self.starts = 0
-        """How often it has switched its motor on."""
+        """How often the box has switched its motor on."""
         self._now_s = now_s
         self._driven = 0
 
@@ -61,9 +61,9 @@ class SimBox:
 
 
 class SimDigipotRotor(GearedRotor):
-    """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none).
+    """`clock` gives seconds; `sleep` lets time pass on the bus (None: transfers take no time).
 
-    `enable_pin`: the relay that feeds both boxes, on while the line is high; None: they are always fed.
+    `enable_pin`: the line of the relay that feeds both boxes while it is high; None: they are always fed.
     """
 
     azimuth: SimBox

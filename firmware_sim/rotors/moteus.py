@@ -1,7 +1,7 @@
 """A simulated rotor of two moteus controllers, and its faults by name.
 
-Knows which controller turns which axis and how revolutions become degrees of the antenna. Knows no driver: it offers a
-transport in the shape of the Python library's, and an adapter on a pseudo-terminal.
+Knows which controller turns which axis, and how revolutions become degrees of the antenna. Knows no driver: it offers a
+transport in the shape of the library's own, and an adapter on a pseudo-terminal.
 """
 
 from __future__ import annotations
@@ -40,14 +40,18 @@ FAULT_CODES = {
     "position-error": 49,
     "velocity-error": 50,
 }
-"""The firmware's faults, each of which lets go of the motor until it is told to stop."""
+"""The firmware's faults. Each takes the torque away until the controller gets a stop."""
 
 FACTORY_BOUND_REV = 0.01
+"""Fault `factory-bounds`: the position bounds of a controller that was never configured."""
 LATE_S = 0.3
+"""Fault `lines-late`: the delay of each reply."""
 
 
 @dataclass(frozen=True, slots=True)
 class MoteusAxisSpec:
+    """One axis: its controller's CAN id, its scale, and its settings."""
+
     can_id: int
     start_deg: float = 0.0
     rev_per_turn: float = 1.0
@@ -57,7 +61,7 @@ class MoteusAxisSpec:
 
 
 class SimMoteusRotor(SimRotor):
-    """`clock` tells the time: a SimClock with `transport`, a real one with `adapter`."""
+    """`clock` gives seconds: a SimClock for `transport`, real time for `adapter`."""
 
     def __init__(
         self,
@@ -82,11 +86,11 @@ class SimMoteusRotor(SimRotor):
         self.faults = self._fault_table()
 
     def transport(self) -> SimTransport:
-        """For the library in simulated time; everything in one thread."""
+        """For the library in simulated time, all in one thread."""
         return SimTransport(self.can)
 
     def adapter(self, path: Path) -> SimAdapter:
-        """For the library in real time: plug it in. The faults then have `adapter-unplugged`, too."""
+        """For the library in real time, at `path` once it is plugged in. Adds the fault `adapter-unplugged`."""
 
         def receive(data: bytes) -> list[tuple[float, bytes]]:
             with self._lock:
@@ -97,7 +101,7 @@ class SimMoteusRotor(SimRotor):
         return adapter
 
     def controller(self, axis: str) -> SimController:
-        """The controller of `azimuth` or `elevation`, for a test or a page to look into."""
+        """The controller of `azimuth` or `elevation`, for a test to look into."""
         return self._controllers[axis]
 
     def antenna(self) -> tuple[float, float]:

@@ -1,7 +1,7 @@
-"""What every simulated rotor has beside its motors: the Pi's lines and bus, a display, sensor chips on its shafts.
+"""What every simulated rotor has beside its motors: the Pi's lines and bus, a display, a panel, sensors on its shafts.
 
 Knows what is wired where on the Pi's side. Knows no driver: it offers a bus in the shape of smbus2 and lines in the
-shape of gpiod. What turns and what can go wrong there, each rotor adds.
+shape of gpiod. Does not know what turns: each kind adds its motors and their faults.
 """
 
 from __future__ import annotations
@@ -27,7 +27,9 @@ from firmware_sim.parts.pot import PotFault, PotSpec, SimPot
 
 @dataclass(frozen=True, slots=True)
 class LcdSpec:
-    """A display: on six lines (pins rs, e, d4 to d7), or behind an expander at `address` (bits of the same names)."""
+    """A display on six lines (`pins`: GPIO numbers of rs, e, d4 to d7), or behind an expander at the I2C `address`
+    (`pins`: the expander's bits of the same names).
+    """
 
     pins: Mapping[str, int]
     address: int | None = None
@@ -35,7 +37,7 @@ class LcdSpec:
 
 
 class SimRotor(Fallible):
-    """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none)."""
+    """`clock` gives seconds; `sleep` lets time pass on the bus (None: transfers take no time)."""
 
     def __init__(self, clock: Callable[[], float], sleep: Callable[[float], None] | None = None) -> None:
         self._clock = clock
@@ -49,15 +51,15 @@ class SimRotor(Fallible):
         self.panel: SimPanel | None = None
 
     def antenna(self) -> tuple[float, float]:
-        """Where the boom really points: azimuth and elevation on the rotor's own scales."""
+        """Where the boom really points: azimuth and elevation in degrees, on the rotor's own scales."""
         raise NotImplementedError
 
     def shafts(self) -> tuple[float, float]:
-        """Where the shafts are, before the play of the gears; without play, where the boom is."""
+        """Where the shafts are, before the play of the gears. Without gears, the same as `antenna`."""
         return self.antenna()
 
     def drives(self) -> tuple[int, int]:
-        """The relays' coils: -1, 0, 1 for each axis; 0 without relays."""
+        """What the relays' coils ask of azimuth and elevation: -1, 0 or 1; 0 without relays."""
         return 0, 0
 
     @property
@@ -66,6 +68,7 @@ class SimRotor(Fallible):
         return None
 
     def wire_lcd(self, spec: LcdSpec) -> None:
+        """Connect a display of two rows of sixteen characters."""
         if spec.address is not None:
             self.lcd = Hd44780(self.bus.wire_time(self._clock))
             self.bus.attach(spec.address, Backpack(self.lcd, spec.pins, spec.backlight_active_high).expander)
@@ -94,15 +97,16 @@ class SimRotor(Fallible):
         self.faults[f"{name}-gone"] = self._gone(address)
 
     def wire_as5600(self, name: str, address: int) -> None:
-        """A magnet on the shaft, over the chip."""
+        """Put a magnet on the shaft of axis `name`, over an AS5600 at that address."""
         chip = As5600(lambda: self._shaft_deg(name) / 360.0)
         self.bus.attach(address, chip)
         self.faults[f"{name}-magnet-missing"] = self._fault_of(chip, "fault", MagnetFault.MISSING, MagnetFault.NONE)
         self.faults[f"{name}-as5600-gone"] = self._gone(address)
 
     def wire_mpu6050(self, address: int, gravity_g: Callable[[float, float], tuple[float, float, float]]) -> None:
-        """On the boom. `gravity_g`: what a board mounted like this one feels, given gravity along the boom and across
-        it."""
+        """Put an MPU6050 on the boom. `gravity_g`: from gravity along the boom and across it to what the board feels
+        along its x, y and z.
+        """
 
         def feels_g() -> tuple[float, float, float]:
             elevation = math.radians(self.antenna()[1])
@@ -114,7 +118,7 @@ class SimRotor(Fallible):
         self.faults["mpu6050-gone"] = self._gone(address)
 
     def wire_bno055(self, address: int, magnetic_deg: Callable[[float], float]) -> Bno055:
-        """On the boom. `magnetic_deg`: where the chip's forward points, given the boom's azimuth on its own scale."""
+        """Put a BNO055 on the boom. `magnetic_deg`: from the boom's azimuth to the chip's magnetic heading."""
         chip = Bno055(self._clock, lambda: magnetic_deg(self.antenna()[0]) % 360.0)
         self.bus.attach(address, chip)
         self.faults["steel-near"] = self._fault_of(chip, "hard_iron_deg", 40.0, 0.0)
@@ -122,13 +126,13 @@ class SimRotor(Fallible):
         return chip
 
     def wire_panel(self, spec: PanelSpec) -> SimPanel:
-        """A front panel on the same lines and the same bus; its faults are `panel-...`."""
+        """Connect a front panel to the same lines and the same bus; its faults are `panel-...`."""
         panel = self.panel = SimPanel(spec, self.gpio, self.bus, self._clock)
         self.faults |= {f"panel-{name}": fault for name, fault in panel.faults.items() if name != "bus-hung"}
         return panel
 
     def wire_limit(self, key: str, pin: int, name: str, at_deg: float, *, high: bool) -> None:
-        """A switch to ground that opens where the shaft of this axis comes to `at_deg`."""
+        """Connect a limit switch to ground: it opens when the shaft of axis `name` reaches `at_deg`."""
         wire = SimpleNamespace(broken=False)
 
         def look(_now_s: float) -> None:

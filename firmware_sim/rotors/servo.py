@@ -15,11 +15,12 @@ from firmware_sim.parts.servo import SimServo, SimServoSpec
 from firmware_sim.rotors.rotor import SimRotor
 
 WIND_DPS = 10.0
+"""Fault `wind-turns`: how fast the wind turns a limp servo."""
 
 
 @dataclass(frozen=True, slots=True)
 class ServoAxisSpec:
-    """One servo: the board's output it is on, and where it stands at power-on."""
+    """One axis: the board's output its servo is on, and where the servo stands at power-on."""
 
     channel: int
     start_deg: float = 90.0
@@ -27,7 +28,7 @@ class ServoAxisSpec:
 
 
 class SimServoRotor(SimRotor):
-    """`clock` tells the time, `sleep` lets it pass on the bus (None: transfers take none).
+    """`clock` gives seconds; `sleep` lets time pass on the bus (None: transfers take no time).
 
     `enable_pin`: the line at the board's OE input, active low, with a pull-up to 3.3 V beside it.
     """
@@ -90,6 +91,6 @@ class SimServoRotor(SimRotor):
         return table
 
     def _dip(self) -> None:
-        """VCC goes for an instant, which resets the chip."""
+        """The board's supply fails for an instant, which resets the chip."""
         self.board.supply = False
         self.board.supply = True

@@ -66,7 +66,30 @@ def holders(api: Any, path: str, offsets: Iterable[int]) -> dict[int, str]:
     return {line.offset: line.consumer or "the kernel" for line in lines if line.used}
 
 
-class GpioOutputs:
+class _HeldLines:
+    """Lines that this program holds until `close`. Using them later raises HardwareError."""
+
+    def __init__(self, request: Any) -> None:
+        self._request = request
+        self._closed = False
+
+    def close(self) -> None:
+        """Release the lines. May be called twice."""
+        self._closed = True
+        self._request.release()
+
+    @contextmanager
+    def _to(self, doing: str) -> Iterator[None]:
+        """The body does that with the lines; its errors become HardwareError."""
+        if self._closed:
+            raise HardwareError(f"GPIO: cannot {doing}: the lines have been released")
+        try:
+            yield
+        except OSError as fault:
+            raise HardwareError(f"GPIO: cannot {doing}: {fault.strerror or fault}") from fault
+
+
+class GpioOutputs(_HeldLines):
     """Named output lines on one chip, through `api`: a `hw.ports.OutputLines`. All are off from the request on.
 
     `offsets`: the GPIO number of each name. `consumer`: the name under which the lines are taken. Raises HardwareError.
@@ -82,21 +105,15 @@ class GpioOutputs:
         setting = gpiod.LineSettings(
             direction=line.Direction.OUTPUT, active_low=active_low, output_value=line.Value.INACTIVE
         )
-        self._request = _taken(api, path, self._offsets, {tuple(offsets.values()): setting}, consumer=consumer)
+        super().__init__(_taken(api, path, self._offsets, {tuple(offsets.values()): setting}, consumer=consumer))
 
     def set(self, levels: dict[str, bool]) -> None:
         values = {self._offsets[name]: self._on if on else self._off for name, on in levels.items()}
-        try:
+        with self._to(f"switch {', '.join(levels)}"):
             self._request.set_values(values)
-        except OSError as fault:
-            raise HardwareError(f"GPIO: cannot switch {', '.join(levels)}: {fault.strerror or fault}") from fault
-
-    def close(self) -> None:
-        """Release the lines. May be called twice."""
-        self._request.release()
 
 
-class GpioInputs:
+class GpioInputs(_HeldLines):
     """Named switches to ground on one chip, through `api`; the Pi's own resistors pull the lines of open ones high.
 
     `offsets`: the GPIO number of each name. Raises HardwareError.
@@ -104,25 +121,19 @@ class GpioInputs:
 
     def __init__(self, api: Any, path: str, offsets: Mapping[str, int], *, consumer: str) -> None:
         line = real_gpiod().line
-        self._closed = line.Value.ACTIVE
+        self._active = line.Value.ACTIVE
         self._offsets = dict(offsets)
         setting = real_gpiod().LineSettings(direction=line.Direction.INPUT, bias=line.Bias.PULL_UP, active_low=True)
-        self._request = _taken(api, path, self._offsets, {tuple(offsets.values()): setting}, consumer=consumer)
+        super().__init__(_taken(api, path, self._offsets, {tuple(offsets.values()): setting}, consumer=consumer))
 
     def read(self) -> dict[str, bool]:
         """Each switch by name, True: closed. Raises HardwareError."""
-        try:
+        with self._to(f"read {', '.join(self._offsets)}"):
             values = self._request.get_values(list(self._offsets.values()))
-        except OSError as fault:
-            raise HardwareError(f"GPIO: cannot read {', '.join(self._offsets)}: {fault.strerror or fault}") from fault
-        return {name: value is self._closed for name, value in zip(self._offsets, values, strict=True)}
-
-    def close(self) -> None:
-        """Release the lines. May be called twice."""
-        self._request.release()
+        return {name: value is self._active for name, value in zip(self._offsets, values, strict=True)}
 
 
-class GpioContact:
+class GpioContact(_HeldLines):
     """One contact on an input line, through `api`: a `hw.ports.ContactInput`. The kernel filters the bounce.
 
     A change is recorded `debounce_s` seconds after the contact has come to rest; a shorter change is not seen.
@@ -143,7 +154,7 @@ class GpioContact:
     ) -> None:
         line = real_gpiod().line
         self._offset = offset
-        self._closed = line.Value.ACTIVE
+        self._active = line.Value.ACTIVE
         self._seqno = 0
         resting = line.Bias.PULL_UP if active_low else line.Bias.PULL_DOWN
         setting = real_gpiod().LineSettings(
@@ -153,19 +164,17 @@ class GpioContact:
             active_low=active_low,
             debounce_period=timedelta(seconds=debounce_s),
         )
-        self._request = _taken(
-            api, path, {"contact": offset}, {offset: setting}, consumer=consumer, event_buffer_size=EVENTS_KEPT
+        super().__init__(
+            _taken(api, path, {"contact": offset}, {offset: setting}, consumer=consumer, event_buffer_size=EVENTS_KEPT)
         )
 
     def closed(self) -> bool:
-        try:
-            return bool(self._request.get_value(self._offset) is self._closed)
-        except OSError as fault:
-            raise HardwareError(f"GPIO: cannot read GPIO{self._offset}: {fault.strerror or fault}") from fault
+        with self._to(f"read GPIO{self._offset}"):
+            return bool(self._request.get_value(self._offset) is self._active)
 
     def changes(self) -> list[ContactChange]:
         changes: list[ContactChange] = []
-        try:
+        with self._to(f"read GPIO{self._offset}"):
             while self._request.wait_edge_events(0):
                 for event in self._request.read_edge_events():
                     # The kernel numbers the events of a line: a gap means events dropped because its buffer was full.
@@ -173,13 +182,7 @@ class GpioContact:
                     self._seqno = event.line_seqno
                     closed = event.event_type.name == "RISING_EDGE"
                     changes.append(ContactChange(event.timestamp_ns * 1e-9, closed, lost))
-        except OSError as fault:
-            raise HardwareError(f"GPIO: cannot read GPIO{self._offset}: {fault.strerror or fault}") from fault
         return changes
-
-    def close(self) -> None:
-        """Release the lines. May be called twice."""
-        self._request.release()
 
 
 def _taken(

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
-from hw.ports import HardwareError, I2CBus
+from hw.ports import Attitude, CompassCalibration, HardwareError, I2CBus
 
 T = TypeVar("T")
 
@@ -47,24 +46,6 @@ READS = 80
 ALIKE_DEG = 2.0
 """Angles this close are equal answers. A wrong bit 7 is 8° or more; no antenna turns 2° between two answers."""
 TRIES = 3
-
-
-class Calibrated(NamedTuple):
-    """How well the chip has calibrated itself, each part from 0 (not at all) to 3."""
-
-    system: int
-    gyroscope: int
-    accelerometer: int
-    magnetometer: int
-
-
-@dataclass(frozen=True, slots=True)
-class Attitude:
-    """Degrees: heading 0 up to 360 clockwise from magnetic north, roll and pitch about level."""
-
-    heading_deg: float
-    roll_deg: float
-    pitch_deg: float
 
 
 class Bno055:
@@ -110,10 +91,10 @@ class Bno055:
     def pitch_deg(self) -> float:
         return self.attitude().pitch_deg
 
-    def calibration(self) -> Calibrated:
+    def calibration(self) -> CompassCalibration:
         self._run()
         stat = self._same(CALIBRATION, 1)[0]
-        return Calibrated(stat >> 6, stat >> 4 & 3, stat >> 2 & 3, stat & 3)
+        return CompassCalibration(stat >> 6, stat >> 4 & 3, stat >> 2 & 3, stat & 3)
 
     def offsets(self) -> bytes:
         """The chip's own calibration, 22 bytes. Store it when every part of `calibration` is 3."""

@@ -1,6 +1,6 @@
-"""What drives that go to an angle by themselves share: how long a command may live, and the angle as a sensor.
+"""What drives that go to an angle by themselves share: the angle of one of their axes as a sensor.
 
-Knows no motor and no chip. Does not know whether an angle is measured or modelled: the drive says so.
+Knows no motor and no chip. Does not know how the angle is found: the drive knows that, and names the source.
 """
 
 from __future__ import annotations

@@ -94,7 +94,7 @@ class MoteusAxis:
         self._send_first(now_s + ERRAND_S, Stop())
 
     def confirm(self, angle_deg: float, exactly: bool, now_s: float) -> None:
-        """It stands at `angle_deg`, says the operator or a sensor: `exactly`, or at the nearest angle that its encoder
+        """The operator or a sensor has found it at `angle_deg`: `exactly`, or at the nearest angle that its encoder
         agrees with. Raises HardwareError: no answer, or no finite angle.
         """
         self._must_answer(now_s)

@@ -22,6 +22,8 @@ from hw.ports import HardwareError
 
 log = logging.getLogger(__name__)
 
+MOTEUS_THREAD = "moteus"
+"""The name of the thread."""
 EXCHANGE_S = 0.15
 """How long one request and its answer may take."""
 SILENCE_S = 2.0
@@ -43,7 +45,7 @@ class MoteusBus:
         self._closing = threading.Event()
         self._lock = threading.Lock()
         self._bell: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
-        self._thread = threading.Thread(target=self._run, name="moteus", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=MOTEUS_THREAD, daemon=True)
         drive.on_news = self._ring
 
     def start(self) -> None:

@@ -1,6 +1,6 @@
-"""A line that changes level at every beat, for a one-shot that lets the motors' supply go when the beats stop.
+"""A line that changes its level at each beat, for a one-shot that cuts the motors' supply when the beats stop.
 
-Knows one output. Does not know when a beat is deserved: the control loop beats after a step that went well.
+Knows one output. Does not know when to beat: the control loop does, after each step that went well.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ HEARTBEAT = "heartbeat"
 
 
 class Heartbeat:
-    """Frozen at either level it means nothing: the one-shot hears changes only (docs/wiring.md)."""
+    """A line frozen at either level is no beat: the one-shot reacts to changes only (docs/wiring-heartbeat.md)."""
 
     def __init__(self, lines: OutputLines) -> None:
         self._lines = lines

@@ -1,7 +1,7 @@
-"""Switches relay lines off, whoever switched them on and whatever became of him.
+"""Switches relay lines off, for a program that has switched them on and cannot do it any more.
 
-Knows the lines as numbers on a chip, so that a process that has nothing else loaded can do it at once. Does not know
-why: that is the sentinel's, the service manager's, or a person's affair.
+Knows the lines as numbers on a chip, so that a small process can do it at once. Does not know why: the sentinel, the
+service manager or the operator does.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from hw.buses.gpio import GpioOutputs, LinesBusyError
 from hw.ports import HardwareError
 
 RETRY_S = 0.002
-"""A process that has died holds its lines until the kernel has taken it apart."""
+"""The pause, in seconds, before the next try: a dead process holds its lines until the kernel has cleaned up."""
 
 
 @dataclass(frozen=True, slots=True)
 class RelayLines:
-    """Every line that must be off for the motors to stand still: relays, master, heartbeat."""
+    """All lines that must be off so that the motors stand still: relays, master, heartbeat."""
 
     chip: str
     offsets: dict[str, int]
@@ -43,12 +43,13 @@ class RelayLines:
 def switch_off(
     api: Any, lines: RelayLines, clock: Callable[[], float], sleep: Callable[[float], None], patience_s: float
 ) -> None:
-    """Take the lines with their off level and let them go again. `api` is the gpiod package, or of its shape.
+    """Take the lines with their off level, and give them back. `api`: the gpiod package, or an object of its shape.
 
-    Waits that long for whoever still holds them. Raises HardwareError; LinesBusyError when they were not let go.
+    Waits up to `patience_s` for a program that still holds them. Raises HardwareError; LinesBusyError when it goes on
+    holding them.
 
-    A Raspberry Pi's kernel leaves a line as it was set when it is let go, others make it an input: off either way,
-    where the pin's pull means off.
+    A Raspberry Pi's kernel leaves a line as it was set when it is given back. Other kernels make it an input, which is
+    off too where the pin's pull resistor means off.
     """
     give_up_s = clock() + patience_s
     while True:

@@ -1,10 +1,11 @@
-"""The program's side of the sentinel: starts it, and tells it of every lease.
+"""The program's side of the sentinel: starts the process, and tells it of every lease.
 
 Knows the child process and its pipe. Does not know when a relay is on: the relay bank says so.
 """
 
 from __future__ import annotations
 
+import errno
 import os
 import select
 import subprocess
@@ -20,13 +21,13 @@ from hw.safety.sentinel_process import READY
 START_S = 20.0
 END_S = 6.0
 PIPE_BYTES = 4096
-"""A sentinel that no longer reads fills so small a pipe within minutes of motion, and is noticed."""
+"""So small that a sentinel which no longer reads fills it within minutes of motion: then `renew` raises."""
 OOM_SCORE = 300
-"""The program is to be killed before its sentinel when memory runs out; the child keeps the score it was born with."""
+"""When memory runs out, the kernel must kill the program before its sentinel: the child keeps the lower score."""
 
 
 class Sentinel:
-    """Started when made. Raises HardwareError when it does not come up: no relay may close then."""
+    """Starts the process. Raises HardwareError when it does not start: no relay may close then."""
 
     def __init__(self, lines: RelayLines) -> None:
         self._process = subprocess.Popen(
@@ -37,8 +38,8 @@ class Sentinel:
             start_new_session=True,  # Ctrl-C in the terminal is for the program alone
         )
         assert self._process.stdin is not None
-        self._pipe = self._process.stdin.fileno()
-        os.set_blocking(self._pipe, False)
+        self._pipe = self._process.stdin
+        os.set_blocking(self._pipe.fileno(), False)
         fcntl(self._pipe, F_SETPIPE_SZ, PIPE_BYTES)
         if not self._is_ready():
             self.close()
@@ -50,32 +51,39 @@ class Sentinel:
         return self._process.pid
 
     def renew(self) -> None:
+        """A relay is on, or is about to close. Raises HardwareError when the sentinel cannot hear it."""
         try:
-            os.write(self._pipe, b"+")
+            self._say(b"+")
         except OSError as fault:
             raise HardwareError(f"the sentinel (process {self.pid}) is gone or stuck: no relay may close") from fault
 
     def rest(self) -> None:
-        # A sentinel that is gone needs no news; the next renewal says that it is.
+        """All relays are off."""
+        # A failure does no harm here: the next renewal fails too, and raises.
         with suppress(OSError):
-            os.write(self._pipe, b"-")
+            self._say(b"-")
 
     def dismiss(self) -> None:
-        """Every relay is off: it need not look."""
+        """All relays are off for good: the sentinel has nothing to do at the end."""
         with suppress(OSError):
-            os.write(self._pipe, b".")
+            self._say(b".")
 
     def close(self) -> None:
-        """Let it end. Not dismissed, it switches the lines off: they must have been let go."""
-        assert self._process.stdin is not None
+        """End it. May be called twice. If it was not dismissed, it switches the lines off: they must be free then."""
         assert self._process.stdout is not None
-        self._process.stdin.close()
+        self._pipe.close()
         try:
             self._process.wait(END_S)
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
         self._process.stdout.close()
+
+    def _say(self, command: bytes) -> None:
+        """Raises OSError."""
+        if self._pipe.closed:  # its number may belong to another file by now
+            raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
+        os.write(self._pipe.fileno(), command)
 
     def _is_ready(self) -> bool:
         assert self._process.stdout is not None

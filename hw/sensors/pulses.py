@@ -91,7 +91,7 @@ class PulseCounter:
         self._count = CamCount(cam)
         self._waiting: list[_Driven | ContactChange] = []
         self._count.place(clock(), cam.closes_at_deg, closed=contact.closed())
-        self._count.trouble = "its place has not been told yet"
+        self._count.trouble = "it has not been placed yet"
 
     def read(self) -> float:
         """Degrees on the rotor's own scale. Raises HardwareError when the contact cannot be read."""

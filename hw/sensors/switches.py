@@ -7,17 +7,8 @@ A switch for safety is normally closed: a broken wire then reads as pressed, or 
 from __future__ import annotations
 
 from collections.abc import Collection
-from typing import Protocol
 
-from hw.ports import Axis, Direction
-
-
-class SwitchInputs(Protocol):
-    """A few contacts that are read together."""
-
-    def read(self) -> dict[str, bool]:
-        """Each contact by name, True: closed. Raises HardwareError."""
-
+from hw.ports import Axis, Direction, SwitchInputs
 
 LIMITS = {
     "azimuth_low": (Axis.AZIMUTH, Direction.MINUS),

@@ -1,6 +1,7 @@
-"""The links of the composition root: from a `[[link]]` table to a running link that speaks its protocol.
+"""From a `[[link]]` table of the configuration to a link that speaks its protocol. Part of the composition root.
 
-Knows which class carries the bytes of which place, and which class speaks which protocol. Moves no byte.
+Knows which class carries the bytes of which kind of port or socket, and which class speaks which protocol. Carries no
+bytes itself.
 """
 
 from __future__ import annotations
@@ -48,19 +49,24 @@ from rotator.runtime.loop import ControlLoop
 log = logging.getLogger(__name__)
 
 MOST_REMARKS = 20
-"""On one link: a request that the box cannot serve is logged once, and not without end."""
+"""On one link, so many different remarks on what a program asks for and the box does not have are logged, each once."""
 
 
 class RunningLink(Protocol):
     wire: Wire
 
-    async def open(self) -> None: ...
+    async def open(self) -> None:
+        """Take the port or address, where there is one to take. Raises LinkError."""
 
-    async def run(self) -> None: ...
+    async def run(self) -> None:
+        """Carry bytes until cancelled."""
+
+    def close(self) -> None:
+        """Give back what `open` took. May be called twice, and without `open`."""
 
 
 def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _text: None) -> Session:
-    """A new session on a link, in its protocol. `remark` takes the session's lines for the log."""
+    """A new conversation in the link's protocol. `remark` takes texts for the log: what is asked and not supported."""
     match link.protocol:
         case "gs232a" | "gs232b":
             return Gs232Session(
@@ -100,7 +106,7 @@ _BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01")
 
 
 def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap) -> list[RunningLink]:
-    """The links, each with a name of its own, because it names a source: the second gs232b is gs232b-2."""
+    """The links, each with a name of its own, because the name identifies a source: the second gs232b is gs232b-2."""
     built: list[RunningLink] = []
     given = {link.name for link in links}
     taken: set[str] = set()
@@ -109,57 +115,70 @@ def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap
         names = (plain if number == 1 else f"{plain}-{number}" for number in itertools.count(1))
         name = next(name for name in names if name not in taken and (name == link.name or name not in given))
         taken.add(name)
-        tap.link(name, link.model_dump(exclude_unset=True))
-        built.append(_build(link, Wire(name, link.protocol, link.where), loop, mount, tap))
+        wire = Wire(name, link.protocol, link.where)
+        tap.link(wire, link.model_dump(exclude_unset=True))
+        built.append(_build(link, wire, loop, mount, tap))
     return built
 
 
+class _Connections:
+    """Makes the conversation of each connection of one link. Its connections share their rights and log limits."""
+
+    def __init__(self, link: Link, name: str, loop: ControlLoop, mount: Mount, tap: Tap) -> None:
+        self._link = link
+        self._name = name
+        self._loop = loop
+        self._mount = mount
+        self._tap = tap
+        self._numbers = itertools.count(1)
+        self._rights = Rights(link.read_only, link.most_per_s)
+        self._complaints = LogLimit(time.monotonic)
+        self._remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
+
+    def session(self) -> Session:
+        source, client = self._client()
+        session = session_maker(self._link, client, self._remark)
+        return TappedSession(session, self._tap, source, text=self._link.protocol not in _BINARY)
+
+    def follower(self) -> Inquiry:
+        source, client = self._client()
+        return TappedInquiry(RotctldFollower(client, self._link.poll_s), self._tap, source)
+
+    def _client(self) -> tuple[Source, Client]:
+        source = Source(self._name, next(self._numbers))
+        return source, Client(self._loop, self._mount, source, rights=self._rights, complaints=self._complaints)
+
+    def _remark(self, text: str) -> None:
+        if line := self._remarks.admit(text):
+            log.info("%s: %s", self._name, line)
+
+
 def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tap: Tap) -> RunningLink:
-    connections = itertools.count(1)
-    rights, complaints = Rights(link.read_only, link.most_per_s), LogLimit(time.monotonic)
-
-    remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
-
-    def remark(text: str) -> None:
-        if told := remarks.tell(text):
-            log.info("%s: %s", wire.name, told)
-
-    def connection() -> tuple[Source, Client]:
-        source = Source(wire.name, next(connections))
-        return source, Client(loop, mount, source, rights=rights, complaints=complaints)
-
-    def session() -> Session:
-        source, client = connection()
-        return TappedSession(session_maker(link, client, remark), tap, source, text=link.protocol not in _BINARY)
-
-    def follower() -> Inquiry:
-        source, client = connection()
-        return TappedInquiry(RotctldFollower(client, link.poll_s), tap, source)
-
+    connections = _Connections(link, wire.name, loop, mount, tap)
     if link.pty is not None:
-        return PtyLink(wire, Path(link.pty), session)
+        return PtyLink(wire, Path(link.pty), connections.session)
     if link.serial is not None:
-        return SerialLink(wire, link.serial, link.serial_baud, session)
+        return SerialLink(wire, link.serial, link.serial_baud, connections.session)
     if link.file is not None:
-        return FileLink(wire, Path(link.file), session)
+        return FileLink(wire, Path(link.file), connections.session)
     host, port = address(link.where)
     if link.udp is not None:
         return UdpLink(
             wire,
             host,
             port,
-            session,
+            connections.session,
             answer_port=port + ANSWERS_ABOVE if link.protocol == "pstrotator" else None,
             report=_report(link, Source(wire.name), loop, mount, tap),
             allowed=Allowed(link.allow),
         )
     if link.protocol == FOLLOW:
-        return AskingLink(wire, host, port, follower, every_s=link.poll_s)
-    return TcpLink(wire, host, port, session, allowed=Allowed(link.allow), most_clients=link.most_clients)
+        return AskingLink(wire, host, port, connections.follower, every_s=link.poll_s)
+    return TcpLink(wire, host, port, connections.session, allowed=Allowed(link.allow), most_clients=link.most_clients)
 
 
 def _report(link: Link, source: Source, loop: ControlLoop, mount: Mount, tap: Tap) -> Report | None:
-    """The lines that a link sends by itself; None: it sends none."""
+    """What a link sends unasked; None: nothing."""
     if link.status_to is None or link.rotor_name is None:
         return None
     reporter = N1mmReport(Client(loop, mount, source), link.rotor_name)

@@ -89,6 +89,7 @@ class Station:
             self.rotor = KINDS[config.rotor.type].build(parts, outputs)
             self.panel = panel_parts(config, self._board) if config.panel.fitted else None
             self.display = self._open_display()
+            opened.callback(self._end_motion)
             self._opened = opened.pop_all()
         if add_alarm:
             self.rotor.begin(add_alarm)
@@ -99,12 +100,17 @@ class Station:
             self.heartbeat.beat()
 
     def close(self) -> None:
-        try:
-            self.rotor.close()
-            if self.sentinel:
-                self.sentinel.dismiss()
-        finally:
-            self._opened.close()
+        """Switch everything off and give everything back. What fails skips nothing. May be called twice.
+
+        Raises HardwareError.
+        """
+        self._opened.close()
+
+    def _end_motion(self) -> None:
+        self.rotor.close()
+        # Only now: if a line cannot be switched off, the sentinel must try as soon as the lines are given back.
+        if self.sentinel:
+            self.sentinel.dismiss()
 
     def _open_lines(self, opened: ExitStack, lines: RelayLines) -> GpioOutputs:
         outputs = GpioOutputs(
@@ -118,7 +124,7 @@ class Station:
             taken.callback(outputs.close)
             self.sentinel = None if self.world else Sentinel(lines)
             taken.pop_all()
-        # The lines go first: a sentinel that was not dismissed takes them when they are free.
+        # The lines are given back first: a sentinel that was not dismissed takes them when they are free.
         if self.sentinel:
             opened.callback(self.sentinel.close)
         opened.callback(outputs.close)

@@ -1,1 +1,1 @@
-"""Setting an axis up: what is asked of a person, what is believed of a reading, and the table that comes of it."""
+"""Setting an axis up with the operator: the questions, the checks on readings, and what is saved in the file."""

@@ -1,114 +1,194 @@
-"""Walks a person through setting up an axis with a pot, or another sensor of shares: directions, ends, points between.
+"""A guide through questions, written as one path from top to bottom: statuses and entries in, text and orders out.
 
-Knows what to ask, in which order, and what to refuse. Pure: no clock, no terminal, no file. The walk is written down
-as one path from top to bottom (`_walk`).
+Knows how a question is asked and what happens with an entry that does not fit. Pure: no clock, no terminal, no file.
+Does not know what is asked: each subclass writes its own path.
 """
 
 from __future__ import annotations
 
 from collections.abc import Generator
+from dataclasses import dataclass
 
-from hw.ports import Direction
-from rotator.calibrating.answers import Enter, Finish, No
-from rotator.calibrating.asking import Asking, Commissioned, Known
-from rotator.calibrating.readings import READINGS, Doubt
-from rotator.calibrating.table import Point, Table
-from rotator.calibrating.walk import Refused, Steps
-from rotator.calibrating.watch import Move
+from rotator.calibrating.axis_state import position_unknown
+from rotator.calibrating.entries import (
+    NUMBER_FORM,
+    Enter,
+    Entry,
+    No,
+    Number,
+    Press,
+    Quit,
+    StopNow,
+    Unknown,
+    Yes,
+)
+from rotator.orders import Order, Stop
+from rotator.status import AxisStatus, Status
+
+Steps = Generator[None, None, None]
+"""Every `yield` waits for the next status or entry."""
+Asked = Generator[None, None, object]
+"""Ends with an entry, or with an event that happened meanwhile."""
+
+NOTHING_SAVED = "Nothing is saved."
+ORDER_TAKEN_S = 0.5
+"""An order shows in the status after this time at the latest."""
+CONFIRM_S = 5.0
+"""A motor controller reports its angle within this time after it was connected, or after the operator confirmed it."""
 
 
-class Guide(Asking):
-    """`supply_v`: what a pot is fed with, so that readings can be told in volts too; None: it is no pot."""
+@dataclass(frozen=True, slots=True)
+class StepResult:
+    """What one step leads to."""
 
-    def __init__(self, known: Known, supply_v: float | None) -> None:
-        super().__init__(known)
-        self._supply_v = supply_v
+    lines: tuple[str, ...]
+    orders: tuple[Order, ...]
 
-    def reading(self, raw: float) -> str:
-        volts = "" if self._supply_v is None else f" ({raw * self._supply_v:.3f} V)"
-        return super().reading(raw) + volts
 
-    def _walk(self) -> Steps:
-        words, known = self._words, self.known
-        self._say(*words.introduction)
-        rising = yield from self._check_plus()
-        yield from self._check_minus(rising=rising)
-        table = Table(rising=rising)
-        table = yield from self._end(table, words.low_end, known.min_deg)
-        table = yield from self._end(table, words.high_end, known.max_deg)
-        table = yield from self._between(table)
-        self._say("", *table.lines(self._supply_v, known.lowest_reading, known.highest_reading))
-        limits = yield from self._limits(table)
-        self._say(*words.summary(*limits))
-        if (yield from self._agrees("Save this? y or n:")):
-            points = tuple((point.raw, point.angle_deg) for point in table.points)
-            self.result = Commissioned(known.axis, points, *limits)
-        else:
-            self._say("Nothing is saved.")
+class Abandoned(Exception):  # noqa: N818 - the guide ends here; the program has not failed
+    """The guide cannot go on. The text is the last line the operator sees."""
 
-    def _check_plus(self) -> Generator[None, None, bool]:
-        """Whether the reading rises with the degrees."""
-        words = self._words
-        self._say("", *words.direction_check)
-        change = yield from self._turn(Direction.PLUS, words.turn_plus, 0)
-        if not (yield from self._agrees(words.did_it_turn)):
-            raise Refused(words.swap)
-        self._say(f"The reading {'rises' if change > 0 else 'falls'} with it: good, either will do.")
-        return change > 0
 
-    def _check_minus(self, *, rising: bool) -> Steps:
-        change = yield from self._turn(Direction.MINUS, self._words.turn_minus, -1 if rising else 1)
-        self._say(f"The reading {'rises' if change > 0 else 'falls'} on the way back: the directions are right.")
+class Guide:
+    """Call `step` with every status and every entry until `ended`.
 
-    def _end(self, table: Table, where: str, proposed_deg: float) -> Generator[None, None, Table]:
-        self._say("", *self._words.drive_to(where))
-        while True:
-            event = yield from self._ask(f"At the {where}? Enter reads.")
-            if isinstance(event, Enter):
-                point = yield from self._read(proposed_deg)
-                try:
-                    if point is not None:
-                        return table.with_end(point)
-                except Doubt as doubt:
-                    self._say(f"Refused: {doubt}.")
-            elif not isinstance(event, Move):
-                self._say("Drive there, then Enter.")
+    `keys` lists what the operator can type. Angles outside `least_deg` to `greatest_deg` are refused.
+    """
 
-    def _between(self, table: Table) -> Generator[None, None, Table]:
-        self._say("", *self._words.between)
-        while True:
-            event = yield from self._ask("Another point? Enter reads; f when there are no more.")
-            match event:
-                case Finish() | No():
-                    return table
-                case Enter():
-                    point = yield from self._read(None)
-                    try:
-                        if point is not None:
-                            table = table.with_point(point)
-                            self._say(f"Taken: {table.off_line_deg(point):+.1f}° off the straight line.")
-                    except Doubt as doubt:
-                        self._say(f"Refused: {doubt}.")
-                case _ if not isinstance(event, Move):
-                    self._say("Drive to a known angle, then Enter; or f.")
+    def __init__(self, keys: str, least_deg: float, greatest_deg: float) -> None:
+        self.prompt = ""
+        """The question that is open now."""
+        self.ended = False
+        self._keys = keys
+        self._least_deg, self._greatest_deg = least_deg, greatest_deg
+        self._latest: Status | None = None
+        self._entry: Entry | None = None
+        self._event: object = None
+        """What happened with this status; it ends an open question as an entry does."""
+        self._lines: list[str] = []
+        self._orders: list[Order] = []
+        self._asking = False
+        """A question is open."""
+        self._steps = self._path()
 
-    def _read(self, proposed_deg: float | None) -> Generator[None, None, Point | None]:
-        """Read where it stands, and ask for the angle there. None: not believed, or to be read again."""
+    def step(self, status: Status, entry: Entry | None = None) -> StepResult:
         try:
-            measured = yield from self._measured()
-        except Doubt as doubt:
-            self._say(f"Refused: {doubt}.")
-            return None
-        self._say(f"It reads {measured.raw:.4f}, with a noise of {measured.noise:.4f} in each of {READINGS} readings.")
-        angle_deg = yield from self._number("Which angle is that on the rotor's own scale?", proposed_deg)
-        return None if angle_deg is None else Point(measured, angle_deg)
+            self._take(status, entry)
+            if isinstance(entry, Quit):
+                raise Abandoned("Left: nothing is saved.")
+            next(self._steps)
+        except StopIteration:
+            self.ended = True
+        except Abandoned as reason:
+            self._say(str(reason))
+            self.ended = True
+        if self.ended:
+            self.prompt = ""
+            self._orders.append(Stop())
+        result = StepResult(tuple(self._lines), tuple(self._orders))
+        self._lines.clear()
+        self._orders.clear()
+        return result
 
-    def _limits(self, table: Table) -> Generator[None, None, tuple[float, float]]:
-        low_deg, high_deg = table.points[0].angle_deg, table.points[-1].angle_deg
-        self._say("", f"Between which angles may it be sent? They lie within {low_deg:g} to {high_deg:g}.")
+    def ready(self, entry: Entry) -> bool:
+        """Whether an entry that was typed ahead may be given to `step` now."""
+        raise NotImplementedError
+
+    def _path(self) -> Steps:
+        raise NotImplementedError
+
+    def _press(self, press: Press, *, may_turn: bool) -> None:
+        """The operator wants to turn an axis while a question is open."""
+        raise NotImplementedError
+
+    def _take(self, status: Status, entry: Entry | None) -> None:
+        """Note the status and the entry. Raises Abandoned where the status ends the guide."""
+        self._latest, self._entry = status, entry
+
+    def _halt(self) -> None:
+        self._orders.append(Stop())
+
+    # --- the latest status
+
+    @property
+    def _status(self) -> Status:
+        assert self._latest is not None, "the path runs only in a step, and a step has a status"
+        return self._latest
+
+    @property
+    def _now_s(self) -> float:
+        return self._status.at_s
+
+    @property
+    def _axis(self) -> AxisStatus:
+        """The axis that is being set up."""
+        raise NotImplementedError
+
+    def _await_axis(self) -> Steps:
+        """Wait until the axis has a reading, or its controller reports that it does not know its angle."""
+        began_s = self._now_s
+        while self._axis.raw is None and not position_unknown(self._axis) and self._now_s - began_s < CONFIRM_S:
+            yield
+
+    # --- one question
+
+    def _ask(self, prompt: str, *, may_turn: bool = True) -> Asked:
+        """Ask, and end with the next entry or event. Presses are obeyed meanwhile."""
+        self.prompt, self._asking = prompt, True
+        try:
+            while True:
+                yield
+                match self._entry:
+                    case Press() as press:
+                        self._press(press, may_turn=may_turn)
+                    case StopNow():
+                        self._halt()
+                    case Unknown(text, form):
+                        self._say(f"{text.strip()!r} means nothing here. {form or self._keys}")
+                    case entry if entry is not None and self._event is None:
+                        return entry
+                if self._event is not None:
+                    # An entry that came in the same instant answered the question before this event.
+                    return self._event
+        finally:
+            self._asking = False
+
+    def _agrees(self, prompt: str) -> Generator[None, None, bool]:
         while True:
-            least = yield from self._number("Lowest angle:", min(max(self.known.min_deg, low_deg), high_deg))
-            most = yield from self._number("Highest angle:", max(min(self.known.max_deg, high_deg), low_deg))
-            if least is not None and most is not None and low_deg <= least < most <= high_deg:
-                return least, most
-            self._say(f"Refused: the limits must lie within {low_deg:g} to {high_deg:g}, the lower one first.")
+            match (yield from self._ask(prompt, may_turn=False)):
+                case Yes():
+                    return True
+                case No():
+                    return False
+                case event if event is self._event:
+                    pass
+                case _:
+                    self._say("y or n, please.")
+
+    def _number(self, prompt: str, proposed: float | None) -> Generator[None, None, float | None]:
+        """An angle in degrees. None: the operator wants to repeat the step before."""
+        shown = prompt if proposed is None else f"{prompt} [{proposed:g}]"
+        while True:
+            match (yield from self._ask(shown, may_turn=False)):
+                case Number(value) if self._is_angle(value):
+                    return value
+                case Number(_):
+                    pass
+                case Enter() if proposed is not None:
+                    return proposed
+                case No():
+                    return None
+                case event if event is self._event:
+                    pass
+                case _:
+                    self._say(f"A number of degrees, please; n to read again. {NUMBER_FORM}")
+
+    def _is_angle(self, angle_deg: float) -> bool:
+        """Whether the axis can have this angle; if not, say so."""
+        if self._least_deg <= angle_deg <= self._greatest_deg:
+            return True
+        self._say(f"{angle_deg:g}° is no angle of this axis: {self._least_deg:g} to {self._greatest_deg:g}.")
+        return False
+
+    def _say(self, *lines: str) -> None:
+        self._lines += lines

@@ -1,6 +1,6 @@
 """`rotator arduino`: the emulated Arduino that the box replaces, on a pseudo-terminal, to compare the two.
 
-Knows how to run it in real time and show it. The board and its sketch are `firmware_sim`'s.
+Knows how to run it in real time and show it. The simulator emulates the board and its sketch.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ import logging
 import threading
 import time
 from pathlib import Path
+from typing import Protocol
 
 from rich.console import RenderableType
 
-from firmware_sim.arduino.station import ArduinoStation
 from rotator.assembly.simulation import arduino_station
 from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals
 from rotator.config.load import load
@@ -24,17 +24,34 @@ from rotator.views import terminal
 JOIN_S = 2.0
 
 
+class Sketch(Protocol):
+    """The emulated board with its sketch, as it is seen from outside."""
+
+    def host_send(self, data: bytes) -> None:
+        """Bytes from the PC, on the serial line."""
+
+    def lcd_text(self) -> tuple[str, ...]: ...
+
+    def drives(self) -> tuple[int, int]:
+        """Azimuth and elevation: -1, 0 or 1."""
+
+    def run(self, stop: threading.Event) -> None:
+        """In real time, until `stop` is set."""
+
+
 class ArduinoSession:
-    """The sketch's end of the serial line: bytes go to the board, and it never answers."""
+    """The sketch's end of the serial line: bytes go to the board, which never answers."""
 
     idle_s = None
     closed = False
 
-    def __init__(self, station: ArduinoStation) -> None:
-        self._station = station
+    def __init__(self, sketch: Sketch, wire: Wire) -> None:
+        self._sketch = sketch
+        self._wire = wire
 
     def receive(self, data: bytes) -> list[bytes]:
-        self._station.host_send(data)
+        self._wire.came(data)
+        self._sketch.host_send(data)
         return []
 
     def idle(self) -> list[bytes]:
@@ -44,25 +61,25 @@ class ArduinoSession:
 def run_arduino(pty: Path, path: Path | None, *, plain: bool) -> None:
     config = load(path)
     start_deg = (config.sim.azimuth.start_deg or 0.0, config.sim.elevation.start_deg or 0.0)
-    station = arduino_station(config, time.monotonic, time.sleep, start_deg)
-    asyncio.run(_run(station, pty, plain=plain))
+    sketch = arduino_station(config, time.monotonic, time.sleep, start_deg)
+    asyncio.run(_run(sketch, pty, plain=plain))
 
 
-async def _run(station: ArduinoStation, pty: Path, *, plain: bool) -> None:
+async def _run(sketch: Sketch, pty: Path, *, plain: bool) -> None:
     stop = stop_on_signals()
     log_to(logging.StreamHandler() if plain else LogRows())
     wire = Wire("USB", "F1EFW sketch", str(pty))
-    link = PtyLink(wire, pty, lambda: ArduinoSession(station))
+    link = PtyLink(wire, pty, lambda: ArduinoSession(sketch, wire))
     await link.open()
     off = threading.Event()
-    board = threading.Thread(target=station.run, args=(off,), name="arduino", daemon=True)
+    board = threading.Thread(target=sketch.run, args=(off,), name="arduino", daemon=True)
     board.start()
 
     def render() -> RenderableType:
-        return terminal.sketch_picture(station.lcd_text(), station.drives(), [wire])
+        return terminal.sketch_picture(sketch.lcd_text(), sketch.drives(), [wire])
 
     def line() -> str:
-        return " / ".join(station.lcd_text())
+        return " / ".join(sketch.lcd_text())
 
     def key(pressed: str) -> None:
         if pressed == "q":

@@ -1,17 +1,30 @@
-"""The option --fault: which named fault of the simulator strikes when.
+"""The option --fault: which named fault of the simulator begins when.
 
-Knows the option's form. Knows no fault: the simulated rotor does.
+Knows the option's form. The simulated rotor knows the names and what each fault does.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from typing import Protocol
+
 import click
 
-from firmware_sim.rotors.rotor import SimRotor
+
+class FaultInjector(Protocol):
+    """A simulated rotor, as far as this option needs it."""
+
+    @property
+    def faults(self) -> Collection[str]:
+        """The names of the faults that it can have."""
 
 
-def parse_faults(texts: tuple[str, ...], world: SimRotor | None) -> list[tuple[float, str]]:
-    """`name@seconds` to (seconds, name); without seconds, at once. Ends the program on a name there is not."""
+def parse_faults(texts: tuple[str, ...], world: FaultInjector | None) -> list[tuple[float, str]]:
+    """`name@seconds` to (seconds, name); without seconds the fault begins at once.
+
+    `list` among the texts prints the names and ends the program. Raises click.UsageError for an unknown name, and
+    where `world` is None: there is no simulator.
+    """
     if not texts:
         return []
     if world is None:

@@ -1,4 +1,4 @@
-"""The command `rotator`: its sub-commands and their options. No logic: each hands over to a file of its own."""
+"""The command `rotator`: its sub-commands and their options. No logic: each calls a file of its own."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import click
 
 from hw.ports import HardwareError
 from rotator import __version__
-from rotator.cli.person import CONFIG, PERSONAL, YES
+from rotator.cli.console_commands import CONFIG, CONSOLE_COMMANDS, YES
 from rotator.config.load import SIMULATED, ConfigError, profiles, shipped
 from rotator.links.wire import LinkError
 from rotator.setup.plan import SetupError
@@ -25,7 +25,7 @@ def cli() -> None:
     """A rotator controller that PCs take for a Yaesu GS-232."""
 
 
-for command in PERSONAL:
+for command in CONSOLE_COMMANDS:
     cli.add_command(command)
 
 
@@ -102,7 +102,7 @@ def monitor(path: Path | None, to: Path | None, links: tuple[str, ...], limit_mb
 @cli.command()
 @CONFIG
 def off(path: Path | None) -> None:
-    """Open every relay, when the box is not running: after a crash, whatever the kernel left switched on."""
+    """Open every relay when the box is not running: after a crash, the kernel may have left some closed."""
     from rotator.cli.off import relays_off
 
     relays_off(path)
@@ -112,7 +112,7 @@ def off(path: Path | None) -> None:
 @CONFIG
 @click.option("--json", "as_json", is_flag=True, help="What was found as JSON.")
 def doctor(path: Path | None, as_json: bool) -> None:
-    """Look at everything the box needs, and say what to do about what is wrong."""
+    """Check everything that the box needs, and say how to repair what is wrong."""
     from rotator.cli.doctor import examine_box
 
     sys.exit(examine_box(path, as_json=as_json))
@@ -186,7 +186,10 @@ def pins(undo: bool, yes: bool, root: Path, path: Path | None) -> None:
 
 
 def main() -> None:
-    """Errors that are a person's to mend become a sentence; the exit code is 2 for the configuration, else 1."""
+    """Run the command. An error that the user can repair is printed as a sentence.
+
+    The exit code is 2 for a fault in the configuration, 1 for the others.
+    """
     try:
         cli(standalone_mode=True)
     except ConfigError as fault:

@@ -1,6 +1,6 @@
 """`rotator monitor`: every byte on every link of the running box, live or to a file.
 
-Knows how a recording ends. What the lines say is the transcript's.
+Knows how a recording ends. The form of the lines is in `rotator.monitor.transcript`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ BYTES_PER_MB = 1_000_000
 
 
 def watch(path: Path | None, to: Path | None, links: Sequence[str], limit_mb: float) -> None:
-    """Until Ctrl-C, until the box ends, or until the file is full. Raises ConfigError, LinkError."""
+    """Show or record until Ctrl-C, until the box ends, or until the file is full. Raises ConfigError, LinkError."""
     with reach(monitor_places(path), "monitor") as box:
         signal.signal(signal.SIGTERM, signal.default_int_handler)
         lines = _only(links, _lines(box))
@@ -37,7 +37,7 @@ def _lines(box: socket.socket) -> Iterator[str]:
 
 
 def _only(links: Sequence[str], lines: Iterator[str]) -> Iterator[str]:
-    """The lines of these links, and the remarks; of all links where none is named. Raises LinkError."""
+    """The remarks, and the lines of these links; without names, of all links. Raises LinkError for an unknown name."""
     there: list[str] = []
     for line in lines:
         entry = parse(line)
@@ -50,10 +50,10 @@ def _only(links: Sequence[str], lines: Iterator[str]) -> Iterator[str]:
             case _:
                 wanted = True
         if not isinstance(entry, LinkNote | Remark):
-            # All links have been named by now.
-            strangers = [name for name in links if name not in there]
-            if strangers:
-                raise LinkError(f"no link is called {strangers[0]}; there are: {', '.join(there)}")
+            # The box has named all its links by now.
+            unknown = [name for name in links if name not in there]
+            if unknown:
+                raise LinkError(f"no link is called {unknown[0]}; there are: {', '.join(there)}")
         if wanted or not links:
             yield line
 
@@ -78,7 +78,7 @@ def _record(lines: Iterator[str], to: Path, limit_mb: float) -> None:
     end = "the box has ended"
 
     def write(text: str) -> None:
-        # Line by line: what has been heard is there whatever happens next.
+        # Line by line, so that nothing is lost if this program is killed.
         file.write(text + "\n")
         file.flush()
 

@@ -1,6 +1,6 @@
-"""From a configuration to a socket of the running box: beside what the file says, or where the service has it.
+"""Connects to a socket of the running box: beside the state file of its configuration, or where the service has it.
 
-Knows places and permissions. Knows nothing of what is said there.
+Knows paths and permissions. Does not know what goes over the sockets.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ MONITOR_OF_THE_SERVICE = Path("/run/rotator/monitor")
 
 
 def monitor_places(path: Path | None) -> list[Path]:
-    """Where the monitor of the box with this configuration may be. Raises ConfigError."""
+    """The paths at which the box with this configuration may have its monitor. Raises ConfigError."""
     config = load(path)
     beside = monitor_path(config, os.environ)
     return [beside] if config.monitor.path else [beside, MONITOR_OF_THE_SERVICE]
 
 
 def reach(places: Sequence[Path], what: str) -> socket.socket:
-    """Connected to the first of `places` where a box listens; `what` it has there. Raises LinkError."""
+    """A socket connected to the first of `places` where a box listens. `what`: the name of it. Raises LinkError."""
     for place in places:
         box = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:

@@ -1,6 +1,6 @@
-"""`rotator run`: the box in the foreground, with a live picture in a terminal or plain lines elsewhere.
+"""`rotator run`: the box in the foreground, with a live picture in a terminal, or plain lines elsewhere.
 
-Knows which key does what. What the picture shows is the view's; what the box does is the app's.
+Knows which key does what. Knows neither how the picture looks nor what the box does.
 """
 
 from __future__ import annotations
@@ -26,10 +26,15 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     app = App(config, path)
     recent = LogRows()
     log_to(logging.StreamHandler() if plain else recent)  # before a thread of the app can log above the picture
-    asyncio.run(_run(app, parse_faults(faults, app.station.world), None if plain else recent))
+    asyncio.run(run_app(app, parse_faults(faults, app.station.world), None if plain else recent))
 
 
-async def _run(app: App, faults: list[tuple[float, str]], recent: LogRows | None) -> None:
+async def run_app(app: App, faults: list[tuple[float, str]], recent: LogRows | None) -> None:
+    """Run until a signal or a key ends it.
+
+    `faults`: seconds after the start, and the simulator's name of each. `recent`: the log rows of the picture; None:
+    print plain lines.
+    """
     stop = stop_on_signals()
     for at_s, name in faults:
         assert app.station.world is not None, "faults are for the simulator"
@@ -52,7 +57,7 @@ async def _picture(app: App, stop: asyncio.Event, recent: LogRows) -> None:
     wires = [link.wire for link in app.links]
 
     def glass() -> tuple[str, ...]:
-        """Read off the simulated display; the real one cannot be read, so what it is sent."""
+        """The rows of the display: read from a simulated one. A real one cannot be read, so the rows sent to it."""
         world = app.station.world
         return world.lcd.text() if world and world.lcd else app.lcd_rows(time.monotonic())
 

@@ -1,6 +1,6 @@
 """What the foreground commands share: signals, keys, log lines, and a picture drawn a few times a second.
 
-Knows the terminal. Knows nothing of what it shows.
+Knows the terminal. Does not know what it shows.
 """
 
 from __future__ import annotations
@@ -58,8 +58,8 @@ async def draw(
 
 
 async def print_lines(greeting: Callable[[], list[str]], line: Callable[[], str]) -> None:
-    """For output that is no terminal: a greeting, then a line whenever it differs from the last."""
-    # One turn of the event loop and the links have said where they are.
+    """For output that is no terminal: print a greeting, then each line that differs from the one before."""
+    # By then the links have been opened, and the greeting can say where they are.
     await asyncio.sleep(0.1)
     last = ""
     print(*greeting(), sep="\n", flush=True)  # noqa: T201 - this is the output

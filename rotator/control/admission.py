@@ -7,6 +7,7 @@ stream): it is answered like any other. The controller checks again what is admi
 from __future__ import annotations
 
 from hw.ports import AngleSource, Axis
+from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.orders import Aim, Calibrate, Confirm, Home, LoadTimed, Order, Park, Refusal
 from rotator.status import Status
@@ -15,8 +16,9 @@ from rotator.status import Status
 def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
     """Why `order` will not be obeyed, or None."""
     match order:
-        case Aim(azimuth_deg, elevation_deg):
-            return _uncalibrated(order, status) or _unreachable(((azimuth_deg, elevation_deg),), mount)
+        case Aim():
+            aim = joined(mount, order, (status.wanted_azimuth_deg, status.wanted_elevation_deg), _places(status))
+            return _uncalibrated(order, status) or _unreachable(((aim.azimuth_deg, aim.elevation_deg),), mount)
         case LoadTimed(_, points):
             return _uncalibrated(order, status) or _unreachable(points, mount)
         case Park():
@@ -29,6 +31,14 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return Refusal(f"{axis.value} measures where it stands: there is nothing to confirm")
         case _:
             return None
+
+
+def _places(status: Status) -> tuple[float | None, float | None]:
+    """Where each axis goes, or stands where it has no target."""
+    places = [
+        axis.angle_deg if axis.target_deg is None else axis.target_deg for axis in (status.azimuth, status.elevation)
+    ]
+    return places[0], places[1]
 
 
 def _uncalibrated(order: Order, status: Status) -> Refusal | None:

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
+from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.nudges import Nudges
 from rotator.control.sky.pointing import Goals, Pointing
@@ -34,6 +35,8 @@ class Aiming:
 
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
+        wanted = self._pointing.wanted
+        asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
         aim = self._nudges.applied(asked)
         if not aim.engaged:
             for axis in self._axes.values():
@@ -97,6 +100,11 @@ class Aiming:
         for axis, goal in zip((self._azimuth, self._elevation), goals or (None, None), strict=True):
             if goal is not None and axis.aiming is not None:
                 axis.aim(goal)
+
+    def _places(self) -> tuple[float | None, float | None]:
+        """Where each axis goes, or stands where it has no target."""
+        places = [axis.aiming.target_deg if axis.aiming else axis.angle_deg for axis in self._axes.values()]
+        return places[0], places[1]
 
     def _set_goals(self, goals: Goals) -> None:
         azimuth_goal, elevation_goal = goals

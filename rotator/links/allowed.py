@@ -12,14 +12,14 @@ Network = ipaddress.IPv4Network | ipaddress.IPv6Network
 
 
 class Allowed:
-    """`networks` such as "192.168.1.0/24", "fd00::/8" or one address; None: everybody. Raises ValueError."""
+    """`networks` such as "192.168.1.0/24", "fd00::/8" or one address; None: all machines. Raises ValueError."""
 
     def __init__(self, networks: Sequence[str] | None = None) -> None:
         # "192.168.1.5/24" names the network that this machine is in.
         self._networks = None if networks is None else [ipaddress.ip_network(text, strict=False) for text in networks]
 
     def __call__(self, host: str) -> bool:
-        """Whether the machine with this address may."""
+        """Whether the machine with this address may connect."""
         if self._networks is None:
             return True
         try:

@@ -1,7 +1,7 @@
-"""A connection to another program's server, which is asked again and again; it may come and go at any time.
+"""A connection to another program's server, which the box asks again and again.
 
-Knows how to connect, to ask in time and to wait longer and longer for a server that is not there. Knows no protocol and
-decides nothing.
+Knows how to connect, how to ask at the right rate, and how to wait for a server that is not there: longer each time.
+Knows no protocol and decides nothing.
 """
 
 from __future__ import annotations
@@ -17,12 +17,14 @@ log = logging.getLogger(__name__)
 
 READ_BYTES = 4096
 SILENCE_S = 3.0
-"""How long a server may take to connect and to answer: a rotctld with a slow controller takes 1.8 s to give up."""
+"""The longest time, in seconds, to connect or to answer: a rotctld gives up a slow controller after 1.8 s."""
 FIRST_RETRY_S = 1.0
 LONGEST_RETRY_S = 10.0
 
 
 class AskingLink:
+    """`inquiry` makes the conversation of one connection. `every_s`: the time between two questions."""
+
     def __init__(
         self,
         wire: Wire,
@@ -44,7 +46,7 @@ class AskingLink:
         self._told: str | None = None
 
     async def open(self) -> None:
-        """Nothing to do: a server that is not there yet is waited for."""
+        """Nothing to do: `run` waits for the server."""
 
     async def run(self) -> None:
         clock = asyncio.get_running_loop().time
@@ -61,8 +63,11 @@ class AskingLink:
         finally:
             self.wire.state = "closed"
 
+    def close(self) -> None:
+        """Nothing to do: `run` closes what it has opened."""
+
     async def _connect(self) -> tuple[str, str]:
-        """Connect and ask until that comes to an end. Returns why it did, and what there is to add."""
+        """Connect and ask until the connection ends. Returns why it ended, and a detail for the log."""
         try:
             async with asyncio.timeout(self._silence_s):
                 reader, writer = await asyncio.open_connection(self._host, self._port)
@@ -84,7 +89,6 @@ class AskingLink:
             try:
                 async with asyncio.timeout(self._silence_s):
                     writer.write(question)
-                    self.wire.went(question)
                     await self._hear_out(inquiry, reader)
             except TimeoutError:
                 return f"gives no answer within {self._silence_s:g} s", ""
@@ -105,11 +109,10 @@ class AskingLink:
             data = await reader.read(READ_BYTES)
             if not data:
                 raise EOFError
-            self.wire.came(data)
             whole = inquiry.receive(data)
 
     def _tell(self, trouble: str, detail: str) -> None:
-        """Log a trouble once, however often it is met, and once that it is over."""
+        """Log a trouble once when it begins, and once when it is over (empty text)."""
         if trouble == self._told:
             return
         self._told = trouble

@@ -1,6 +1,6 @@
 """A link on a file descriptor: what serial ports and pseudo-terminals share.
 
-Knows non-blocking reading and writing on the event loop. Knows nothing of how the descriptor came to be.
+Knows non-blocking reading and writing on the event loop. Does not know how the descriptor was opened.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ async def converse(fd: int, conversation: Conversation) -> str:
 
 
 def writer(fd: int) -> Callable[[bytes], None]:
-    """A `write` for a conversation: one system call a reply.
+    """A `write` for a conversation: one system call for each reply. Raises nothing: the reader notices a failure.
 
-    Where nobody reads, the kernel's buffer fills: replies are dropped whole, as a real unit's go nowhere, and one that
-    it took only the beginning of is ended before the next. A failing descriptor is noticed by its reader.
+    When the program at the other end does not read, the kernel's buffer fills. Then replies are dropped, as those of a
+    real unit are lost. A reply of which the kernel took only the beginning is completed before the next one.
     """
     rest = b""
 

@@ -1,8 +1,8 @@
-"""A file that another program writes again and again: what it holds after each change is a message.
+"""A file that another program writes again and again: its content after each change is a message.
 
 Knows how to look at a file that may be missing, half written or on a network that hangs. Knows no protocol and decides
-nothing. It looks at what the file holds: times of change are coarse on a memory card, and somebody else's clock on a
-network share.
+nothing. It compares contents, not times of change: those are coarse on a memory card, and on a network share they come
+from another machine's clock.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class FileLink:
         self._trouble: str | None = None
 
     async def open(self) -> None:
-        """Nothing to do: a file that is not there yet is waited for."""
+        """Nothing to do: `run` waits for the file."""
 
     async def run(self) -> None:
         loop = asyncio.get_running_loop()
@@ -49,7 +49,7 @@ class FileLink:
                 conversation.received(what)
 
         def watch() -> None:
-            """In a thread of its own: a file on a share whose server is gone keeps whoever reads it."""
+            """Runs in a thread of its own: on a share whose server is gone, a read may not return."""
             before: bytes | str | None = None
             while not leaving.is_set():
                 now = _content(self._path)
@@ -67,8 +67,11 @@ class FileLink:
             conversation.close()
             self.wire.state = "closed"
 
+    def close(self) -> None:
+        """Nothing to do: `run` closes what it has opened."""
+
     def _tell(self, trouble: str) -> None:
-        """Log a trouble once, however often it is met, and once that it is over."""
+        """Log a trouble once when it begins, and once when it is over (empty text)."""
         self.wire.state = "waiting for it" if trouble else "open"
         if trouble == self._trouble:
             return
@@ -80,7 +83,7 @@ class FileLink:
 
 
 def _content(path: Path) -> bytes | str:
-    """What the file holds, or why that is not to be had."""
+    """The content of the file as bytes, or as text why it cannot be read."""
     try:
         with path.open("rb") as file:
             data = file.read(MOST_BYTES + 1)

@@ -1,6 +1,6 @@
 """A pseudo-terminal with a symlink: a serial port for programs on the same machine.
 
-Knows how to make one that stays up whoever opens and closes it. Knows no protocol.
+Knows how to make one that stays up when programs open and close it. Knows no protocol.
 """
 
 from __future__ import annotations
@@ -22,6 +22,8 @@ SERIAL_GROUP = "dialout"
 
 
 class PtyLink:
+    """`path`: where the symlink to the terminal is made."""
+
     def __init__(self, wire: Wire, path: Path, session: Callable[[], Session]) -> None:
         self.wire = wire
         self._path = path
@@ -34,7 +36,7 @@ class PtyLink:
     async def open(self) -> None:
         """Raises LinkError."""
         self._master, self._slave = os.openpty()
-        # The slave stays open here, so the line never hangs up when a client leaves; raw, so nothing is echoed.
+        # The slave stays open here, so the line does not hang up when a client leaves. Raw, so nothing is echoed.
         tty.setraw(self._slave)
         os.set_blocking(self._master, False)
         self._name = os.ttyname(self._slave)
@@ -56,26 +58,36 @@ class PtyLink:
     async def run(self) -> None:
         try:
             await converse(self._master, Conversation(self._session(), self.wire, writer(self._master)))
-            # Our own end of a pseudo-terminal does not fail; if it does, there is nothing to reopen.
+            # The box's own end does not fail. If it did, there would be nothing to open again.
             await asyncio.Event().wait()
         finally:
+            self.close()
+
+    def close(self) -> None:
+        """Remove the symlink and the terminal. May be called twice."""
+        with suppress(OSError):  # the folder may be gone: the terminal is closed all the same
             if self._path.is_symlink() and os.readlink(self._path) == self._name:
                 self._path.unlink()
-            self._close_fds()
-            self.wire.state = "closed"
+        self._close_fds()
+        self.wire.state = "closed"
 
     def _share(self) -> None:
-        """Open to whoever may use serial ports: programs of other users than the service's come to this one too."""
+        """Let the group of those who may use serial ports open the terminal: the programs run as other users."""
         with suppress(KeyError, OSError):
             os.chown(self._name, -1, grp.getgrnam(SERIAL_GROUP).gr_gid)
             os.chmod(self._name, 0o660)
 
     def _lock(self) -> None:
-        """A link left by a program that died may be replaced; one whose program lives may not."""
+        """Take the lock that says who has the symlink. Raises BlockingIOError when a running program has it.
+
+        A symlink without a lock was left by a program that died, and may be replaced.
+        """
         self._locked = os.open(self._path.with_name(f".{self._path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600)
         fcntl.flock(self._locked, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
     def _close_fds(self) -> None:
-        for fd in (self._master, self._slave, self._locked):
+        fds = (self._master, self._slave, self._locked)
+        self._master = self._slave = self._locked = -1
+        for fd in fds:
             if fd >= 0:
                 os.close(fd)

@@ -1,7 +1,7 @@
-"""A serial port, or any URL that pyserial opens; it may be unplugged and plugged in again at any time.
+"""A serial port, or any URL that pyserial opens. It may be unplugged and plugged in again at any time.
 
-Knows how to open it, to notice that it is gone and to wait for it. DTR and RTS mean nothing here. The only importer of
-pyserial outside `hw`.
+Knows how to open it, how to notice that it is gone, and how to wait for it. Ignores DTR and RTS. Apart from `hw`, the
+only importer of pyserial.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class SerialLink:
         self._told = ""
 
     async def open(self) -> None:
-        """Nothing to do: a port that is not there yet is waited for."""
+        """Nothing to do: `run` waits for the port."""
 
     async def run(self) -> None:
         while True:
@@ -56,6 +56,9 @@ class SerialLink:
                     self.wire.state = "closed"
                 self._tell(f"lost: {why}")
             await asyncio.sleep(self._retry_s)
+
+    def close(self) -> None:
+        """Nothing to do: `run` closes what it has opened."""
 
     def _open(self) -> Any:
         return serial.serial_for_url(self._port, self._baud, timeout=0)
@@ -104,7 +107,7 @@ class SerialLink:
             conversation.close()
 
     def _tell(self, text: str) -> None:
-        """Log a trouble once, however often it is met."""
+        """Log a trouble once when it begins."""
         if text != self._told:
             log.warning("%s: %s %s; waiting for it", self.wire.name, self._port, text)
             self._told = text

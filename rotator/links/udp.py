@@ -1,9 +1,9 @@
-"""A UDP socket: each datagram is a message of its own, and each address that sends some has a conversation of its own.
+"""A UDP socket: each datagram is a message, and each sender has a conversation of its own.
 
-Knows datagrams and who sent them. Knows no protocol and decides nothing.
+Knows datagrams and their senders. Knows no protocol and decides nothing.
 
-A sender is an address without its port: many programs send every datagram from a port of its own, and a stop that
-silences a stream would not hold for the next datagram. Nobody says goodbye here, so one that is silent is forgotten.
+A sender is an address without its port: many programs send each datagram from another port, and a stop that silences a
+stream must hold for the next datagram too. UDP has no end of a connection, so a silent sender is forgotten.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ log = logging.getLogger(__name__)
 MOST_BYTES = 4096
 MOST_SENDERS = 64
 FORGOTTEN_AFTER_S = 60.0
-"""Longer than a stopped stream has to pause: being forgotten is no way round that."""
+"""Longer than the pause that a stopped stream has to make: it must not move the antenna by being forgotten."""
 LOOK_EVERY_S = 1.0
-"""How often a report may go out, and senders are forgotten."""
+"""The time, in seconds, between two checks for a report that is due and for silent senders."""
 
 Address = tuple[Any, ...]
 """Host and port; for IPv6 two numbers more."""
@@ -42,14 +42,14 @@ class _Sender:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What the box says by itself, and to whom. `due` is asked once a second, with the time; None: nothing now."""
+    """What the box sends unasked. `due` is called once a second with the time, and returns a datagram, or None."""
 
     to: tuple[str, int]
     due: Callable[[float], bytes | None]
 
 
 class UdpLink:
-    """`answer_port`: where senders listen for answers; None: the protocol has none."""
+    """`answer_port`: the port on which senders listen for answers; None: the protocol has no answers."""
 
     def __init__(
         self,
@@ -81,7 +81,7 @@ class UdpLink:
             transport, _ = await asyncio.get_running_loop().create_datagram_endpoint(
                 lambda: _Socket(self.received, self._failed),
                 local_addr=(self._host, self._port),
-                # The programs know IPv4 only, and a name such as localhost may mean both.
+                # The programs know IPv4 only, but a name such as localhost may stand for both families.
                 family=socket.AF_INET6 if ":" in self._host else socket.AF_INET,
                 allow_broadcast=True,
             )
@@ -98,13 +98,18 @@ class UdpLink:
                 self._say_what_is_due()
                 await asyncio.sleep(LOOK_EVERY_S)
         finally:
+            self.close()
+
+    def close(self) -> None:
+        """Give the port back. May be called twice."""
+        if self._transport is not None:
             self._transport.abort()
-            for sender in self._senders.values():
-                sender.conversation.close()
-            self.wire.state = "closed"
+        for sender in self._senders.values():
+            sender.conversation.close()
+        self.wire.state = "closed"
 
     def received(self, data: bytes, address: Address) -> None:
-        """One datagram, from there."""
+        """Take one datagram that came from this address."""
         host = str(address[0])
         if not self._allowed(host):
             self._complain(f"{host} is not in allow: not heard")
@@ -130,7 +135,6 @@ class UdpLink:
     def _say_what_is_due(self) -> None:
         said = self._report.due(self._clock()) if self._report else None
         if said and self._report and self._transport:
-            self.wire.went(said)
             self._transport.sendto(said, self._report.to)
 
     def _failed(self, fault: OSError) -> None:
@@ -145,9 +149,8 @@ class UdpLink:
         self._note()
 
     def _complain(self, text: str) -> None:
-        told = self._complaints.tell(text)
-        if told:
-            log.warning("%s: %s", self.wire.name, told)
+        if line := self._complaints.admit(text):
+            log.warning("%s: %s", self.wire.name, line)
 
     def _note(self) -> None:
         count = len(self._senders)

@@ -1,7 +1,7 @@
-"""A place in the file system where a running box listens: its own as long as it runs, and nobody else's.
+"""The path of a Unix socket, which belongs to one running box at a time.
 
-Knows how a Unix socket is claimed, shared with the box's group, and left behind tidily. Knows nothing of what is said
-on it.
+Knows how to claim the path, share it with the box's group, and remove it in the end. Does not know what goes over the
+socket.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from contextlib import contextmanager
 from pathlib import Path
 
 MODE = 0o660
-"""The owner's and the group's: who they are is the only thing that is asked of whoever connects."""
+"""Owner and group may connect. There is no other check."""
 
 
 @contextmanager
 def claimed(path: Path) -> Iterator[socket.socket]:
-    """A socket bound to `path`, not listening yet; the file is gone afterwards. Folders are made.
+    """A socket bound to `path`, not listening yet. Missing folders are made; afterwards the file is removed.
 
-    What a box left that died is replaced. Raises BlockingIOError where a living one has the place, OSError where none
-    can be had there.
+    The file of a box that died is replaced. Raises BlockingIOError when a running box has the path, OSError when no
+    socket can be made there.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     locked = os.open(path.with_name(f".{path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600)
@@ -33,7 +33,7 @@ def claimed(path: Path) -> Iterator[socket.socket]:
         with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as place:
             place.bind(str(path))
             try:
-                # Before it listens: nobody else gets in between.
+                # Before it listens, so that no other user can connect in between.
                 path.chmod(MODE)
                 yield place
             finally:

@@ -1,6 +1,6 @@
-"""What one link carries, for whoever watches it; and the shell between a stream of bytes and a protocol.
+"""One link as the terminal picture shows it, and the shell between a stream of bytes and a protocol.
 
-Knows when bytes came and went, and when a line has fallen silent. Knows no device and no protocol.
+Knows when a line has fallen silent, and the words for what is wrong with an address. Knows no device and no protocol.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ KEPT_BYTES = 64
 
 
 class LinkError(Exception):
-    """A link cannot be opened; the text says which, and what to do."""
+    """A link cannot be opened. The text says which one, and what to do."""
 
 
 def reason(fault: OSError | UnicodeError) -> str:
-    """Why an address cannot be listened at or reached, in the system's words."""
+    """Why the box cannot listen at an address, or cannot reach it, in the system's words."""
     match fault:
         case socket.gaierror():
             return fault.strerror or str(fault)
         case OSError(errno=int() as number):
-            # asyncio wraps the system's words in many of its own.
+            # asyncio adds many words of its own to the system's.
             return os.strerror(number)
         case OSError():
             return str(fault)
@@ -39,7 +39,7 @@ def reason(fault: OSError | UnicodeError) -> str:
 
 @dataclass(slots=True)
 class Wire:
-    """One link as a person sees it. The view reads it; the link writes it."""
+    """One link as the terminal picture shows it: `state` is the link's to write, the last bytes are the tap's."""
 
     name: str
     protocol: str
@@ -56,9 +56,9 @@ class Wire:
 
 
 class Conversation:
-    """One connection: bytes in, replies out through `write`, which sends each in one go or not at all.
+    """One connection: bytes in, replies out through `write`, which sends a reply in one go or not at all.
 
-    `hang_up` is called when the client has asked to end the connection; a line that cannot hang up does nothing.
+    `hang_up` is called when the client has asked to end the connection. A line that cannot hang up does nothing.
     """
 
     def __init__(
@@ -75,13 +75,14 @@ class Conversation:
         self._silence: asyncio.TimerHandle | None = None
 
     def received(self, data: bytes) -> None:
-        self._wire.came(data)
+        """Take what has come, in any pieces. Raises nothing: a bug in the protocol is logged."""
         self._reply(lambda: self._session.receive(data))
         if self._session.idle_s is not None:
             self._cancel()
             self._silence = asyncio.get_running_loop().call_later(self._session.idle_s, self._silent)
 
     def close(self) -> None:
+        """End it: silence is no longer waited for. May be called twice."""
         self._cancel()
 
     def _silent(self) -> None:
@@ -97,11 +98,10 @@ class Conversation:
         try:
             replies = ask()
         except Exception:
-            # A mistake of ours in one protocol must not take the link, or the other links, down with it.
+            # A bug in one protocol must not end this link, nor the other links.
             log.exception("%s: the protocol failed; the bytes are dropped", self._wire.name)
             return
         for reply in replies:
-            self._wire.went(reply)
             self._write(reply)
         if self._session.closed:
             self._hang_up()

@@ -1,6 +1,6 @@
-"""The monitor's socket: a way to watch, and nothing else. Whoever connects hears line after line, and is not heard.
+"""The monitor's socket. A watcher that connects receives line after line; what it sends is ignored.
 
-Knows Unix sockets and watchers that read too slowly. Knows nothing of what the lines say.
+Knows Unix sockets, and watchers that read too slowly. Does not know what the lines mean.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ log = logging.getLogger(__name__)
 
 MOST_WATCHERS = 8
 UNREAD_LIMIT = 262_144
-"""Bytes that may wait for a watcher; what does not fit is left out, and it is told how much."""
+"""Bytes that may wait for a watcher. Lines beyond that are left out, and a remark says how many."""
 
 
 class MonitorSocket:
-    """`listeners` is where each watcher's ear is put in and taken out; `greeting` is what it hears first.
+    """Each watcher adds itself to `listeners` while it is connected. `greeting` gives its first lines.
 
-    Nothing of it may keep the box from running: where it cannot be opened the log says so, and that is all.
+    The box runs without a monitor too: where the socket cannot be opened, there is a line in the log.
     """
 
     def __init__(self, path: Path, listeners: list[Callable[[str], None]], greeting: Callable[[], list[str]]) -> None:

@@ -1,6 +1,7 @@
-"""Every byte that a session hears and says, told to whoever watches; the session does not notice.
+"""The one place through which all bytes of all links go: for the terminal picture, and for the monitor's listeners.
 
-Knows sessions and inquiries by their shape, whose they are, and the form of a transcript. Knows no socket and no file.
+Knows sessions and inquiries by their shape, and the form of a transcript. Knows no socket and no file. A session does
+not notice that it is tapped.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from collections.abc import Callable, Mapping
 from datetime import datetime
 
 from rotator import __version__
+from rotator.links.wire import Wire
 from rotator.monitor.transcript import At, LinkNote, Way, encode_at, encode_link, encode_piece
 from rotator.orders import Source
 from rotator.protocols.session import Inquiry, Session
@@ -19,29 +21,31 @@ MOVED_EVERY_S = 1.0
 
 
 class Tap:
-    """Makes lines of what goes over the links, and hands each to `listeners`. Costs nothing while there are none.
+    """Notes the last bytes of each link, and makes transcript lines for `listeners`: none without listeners.
 
-    `clock` is the time of day. Whose orders the antenna obeys is told when that changes; where it points with it, and
-    while it turns once a second. `status` may be asked only where there are listeners.
+    `clock` gives the time of day. A line says whose orders the antenna obeys, and where it points, when the first
+    changes, and once a second while the antenna turns. `status` is read only when there are listeners.
     """
 
     def __init__(self, clock: Callable[[], datetime], status: Callable[[], Status]) -> None:
         self.listeners: list[Callable[[str], None]] = []
         self.on_data: Callable[[], None] = lambda: None
-        """Called when something has come over a link."""
+        """Called when bytes have come over a link: the panel's data lamp."""
         self._clock = clock
         self._status = status
+        self._wires: dict[str, Wire] = {}
         self._links: list[LinkNote] = []
         self._day = ""
         self._at: At | None = None
         self._at_told = datetime.min
 
-    def link(self, name: str, keys: Mapping[str, object]) -> None:
-        """A link that there is: said to every listener first."""
-        self._links.append(LinkNote(name, keys))
+    def link(self, wire: Wire, keys: Mapping[str, object]) -> None:
+        """Add a link, with the keys of its table in the configuration. A new listener hears of all links first."""
+        self._wires[wire.name] = wire
+        self._links.append(LinkNote(wire.name, keys))
 
     def greeting(self) -> list[str]:
-        """What a new listener must know first."""
+        """The first lines for a new listener."""
         moment, at = self._clock(), self._where()
         if not self.listeners:
             self._at, self._at_told = at, moment
@@ -49,9 +53,17 @@ class Tap:
         return [*lines, encode_at(at)] if at else lines
 
     def note(self, source: Source, way: Way, data: bytes, *, text: bool) -> None:
-        if data and way is Way.IN:
+        """Bytes that came or went over the link of `source`. `text`: they are characters."""
+        if not data:
+            return
+        wire = self._wires.get(source.link)
+        if way is Way.IN:
             self.on_data()
-        if not self.listeners or not data:
+        if wire and way is Way.IN:
+            wire.came(data)
+        elif wire:
+            wire.went(data)
+        if not self.listeners:
             return
         moment = self._clock()
         for line in (*self._changes(moment), encode_piece(moment, source, way, data, text=text)):
@@ -88,7 +100,7 @@ class Tap:
 
 
 class TappedSession:
-    """A session, and `tap` has every byte of it. `text`: its bytes are characters."""
+    """A session whose bytes all go to `tap`. `text`: they are characters."""
 
     def __init__(self, session: Session, tap: Tap, source: Source, *, text: bool = True) -> None:
         self._session = session
@@ -118,7 +130,7 @@ class TappedSession:
 
 
 class TappedInquiry:
-    """The same of an inquiry: here the box speaks first."""
+    """An inquiry whose bytes all go to `tap`: here the box speaks first."""
 
     def __init__(self, inquiry: Inquiry, tap: Tap, source: Source) -> None:
         self._inquiry = inquiry

@@ -1,4 +1,4 @@
-r"""What went over the links, as text: a line for each piece of bytes, for a person at once and for a program exactly.
+r"""The bytes of the links as text, one line for each piece, from which a program gets the exact bytes back.
 
     # rotator 1.0, 2026-11-21
     # link gs232b {"protocol": "gs232b", "pty": "run/gs232"}
@@ -7,9 +7,9 @@ r"""What went over the links, as text: a line for each piece of bytes, for a per
     18:03:22.301 gs232b#1 < AZ=235  EL=025\r\n
     18:03:22.377 md01#1 > \hex 57 00 00 00 00 00 00 00 00 00 00 1F 20
 
-`>` is what came in, `<` what the box said. A backslash begins \\, \r, \n, \t or \x and two hexadecimal digits; what is
-no text stands as `\hex` and pairs of digits. A blank at the end is \x20, for editors eat it. Other lines that begin
-with # are remarks. Knows the form. Knows no link, no file and no clock.
+`>` marks what came in, `<` what the box sent. The escapes are \\, \r, \n, \t, and \x with two hexadecimal digits. Bytes
+of a binary protocol are `\hex` and pairs of digits. A blank at the end is \x20, because editors remove it. Other lines
+that begin with # are remarks. Knows this form. Knows no link, no file and no clock.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Way(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Bytes that came or went in one go."""
+    """Bytes that came or went together."""
 
     day_s: float
     """Seconds since midnight, local time."""
@@ -42,7 +42,7 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class LinkNote:
-    """A link, and the keys of its table of the configuration."""
+    """A link, with the keys of its table in the configuration."""
 
     name: str
     keys: Mapping[str, object]
@@ -55,7 +55,7 @@ class At:
     azimuth_deg: float
     elevation_deg: float
     under: str = ""
-    """Whose orders it obeyed; empty: nobody's."""
+    """The source whose orders it obeyed; empty: none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +66,8 @@ class Remark:
 Entry = Piece | LinkNote | At | Remark
 
 
-class NotATranscript(ValueError):  # noqa: N818 - it is about what somebody wrote, not a failure of the program
-    """A line is in none of the forms; the text shows it."""
+class NotATranscript(ValueError):  # noqa: N818 - a fault of the text, not of the program
+    """A line has none of the forms. The text shows the line."""
 
 
 _ESCAPES = {0x5C: "\\\\", 0x0D: "\\r", 0x0A: "\\n", 0x09: "\\t"}
@@ -96,7 +96,7 @@ def parse(line: str) -> Entry:
 
 
 def encode_piece(moment: datetime, source: Source, way: Way, data: bytes, *, text: bool = True) -> str:
-    """`text`: bytes that mean characters read best as such; those of a binary protocol as digits."""
+    """The line for one piece. `text`: write characters; else pairs of hexadecimal digits, for a binary protocol."""
     said = escape(data) if text else _HEX + data.hex(" ").upper()
     return f"{moment:%H:%M:%S}.{moment.microsecond // 1000:03d} {source} {way.value} {said}"
 

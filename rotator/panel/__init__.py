@@ -1,1 +1,1 @@
-"""A front panel: what its switches and knobs ask for, and the threads that look at them."""
+"""A front panel: the orders that its switches and knobs give, and the threads that read them."""

@@ -1,6 +1,6 @@
-"""What a front panel's switches and knobs mean by themselves: bounce, jitter and doubt taken out.
+"""The state of each switch and knob of a front panel, without bounce and jitter.
 
-Knows contacts and moments. Knows no order, no mode's meaning and no hardware. A moment is an argument.
+Knows contacts and readings over time; the time is an argument. Does not know orders, the meaning of modes, or hardware.
 """
 
 from __future__ import annotations
@@ -12,30 +12,30 @@ from rotator.orders import Mode
 from rotator.panel.ladder import CENTRE, Throw, thrown
 
 CLOSED_S = 0.05
-"""A stop button's contact must have been closed for so long; that it opens is believed at once."""
+"""A stop button counts as released after its contact was closed for this long. An open contact counts at once."""
 STILL_S = 1.0
-"""A mode switch passes through other positions on its way, and a person through other angles with a knob."""
+"""A mode switch or a knob counts after it has stood this long: on its way it passes through other positions."""
 COUNT = 1.0 / 255.0
-"""One count of an eight-bit reading: a knob that jitters by so much stands still."""
+"""One count of an eight-bit reading: a knob that changes by no more than this stands still."""
 _ROUNDING = 1e-9
 
 POSITIONS = (Mode.MANUAL, Mode.PARK, Mode.AUTO, Mode.JOG)
-"""By 2 × MSB + LSB; a closed contact is a 1."""
+"""The index is 2 × MSB + LSB; a closed contact is a 1."""
 
 Contact = tuple[Axis, Direction]
 
 
 class StopButton:
-    """A normally closed contact: open is pressed, and so is a broken wire."""
+    """A normally closed contact: an open contact or a broken wire means pressed."""
 
     def __init__(self) -> None:
         self.open = False
         self.closed_s = -math.inf
-        """When it was last found closed, after it had been open."""
+        """When it was last released."""
         self._closing_s: float | None = None
 
     def see(self, now_s: float, *, is_open: bool) -> bool:
-        """Whether it has just opened."""
+        """Returns whether it has just been pressed."""
         if is_open:
             opened, self.open, self._closing_s = not self.open, True, None
             return opened
@@ -49,18 +49,18 @@ class StopButton:
 class ModeSwitch:
     def __init__(self) -> None:
         self.position: Mode | None = None
-        """Where it stands now; None: it cannot be read, or there is none."""
+        """The present position; None: the switch cannot be read, or is not fitted."""
         self.since_s = math.inf
-        """Since when it has stood there."""
+        """Since when it has been in this position."""
         self.mode: Mode | None = None
-        """Where it last stood still for STILL_S."""
+        """The last position that it held for STILL_S."""
 
     @property
     def still(self) -> bool:
         return self.position is not None and self.position is self.mode
 
     def see(self, now_s: float, bits: tuple[bool, bool] | None) -> bool:
-        """Whether somebody has turned it: it has come to rest at another place than before. `bits` are MSB and LSB."""
+        """Returns whether the operator has turned it: it rests in a new position. `bits` are MSB and LSB."""
         position = None if bits is None else POSITIONS[2 * bits[0] + bits[1]]
         if position is not self.position:
             self.position, self.since_s = position, now_s
@@ -71,10 +71,10 @@ class ModeSwitch:
 
 
 class JogSwitches:
-    """Two centre-off switches. A press begins from both at the centre, with one of them, seen so twice running.
+    """Two centre-off switches. A press begins when both were at the centre and two readings show one of them thrown.
 
-    It ends with the first look that says anything else: let go, the other switch too, a reading in no band. To begin
-    another, both must have been at the centre; so two at once, or one held for long, are never two presses.
+    It ends with the first other reading: released, the second switch thrown as well, or a reading in no band. Before
+    the next press both must be at the centre. So two switches at once, or one held for long, are never two presses.
     """
 
     def __init__(self) -> None:
@@ -83,15 +83,15 @@ class JogSwitches:
         self._before: Throw | None = None
 
     def see(self, share: float | None, *, may_begin: bool) -> bool:
-        """Whether a press has just begun. Where none `may_begin`, one that is held ends, and is not taken up again."""
+        """Returns whether a press has just begun. Without `may_begin` a held press ends, and does not begin again."""
         throw = None if share is None else thrown(share)
-        alike, self._before = throw == self._before, throw
+        repeated, self._before = throw == self._before, throw
         contact = _one(throw)
         if self.held is not None:
             if contact != self.held or not may_begin:
                 self.held = None
             return False
-        if not alike:  # a contact that moves while it is converted reads as anything
+        if not repeated:  # a contact that moves during the conversion gives any reading
             return False
         begins = contact is not None and self._armed and may_begin
         self._armed = throw == CENTRE
@@ -110,24 +110,27 @@ def _one(throw: Throw | None) -> Contact | None:
 
 
 class Knob:
-    """A pot that a person turns. One that folds over near its end, reading less the further it is turned, has too large
-    a time constant where it is read: a smaller capacitor at its wiper cures that, nothing here can.
+    """A pot that the operator turns.
+
+    If a pot reads less near its end although it is turned further, the time constant at its input is too large: fit a
+    smaller capacitor at its wiper. Software cannot correct that.
     """
 
     def __init__(self, full_scale: float = 1.0) -> None:
         self.full_scale = full_scale
-        """What it reads at its maximum, as a share of its supply."""
+        """The reading at its maximum, as a share of its supply."""
         self.share: float | None = None
-        """How far it is turned, 0 to 1; None: it cannot be read, or there is none."""
+        """How far it is turned, 0 to 1; None: it cannot be read, or is not fitted."""
         self._moved_s = -math.inf
         self._rest: float | None = None
 
     def still(self, now_s: float) -> bool:
-        """It has not been turned for STILL_S."""
+        """Whether it has not been turned for STILL_S."""
         return now_s - self._moved_s >= STILL_S - _ROUNDING
 
     def see(self, now_s: float, reading: float | None) -> bool:
-        """Whether it is being turned. `reading` is the share of its supply; one that comes back was not turned."""
+        """Returns whether it is being turned. `reading` is a share of its supply. A knob that can be read again after a
+        gap has not been turned."""
         if reading is None:
             self.share = self._rest = None
             return False

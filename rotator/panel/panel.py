@@ -1,10 +1,11 @@
 """A front panel's switches and knobs in, orders, lamps and meters out: the panel of the KO6TH controller.
 
-Knows what each part means in each mode. Pure: no I/O, no clock, no thread. Every part is optional: what is None in a
-look is not there, or cannot be read just now, and orders nothing.
+Knows what each part means in each mode. Pure: no I/O, no clock, no thread. Every part is optional: a part that is None
+in the inputs is not fitted, or cannot be read now, and gives no order.
 
-Only what a person does while it may move the antenna does so: a switch held, or a knob turned, before the mode was
-told, while the stop button is open or while a latch holds must be let go, or turned again.
+A switch or a knob moves the antenna only if the operator moves it while it may have an effect. If it was held or turned
+before the mode was set, while the stop button was open or while a stop was latched, it must be released, or turned
+again.
 """
 
 from __future__ import annotations
@@ -13,31 +14,31 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from hw.ports import Axis, Direction
+from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 from rotator.orders import Aim, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.panel.calibration import BEGINNING, PanelCalibration, Stage
 from rotator.panel.inputs import Contact, JogSwitches, Knob, ModeSwitch, StopButton
 from rotator.status import AxisStatus, Status
 
 LEAST_INDEX, MOST_INDEX = -7, 8
-"""How far the jog switches may shift an order."""
-UNCALIBRATED_PRESS_S = 2.0
-"""One press on an axis that nobody has commissioned yet, however long it is held."""
+"""The range of the index by which the jog switches shift an order."""
 DATA_LIT_S = 0.1
+"""How long the data lamp is lit after bytes from a program."""
 LAMPS = ("manual", "park", "auto", "jog", "data", "motor", "stop", "azimuth_pulse", "elevation_pulse", "switch")
 
 
 @dataclass(frozen=True, slots=True)
 class PanelSettings:
     mode_switch: bool = True
-    """Without one the panel is as one in AUTO, tells no mode, and cannot be calibrated."""
+    """False: the panel acts as in AUTO, sets no mode, and cannot be calibrated."""
     nudge_deg: Mapping[Axis, float] = field(default_factory=lambda: dict.fromkeys(Axis, 5.0))
-    """The size of an index: the pulse spacing, where the rotor counts."""
+    """The size of one index; for a rotor that counts pulses, the spacing of the pulses."""
     jog_s: float = 0.3
-    """How long a jog goes on that is not renewed; every look renews it while the switch is held."""
+    """How long a jog lasts unless it is renewed. Every step renews it while the switch is held."""
 
 
 @dataclass(frozen=True, slots=True)
-class PanelLook:
+class PanelInputs:
     """What the panel's parts read at one moment."""
 
     mode_bits: tuple[bool, bool] | None = None
@@ -48,30 +49,30 @@ class PanelLook:
     """The wiper's share of its supply."""
     elevation_knob: float | None = None
     calibrate: bool = False
-    """The calibrate switch is closed. Only the first look counts."""
+    """The calibrate switch is closed. It counts only in the first step."""
     stop_open: bool = False
     """The stop button is pressed, its wire is broken, or it cannot be read."""
     pulses: frozenset[Axis] = frozenset()
     """The axes whose index contact is closed."""
     data: bool = False
-    """Something has come from a program since the last look."""
+    """Bytes have come from a program since the last step."""
 
 
 @dataclass(frozen=True, slots=True)
-class PanelAct:
-    """What follows from a look. `meters` are shares of their full scale, 0 to 1."""
+class PanelOutput:
+    """The result of a step. `meters` are shares of their full scale, 0 to 1."""
 
     orders: tuple[Order, ...]
     lamps: Mapping[str, bool]
     meters: Mapping[Axis, float]
     full_scales: Mapping[Axis, float] | None = None
-    """What the knobs read at their maximum, to be kept; None: nothing new."""
+    """What the knobs read at their maximum, to be saved; None: nothing new."""
     notes: tuple[str, ...] = ()
     """For the log."""
 
 
 class Panel:
-    """`step` it at every look, some 20 times a second. `full_scales` are those that an earlier calibration found."""
+    """Call `step` about 20 times a second. `full_scales` come from an earlier calibration."""
 
     def __init__(self, settings: PanelSettings, full_scales: Mapping[Axis, float] | None = None) -> None:
         self._settings = settings
@@ -82,49 +83,49 @@ class Panel:
         self._started = False
         self._calibration: PanelCalibration | None = None
         self._mode: Mode | None = None if settings.mode_switch else Mode.AUTO
-        """The mode last told."""
+        """The mode that was set last."""
         self._indices = dict.fromkeys(Axis, 0)
         self._turned: set[Axis] = set()
-        """The knobs that have been turned, and have not sent the antenna anywhere yet."""
+        """Knobs that were turned and whose angle has not been ordered yet."""
         self._jogging: Contact | None = None
         self._jogged_s = 0.0
         self._nudged = False
-        """The press that is held has shifted something."""
+        """The held press has shifted the index."""
         self._data_until_s = 0.0
 
-    def step(self, now_s: float, look: PanelLook, status: Status) -> PanelAct:
-        """`status` is the latest one: what is latched, what moves, and where the axes stand."""
-        opened = self._button.see(now_s, is_open=look.stop_open)
-        turned = self._switch.see(now_s, look.mode_bits)
-        readings = {Axis.AZIMUTH: look.azimuth_knob, Axis.ELEVATION: look.elevation_knob}
-        full_scales, notes = self._calibrate(look, readings)
+    def step(self, now_s: float, inputs: PanelInputs, status: Status) -> PanelOutput:
+        """`status`: the latest status of the box."""
+        opened = self._button.see(now_s, is_open=inputs.stop_open)
+        turned = self._switch.see(now_s, inputs.mode_bits)
+        readings = {Axis.AZIMUTH: inputs.azimuth_knob, Axis.ELEVATION: inputs.elevation_knob}
+        full_scales, notes = self._calibrate(inputs, readings)
         knobs_turned = {axis for axis, knob in self._knobs.items() if knob.see(now_s, readings[axis])}
         orders: list[Order] = []
         if not self._button.open:
             orders = self._mode_orders(turned=turned)
         elif opened or not status.latched or _driven(status):
-            orders = [Stop(latch=True)]  # released elsewhere while this button is open, it is stopped again
+            orders = [Stop(latch=True)]  # a stop released elsewhere is repeated while this button is open
         at_rest = self._switch.still or not self._settings.mode_switch
         free = at_rest and not (orders or self._button.open or status.latched or self._calibration)
         orders = [
             *orders,
-            *self._jog_orders(now_s, look.jog, status, free=free),
+            *self._jog_orders(now_s, inputs.jog, status, free=free),
             *self._knob_orders(now_s, knobs_turned, status, free=free),
         ]
-        if look.data:
+        if inputs.data:
             self._data_until_s = now_s + DATA_LIT_S
-        lamps = self._lamps(look, status) | {"data": now_s < self._data_until_s}
-        return PanelAct(tuple(orders), lamps, self._meters(status), full_scales, notes)
+        lamps = self._lamps(inputs, status) | {"data": now_s < self._data_until_s}
+        return PanelOutput(tuple(orders), lamps, self._meters(status), full_scales, notes)
 
     # --- the mode switch, and the calibration at power-up
 
     def _mode_orders(self, *, turned: bool) -> list[Order]:
-        """With the stop button closed."""
-        # A turn lets the box move again; not one that was made, or begun, with the button open.
+        """The orders of the mode switch, while the stop button is closed."""
+        # Turning the switch releases a stop, unless the turn began while the button was open.
         release: list[Order] = [Release()] if turned and self._button.closed_s <= self._switch.since_s else []
         if self._calibration is not None:
             if self._mode is None:
-                self._mode = Mode.MANUAL  # while the rotor is homed it obeys the panel alone
+                self._mode = Mode.MANUAL  # during homing the rotor obeys only the panel
                 return [SetMode(Mode.MANUAL)]
             if not release:
                 return []
@@ -139,11 +140,11 @@ class Panel:
         return [*release, SetMode(self._mode)]
 
     def _calibrate(
-        self, look: PanelLook, readings: Mapping[Axis, float | None]
+        self, inputs: PanelInputs, readings: Mapping[Axis, float | None]
     ) -> tuple[dict[Axis, float] | None, tuple[str, ...]]:
-        """The knobs' full scales where there are new ones, and what the person should know."""
+        """The full scales of the knobs if there are new ones, and notes for the log."""
         notes: tuple[str, ...] = ()
-        if not self._started and look.calibrate and self._settings.mode_switch:
+        if not self._started and inputs.calibrate and self._settings.mode_switch:
             self._calibration, notes = PanelCalibration(), (BEGINNING,)
         self._started = True
         if self._calibration is None:
@@ -157,7 +158,7 @@ class Panel:
 
     def _jog_orders(self, now_s: float, share: float | None, status: Status, *, free: bool) -> list[Order]:
         began = self._jog.see(
-            share, may_begin=free and self._mode in (Mode.AUTO, Mode.JOG) and not self._spent(now_s, status)
+            share, may_begin=free and self._mode in (Mode.AUTO, Mode.JOG) and not self._used_up(now_s, status)
         )
         orders: list[Order] = []
         if self._jogging is not None and self._jog.held != self._jogging:
@@ -173,11 +174,11 @@ class Panel:
             self._jogging, self._jogged_s = self._jog.held, now_s
         return [*orders, Jog(axis, direction, self._settings.jog_s)]
 
-    def _spent(self, now_s: float, status: Status) -> bool:
-        """The press has had its time, on an axis that is allowed no more."""
+    def _used_up(self, now_s: float, status: Status) -> bool:
+        """The press has lasted as long as an axis that is not set up allows."""
         if self._jogging is None or not status.axis(self._jogging[0]).uncalibrated:
             return False
-        return now_s - self._jogged_s >= UNCALIBRATED_PRESS_S
+        return now_s - self._jogged_s >= UNCALIBRATED_JOG_S
 
     def _nudge(self, axis: Axis, direction: Direction) -> list[Order]:
         index = min(max(self._indices[axis] + direction, LEAST_INDEX), MOST_INDEX)
@@ -188,7 +189,7 @@ class Panel:
     # --- the knobs
 
     def _knob_orders(self, now_s: float, turned: set[Axis], status: Status, *, free: bool) -> list[Order]:
-        """Where the knobs that were turned point to, when all of them have come to rest; the other axis stays."""
+        """One order for the knobs that were turned, when all of them rest; the other axis keeps its target."""
         if not free or self._mode is not Mode.MANUAL:
             self._turned = set()
             return []
@@ -201,21 +202,21 @@ class Panel:
 
     # --- what it shows
 
-    def _lamps(self, look: PanelLook, status: Status) -> dict[str, bool]:
-        # The position that the switch stands at is lit before its mode is told: that takes a second.
+    def _lamps(self, inputs: PanelInputs, status: Status) -> dict[str, bool]:
+        # The lamp of a new position is lit at once; its mode is set a second later.
         lit = {self._switch.position} if self._calibration else {self._switch.position, self._mode}
         modes = {mode.value: self._settings.mode_switch and mode in lit for mode in Mode}
         settling = self._switch.position is not None and not self._switch.still
         return modes | {
             "motor": status.moving or _driven(status),
             "stop": self._button.open or bool(status.latched),
-            "azimuth_pulse": Axis.AZIMUTH in look.pulses,
-            "elevation_pulse": Axis.ELEVATION in look.pulses,
+            "azimuth_pulse": Axis.AZIMUTH in inputs.pulses,
+            "elevation_pulse": Axis.ELEVATION in inputs.pulses,
             "switch": settling or self._nudged or self._jogging is not None,
         }
 
     def _meters(self, status: Status) -> dict[Axis, float]:
-        """The knob while it is looked at, else where the axis stands."""
+        """The knob while the operator sets it, else the angle of the axis."""
         meters: dict[Axis, float] = {}
         for axis, knob in self._knobs.items():
             setting = self._calibration is not None and self._calibration.stage is Stage.KNOBS
@@ -233,7 +234,7 @@ def _angle_deg(axis: AxisStatus, share: float) -> float:
 
 
 def _share(axis: AxisStatus) -> float:
-    """How far along its range the axis stands; 0 where nobody knows."""
+    """The angle as a share of the range; 0 where it is not known."""
     if axis.angle_deg is None:
         return 0.0
     return min(max((axis.angle_deg - axis.min_deg) / (axis.max_deg - axis.min_deg), 0.0), 1.0)

@@ -1,9 +1,8 @@
-"""The panel's threads: read what a front panel's parts say, hand on what follows, light its lamps, move its meters.
+"""The panel's threads: read switches and knobs, pass on the panel's orders, light lamps and move meters.
 
-Knows when to look, what is wired to which output, and what a part that does not answer counts as. Decides nothing: that
-is the panel's. The switches have a thread that touches no bus, so that one that hangs does not take the stop button
-with it; readings and outputs have another. A stop button that cannot be read is pressed; a knob or a jog switch that
-was not read lately is not there.
+Knows when to read, and what is wired to which output. The panel decides what follows. The switches have a thread that
+uses no bus, so a bus that hangs does not disable the stop button. Knobs and outputs have a second thread. A stop button
+that cannot be read counts as pressed; a knob or a jog switch without a recent reading counts as not fitted.
 """
 
 from __future__ import annotations
@@ -16,23 +15,24 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from hw.ports import AngleSensor, Axis, HardwareError
-from hw.sensors.switches import SwitchInputs
+from hw.ports import AngleSensor, Axis, HardwareError, SwitchInputs
 from rotator.orders import Order, Stop
-from rotator.panel.panel import Panel, PanelAct, PanelLook
+from rotator.panel.panel import Panel, PanelInputs, PanelOutput
 from rotator.status import Status
 
 log = logging.getLogger(__name__)
 
-LOOK_S = 0.05
+PANEL_THREADS = ("panel", "panel-bus")
+"""The names of the two threads: the switches have one, what is on a bus has the other."""
+PERIOD_S = 0.05
 STALE_S = 0.25
-"""A reading older than this is none: a jog ends when the bus hangs."""
+"""An older reading does not count: a jog ends when the bus hangs."""
 RETRY_S = 0.5
 CHECK_S = 1.0
-"""How often the outputs are asked whether they have been reset."""
+"""How often the output chip is checked for a reset."""
 KNOBS, LAMPS = "knobs and jog switches", "lamps and meters"
 STEPS = 255
-"""A meter's needle shows no finer step; writing finer ones would only keep the bus busy."""
+"""Steps of a meter. The needle shows no finer ones, and they would load the bus."""
 JOIN_S = 1.0
 
 
@@ -40,34 +40,34 @@ class PanelOutputs(Protocol):
     """Outputs that are on for a share of the time, by number."""
 
     def start(self) -> None:
-        """Set them up from any state, all off. Raises HardwareError."""
+        """Set the outputs up from any state, all off. Raises HardwareError."""
 
     def check(self) -> None:
-        """Raises HardwareError when they are not as they were left."""
+        """Raises HardwareError when the chip has lost its settings."""
 
     def duty(self, channel: int, share: float) -> None:
-        """On for this share of the time, 0 to 1. Raises HardwareError."""
+        """Switch one output on for this share of the time, 0 to 1. Raises HardwareError."""
 
 
 @dataclass(frozen=True, slots=True)
 class PanelParts:
-    """What is fitted, and on which output."""
+    """The parts that are fitted, and the output of each."""
 
     switches: SwitchInputs | None = None
-    """Of `mode_msb`, `mode_lsb`, `calibrate` and `stop`, those that there are."""
+    """Those of `mode_msb`, `mode_lsb`, `calibrate` and `stop` that are fitted."""
     has_stop: bool = False
     sensors: Mapping[str, AngleSensor] = field(default_factory=dict)
     """`jog`, `azimuth_knob`, `elevation_knob`: shares of their supply."""
     outputs: PanelOutputs | None = None
     lamps: Mapping[str, int] = field(default_factory=dict)
-    """The output of each lamp, by the panel's name for it."""
+    """The output of each lamp, by the lamp's name."""
     meters: Mapping[Axis, int] = field(default_factory=dict)
     meter_full_scale: float = 1.0
-    """The share of the time for which a meter's output is on at full scale."""
+    """The share of the time that a meter's output is on at full scale."""
 
 
 class PanelThread:
-    """`post` takes an order, `keep` the knobs' full scales, `pulses` tells whose index contacts are closed."""
+    """`post` takes an order, `keep` the knobs' full scales; `pulses` returns the axes whose index contact is closed."""
 
     def __init__(
         self,
@@ -87,84 +87,84 @@ class PanelThread:
         self._clock = clock
         self._keep = keep
         self._pulses = pulses
-        self._heard = False
+        self._data = False
         self._readings: dict[str, tuple[float, float]] = {}
-        """What each sensor said last, and when."""
+        """The last reading of each sensor, and its moment."""
         self._retry_s = {KNOBS: -math.inf, LAMPS: -math.inf}
         self._troubles: dict[str, str] = {}
-        self._act: PanelAct | None = None
+        self._output: PanelOutput | None = None
         self._shown: dict[int, float] = {}
         self._started = False
         self._check_s = 0.0
         self._stopping = threading.Event()
         self._threads = [
             threading.Thread(target=self._run, args=(work,), name=name, daemon=True)
-            for name, work in (("panel", self.step), ("panel-bus", self.attend))
+            for name, work in zip(PANEL_THREADS, (self.step, self.attend), strict=True)
         ]
 
-    def heard(self) -> None:
-        """Something has come from a program: the data lamp. From any thread."""
-        self._heard = True
+    def data_received(self) -> None:
+        """Bytes have come from a program: light the data lamp. May be called from any thread."""
+        self._data = True
 
     def start(self) -> None:
         for thread in self._threads:
             thread.start()
 
     def stop(self) -> None:
-        """Ends, with lamps and meters off: their chip would go on without us."""
+        """End the threads and switch lamps and meters off: their chip works on without the program."""
         self._stopping.set()
         for thread in self._threads:
             if thread.is_alive():
                 thread.join(timeout=JOIN_S)
-        if not any(thread.is_alive() for thread in self._threads):  # one that hangs holds the bus
+        if not any(thread.is_alive() for thread in self._threads):  # a thread that hangs holds the bus
             self.dark()
 
     def cycle(self, now_s: float) -> None:
-        """One look at everything, for whoever runs the panel in one thread, in simulated time."""
+        """Read, step and show once: for simulated time, where one thread does all."""
         self.read(now_s)
         self.step(now_s)
         self.show(now_s)
 
-    # --- the thread that touches no bus
+    # --- the thread that uses no bus
 
     def step(self, now_s: float) -> None:
-        """Look at the switches, and hand on what follows. Raises nothing that a part may bring about."""
+        """Read the switches and pass on the panel's orders. A part that fails raises nothing here."""
         closed = self._closed()
-        heard, self._heard = self._heard, False
-        has_mode = closed is not None and {"mode_msb", "mode_lsb"} <= closed.keys()
-        look = PanelLook(
-            mode_bits=(closed["mode_msb"], closed["mode_lsb"]) if closed is not None and has_mode else None,
+        data, self._data = self._data, False
+        has_mode = {"mode_msb", "mode_lsb"} <= closed.keys()
+        inputs = PanelInputs(
+            mode_bits=(closed["mode_msb"], closed["mode_lsb"]) if has_mode else None,
             jog=self._latest("jog", now_s),
             azimuth_knob=self._latest("azimuth_knob", now_s),
             elevation_knob=self._latest("elevation_knob", now_s),
-            calibrate=closed is not None and closed.get("calibrate", False),
-            stop_open=self._parts.has_stop and not (closed or {}).get("stop", False),
+            calibrate=closed.get("calibrate", False),
+            stop_open=self._parts.has_stop and not closed.get("stop", False),
             pulses=self._closed_contacts(),
-            data=heard,
+            data=data,
         )
-        act = self._panel.step(now_s, look, self._status())
-        for order in act.orders:
+        output = self._panel.step(now_s, inputs, self._status())
+        for order in output.orders:
             self._post(order)
-        self._act = act
-        for note in act.notes:
+        self._output = output
+        for note in output.notes:
             log.warning("panel: %s", note)
-        if act.full_scales is not None:
-            self._keep(act.full_scales)
+        if output.full_scales is not None:
+            self._keep(output.full_scales)
 
-    def _closed(self) -> dict[str, bool] | None:
-        """Which switches are closed; None: there are none, or they cannot be read."""
+    def _closed(self) -> dict[str, bool]:
+        """Which switches are closed; empty: none is fitted, or they cannot be read."""
         if self._parts.switches is None:
-            return None
+            return {}
         try:
             closed = self._parts.switches.read()
         except HardwareError as fault:
             self._trouble("switches", str(fault))
-            return None
+            return {}
         self._trouble("switches", "")
         return closed
 
     def _closed_contacts(self) -> frozenset[Axis]:
-        with suppress(HardwareError):  # whoever counts its pulses tells
+        with suppress(HardwareError):  # the counter of these pulses reports its own fault
             return frozenset(self._pulses())
         return frozenset()
 
@@ -175,12 +175,12 @@ class PanelThread:
     # --- the thread on the bus
 
     def attend(self, now_s: float) -> None:
-        """Read the knobs and the jog switches, then show what is to be shown."""
+        """Read the knobs and the jog switches, then set lamps and meters."""
         self.read(now_s)
         self.show(now_s)
 
     def read(self, now_s: float) -> None:
-        """All of them are on one chip: one that fails speaks for the others."""
+        """Read every sensor. All are on one chip, so a failure of one counts for all."""
         if not self._parts.sensors or now_s < self._retry_s[KNOBS]:
             return
         try:
@@ -194,9 +194,9 @@ class PanelThread:
         self._trouble(KNOBS, "")
 
     def show(self, now_s: float) -> None:
-        """Write what has changed since it was written."""
-        act, outputs = self._act, self._parts.outputs
-        if outputs is None or act is None or now_s < self._retry_s[LAMPS]:
+        """Write the lamps and meters that have changed."""
+        wanted, outputs = self._output, self._parts.outputs
+        if outputs is None or wanted is None or now_s < self._retry_s[LAMPS]:
             return
         try:
             if not self._started:
@@ -205,10 +205,10 @@ class PanelThread:
             elif now_s >= self._check_s:
                 outputs.check()
                 self._check_s = now_s + CHECK_S
-            for output, share in self._wanted(act).items():
-                if self._shown.get(output, 0.0) != share:
-                    outputs.duty(output, share)
-                    self._shown[output] = share
+            for channel, share in self._shares(wanted).items():
+                if self._shown.get(channel, 0.0) != share:
+                    outputs.duty(channel, share)
+                    self._shown[channel] = share
         except HardwareError as fault:
             self._trouble(LAMPS, str(fault))
             self._started = False
@@ -217,21 +217,21 @@ class PanelThread:
         self._trouble(LAMPS, "")
 
     def dark(self) -> None:
-        """Every lamp off, every needle at rest; if they do not answer, they stay."""
+        """Switch every lamp and meter off. If the chip does not answer, they stay as they are."""
         if self._parts.outputs is not None and self._started:
             with suppress(HardwareError):
-                for output in (*self._parts.lamps.values(), *self._parts.meters.values()):
-                    self._parts.outputs.duty(output, 0.0)
+                for channel in (*self._parts.lamps.values(), *self._parts.meters.values()):
+                    self._parts.outputs.duty(channel, 0.0)
             self._shown = {}
 
-    def _wanted(self, act: PanelAct) -> dict[int, float]:
-        full = self._parts.meter_full_scale
-        lamps = {output: float(act.lamps[name]) for name, output in self._parts.lamps.items()}
-        meters = {output: round(act.meters[axis] * STEPS) / STEPS * full for axis, output in self._parts.meters.items()}
-        return lamps | meters
+    def _shares(self, output: PanelOutput) -> dict[int, float]:
+        """The share of each output channel."""
+        meters, full = self._parts.meters, self._parts.meter_full_scale
+        lamps = {channel: float(output.lamps[name]) for name, channel in self._parts.lamps.items()}
+        return lamps | {channel: round(output.meters[axis] * STEPS) / STEPS * full for axis, channel in meters.items()}
 
     def _trouble(self, what: str, text: str) -> None:
-        """Log a trouble once when it comes and once when it goes."""
+        """Log a fault of a part once when it begins and once when it ends."""
         if bool(text) == bool(self._troubles.get(what)):
             return
         self._troubles[what] = text
@@ -243,10 +243,10 @@ class PanelThread:
     def _run(self, work: Callable[[float], None]) -> None:
         try:
             while not self._stopping.is_set():
-                due_s = self._clock() + LOOK_S
+                due_s = self._clock() + PERIOD_S
                 work(self._clock())
                 self._stopping.wait(due_s - self._clock())
         except Exception:
-            if work == self.step:  # nobody looks at the stop button any more: that is as if it were pressed
+            if work == self.step:  # the stop button is no longer read, so it counts as pressed
                 self._post(Stop(latch=True))
             raise

@@ -1,1 +1,1 @@
-"""Bytes to orders and replies. No sockets, files, threads, clocks or logging in here."""
+"""From bytes to orders and replies. No sockets, files, threads, clocks or logging in this package."""

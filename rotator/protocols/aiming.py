@@ -1,6 +1,6 @@
-"""What the protocols that name their angles in degrees have in common: from two numbers to an order.
+"""From two angles in degrees to an order, for every protocol that sends degrees.
 
-Knows how far a client's numbers may go, as Hamlib does. Does not know the rotor's range: that is the box's.
+Knows the range of numbers that a client may send, the same as Hamlib's. Does not know the rotor's range.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ _DEGREES = re.compile(r"[+-]?[0-9]{1,3}(?:[.,][0-9]{0,9})?")
 
 
 def degrees(text: str) -> float | None:
-    """An angle as programs write it, with a point or a comma; None: it is none, or damaged."""
+    """An angle as programs write it, with a decimal point or comma. None: the text is not one number."""
     return float(text.replace(",", ".")) if _DEGREES.fullmatch(text) else None
 
 
 def aim(azimuth_deg: float | None, elevation_deg: float | None) -> Aim | None:
-    """The order for these angles; an axis that is None keeps what it was doing. None: no direction has such numbers.
+    """The order for these angles; an axis that is None keeps its target. Returns None for numbers out of range.
 
-    A negative azimuth is a direction; only from zero on can it name a turn of the overlap.
+    A negative azimuth is a direction. From zero on an azimuth can also name a turn of the overlap.
     """
     if azimuth_deg is not None:
         if not AZIMUTHS_DEG[0] <= azimuth_deg <= AZIMUTHS_DEG[1]:

@@ -1,6 +1,6 @@
-"""The console's words: what a person at the box says to it, a line each, and only a person may say.
+"""The console's commands, one on a line, for the operator at the box: some orders are allowed only here.
 
-Knows the table of the words and their codec. Does not know what they make the box do.
+Knows the table of commands and its codec. Does not know what a command makes the box do.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ LONGEST_JOG_S = 5.0
 
 
 class Ask(Enum):
-    """What is no order."""
+    """A question, not an order."""
 
     STATUS = "status"
     HELP = "help"
 
 
-Said = Order | Ask
+ConsoleCommand = Order | Ask
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,14 +41,14 @@ class Verb:
 
 
 VERBS = (
-    Verb("status", "", "Where it stands and is to go, who moves it, what is wrong or missing"),
-    Verb("stop", "", "Stop everything, whatever else the line says; nothing moves until `resume`"),
+    Verb("status", "", "Angles and targets, who moves the antenna, faults, and what is missing"),
+    Verb("stop", "", "Stop everything; nothing moves until `resume`. The rest of the line does not count"),
     Verb("resume", "", "Let it move again, and acknowledge faults"),
     Verb("home", "azimuth|elevation", "Find the low end stop of an axis that counts pulses: watch the antenna"),
-    Verb("confirm", "azimuth|elevation DEGREES", "Say where the axis stands, where it cannot know"),
+    Verb("confirm", "azimuth|elevation DEGREES", "Give the angle of an axis that cannot know it"),
     Verb("let-go", "", "Motors without torque: an antenna out of balance turns; nothing moves until `resume`"),
-    Verb("park", "", "Go to the park position, whoever else is at work, and stay there until `resume`"),
-    Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for so long, {LONGEST_JOG_S:g} s at most"),
+    Verb("park", "", "Go to the park position, even while a program tracks, and stay there until `resume`"),
+    Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
     Verb("point", "AZIMUTH ELEVATION", "Point there"),
     Verb("help", "", "This list"),
 )
@@ -64,14 +64,14 @@ _BOUNDS_DEG = {Axis.AZIMUTH: AZIMUTHS_DEG, Axis.ELEVATION: ELEVATIONS_DEG}
 _SECONDS = re.compile(r"[0-9]{1,3}(?:[.,][0-9]{1,3})?")
 
 
-def parse(line: bytes) -> Said:
-    """What one line says, without its end; capitals are as good. Raises ValueError, with a sentence for a person."""
+def parse(line: bytes) -> ConsoleCommand:
+    """From one line, without its end, to a command; capitals do not matter. Raises ValueError for the operator."""
     words = [word for word in line.lower().replace(b"\t", b" ").decode("latin-1").split(" ") if word]
     match words:
         case ["status"] | ["help"]:
             return Ask(words[0])
         case ["stop", *_]:
-            # Whoever says more than that means it all the same.
+            # A stop counts even if more text follows it.
             return Stop(latch=True)
         case ["resume"]:
             return Release()
@@ -90,14 +90,14 @@ def parse(line: bytes) -> Said:
             assert order is not None, "both are within their bounds"
             return order
         case [verb, *_] if verb in _BY_TEXT:
-            raise ValueError(f"say it like this: {_BY_TEXT[verb].usage}")
+            raise ValueError(f"write it like this: {_BY_TEXT[verb].usage}")
         case _:
             raise ValueError(_unknown(words[0] if words else ""))
 
 
-def encode(said: Said) -> bytes:
-    """The line for it, with its end. Raises ValueError where the console has no words for an order."""
-    match said:
+def encode(command: ConsoleCommand) -> bytes:
+    """The line of a command, with its end. Raises ValueError for an order that is no console command."""
+    match command:
         case Ask(value=word):
             text = word
         case Stop(latch=True):
@@ -117,7 +117,7 @@ def encode(said: Said) -> bytes:
         case Aim(float() as azimuth_deg, float() as elevation_deg, engaged=True):
             text = f"point {_number(azimuth_deg)} {_number(elevation_deg)}"
         case _:
-            raise ValueError(f"the console has no words for {said}")
+            raise ValueError(f"the console has no command for {command}")
     return text.encode() + b"\n"
 
 

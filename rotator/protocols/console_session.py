@@ -1,6 +1,6 @@
-"""The console on one connection: a line of words in, an answer out: `ok` after all else, or one line `error: ` and why.
+"""One connection to the console: a command in, an answer out. It ends with `ok`, or is one line `error: ` and a reason.
 
-Knows what each word makes the box do, and how the status is told. Does not know how the box does it.
+Knows what each command makes the box do, and how the status is written. Does not know how the box does it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ OK, ERROR = "ok", "error: "
 
 
 class ConsoleSession:
-    """One person's connection. What moves is refused while a stop holds: here a person is to be told."""
+    """One operator's connection. While a stop is latched, orders that move are refused with the reason."""
 
     idle_s = None
     closed = False
@@ -28,7 +28,7 @@ class ConsoleSession:
         self._box = box
         self._lines = LineReader(MAX_LINE)
         self._resumed = False
-        """A `resume` is on its way; the status may not show it yet."""
+        """A `resume` has been sent; the status may not show it yet."""
 
     def receive(self, data: bytes) -> list[bytes]:
         return [self._answer(line) for line in self._lines.feed(data) if line is None or line.strip(b" \t")]
@@ -40,29 +40,30 @@ class ConsoleSession:
         if line is None:
             return _error(f"no line has more than {MAX_LINE} characters")
         try:
-            said = parse(line)
+            command = parse(line)
         except ValueError as mistake:
             return _error(str(mistake))
-        match said:
+        match command:
             case Ask.STATUS:
                 return _reply(*report(self._box.status()), OK)
             case Ask.HELP:
                 width = max(len(verb.usage) for verb in VERBS)
                 return _reply(*(f"{verb.usage:<{width}}  {verb.help}" for verb in VERBS), OK)
             case _:
-                return self._obey(said)
+                return self._obey(command)
 
     def _obey(self, order: Order) -> bytes:
         match order:
             case Aim() | Jog() | Home():
-                if holder := self._held_by():
-                    return _error(holder)
+                if reason := self._blocked():
+                    return _error(reason)
             case _:
                 self._resumed = isinstance(order, Release)
         refused = self._box.order(order)
         return _error(refused.reason) if refused else _reply(OK)
 
-    def _held_by(self) -> str:
+    def _blocked(self) -> str:
+        """Why nothing may move; empty: it may."""
         status = self._box.status()
         if not status.latched:
             self._resumed = False
@@ -72,11 +73,13 @@ class ConsoleSession:
 
 
 def report(status: Status) -> list[str]:
-    """The status as lines `what: how`. `moving` names the axes that turn; what there is nothing of has no line."""
+    """The status as lines `name: value`. Lines without a value are left out."""
     lines = [f"{axis.value}: {_stands(status, axis)}" for axis in Axis]
     wanted_deg = (status.wanted_azimuth_deg, status.wanted_elevation_deg)
     if wanted_deg != (None, None):
-        lines.append("wanted: " + " ".join("---" if each is None else _shown(each) for each in wanted_deg))
+        lines.append(
+            "wanted: " + " ".join("---" if angle_deg is None else _shown(angle_deg) for angle_deg in wanted_deg)
+        )
     if status.moving:
         lines.append("moving: " + " ".join(axis.value for axis in Axis if status.axis(axis).moving))
     lines.append(f"moved by: {status.controlled_by or 'nobody'}")
@@ -93,24 +96,24 @@ def report(status: Status) -> list[str]:
 
 
 def _stands(status: Status, axis: Axis) -> str:
-    each = status.axis(axis)
-    words = ["not known" if each.angle_deg is None else f"{_shown(each.angle_deg)} {each.source.value}"]
-    if each.target_deg is not None:
-        words.append(f"to {_shown(each.target_deg)}")
-    if each.homing:
+    now = status.axis(axis)
+    words = ["not known" if now.angle_deg is None else f"{_shown(now.angle_deg)} {now.source.value}"]
+    if now.target_deg is not None:
+        words.append(f"to {_shown(now.target_deg)}")
+    if now.homing:
         words.append("looks for its end stop")
-    if each.drive:
-        words.append(f"turns {TURN_WORDS[axis, each.drive]}")
+    if now.drive:
+        words.append(f"turns {TURN_WORDS[axis, now.drive]}")
     return ", ".join(words)
 
 
 def _shown(angle_deg: float) -> str:
-    # Adding zero makes the minus zero of a noisy pot at its stop a zero.
+    # Adding zero turns -0.0, from a noisy pot at its stop, into 0.0.
     return f"{round(angle_deg, 1) + 0.0:.1f}°"
 
 
-def _error(why: str) -> bytes:
-    return _reply(ERROR + why)
+def _error(reason: str) -> bytes:
+    return _reply(ERROR + reason)
 
 
 def _reply(*lines: str) -> bytes:

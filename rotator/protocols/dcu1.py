@@ -1,7 +1,7 @@
-"""Hy-Gain's DCU-1 protocol with what Rotor-EZ and Green Heron's RT-21 made of it: azimuth only, ended by `;` or CR.
+"""Hy-Gain's DCU-1 protocol, with the additions of Rotor-EZ and Green Heron's RT-21: azimuth only, ended by `;` or CR.
 
-Knows the command table, its codec and what the commands make the box do. Does not know how the box does it. Sources:
-Idiom Press' command reference as Hamlib keeps it, and what Hamlib 4.5 sends to models 401 to 406 (see
+Knows the command table, its codec and what each command makes the box do. Does not know how the box does it. Sources:
+Idiom Press' command reference in Hamlib's archive, and what Hamlib 4.5 sends to models 401 to 406 (see
 docs/protocols.md).
 """
 
@@ -16,8 +16,8 @@ from rotator.protocols.aiming import aim
 from rotator.protocols.session import Box
 
 MAX_COMMAND = 16
-SAME_BREATH_S = 0.1
-"""RT-21's `AP1235.0` ends in CR and `;`, sent together; a `;` that comes later is a stop."""
+SAME_COMMAND_S = 0.1
+"""RT-21's `AP1235.0` ends in CR and `;`, sent together. A `;` that comes later than this is a stop."""
 AZIMUTH_TOP_DEG = 360
 SEMICOLON, CR = b";", b"\r"
 
@@ -50,7 +50,7 @@ class Command:
 
 
 def parse(text: bytes) -> Command | None:
-    """One command, without its end; None: it is none. Capitals only, as in the reference."""
+    """One command, without its end; None: the text is no command. Capitals only, as in the reference."""
     if target := _TARGET.fullmatch(text.decode("latin-1")):
         azimuth_deg = float(target[1])
         return Command("AP1", azimuth_deg) if azimuth_deg <= AZIMUTH_TOP_DEG else None
@@ -59,7 +59,7 @@ def parse(text: bytes) -> Command | None:
 
 
 def encode(command: Command) -> bytes:
-    """A command as Hamlib writes it: whole degrees as to a DCU-1, tenths as to an RT-21."""
+    """A command as Hamlib writes it: whole degrees for a DCU-1, tenths for an RT-21."""
     match command.azimuth_deg:
         case None:
             return command.verb.encode() + SEMICOLON
@@ -80,9 +80,9 @@ def tenths_reply(azimuth_deg: float) -> bytes:
 
 
 class Dcu1Session:
-    """A DCU-1 on one connection. The protocol has no word for a refusal: it is silent, and stands still."""
+    """A DCU-1 on one connection. The protocol has no reply for a refusal: the box is silent and does not move."""
 
-    idle_s = SAME_BREATH_S
+    idle_s = SAME_COMMAND_S
     closed = False
 
     def __init__(self, box: Box) -> None:
@@ -90,7 +90,7 @@ class Dcu1Session:
         self._begun = bytearray()
         self._target_deg: float | None = None
         self._half_ended = False
-        """RT-21's CR has come; a `;` in the same breath is not a command of its own."""
+        """RT-21's CR has come; a `;` within SAME_COMMAND_S belongs to the same command."""
 
     def receive(self, data: bytes) -> list[bytes]:
         replies = [self._take(bytes([octet])) for octet in data]
@@ -105,7 +105,7 @@ class Dcu1Session:
         if octet == SEMICOLON and half_ended:
             return b""
         if octet not in (SEMICOLON, CR):
-            # Noise before a command is none of it: a stop behind a burst must be heard. A long one stays too long.
+            # Noise before a command is skipped, so that a stop after it is obeyed. A text too long stays invalid.
             if (self._begun or octet not in _NOISE) and len(self._begun) <= MAX_COMMAND:
                 self._begun += octet
             return b""

@@ -1,8 +1,8 @@
 """The EasyComm I, II and III command sets, as a table, with their codec.
 
-Knows every command that concerns a rotor, how clients really write it, and how it is answered. Does not know what the
-box does about it: that is `easycomm_session`. Sources: G7UPN's EasyComm standard with its third part, as Hamlib keeps
-them, and what Hamlib 4.5 and 4.6, WispDDE and the PstRotator users send (see docs/protocols.md).
+Knows every command for a rotor, how clients really write it, and the form of its reply. Does not know what the box does
+with it: `easycomm_session` does. Sources: G7UPN's EasyComm standard with its third part, in Hamlib's archive, and what
+Hamlib 4.5 and 4.6, WispDDE and PstRotator users send (see docs/protocols.md).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ MAX_LINE = 256
 
 
 class Level(IntEnum):
-    """Each level has all commands of those below."""
+    """Each level has all commands of the lower levels."""
 
     I = 1  # noqa: E741 - the standard's own numeral
     II = 2
@@ -30,11 +30,11 @@ class Verb:
     help: str
     level: Level = Level.II
     number: str = ""
-    """The number that must follow, as a pattern; empty: none may."""
+    """The pattern of the number that must follow; empty: no number may follow."""
 
 
 _DEGREES = r"[+-]?(?:\d{1,3}(?:[.,]\d{0,6})?|[.,]\d{1,6})"
-"""Visual Basic writes `.5`; some desktops write `0,5`. The query is the word without a number."""
+"""Visual Basic writes `.5`; some desktops write `0,5`. Without a number the word is a question."""
 _SPEED = r"\d{1,5}"
 
 VERBS = (
@@ -73,14 +73,14 @@ class Word:
 def parse(line: bytes, level: Level) -> tuple[Word, ...]:
     """The commands in one line, without its end.
 
-    Frequencies, modes, radios and whatever else begins with a letter is not for a rotor and passed over. A line with a
-    word that is damaged (`AZ1x0`, `AZ1 20.5`) is good for its stops only. Noise before the first word is passed over.
+    Other words that begin with a letter (frequencies, modes) are for radios and are skipped. In a line with a damaged
+    word (`AZ1x0`, `AZ1 20.5`) only the stops count. Noise before the first word is skipped.
     """
     text = line.upper().decode("latin-1").replace("\t", " ").replace(";", " ")
     text = text.lstrip("".join(map(chr, (*range(0x21), *range(0x7F, 0x100)))))
-    written = [word for word in text.split(" ") if word]
-    words = [word for each in written if (word := _word(each, level))]
-    if any(_is_damaged(each) for each in written):
+    parts = [part for part in text.split(" ") if part]
+    words = [word for part in parts if (word := _word(part, level))]
+    if any(_is_damaged(part) for part in parts):
         return tuple(word for word in words if word.verb in _STOPS)
     return tuple(words)
 
@@ -99,9 +99,9 @@ def _is_damaged(text: str) -> bool:
 
 
 def is_whole(begun: bytes) -> bool:
-    """Whether what has come without a line end is an order all the same: angles to the first decimal, and no more.
+    """Whether bytes without a line end are a whole order: angles with exactly one decimal.
 
-    A phone's Bluetooth terminal and some trackers end no line; `AZ23` may still become `AZ235.0`.
+    A phone's Bluetooth terminal and some trackers send no line end. `AZ23` may still become `AZ235.0`.
     """
     return bool(_UNENDED.fullmatch(begun.upper().decode("latin-1")))
 
@@ -122,12 +122,12 @@ def _written(word: Word) -> str:
 
 
 def degrees(angle_deg: float) -> str:
-    """One decimal, which PstRotator insists on; never minus nothing."""
+    """One decimal, which PstRotator needs; never `-0.0`."""
     return f"{round(angle_deg, 1) + 0.0:.1f}"
 
 
 def position_reply(azimuth_deg: float | None, elevation_deg: float | None) -> bytes:
-    """Both in one line (Hamlib until 4.5), or the one that was asked for (since 4.6). LF: Gpredict reads no CR."""
+    """Both in one line (Hamlib up to 4.5), or only the axis in question (since 4.6). LF: Gpredict does not read CR."""
     named = [("AZ", azimuth_deg), ("EL", elevation_deg)]
     return (" ".join(name + degrees(angle) for name, angle in named if angle is not None) + "\n").encode()
 
@@ -137,10 +137,10 @@ def pstrotator_reply(azimuth_deg: float, elevation_deg: float) -> bytes:
 
 
 def reply(verb: str, value: int | str) -> bytes:
-    """The command's name and what was asked for."""
+    """The command's name and its value."""
     return f"{verb}{value}\n".encode()
 
 
 def alarm(reason: str) -> bytes:
-    """What a controller says when something is wrong: here, in place of an answer."""
+    """The controller's message for a problem: sent in place of an answer."""
     return f"AL{reason}\n".encode()

@@ -1,7 +1,6 @@
-"""One connection that speaks EasyComm: what each command makes the box do, and what it answers.
+"""One EasyComm connection: what each command makes the box do, and the answer.
 
-Knows the command set's meaning. Does not know bytes on the wire (that is `easycomm`) nor how the box carries an order
-out.
+Knows the meaning of the commands. Does not know the bytes (`easycomm` does), nor how the box carries out an order.
 """
 
 from __future__ import annotations
@@ -35,8 +34,8 @@ _IDLE, _MOVING, _POINTING, _FAULT = 1, 2, 4, 8
 class EasycommSession:
     """EasyComm on one connection. `pstrotator`: `AZ EL` is answered as PstRotator reads it.
 
-    An order that is refused gets no alarm, though the standard has one: no client waits for an answer to an order, and
-    over TCP Hamlib would take the alarm for the answer to its next question.
+    A refused order gets no alarm, although the standard has one: no client waits for an answer to an order, and over
+    TCP Hamlib would take the alarm for the answer to its next question.
     """
 
     idle_s = NO_LINE_END_S
@@ -79,7 +78,7 @@ class EasycommSession:
         azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
         both = len(asked) > 1
         if (azimuth_deg is None and "AZ" in asked) or (elevation_deg is None and "EL" in asked):
-            # The first standard has no word for it.
+            # EasyComm I has no message for this.
             return b"" if self._level is Level.I else easycomm.alarm("position not known")
         if self._pstrotator and both and azimuth_deg is not None and elevation_deg is not None:
             return easycomm.pstrotator_reply(azimuth_deg, elevation_deg)
@@ -123,7 +122,7 @@ def _orders(kind: str, words: list[Word]) -> Iterator[Order]:
 
 
 def _kind(word: Word) -> str:
-    """Neighbours of one kind are one order, or one question."""
+    """Words of one kind next to each other are one order, or one question."""
     match word:
         case Word("AZ" | "EL", None):
             return "ask"

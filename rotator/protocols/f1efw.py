@@ -1,7 +1,7 @@
-"""The F1EFW dialect: what the Arduino sketch this box replaces makes of its serial line.
+"""The F1EFW dialect: the serial line of the Arduino sketch that this box replaces.
 
-Knows that it looks for a W anywhere in what arrives, answers nothing, and rests at zero or negative elevation. Knows no
-other command: everything else is noise to it.
+The sketch looks for a W anywhere in the bytes, never answers, and stops at zero or negative elevation. Every other byte
+is noise to it.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from rotator.orders import Aim
 from rotator.protocols.session import Box
 
 ARDUINO_READ_TIMEOUT_S = 1.0
-"""An Arduino takes a string for complete after a second of silence; so Termite may end its lines with nothing."""
+"""An Arduino takes a string as complete after a second of silence, so Termite need not send a line end."""
 
 _AZIMUTH_TOP_DEG = 450
 _ELEVATION_DEG = range(-90, 181)

@@ -1,7 +1,7 @@
 """The GS-232A and GS-232B command set, as a table, with its codec.
 
-Knows every command, how clients really write it and how a real unit answers, to the byte. Does not know what the box
-does about a command: that is `gs232_session`. Sources: the GS-232A manual's command lists, and captures of real units
+Knows every command, how clients really write it, and every byte of a real unit's answer. Does not know what the box
+does with a command: `gs232_session` does. Sources: the command lists of the GS-232A manual, and captures of real units
 and of Hamlib, OscarWatch, SDRangel, WispDDE and SatPC32 (see docs/protocols.md).
 """
 
@@ -15,7 +15,7 @@ from enum import Enum
 MAX_AZIMUTHS = 3800
 MAX_PAIRS = 1900
 MAX_LINE = 16_384
-"""Room for `Msss` and 3800 azimuths of three digits and a blank."""
+"""Bytes: `Msss` and 3800 azimuths of three digits and a blank."""
 AZIMUTH_TOP_360_DEG = 360
 AZIMUTH_TOP_450_DEG = 450
 ELEVATION_TOP_DEG = 180
@@ -35,7 +35,7 @@ class Verb:
     text: str
     help: str
     screen: int
-    """Which help list shows it: H, H2 or H3."""
+    """The help list that shows it: H, H2 or H3."""
     only_b: bool = False
 
 
@@ -84,28 +84,28 @@ class Command:
 
 
 class NotACommand(ValueError):  # noqa: N818 - it is an answer, not a failure of the program
-    """The line is none of the commands; the unit says `?>`."""
+    """The line is no command; the unit answers `?>`."""
 
 
 _NUMBER = r"\d{1,3}(?:[.,]\d{1,6})?"
 _GLUED = re.compile(r"(\d{3})(\d{3})")
 _BLANK_BETWEEN = re.compile(rf"({_NUMBER}) +({_NUMBER})")
-# Only where no blank separates the angles is a comma their separator; else it is a European decimal point.
+# A comma separates the angles only where no blank does; else it is a decimal comma.
 _COMMA_BETWEEN = re.compile(r"(\d{1,3}(?:\.\d{1,6})?) *, *(\d{1,3}(?:\.\d{1,6})?)")
 _ONE = re.compile(rf"({_NUMBER})")
 _LIST = re.compile(r"\d{1,3}(?: +\d{1,3})+")
 
 
 def parse(line: bytes, dialect: Dialect) -> Command | None:
-    """One line, without its end, to a command; None for a line with nothing in it. Raises NotACommand.
+    """From one line, without its end, to a command; None for an empty line. Raises NotACommand.
 
-    Noise before a command (a port being plugged in, a break) is passed over; noise within one or after it is not, so
-    that a damaged digit can never make a different order.
+    Noise before a command (a plug, a break) is skipped. Noise within or after a command makes it invalid, so that a
+    damaged digit can never make a different order.
     """
     text = line.decode("latin-1").replace("\t", " ")
     text = text.lstrip("".join(map(chr, (*range(0x20), *range(0x7F, 0x100)))) + " ").rstrip(" ").upper()
     if not text:
-        # A line of noise alone was no command of anybody's: silence, as for an empty line.
+        # A line that holds only noise is treated as empty: no answer.
         return None
     verb = _BY_TEXT.get(text)
     if verb is not None and text not in ("W", "M"):
@@ -196,7 +196,7 @@ def position_reply(dialect: Dialect, azimuth_deg: float, elevation_deg: float) -
 
 
 def _field(dialect: Dialect, name: str, angle_deg: float) -> bytes:
-    # Three digits are all a unit has: below zero it says zero.
+    # A unit sends three digits and no sign: below zero it sends zero.
     digits = f"{max(0, whole(angle_deg)):03d}"
     return (f"+0{digits}" if dialect is Dialect.A else f"{name}={digits}").encode()
 

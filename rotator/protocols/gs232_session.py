@@ -1,6 +1,6 @@
-"""One connection that speaks GS-232: what each command makes the box do, and what it answers.
+"""One GS-232 connection: what each command makes the box do, and the answer.
 
-Knows the command set's meaning. Does not know bytes on the wire (that is `gs232`) nor how the box carries an order out.
+Knows the meaning of the commands. Does not know the bytes (`gs232` does), nor how the box carries out an order.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _HELP = {"H": 1, "H2": 2, "H3": 3}
 
 
 class Gs232Session:
-    """GS-232 on one connection. `ack` is what follows a command that asks nothing: b"" or b"\\r"."""
+    """GS-232 on one connection. `ack` is the answer to a command that asks no question: b"" or b"\\r"."""
 
     idle_s = None
     closed = False
@@ -107,7 +107,7 @@ class Gs232Session:
         if any(azimuth > self._top_deg for azimuth in azimuths_deg):
             return gs232.INVALID
         if command.verb == "M":
-            # Any M forgets the old list; a bare one does only that, and a real unit says so with `?>`.
+            # Every M clears the old list. An M without numbers does only that, and a real unit answers `?>`.
             self._points = 0
             self._box.order(ClearTimed())
         if command.interval_s is not None:
@@ -119,7 +119,7 @@ class Gs232Session:
         return self._order(Aim(command.azimuth_deg, command.elevation_deg))
 
     def _list_length(self) -> int:
-        """The list is the box's; but one sent a moment ago on this line counts before the box has taken it."""
+        """The length of the box's list, or of one just sent on this connection that the box has not taken yet."""
         return self._points or self._box.status().timed_points
 
     def _position(self, verb: str) -> bytes:
@@ -135,14 +135,14 @@ class Gs232Session:
                 return gs232.position_reply(self._dialect, azimuth_deg, elevation_deg)
 
     def _shown(self, axis_deg: float) -> float:
-        """A 450° unit counts on through its overlap; a 360° one starts again at north."""
+        """A 450° unit counts on through its overlap; a 360° unit starts again at north."""
         azimuth = self._box.status().azimuth
-        # A pot's noise just beyond an end of the range is that end, not a turn away.
+        # Noise of the pot just beyond an end of the range counts as that end, not as one turn away.
         axis_deg = min(max(axis_deg, azimuth.min_deg), azimuth.max_deg)
         return axis_deg if 0 <= gs232.whole(axis_deg) <= self._top_deg else axis_deg % 360
 
     def _centre(self) -> bytes:
-        """Where the middle of the first turn points is a matter of the mast: told, never changed from here."""
+        """Where the middle of the first turn points. It depends on the mast, so a client can only read it."""
         low_deg = self._box.status().azimuth.min_deg % 360
         north = 90 < low_deg < 270  # a stop in the southern half has north in its middle
         return b"N Center\r\n" if north else b"S Center\r\n"

@@ -1,6 +1,6 @@
-"""Cuts a stream of bytes into lines, whatever ends them, in bounded memory.
+"""Cuts a stream of bytes into lines, in bounded memory.
 
-Knows CR, LF and CR LF. Knows nothing of what the lines say.
+Knows the line ends CR, LF and CR LF. Does not know what the lines mean.
 """
 
 from __future__ import annotations
@@ -13,27 +13,27 @@ LF = 0x0A
 
 @dataclass(slots=True)
 class LineReader:
-    """Feed it pieces; it gives whole lines without their ends. An empty line comes as b""."""
+    """Feed it pieces; it returns whole lines without their ends. An empty line is b""."""
 
     limit: int
-    """Longest line in bytes. A longer one is swallowed to its end and comes as None: something, but no line."""
+    """Longest line in bytes. A longer line is dropped to its end and returned as None."""
     _buffer: bytearray = field(default_factory=bytearray)
     _overlong: bool = False
 
     def feed(self, data: bytes) -> list[bytes | None]:
         lines: list[bytes | None] = []
         start = 0
-        for at, byte in enumerate(data):
+        for index, byte in enumerate(data):
             if byte not in (CR, LF):
                 continue
-            self._take(data[start:at])
+            self._take(data[start:index])
             lines.append(self.flush())
-            start = at + 1
+            start = index + 1
         self._take(data[start:])
         return lines
 
     def flush(self) -> bytes | None:
-        """End the line here, as if its end had come."""
+        """End the line here, as if a line end had come."""
         line = None if self._overlong else bytes(self._buffer)
         self._buffer.clear()
         self._overlong = False
@@ -41,7 +41,7 @@ class LineReader:
 
     @property
     def pending(self) -> bytes:
-        """What has come of a line whose end has not."""
+        """The bytes of a line whose end has not come yet."""
         return bytes(self._buffer)
 
     def _take(self, piece: bytes) -> None:

@@ -1,7 +1,7 @@
-"""Places on the earth as radio amateurs write and use them: Maidenhead locators, degrees-minutes-seconds, distances.
+"""Places on the earth: Maidenhead locators, degrees-minutes-seconds, distances and bearings.
 
-Knows a spherical earth with 111.2 km to the degree, as Hamlib does. Knows no rotor and no protocol. Longitude is
-degrees east, latitude degrees north.
+Knows a spherical earth with 111.2 km to the degree, as Hamlib does. Does not know rotors or protocols. Longitude is
+degrees east, latitude is degrees north.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ import math
 KM_PER_DEG = 111.2
 MOST_PAIRS = 6
 _BASES = (18, 10, 24, 10, 24, 10)
-"""Into how many parts each pair of characters divides the last: fields, squares, subsquares and so on."""
+"""The number of parts into which each pair of characters divides the square before: fields, squares, subsquares, ..."""
 _NUDGE_DEG = 1e-6
-"""A corner written with six decimals belongs to the square that begins there."""
+"""Added so that a corner written with six decimals belongs to the square that begins there."""
 _COINCIDENT_DEG = 1e-6
 
 
 def to_locator(longitude_deg: float, latitude_deg: float, pairs: int) -> str:
-    """The locator of a place in 1 to 6 pairs of characters; three of them are the usual `FN42SH`."""
+    """The locator of a place in 1 to 6 pairs of characters; three pairs are the usual `FN42SH`."""
     east = (longitude_deg / 2 + 90 + _NUDGE_DEG) % 180 / 10
     north = (latitude_deg + 90 + _NUDGE_DEG) % 180 / 10
     text = ""
@@ -31,9 +31,9 @@ def to_locator(longitude_deg: float, latitude_deg: float, pairs: int) -> str:
 
 
 def from_locator(text: str) -> tuple[float, float]:
-    """Longitude and latitude of the middle of a locator's square. Half a pair, and more than six, say nothing more.
+    """Longitude and latitude of the middle of a locator's square. Raises ValueError.
 
-    Raises ValueError.
+    Half a pair at the end is ignored, and so are characters after the sixth pair.
     """
     pairs = [text[at : at + 2].upper() for at in range(0, len(text) - 1, 2)][:MOST_PAIRS]
     if not pairs:
@@ -48,13 +48,13 @@ def from_locator(text: str) -> tuple[float, float]:
 
 
 def from_dms(degrees: float, minutes: float, seconds: float, *, south_or_west: bool) -> float:
-    """Decimal degrees; the signs of the parts mean nothing."""
+    """Decimal degrees; the signs of the parts do not count."""
     decimal_deg = abs(degrees) + abs(minutes) / 60 + abs(seconds) / 3600
     return -decimal_deg if south_or_west else decimal_deg
 
 
 def to_dms(decimal_deg: float) -> tuple[int, int, float, bool]:
-    """Degrees, minutes, seconds, and whether it is south or west; within half a turn, to a millionth of a second."""
+    """Degrees, minutes, seconds, and whether it is south or west; within half a turn, rounded to 1e-6 seconds."""
     turned_deg = _within_half_a_turn(decimal_deg)
     degrees, rest_s = divmod(round(abs(turned_deg) * 3600, 6), 3600)
     minutes, seconds = divmod(rest_s, 60)
@@ -71,7 +71,7 @@ def to_dmm(decimal_deg: float) -> tuple[int, float, bool]:
 def distance_and_bearing(from_deg: tuple[float, float], to_deg: tuple[float, float]) -> tuple[float, float]:
     """The short way between two places (longitude, latitude): km, and the whole degrees to point the antenna to.
 
-    Raises ValueError for what is no place. Where every bearing is as good (same place, antipodes) it is 0.
+    Raises ValueError for coordinates off the earth. Where every bearing is right (same place, antipodes) it is 0.
     """
     for longitude_deg, latitude_deg in (from_deg, to_deg):
         if abs(longitude_deg) > 180 or abs(latitude_deg) > 90:
@@ -88,14 +88,14 @@ def distance_and_bearing(from_deg: tuple[float, float], to_deg: tuple[float, flo
 
 
 def long_path_bearing(short_path_deg: float) -> float:
-    """The other way round the earth. Raises ValueError for what is no bearing."""
+    """The other way round the earth. Raises ValueError outside 0 to 360."""
     if not 0 <= short_path_deg <= 360:
         raise ValueError(f"{short_path_deg:g} is no bearing from 0 to 360")
     return (short_path_deg + 180) % 360
 
 
 def long_path_km(short_path_km: float) -> float:
-    """How far it is the other way round."""
+    """The distance the other way round the earth."""
     return 360 * KM_PER_DEG - short_path_km
 
 

@@ -1,7 +1,7 @@
-"""MacDoppler's broadcasts: `[AzEl Rotor Report:Azimuth:39.00, Elevation:0.00, SatName:XW-2C]`, and nothing back.
+"""MacDoppler's broadcasts: `[AzEl Rotor Report:Azimuth:39.00, Elevation:0.00, SatName:XW-2C]`, without answers.
 
-Knows that one report, its codec, and that it is an order. Its reports for radios are passed over. Does not know
-sockets: one `receive` is one datagram. Source: what bridges from MacDoppler to rotors read (see docs/protocols.md).
+Knows this report, its codec, and that it is an order. Reports for radios are skipped. Does not know sockets: one
+`receive` is one datagram. Source: programs that connect MacDoppler to rotors (see docs/protocols.md).
 """
 
 from __future__ import annotations
@@ -18,33 +18,33 @@ _REPORT = re.compile(
 
 
 @dataclass(frozen=True, slots=True)
-class Report:
-    """Where the satellite is."""
+class SatelliteReport:
+    """The direction of the satellite."""
 
     azimuth_deg: float
     elevation_deg: float
     satellite: str = ""
 
 
-def parse(datagram: bytes) -> Report | None:
-    """The report at the end of a datagram, behind a number and the Mac's name; None: there is none."""
+def parse(datagram: bytes) -> SatelliteReport | None:
+    """The report at the end of a datagram, after a number and the Mac's name; None: there is none."""
     found = _REPORT.search(datagram.decode("latin-1"))
     if not found:
         return None
     azimuth_deg, elevation_deg = degrees(found[1]), degrees(found[2])
     if azimuth_deg is None or elevation_deg is None:
         return None
-    return Report(azimuth_deg, elevation_deg, found[3] or "")
+    return SatelliteReport(azimuth_deg, elevation_deg, found[3] or "")
 
 
-def encode(report: Report, mac: str = "MacBook") -> bytes:
+def encode(report: SatelliteReport, mac: str = "MacBook") -> bytes:
     """A datagram as MacDoppler writes it."""
     angles = f"Azimuth:{report.azimuth_deg:.2f}, Elevation:{report.elevation_deg:.2f}"
     return f"00000001 {mac} [AzEl Rotor Report:{angles}, SatName:{report.satellite}]".encode()
 
 
 class MacDopplerSession:
-    """MacDoppler on one Mac: it says where the satellite is, and listens to nobody."""
+    """MacDoppler on one Mac: it sends the satellite's direction and takes no answers."""
 
     idle_s = None
     closed = False

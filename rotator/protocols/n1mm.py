@@ -1,7 +1,7 @@
-"""N1MM Logger+ and its rotor messages: orders for an azimuth as XML, and where the antenna points as `name @ 2350`.
+"""N1MM Logger+ and its rotor messages: orders for an azimuth as XML, and the antenna's azimuth as `name @ 2350`.
 
 Knows the messages, their codec and what they make the box do. Does not know sockets: one `receive` is one datagram.
-Sources: what other rotor servers for N1MM take and send (see docs/protocols.md).
+Sources: what other rotor servers for N1MM receive and send (see docs/protocols.md).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from rotator.protocols.session import Box
 
 REPORT_EVERY_S = 15.0
 REPORT_MOVED_TENTHS = 10
-"""Turned so far, it reports before its time."""
+"""After a turn of this many tenths of a degree it reports at once."""
 TURN_TENTHS = 3600
 
 _MESSAGE = re.compile(r"\ufeff?\s*(?:<\?xml[^<>]*\?>)?\s*<N1MMRotor>(.*)</N1MMRotor>[\s\0]*", re.DOTALL)
@@ -28,7 +28,7 @@ _NO = ("0", "false")
 
 @dataclass(frozen=True, slots=True)
 class Go:
-    """Turn the rotor of that name. `offset`: what N1MM wants added, as it writes it."""
+    """Turn the rotor of that name. `offset`: the degrees that N1MM wants added, as text."""
 
     rotor: str
     azimuth_deg: float
@@ -37,13 +37,13 @@ class Go:
 
 @dataclass(frozen=True, slots=True)
 class Halt:
-    """Stop the rotor of that name; empty: N1MM has not said which."""
+    """Stop the rotor of that name; empty: the message names none."""
 
     rotor: str
 
 
 def parse(datagram: bytes) -> Go | Halt | None:
-    """One message; None: it is none. A message with a stop in it is a stop, whatever else it says."""
+    """One message; None: the datagram is none. A message with a stop in it is a stop."""
     message = _MESSAGE.fullmatch(datagram.decode("utf-8", errors="replace"))
     if not message:
         return None
@@ -85,7 +85,7 @@ def encode(command: Go | Halt) -> bytes:
 class N1mmSession:
     """N1MM on one PC. It expects no answers.
 
-    `rotor_name`: obey what is for this one only, capitals as N1MM has them; None: whatever comes.
+    `rotor_name`: obey only orders for this rotor, with the same capitals; None: obey all.
     """
 
     idle_s = None
@@ -119,21 +119,21 @@ class N1mmSession:
 
 
 class N1mmReport:
-    """Where the antenna points, for N1MM's bearing windows: while it turns whenever asked, else every 15 s."""
+    """The antenna's azimuth for N1MM's bearing windows: at every call of `due` while it turns, else every 15 s."""
 
     def __init__(self, box: Box, rotor_name: str) -> None:
         self._box = box
         self._rotor_name = rotor_name
-        self._said_s = -math.inf
-        self._said_tenths = 0
+        self._sent_s = -math.inf
+        self._sent_tenths = 0
 
     def due(self, now_s: float) -> bytes | None:
         azimuth_deg = self._box.status().azimuth.angle_deg
         if azimuth_deg is None:
             return None
         tenths = math.floor(azimuth_deg * 10 + 0.5) % TURN_TENTHS
-        turned = abs((tenths - self._said_tenths + TURN_TENTHS // 2) % TURN_TENTHS - TURN_TENTHS // 2)
-        if turned < REPORT_MOVED_TENTHS and now_s - self._said_s < REPORT_EVERY_S:
+        turned = abs((tenths - self._sent_tenths + TURN_TENTHS // 2) % TURN_TENTHS - TURN_TENTHS // 2)
+        if turned < REPORT_MOVED_TENTHS and now_s - self._sent_s < REPORT_EVERY_S:
             return None
-        self._said_s, self._said_tenths = now_s, tenths
+        self._sent_s, self._sent_tenths = now_s, tenths
         return f"{self._rotor_name} @ {tenths}".encode()

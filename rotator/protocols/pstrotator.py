@@ -1,8 +1,8 @@
 """PstRotator's UDP control, as programs send it to PstRotator: `<PST><AZIMUTH>235</AZIMUTH></PST>`, `<PST>AZ?</PST>`.
 
-Knows the tags, their codec and what they make the box do. Does not know sockets: one `receive` is one datagram, and
-what it says stands for itself. Sources: PstRotator's manual, Rev. 7.5, as others quote it; what Hamlib 4.6 and other
-programs send (see docs/protocols.md).
+Knows the tags, their codec and what they make the box do. Does not know sockets: one `receive` is one whole datagram.
+Sources: PstRotator's manual, Rev. 7.5, as quoted by others; what Hamlib 4.6 and other programs send (see
+docs/protocols.md).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.session import Box
 
 ANSWERS_ABOVE = 1
-"""Answers go to the sender's address, so many ports above the box's own."""
+"""Answers go to the sender's address, to the port this much above the box's own."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +34,7 @@ TAGS = (
     Tag("STOP", "1: stop everything and acknowledge faults"),
     Tag("PARK", "1: go to the park position"),
     Tag("HOME", "1: the same"),
-    Tag("TRACK", "Azimuth and elevation: go there; 0 or 1: passed over, for nothing here tracks by itself"),
+    Tag("TRACK", "Azimuth and elevation: go there; 0 or 1: ignored, because the box does not track by itself"),
     Tag("AZ?", "Read azimuth"),
     Tag("EL?", "Read elevation"),
     Tag("TGA?", "Read the azimuth of the target; without one, azimuth"),
@@ -59,7 +59,7 @@ class Item:
 
 
 def parse(datagram: bytes) -> tuple[Item, ...]:
-    """What a datagram holds, in order. One that is damaged is good for its stops only."""
+    """The items of a datagram, in order. In a damaged datagram only the stops count."""
     text = datagram.decode("latin-1").upper().strip(" \t\r\n\0")
     items = None
     if text.startswith(_OPEN) and text.endswith(_CLOSE) and len(text) >= len(_OPEN + _CLOSE):
@@ -70,13 +70,13 @@ def parse(datagram: bytes) -> tuple[Item, ...]:
 
 
 def _items(text: str) -> tuple[Item, ...] | None:
-    items, at = [], 0
-    while at < len(text):
-        found = _ITEM.match(text, at)
+    items, index = [], 0
+    while index < len(text):
+        found = _ITEM.match(text, index)
         if not found:
             return None
         items.append(Item(found[3]) if found[3] else Item(found[1], found[2].strip()))
-        at = found.end()
+        index = found.end()
     return tuple(items)
 
 
@@ -87,9 +87,9 @@ def encode(*items: Item) -> bytes:
 
 
 class PstRotatorSession:
-    """PstRotator for one sender. Orders get no answer; what is refused moves nothing, in silence.
+    """PstRotator for one sender. Orders get no answer, and neither does an order that is refused.
 
-    `remark`: where the sender asks for something that is not here, for the log.
+    `remark` takes a line for the log when the sender asks for something that the box does not have.
     """
 
     idle_s = None
@@ -113,7 +113,7 @@ class PstRotatorSession:
                     pass
                 case Item("STOP", value):
                     if value != "0":
-                        # What was said before it is stopped as well; what comes after it is meant.
+                        # A stop cancels the orders before it in the datagram; those after it count.
                         before = [Stop()]
                         angles.clear()
                 case Item("PARK" | "HOME", value):
@@ -121,7 +121,7 @@ class PstRotatorSession:
                         before = [*(order for order in before if isinstance(order, Stop)), Park()]
                         angles.clear()
                 case Item(question, None) if _is_listed(question):
-                    # Once, however often it is asked: a small datagram is not to call forth a thousand.
+                    # One answer to a repeated question: a small datagram must not cause a thousand answers.
                     asked[question] = None
                 case Item(tag, value):
                     shown = "" if value is None else f" {value[:16]!a}"
@@ -135,16 +135,16 @@ class PstRotatorSession:
         return []
 
     def _point(self, angles: dict[str, str]) -> None:
-        """One order for both axes, or for the one that is named. A number that is damaged leaves both alone."""
-        meant = {axis: degrees(_SLIP.sub(r"\1", text)) for axis, text in angles.items()}
-        if not meant or None in meant.values():
+        """One order for both axes, or for the one that is named. With a damaged number there is no order."""
+        angles_deg = {axis: degrees(_SLIP.sub(r"\1", text)) for axis, text in angles.items()}
+        if not angles_deg or None in angles_deg.values():
             return
-        order = aim(meant.get("AZIMUTH"), meant.get("ELEVATION"))
+        order = aim(angles_deg.get("AZIMUTH"), angles_deg.get("ELEVATION"))
         if order is not None:
             self._box.order(order)
 
     def _answer(self, question: str) -> Iterator[bytes]:
-        """Nothing while the position is not known."""
+        """No answer while the position is not known."""
         status = self._box.status()
         azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
         match question:

@@ -1,8 +1,8 @@
 """Hamlib's rotctld protocol on the wire: the command table, requests and answers, both ways.
 
-Knows letters, long names, separators of the extended protocol and the form of every answer. Knows nothing of what a
-command does. Unlike the genuine server it is line-based: a line is understood whole before any of it is obeyed, and
-arguments do not go on in the next line.
+Knows letters, long names, separators of the extended protocol and the form of every answer. Does not know what a
+command does. Unlike Hamlib's own server it works on whole lines: a line is parsed to its end before any command of it
+is obeyed, and arguments do not continue on the next line.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ REJECTED = -9
 NOT_AVAILABLE = -11
 
 QUESTION = "?"
-"""In place of a name: which names there are. No value follows it."""
+"""In place of a name: list the names. No value follows it."""
 _SEPARATORS = frozenset(string.punctuation) - frozenset("\\_#")
 _BLANKS = re.compile(r"[ \t]+")
 _NUMBER = re.compile(r"[+-]?(\d{1,12}([.,]\d{0,12})?|[.,]\d{1,12})([eE][+-]?\d)?")
-"""A finite number in any locale; neither `nan` nor `inf` is a direction."""
+"""A finite number in any locale; `nan` and `inf` are refused."""
 _WHOLE = re.compile(r"[+-]?\d{1,9}")
 
 
@@ -41,7 +41,7 @@ class Verb:
     asks: bool = False
     """The first argument may be `?`, and is then the only one."""
     rest_of_line: bool = False
-    """Its one argument is all that follows."""
+    """Its one argument is the rest of the line."""
 
 
 VERBS = (
@@ -74,7 +74,7 @@ VERBS = (
     Verb("B", "qrb", "Km and bearing from longitude, latitude to longitude, latitude", 4),
     Verb("A", "a_sp2a_lp", "Short-path bearing to long-path bearing", 1),
     Verb("a", "d_sp2d_lp", "Short-path km to long-path km", 1),
-    Verb("\x8c", "pause", "Answered at once: nobody is made to wait", 1),
+    Verb("\x8c", "pause", "Answered at once, without a pause", 1),
     Verb("Q", "quit", "Close the connection"),
     Verb("q", "quit", "Close the connection"),
 )
@@ -87,26 +87,26 @@ class Request:
     name: str
     arguments: tuple[str, ...] = ()
     separator: str = ""
-    """What parts the records of the answer in the extended protocol; empty: the default protocol."""
+    """The separator of the answer's records in the extended protocol; empty: the default protocol."""
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What a command has to say. `encode_answer` gives it the form that the request asked for."""
+    """The answer to a command. `encode_answer` gives it the form that the request asked for."""
 
     code: int = OK
     records: tuple[tuple[str, str], ...] = ()
-    """Values with their labels, which only the extended protocol shows; an empty label is never shown."""
+    """(label, value). Only the extended protocol shows labels, and never an empty one."""
     text: str = ""
     """Whole lines that look the same in both protocols."""
     always_reports: bool = False
     """RPRT follows the text in the default protocol too."""
     default_text: str = ""
-    """In the default protocol all of the above is replaced by this."""
+    """Replaces all of the above in the default protocol."""
 
 
 class BadRequest(ValueError):  # noqa: N818 - it is an answer, not a failure of the program
-    """The rest of the line cannot be understood, or not be obeyed; `code` says why in Hamlib's numbers."""
+    """The rest of the line cannot be parsed or obeyed; `code` is Hamlib's number for the reason."""
 
     def __init__(self, code: int) -> None:
         super().__init__(code)
@@ -114,7 +114,7 @@ class BadRequest(ValueError):  # noqa: N818 - it is an answer, not a failure of 
 
 
 def requests(line: str) -> Iterator[Request]:
-    """The requests in one line, in order. Raises BadRequest where the line stops making sense."""
+    """The requests in one line, in order. Raises BadRequest at the first word that is none."""
     words = [word for word in _BLANKS.split(line) if word]
     separator = ""
     while words:
@@ -131,7 +131,7 @@ def requests(line: str) -> Iterator[Request]:
             verb, rest = _BY_LETTER.get(word[0]), word[1:]
         if verb is None:
             raise BadRequest(NOT_IMPLEMENTED)
-        # `P20 10` and `pp` need no blank.
+        # `P20 10` and `pp` have no blank after the letter.
         words[:0] = [rest] if rest else []
         count = 1 if verb.asks and words[:1] == [QUESTION] else verb.arguments
         if len(words) < count:
@@ -155,14 +155,14 @@ def encode(request: Request) -> bytes:
 
 def encode_answer(request: Request, answer: Answer) -> bytes:
     """An answer in the form that its request asked for."""
-    said = answer.code == OK
+    succeeded = answer.code == OK
     if request.separator:
         mark = request.separator
         rows = [" ".join((f"{request.name}:", *request.arguments))]
-        rows += [f"{label}: {value}" if label else value for label, value in answer.records] if said else []
-        text = "".join(row + mark for row in rows) + (answer.text if said else "")
+        rows += [f"{label}: {value}" if label else value for label, value in answer.records] if succeeded else []
+        text = "".join(row + mark for row in rows) + (answer.text if succeeded else "")
         return text.encode("latin-1") + report(answer.code)
-    text = "".join(f"{value}\n" for _, value in answer.records) + answer.text if said else ""
+    text = "".join(f"{value}\n" for _, value in answer.records) + answer.text if succeeded else ""
     text = answer.default_text or text
     return text.encode("latin-1") + (report(answer.code) if not text or answer.always_reports else b"")
 
@@ -172,7 +172,7 @@ def report(code: int) -> bytes:
 
 
 def number(word: str) -> float:
-    """A number as clients of any locale write it. Raises BadRequest."""
+    """A number with a decimal point or comma. Raises BadRequest."""
     if not _NUMBER.fullmatch(word):
         raise BadRequest(INVALID_PARAMETER)
     return float(word.replace(",", "."))

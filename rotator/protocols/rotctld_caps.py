@@ -1,6 +1,6 @@
-"""What the box tells of itself to rotctld's clients: limits, abilities, settings, and what it is doing.
+"""The box's description for rotctld's clients: limits, abilities, settings, and the state of motion.
 
-Knows the status and Hamlib's words for it. Changes nothing: whatever a client may set here leaves the box as it is.
+Knows the status and Hamlib's words for it. Changes nothing: the settings that a client may make have no effect.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _NO_EFFECT = {
     "timeout": "Timeout in ms: likewise",
     "retry": "Number of retries: likewise",
 }
-"""Settings that Hamlib's clients make as a matter of course."""
+"""Settings that Hamlib's clients make without need."""
 _FIXED = {
     "min_az": "Lowest azimuth in degrees; the box's configuration has it",
     "max_az": "Highest azimuth in degrees; likewise",
@@ -28,13 +28,52 @@ _FIXED = {
     "max_el": "Highest elevation in degrees; likewise",
     "south_zero": "Zero of azimuth is south: it never is",
 }
+_CAPS_HEAD = (
+    f"Caps dump for model:\t{_PRETENDED_MODEL}",
+    "Model name:\t\tGS-232B",
+    "Mfg name:\t\tgs232-rotator",
+    f"Backend version:\t{__version__}",
+    "Backend copyright:\tMIT",
+    "Backend status:\t\tStable",
+    "Rot type:\t\tAz-El",
+    "Port type:\t\tNone",
+    "Write delay:\t\t0mS, timeout 0mS, 0 retries",
+    "Post Write delay:\t0mS",
+    "Status flags: MOVING MOVING_AZ MOVING_LEFT MOVING_RIGHT",
+    "Status flags: MOVING_EL MOVING_UP MOVING_DOWN",
+    "Status flags: LIMIT_UP LIMIT_DOWN LIMIT_LEFT LIMIT_RIGHT",
+    "Status flags: OVERLAP_DOWN OVERLAP_LEFT OVERLAP_RIGHT",
+    "Get functions: ",
+    "Set functions: ",
+    f"Get level: SPEED{SPEED_RANGE} ",
+    f"Set level: SPEED{SPEED_RANGE} ",
+    "Get parameters: ",
+    "Set parameters: ",
+)
+_CAPS_END = (
+    "Has priv data:\t\tN",
+    *(f"Has {what}:\t\tY" for what in ("Init", "Cleanup", "Open", "Close")),
+    "Can set Conf:\t\tY",
+    "Can get Conf:\t\tY",
+    "Can set Position:\tY",
+    "Can get Position:\tY",
+    *(f"Can {what}:\t\tY" for what in ("Stop", "Park", "Reset", "Move", "get Info", "get Status")),
+    "Can set Func:\tN",
+    "Can get Func:\tN",
+    "Can set Level:\tY",
+    "Can get Level:\tY",
+    "Can set Param:\tN",
+    "Can get Param:\tN",
+    "",
+    "Overall backend warnings: 0",
+)
 
 
 def limits(status: Status) -> dict[str, float]:
-    """What the box accepts, in degrees, for clients that enforce it.
+    """The angles that the box accepts, in degrees, for clients that enforce them.
 
-    Azimuth covers at least the whole circle and elevation 0 to 180, since the box turns any direction into axis angles
-    itself; never below zero without need, because CQRLOG takes that for a shifted scale.
+    Azimuth covers at least the whole circle and elevation 0 to 180, because the box turns every direction into axis
+    angles itself. Azimuth begins below zero only if the rotor does: CQRLOG takes that for a shifted scale.
     """
     min_az_deg = min(0.0, status.azimuth.min_deg)
     max_az_deg = max(360.0, status.azimuth.max_deg)
@@ -42,13 +81,13 @@ def limits(status: Status) -> dict[str, float]:
 
 
 def dump_state(status: Status) -> Answer:
-    """Bare numbers first for Hamlib up to 4.5.0, then `key=value` for later ones. The extended protocol has labels."""
-    told = limits(status)
+    """Numbers alone for Hamlib up to 4.5.0, then `key=value` for later ones. The extended protocol has labels."""
+    angles = limits(status)
     names = ("Minimum Azimuth", "Maximum Azimuth", "Minimum Elevation", "Maximum Elevation")
-    labelled = tuple((name, f"{value:.6f}") for name, value in zip(names, told.values(), strict=True))
+    labelled = tuple((name, f"{value:.6f}") for name, value in zip(names, angles.values(), strict=True))
     head = (("rotctld Protocol Ver", "1"), ("Rotor Model", f"{_PRETENDED_MODEL}"))
-    rows = ["1", f"{_PRETENDED_MODEL}", *(f"{value:.6f}" for value in told.values()), "0"]
-    rows += [f"{key}={value:.6f}" for key, value in told.items()]
+    rows = ["1", f"{_PRETENDED_MODEL}", *(f"{value:.6f}" for value in angles.values()), "0"]
+    rows += [f"{key}={value:.6f}" for key, value in angles.items()]
     rows += ["south_zero=0", "rot_type=AzEl", "done"]
     return Answer(
         records=(*head, *labelled, ("South Zero", "0"), ("", "rot_type=AzEl"), ("", "done")),
@@ -57,48 +96,15 @@ def dump_state(status: Status) -> Answer:
 
 
 def dump_caps(status: Status) -> Answer:
-    """The abilities, in the lines that Hamlib's own server writes for a GS-232B."""
-    told = limits(status)
+    """The abilities, in the lines of Hamlib's own server for a GS-232B."""
+    angles = limits(status)
     lines = [
-        f"Caps dump for model:\t{_PRETENDED_MODEL}",
-        "Model name:\t\tGS-232B",
-        "Mfg name:\t\tgs232-rotator",
-        f"Backend version:\t{__version__}",
-        "Backend copyright:\tMIT",
-        "Backend status:\t\tStable",
-        "Rot type:\t\tAz-El",
-        "Port type:\t\tNone",
-        "Write delay:\t\t0mS, timeout 0mS, 0 retries",
-        "Post Write delay:\t0mS",
-        "Status flags: MOVING MOVING_AZ MOVING_LEFT MOVING_RIGHT",
-        "Status flags: MOVING_EL MOVING_UP MOVING_DOWN",
-        "Status flags: LIMIT_UP LIMIT_DOWN LIMIT_LEFT LIMIT_RIGHT",
-        "Status flags: OVERLAP_DOWN OVERLAP_LEFT OVERLAP_RIGHT",
-        "Get functions: ",
-        "Set functions: ",
-        f"Get level: SPEED{SPEED_RANGE} ",
-        f"Set level: SPEED{SPEED_RANGE} ",
-        "Get parameters: ",
-        "Set parameters: ",
-        f"Min Azimuth:\t\t{told['min_az']:.2f}",
-        f"Max Azimuth:\t\t{told['max_az']:.2f}",
-        f"Min Elevation:\t\t{told['min_el']:.2f}",
-        f"Max Elevation:\t\t{told['max_el']:.2f}",
-        "Has priv data:\t\tN",
-        *(f"Has {what}:\t\tY" for what in ("Init", "Cleanup", "Open", "Close")),
-        "Can set Conf:\t\tY",
-        "Can get Conf:\t\tY",
-        "Can set Position:\tY",
-        "Can get Position:\tY",
-        *(f"Can {what}:\t\tY" for what in ("Stop", "Park", "Reset", "Move", "get Info", "get Status")),
-        "Can set Func:\tN",
-        "Can get Func:\tN",
-        "Can set Level:\tY",
-        "Can get Level:\tY",
-        "Can set Param:\tN",
-        "Can get Param:\tN",
-        "",
-        "Overall backend warnings: 0",
+        *_CAPS_HEAD,
+        f"Min Azimuth:\t\t{angles['min_az']:.2f}",
+        f"Max Azimuth:\t\t{angles['max_az']:.2f}",
+        f"Min Elevation:\t\t{angles['min_el']:.2f}",
+        f"Max Elevation:\t\t{angles['max_el']:.2f}",
+        *_CAPS_END,
     ]
     return Answer(text="".join(line + "\n" for line in lines), always_reports=True)
 
@@ -114,14 +120,14 @@ def dump_conf(status: Status, *, always_reports: bool) -> Answer:
 
 
 def get_conf(name: str, status: Status) -> Answer:
-    """Raises BadRequest for a name that is no setting."""
+    """Raises BadRequest for an unknown name."""
     if name not in _NO_EFFECT | _FIXED:
         raise BadRequest(INVALID_PARAMETER)
     return Answer(text=f"{name}={_setting(name, status)}\n")
 
 
 def set_conf(name: str, value: str, status: Status) -> Answer:
-    """Agrees to what changes nothing. Raises BadRequest for all else: limits are the box's own."""
+    """Accepts a value that changes nothing. Raises BadRequest for others: only the configuration sets limits."""
     if name not in _NO_EFFECT | _FIXED:
         raise BadRequest(INVALID_PARAMETER)
     if number(value) != float(_setting(name, status)) and name in _FIXED:
@@ -130,7 +136,7 @@ def set_conf(name: str, value: str, status: Status) -> Answer:
 
 
 def status_words(status: Status) -> str:
-    """Hamlib's flags, each followed by a blank; nothing at all where the antenna rests between its ends."""
+    """Hamlib's flags, each followed by a blank; empty while the antenna rests between its ends."""
     azimuth, elevation = status.azimuth, status.elevation
     azimuth_deg, elevation_deg = azimuth.angle_deg, elevation.angle_deg
     flags = {
@@ -153,5 +159,5 @@ def status_words(status: Status) -> str:
 
 
 def _setting(name: str, status: Status) -> str:
-    told = limits(status)
-    return f"{told[name]:.6f}" if name in told else "0"
+    angles = limits(status)
+    return f"{angles[name]:.6f}" if name in angles else "0"

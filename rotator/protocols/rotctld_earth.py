@@ -1,6 +1,6 @@
-"""The commands of rotctld that have nothing to do with a rotor: locators, degrees and distances, in its words.
+"""The commands of rotctld that need no rotor: locators, degrees and distances.
 
-Knows their arguments and the labels of their answers. Does not know the maths (that is `locator`) nor the box.
+Knows their arguments and the labels of their answers. Does not know the calculation (`locator` does), nor the box.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ NAMES = frozenset((
 
 
 def answer(request: Request) -> Answer:
-    """What one of NAMES gives. Raises BadRequest."""
+    """The answer to one of NAMES. Raises BadRequest."""
     try:
         return Answer(records=_records(request))
     except BadRequest:

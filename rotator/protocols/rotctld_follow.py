@@ -1,10 +1,10 @@
-"""The box as a client of another program's rotctld: where that one points, this antenna goes.
+"""The box as a client of another program's rotctld: this antenna follows the other rotor.
 
 Knows the question `p`, its answers, and which of them become orders. Time is counted in answers, `every_s` apart.
 
-What the other end says first is only where it stands, for a server that nobody commands is to move nothing; from then
-on changes are orders. They go out as a tracking program's do: twice a second at most, and the last one is said again a
-few times, so that the box does not take a target that stands for a stream that was cut off. Then there is silence.
+The first answer is no order: it is only the angle at which the other rotor stands. After that every change is an order.
+Orders go out as from a tracking program: twice a second at most. The last order is repeated a few times, so that the
+box does not take a target at rest for a broken stream. Then no more orders follow.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ from rotator.protocols.session import Box, NotUnderstood
 MAX_LINE = 128
 SHOWN_BYTES = 40
 CHANGE_S = 0.5
-"""A rotor that is asked while it turns says something new each time: that often is enough."""
+"""The least time between two orders. A rotor that turns has a new angle in every answer."""
 AGAIN_S = 1.2
-"""Longer than the second in which a tracking program would have said something new."""
+"""The time between repeats: longer than the second between two orders of a tracking program."""
 TIMES_AGAIN = 4
 _REPORT = b"RPRT "
 
 
 class RotctldFollower:
-    """`every_s`: how far apart the questions are."""
+    """`every_s`: the time between two questions."""
 
     def __init__(self, box: Box, every_s: float) -> None:
         self._box = box
         self._lines = LineReader(MAX_LINE)
-        self._heard: list[float] = []
+        self._angles: list[float] = []
         self._ordered: tuple[float, float] | None = None
         self._until_change = math.ceil(CHANGE_S / every_s)
         self._until_again = math.ceil(AGAIN_S / every_s)
@@ -42,30 +42,30 @@ class RotctldFollower:
 
     def ask(self) -> bytes:
         self._lines = LineReader(MAX_LINE)
-        self._heard.clear()
+        self._angles.clear()
         return encode(Request("get_pos"))
 
     def receive(self, data: bytes) -> bool:
-        # Whatever follows the answer in this piece answers nothing that was asked.
+        # Bytes after the answer in this piece belong to no question.
         return any(self._take(line) for line in self._lines.feed(data))
 
     def _take(self, line: bytes | None) -> bool:
-        """Whether the answer ends with this line. Raises NotUnderstood."""
+        """Returns whether the answer ends with this line. Raises NotUnderstood."""
         if line is None:
             raise NotUnderstood(f"it says more than {MAX_LINE} bytes in a line")
         text = line.strip()
-        if not text or (text == _REPORT + b"0" and not self._heard):
+        if not text or (text == _REPORT + b"0" and not self._angles):
             return False
-        if text.startswith(_REPORT) and not self._heard:
+        if text.startswith(_REPORT) and not self._angles:
             self.trouble = f"answers {text[:SHOWN_BYTES].decode('latin-1')!r} for a position"
             return True
         try:
-            self._heard.append(number(text.decode("latin-1")))
+            self._angles.append(number(text.decode("latin-1")))
         except BadRequest as fault:
             raise NotUnderstood(f"it says {text[:SHOWN_BYTES].decode('latin-1')!r} for a position") from fault
-        if len(self._heard) < 2:
+        if len(self._angles) < 2:
             return False
-        self._follow(self._heard[0], self._heard[1])
+        self._follow(self._angles[0], self._angles[1])
         return True
 
     def _follow(self, azimuth_deg: float, elevation_deg: float) -> None:

@@ -1,7 +1,7 @@
-"""One connection that speaks rotctld: what each command makes the box do, and what it answers.
+"""One rotctld connection: what each command makes the box do, and the answer.
 
-Knows the commands' meaning. Does not know bytes on the wire (that is `rotctld`). It answers everything (Gpredict's
-window freezes on silence) and gives each answer in one piece (Gpredict and SatDump read once a command).
+Knows the meaning of the commands. Does not know the bytes (`rotctld` does). Every command gets an answer, because
+Gpredict's window freezes without one, in one piece, because Gpredict and SatDump read once for each command.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ from rotator.protocols.rotctld import (
 from rotator.protocols.session import Box
 
 NO_NEWLINE_S = 0.1
-"""Windows builds of Gpredict up to 2018 end no line: a whole command and then silence is taken as sent."""
+"""Windows builds of Gpredict up to 2018 send no line end: a whole command followed by this silence is obeyed."""
 
 UNCHANGED_SPEED = -1
 FULL_SPEED = 100
 
 _LEFT, _RIGHT = Jog(Axis.AZIMUTH, Direction.MINUS), Jog(Axis.AZIMUTH, Direction.PLUS)
 _UP, _DOWN = Jog(Axis.ELEVATION, Direction.PLUS), Jog(Axis.ELEVATION, Direction.MINUS)
-_WAYS: dict[tuple[str, ...], tuple[Jog, ...]] = {
+_MOVES: dict[tuple[str, ...], tuple[Jog, ...]] = {
     ("2", "UP"): (_UP,),
     ("4", "DOWN"): (_DOWN,),
     ("8", "LEFT", "CCW"): (_LEFT,),
@@ -49,7 +49,7 @@ _WAYS: dict[tuple[str, ...], tuple[Jog, ...]] = {
     ("128", "DOWN_LEFT", "DOWN_CCW"): (_DOWN, _LEFT),
     ("256", "DOWN_RIGHT", "DOWN_CW"): (_DOWN, _RIGHT),
 }
-_DIRECTIONS = {word: jogs for words, jogs in _WAYS.items() for word in words}
+_DIRECTIONS = {word: jogs for words, jogs in _MOVES.items() for word in words}
 
 
 class RotctldSession:
@@ -77,7 +77,7 @@ class RotctldSession:
         if line is None:
             return [report(INVALID_PARAMETER)]
         try:
-            # Understood whole before any of it is obeyed: KEEPALIVE is no order to park.
+            # The whole line is parsed before any command is obeyed: KEEPALIVE must not park the antenna.
             understood = list(requests(line.decode("latin-1")))
         except BadRequest as fault:
             return [report(fault.code)]
@@ -110,7 +110,7 @@ class RotctldSession:
             case "move":
                 return self._move(*words)
             case "pause":
-                # Whoever wants to wait does it at the other end: here it would hold up a stop behind it.
+                # The box does not wait: that would delay a stop that follows.
                 whole_number(words[0])
                 return Answer()
             case "send_cmd":
@@ -118,10 +118,10 @@ class RotctldSession:
             case name if name in rotctld_earth.NAMES:
                 return rotctld_earth.answer(request)
             case _:
-                return self._setting(request.name, words) or self._told(request.name)
+                return self._setting(request.name, words) or self._reading(request.name)
 
     def _setting(self, name: str, words: tuple[str, ...]) -> Answer | None:
-        """Levels, functions, parameters and configuration; None: it is none of these."""
+        """Levels, functions, parameters and configuration; None for another command."""
         status = self._box.status()
         match name, words:
             case "set_level", ("?",):
@@ -155,8 +155,8 @@ class RotctldSession:
                 )
         return None
 
-    def _told(self, name: str) -> Answer:
-        """What a command without arguments reads."""
+    def _reading(self, name: str) -> Answer:
+        """The commands without arguments that read something."""
         status = self._box.status()
         match name:
             case "get_info":
@@ -175,8 +175,8 @@ class RotctldSession:
         order = aim(azimuth_deg, elevation_deg)
         return self._order(order) if order else Answer(INVALID_PARAMETER)
 
-    def _move(self, way: str, speed: str) -> Answer:
-        jogs, percent = _DIRECTIONS.get(way), whole_number(speed)
+    def _move(self, direction: str, speed: str) -> Answer:
+        jogs, percent = _DIRECTIONS.get(direction), whole_number(speed)
         if jogs is None or not (percent == UNCHANGED_SPEED or 1 <= percent <= FULL_SPEED):
             raise BadRequest(INVALID_PARAMETER)
         if percent != UNCHANGED_SPEED:
@@ -203,7 +203,7 @@ class RotctldSession:
 
 
 def _complete(request: Request) -> bool:
-    """Whether it may end where silence has caught it: a word could go on; a number is what those clients send last."""
+    """Whether a request without a line end is whole: those clients end with a number, while a word could go on."""
     try:
         for word in request.arguments:
             number(word)

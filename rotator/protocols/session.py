@@ -1,6 +1,6 @@
-"""What a protocol sees of the box, and what a link sees of a protocol.
+"""The interfaces between links, protocols and the box.
 
-Knows the two narrow interfaces between links, protocols and the box. Knows no protocol and no link.
+Knows how a protocol sees the box, and how a link sees a protocol. Does not know any protocol or link.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ class Box(Protocol):
     """The box, as one connection sees it."""
 
     def status(self) -> Status:
-        """The latest status: a stored value, so asking costs nothing and never waits."""
+        """The latest status: a stored value, so the call never waits."""
 
     def order(self, order: Order) -> Refusal | None:
-        """Hand over an order. A Refusal means that nothing will come of it, and why; the log has it already."""
+        """Hand over an order. A Refusal: the order has no effect, with the reason; it is in the log already."""
 
 
 class Session(Protocol):
@@ -26,21 +26,21 @@ class Session(Protocol):
 
     @property
     def idle_s(self) -> float | None:
-        """After so long a silence the link calls `idle` (None: never): for clients that end no line."""
+        """After this silence the link calls `idle`, for clients that send no line end. None: never."""
 
     @property
     def closed(self) -> bool:
         """The client asked to end the connection."""
 
     def receive(self, data: bytes) -> list[bytes]:
-        """Take bytes as they arrive, in any pieces. Returns replies; each is to be sent in one write."""
+        """Take bytes as they arrive, in any pieces. Returns replies; the link sends each in one write."""
 
     def idle(self) -> list[bytes]:
-        """The line has been silent for `idle_s`: what is buffered is all that will come."""
+        """The line has been silent for `idle_s`: the buffered bytes are all that will come."""
 
 
-class NotUnderstood(Exception):  # noqa: N818 - what the other end says, no failure of the program
-    """The other end does not speak this protocol; the text says what it said."""
+class NotUnderstood(Exception):  # noqa: N818 - a fact about the other end; the program has not failed
+    """The other end does not speak this protocol; the text shows its bytes."""
 
 
 class Inquiry(Protocol):
@@ -48,10 +48,10 @@ class Inquiry(Protocol):
 
     @property
     def trouble(self) -> str:
-        """What is wrong with the last answer, though it was one; empty: nothing."""
+        """What is wrong with the last answer, though it was complete; empty: nothing."""
 
     def ask(self) -> bytes:
-        """The next question. What is left of an earlier answer is forgotten."""
+        """The next question. The rest of an earlier answer is dropped."""
 
     def receive(self, data: bytes) -> bool:
         """Take bytes as they arrive, in any pieces. True: the answer is whole. Raises NotUnderstood."""

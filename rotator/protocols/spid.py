@@ -1,8 +1,8 @@
 """The frames of SPID's Rot1Prog, Rot2Prog and MD-01, as a table, with their codec.
 
-Knows thirteen bytes to the controller, five or twelve from it, and how to find a frame among other bytes. Does not know
-what the box does about a frame: that is `spid_session`. Sources: LA6YKA's description of the protocol, and what Hamlib
-4.5 and 4.6 send to models 901, 902 and 903 (see docs/protocols.md).
+Knows the thirteen bytes to the controller, the five or twelve from it, and how to find a frame among other bytes. Does
+not know what the box does with a frame: `spid_session` does. Sources: LA6YKA's description of the protocol, and what
+Hamlib 4.5 and 4.6 send to models 901, 902 and 903 (see docs/protocols.md).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from enum import Enum, IntEnum, IntFlag
 START, END = 0x57, 0x20
 LENGTH = 13
 OFFSET_DEG = 360
-"""Added to every angle, so that none is below zero."""
+"""Added to every angle, so that no number is negative."""
 _COMMAND_AT, _END_AT = 11, 12
 _AZIMUTH, _ELEVATION = slice(1, 5), slice(6, 10)
 _AZIMUTH_PULSES_AT, _ELEVATION_PULSES_AT = 5, 10
@@ -26,11 +26,11 @@ class Model(Enum):
     """Azimuth only, whole degrees."""
     ROT2PROG = "Rot2Prog"
     MD01 = "MD-01"
-    """As Rot2Prog; it answers a set as well, and turns by hand."""
+    """As Rot2Prog; it also answers a set, and has commands to jog."""
 
 
 class Command(IntEnum):
-    """The byte called K."""
+    """The byte that the description calls K."""
 
     STOP = 0x0F
     STATUS = 0x1F
@@ -46,7 +46,7 @@ class Row:
     help: str
     models: tuple[Model, ...] = tuple(Model)
     answered: tuple[Model, ...] = ()
-    """Those that answer with their position."""
+    """The models that answer with their position."""
 
 
 ROWS = (
@@ -72,7 +72,7 @@ TURNS = tuple(x | y for x in (Turn(0), Turn.LEFT, Turn.RIGHT) for y in (Turn(0),
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One command. A set has angles, to the pulse; a move has a turn."""
+    """One command. A set has angles in steps of a pulse; a move has a turn."""
 
     command: Command
     azimuth_deg: float | None = None
@@ -86,7 +86,7 @@ def answers(model: Model, command: Command) -> bool:
 
 @dataclass(slots=True)
 class FrameReader:
-    """Feed it pieces; it gives whole frames. What is no frame is passed over, a byte at a time."""
+    """Feed it pieces; it returns whole frames. Bytes that begin no frame are skipped one by one."""
 
     model: Model
     pulses: int
@@ -95,20 +95,20 @@ class FrameReader:
     def feed(self, data: bytes) -> list[Frame]:
         self._buffer += data
         frames = []
-        at = 0
-        while (at := self._buffer.find(START, at)) >= 0 and len(self._buffer) - at >= LENGTH:
-            frame = decode(bytes(self._buffer[at : at + LENGTH]), self.model, self.pulses)
+        start = 0
+        while (start := self._buffer.find(START, start)) >= 0 and len(self._buffer) - start >= LENGTH:
+            frame = decode(bytes(self._buffer[start : start + LENGTH]), self.model, self.pulses)
             if frame:
                 frames.append(frame)
-            at += LENGTH if frame else 1
-        del self._buffer[: len(self._buffer) if at < 0 else at]
+            start += LENGTH if frame else 1
+        del self._buffer[: len(self._buffer) if start < 0 else start]
         return frames
 
 
 def decode(octets: bytes, model: Model, pulses: int) -> Frame | None:
-    """Thirteen bytes to a command for a controller that counts so many pulses a degree; None: they are none.
+    """From thirteen bytes to a command, for a controller with `pulses` a degree; None: they are no command.
 
-    The pulses that a client sends are ignored, as by the real ones: it has to ask for the controller's.
+    The pulses in the client's frame are ignored, as real controllers do: the client must ask for the controller's.
     """
     row = _BY_COMMAND.get(octets[_COMMAND_AT])
     if octets[0] != START or octets[_END_AT] != END or row is None or model not in row.models:
@@ -117,13 +117,13 @@ def decode(octets: bytes, model: Model, pulses: int) -> Frame | None:
         case Command.SET:
             azimuth, elevation = octets[_AZIMUTH], octets[_ELEVATION]
             if model is Model.ROT1PROG:
-                # Hundreds first and a last digit that is always 0: not the pulses of the others.
+                # Three digits of whole degrees, then always 0: no pulses as in the other models.
                 return Frame(Command.SET, int(azimuth[:3]) - OFFSET_DEG) if azimuth.isdigit() else None
             if not (azimuth.isdigit() and elevation.isdigit()):
                 return None
             return Frame(Command.SET, int(azimuth) / pulses - OFFSET_DEG, int(elevation) / pulses - OFFSET_DEG)
         case Command.MOVE:
-            # Hamlib leaves whatever was in memory in the two bytes for the pulses.
+            # The two bytes for the pulses hold random memory when Hamlib sends them.
             turn = Turn(octets[1])
             return Frame(Command.MOVE, turn=turn) if turn in TURNS else None
         case _:
@@ -151,7 +151,7 @@ def azimuth_reply(azimuth_deg: float) -> bytes:
 
 
 def position_reply(azimuth_deg: float, elevation_deg: float, pulses: int) -> bytes:
-    """The twelve bytes of the others: tenths of a degree, whatever a pulse is."""
+    """The twelve bytes of the other models: tenths of a degree, for every number of pulses."""
     return bytes([START, *_digits(azimuth_deg), pulses, *_digits(elevation_deg), pulses, END])
 
 

@@ -1,6 +1,6 @@
-"""One connection that speaks as a SPID controller: what each frame makes the box do, and what it answers.
+"""One connection to a SPID controller: what each frame makes the box do, and the answer.
 
-Knows the frames' meaning. Does not know bytes on the wire (that is `spid`) nor how the box carries an order out.
+Knows the meaning of the frames. Does not know the bytes (`spid` does), nor how the box carries out an order.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from rotator.protocols.session import Box
 from rotator.protocols.spid import Command, Frame, FrameReader, Model, Turn
 
 PULSES = {Model.ROT1PROG: 1, Model.ROT2PROG: 2, Model.MD01: 10}
-"""How many a degree, where the configuration does not say: Rot2Prog counts half degrees, MD-01 tenths."""
+"""Pulses a degree unless configured: Rot2Prog counts half degrees, MD-01 tenths."""
 
 _TURNS = {
     Turn.LEFT: Jog(Axis.AZIMUTH, Direction.MINUS),
@@ -24,7 +24,7 @@ _TURNS = {
 
 
 class SpidSession:
-    """A SPID controller on one connection. The protocol has no word for a refusal: it is silent, and stands still."""
+    """A SPID controller on one connection. The protocol has no reply for a refusal: the box is silent and stands."""
 
     idle_s = None
     closed = False
@@ -51,13 +51,13 @@ class SpidSession:
                 if order is not None:
                     self._box.order(order)
             case Frame(Command.MOVE, turn=Turn() as turn):
-                for way, jog in _TURNS.items():
-                    if way in turn:
+                for part, jog in _TURNS.items():
+                    if part in turn:
                         self._box.order(jog)
         return self._position() if spid.answers(self._model, frame.command) else b""
 
     def _position(self) -> bytes:
-        """Nothing while it is not known: a client takes that for a controller that is switched off."""
+        """No answer while the position is not known: the client then reports a controller without power."""
         status = self._box.status()
         azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
         if azimuth_deg is None:

@@ -1,8 +1,7 @@
-"""WSJT-X's azel.dat: where Moon, Sun and a source in the sky are, written anew every second while its Astro window is
-open.
+"""WSJT-X's azel.dat: directions of Moon, Sun and a radio source, rewritten every second while its Astro window is open.
 
-Knows the file's lines, and when what they say is fresh. Does not know files: one `receive` is the file as it is after
-a change. Time is the file's own: nobody's clock has to be right. Source: WSJT-X's astro.cpp, now and of old.
+Knows the file's lines, and when they are fresh. Does not know files: one `receive` is the content after a change. Time
+is the time in the file, so no clock has to be right. Source: WSJT-X's astro.cpp, present and older versions.
 """
 
 from __future__ import annotations
@@ -14,46 +13,46 @@ from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.session import Box
 
 LONGEST_PAUSE_S = 10
-"""A file that has not moved on for longer is stale; the next change only tells that somebody writes it again."""
+"""A file whose time has not changed for longer is stale. The next change only shows that it is being written again."""
 DAY_S = 86_400
 
 _LINE = re.compile(r"(\d\d)0?:(\d\d)0?:(\d\d)(?:0000)?, *([^,\n]*?)(?:0000)?, *([^,\n]*), *(\w+)\r?\n")
-"""Old versions pad the separators too: `120:340:560000,123.40000,0-5.3,Moon`."""
+"""Old versions also pad the separators with zeros: `120:340:560000,123.40000,0-5.3,Moon`."""
 _MISPLACED_MINUS = re.compile(r"0+(-)")
 """Below the horizon the zeros come before the sign: `0-5.3`."""
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
-    """Where a body is, and when."""
+class BodyDirection:
+    """The direction of a body at one time of day."""
 
     second_of_day: int
     azimuth_deg: float
     elevation_deg: float
 
 
-def parse(text: bytes, body: str) -> Place | None:
-    """The first whole line about `body`; None where there is none, as in a file that is being written."""
+def parse(text: bytes, body: str) -> BodyDirection | None:
+    """The first whole line about `body`; None where there is none, as in a file that is half written."""
     for hour, minute, second, azimuth, elevation, name in _LINE.findall(text.decode("latin-1")):
         if name != body:
             continue
         azimuth_deg, elevation_deg = degrees(azimuth), degrees(_MISPLACED_MINUS.sub(r"\1", elevation))
         if azimuth_deg is None or elevation_deg is None or aim(azimuth_deg, elevation_deg) is None:
             return None
-        return Place(int(hour) * 3600 + int(minute) * 60 + int(second), azimuth_deg, elevation_deg)
+        return BodyDirection(int(hour) * 3600 + int(minute) * 60 + int(second), azimuth_deg, elevation_deg)
     return None
 
 
-def encode(body: str, place: Place) -> bytes:
+def encode(body: str, direction: BodyDirection) -> bytes:
     """A line as WSJT-X writes it."""
-    minutes, second = divmod(place.second_of_day, 60)
+    minutes, second = divmod(direction.second_of_day, 60)
     hour, minute = divmod(minutes, 60)
-    azimuth, elevation = f"{place.azimuth_deg:.1f}".rjust(5, "0"), f"{place.elevation_deg:.1f}".rjust(5, "0")
+    azimuth, elevation = f"{direction.azimuth_deg:.1f}".rjust(5, "0"), f"{direction.elevation_deg:.1f}".rjust(5, "0")
     return f"{hour:02d}:{minute:02d}:{second:02d},{azimuth},{elevation},{body}\n".encode()
 
 
 class WsjtxSession:
-    """WSJT-X by way of its file. What the file says first is no order: nobody knows how long it has lain there."""
+    """WSJT-X through its file. The first content is no order, because it may be old."""
 
     idle_s = None
     closed = False
@@ -64,13 +63,13 @@ class WsjtxSession:
         self._written_s: int | None = None
 
     def receive(self, data: bytes) -> list[bytes]:
-        place = parse(data, self._body)
-        if place is None:
+        direction = parse(data, self._body)
+        if direction is None:
             return []
-        before_s, self._written_s = self._written_s, place.second_of_day
-        if before_s is None or not 0 < (place.second_of_day - before_s) % DAY_S <= LONGEST_PAUSE_S:
+        before_s, self._written_s = self._written_s, direction.second_of_day
+        if before_s is None or not 0 < (direction.second_of_day - before_s) % DAY_S <= LONGEST_PAUSE_S:
             return []
-        order = aim(place.azimuth_deg, place.elevation_deg)
+        order = aim(direction.azimuth_deg, direction.elevation_deg)
         if order is not None:
             self._box.order(order)
         return []

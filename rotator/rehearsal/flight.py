@@ -1,13 +1,13 @@
 """Flies a satellite pass in simulated time: orders through the protocol, the real drivers on simulated chips.
 
-Knows how to set a station going on a simulated clock and what to note of it. Decides nothing about pointing; it is part
-of the composition root, for the same parts under another clock.
+Knows how a station runs on a simulated clock, and what is recorded. Decides nothing about pointing. Part of the
+composition root: it builds the same parts as the box, with another clock.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Protocol
 
@@ -32,7 +32,7 @@ from rotator.status import Status
 
 SAMPLE_S = 0.05
 SETTLING_S = 5.0
-"""Errors count from here on: the antenna has to get going first."""
+"""Errors count from this moment on: the antenna has to start and catch up first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """Great-circle error between target and antenna while the satellite is up, and what it cost."""
+    """Great-circle error between target and antenna while the satellite is up, and the work of relays and motors."""
 
     rms_deg: float
     p95_deg: float
@@ -67,17 +67,17 @@ class Summary:
 
 
 class Plant(Protocol):
-    """What a rehearsal needs of whatever flies it."""
+    """What flies a pass: the box, or the emulated Arduino."""
 
     def order(self, azimuth_deg: float, elevation_deg: float) -> None: ...
 
     def run_until(self, moment_s: float) -> None: ...
 
-    def look(self) -> tuple[float, float, int, int]:
+    def pointing(self) -> tuple[float, float, int, int]:
         """Boom azimuth and elevation, azimuth and elevation drive."""
 
     def relay_starts(self) -> int | None:
-        """None: it has no relays."""
+        """None: there are no relays."""
 
 
 class BoxPlant:
@@ -96,12 +96,22 @@ class BoxPlant:
         self._session: Session = RotctldSession(client) if via == "rotctld" else Gs232Session(client, Dialect.B)
         self._encode = _rotctld_order if via == "rotctld" else _gs232_order
 
+    def inject(self, at_s: float, name: str) -> None:
+        """The named fault begins at that moment of simulated time."""
+        pending = [at_s]
+
+        def begin(_now_s: float) -> None:
+            pending.clear()
+            self.world.inject(name)
+
+        self._clock.add_alarm(lambda: pending[0] if pending else None, begin)
+
     @property
     def status(self) -> Status:
         return self._loop.status
 
     def post(self, source: Source, order: Order) -> None:
-        """An order past the protocol, from the console for one."""
+        """Give an order without the protocol, from the console for example."""
         self._loop.post(source, order)
 
     def order(self, azimuth_deg: float, elevation_deg: float) -> None:
@@ -113,8 +123,8 @@ class BoxPlant:
             self._clock.sleep_until(count * self._period_s)
             self._loop.cycle()
 
-    def look(self) -> tuple[float, float, int, int]:
-        # The simulated boom is on the rotor's own scale; mounted askew, it points that much beside.
+    def pointing(self) -> tuple[float, float, int, int]:
+        # The simulated boom is on the rotor's own scale; the offset of the mount is added.
         azimuth_deg, elevation_deg = self.world.antenna()
         drives = self.world.drives()
         if self.world.relay_starts is None:
@@ -126,7 +136,7 @@ class BoxPlant:
 
 
 class ArduinoPlant:
-    """The emulated Arduino that the product replaces, with motors and ranges from the same configuration."""
+    """The emulated Arduino that the product replaces; motors and ranges come from the same configuration."""
 
     def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float]) -> None:
         self._station = arduino_station(config, clock, clock.sleep, start_deg)
@@ -137,7 +147,7 @@ class ArduinoPlant:
     def run_until(self, moment_s: float) -> None:
         self._station.run_until(moment_s)
 
-    def look(self) -> tuple[float, float, int, int]:
+    def pointing(self) -> tuple[float, float, int, int]:
         boom = self._station.antenna()
         return boom.azimuth_deg, boom.elevation_deg, *self._station.drives()
 
@@ -145,18 +155,36 @@ class ArduinoPlant:
         return self._station.relay_starts
 
 
-def plant_maker(config: Config, *, via: str = "gs232", arduino: bool = False) -> Callable[[SimClock, Pass], Plant]:
-    """How to build what flies: given the clock and the pass, at whose first azimuth the rotor waits, horizontal."""
+Faults = Callable[[SimRotor], Sequence[tuple[float, str]]]
+"""Which faults the simulated rotor has: (moment in seconds, name)."""
+
+
+def no_faults(_world: SimRotor) -> Sequence[tuple[float, str]]:
+    return ()
+
+
+def plant_maker(
+    config: Config, *, via: str = "gs232", arduino: bool = False, faults: Faults = no_faults
+) -> Callable[[SimClock, Pass], Plant]:
+    """How to build what flies, given the clock and the pass. The rotor waits at the pass's first azimuth, horizontal.
+
+    The Arduino has no faults.
+    """
 
     def make(clock: SimClock, flown: Pass) -> Plant:
         start_deg = (flown.rows[0][1], 0.0)
-        return ArduinoPlant(config, clock, start_deg) if arduino else BoxPlant(config, clock, start_deg, via)
+        if arduino:
+            return ArduinoPlant(config, clock, start_deg)
+        box = BoxPlant(config, clock, start_deg, via)
+        for at_s, name in faults(box.world):
+            box.inject(at_s, name)
+        return box
 
     return make
 
 
 def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Sample], Summary]:
-    """Fly the pass: an order a second, as a tracking program sends them. Returns the trace and its summary."""
+    """Fly the pass with one order a second, as a tracking program sends them. Returns the trace and its summary."""
     clock = SimClock()
     plant = make(clock, flown)
     trace: list[Sample] = []
@@ -165,7 +193,7 @@ def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Samp
     def sample(now_s: float) -> None:
         t_s = now_s - started_s
         target_az_deg, target_el_deg = flown.at(t_s)
-        trace.append(Sample(t_s, target_az_deg, target_el_deg, *plant.look()))
+        trace.append(Sample(t_s, target_az_deg, target_el_deg, *plant.pointing()))
 
     def order(now_s: float) -> None:
         azimuth_deg, elevation_deg = flown.at(now_s - started_s)

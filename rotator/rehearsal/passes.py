@@ -1,6 +1,6 @@
-"""A satellite pass from a file: `t,az,el` in seconds and degrees, a row whenever the writer liked.
+"""A satellite pass from a file: `t,az,el` in seconds and degrees, in rows at any distance of time.
 
-Knows the file's form and how to interpolate. Knows no rotor.
+Knows the file's form and how to interpolate. Does not know the rotor.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from rotator.control.sky.angles import turn_deg
 
 
 class PassError(Exception):
-    """The file holds no pass; the text says where and why."""
+    """The file does not hold a pass; the text says where and why."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +32,8 @@ class Pass:
 
     def at(self, t_s: float) -> tuple[float, float]:
         """Azimuth (0 to 360) and elevation; azimuth goes the short way round between rows."""
-        at = min(max(bisect_right(self.rows, t_s, key=lambda row: row[0]), 1), len(self.rows) - 1)
-        (t_a, az_a, el_a), (t_b, az_b, el_b) = self.rows[at - 1], self.rows[at]
+        after = min(max(bisect_right(self.rows, t_s, key=lambda row: row[0]), 1), len(self.rows) - 1)
+        (t_a, az_a, el_a), (t_b, az_b, el_b) = self.rows[after - 1], self.rows[after]
         share = min(max((t_s - t_a) / (t_b - t_a), 0.0), 1.0)
         return (az_a + share * turn_deg(az_a, az_b)) % 360.0, el_a + share * (el_b - el_a)
 

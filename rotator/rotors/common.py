@@ -1,4 +1,4 @@
-"""What all kinds of rotor share: limit switches, and the guard of a drive.
+"""What all kinds of rotor share: where limit switches stand, and how a drive is guarded.
 
 Knows threads and alarms. Knows no kind of rotor.
 """
@@ -15,7 +15,7 @@ from rotator.control.commands import Errand
 from rotator.rotors.port import AddAlarm
 
 Ends = Callable[[Axis], frozenset[Direction]]
-"""The directions that the limit switches of an axis block now."""
+"""The ways in which the limit switches let an axis go no further."""
 
 
 def no_switches(_axis: Axis) -> frozenset[Direction]:
@@ -23,7 +23,7 @@ def no_switches(_axis: Axis) -> frozenset[Direction]:
 
 
 class PlainRotor:
-    """The answers of a kind without a switched supply and without counted contacts."""
+    """The answers of a kind without a switched supply, without counted contacts and without a guard."""
 
     def closed_contacts(self) -> frozenset[Axis]:
         return frozenset()
@@ -39,7 +39,7 @@ class PlainRotor:
 
 
 class GuardedRotor(PlainRotor):
-    """A drive whose commands expire. A guard thread, or the alarms of a simulated clock, sees to that."""
+    """A drive whose commands expire, and its guard: a thread, or the alarms of a simulated clock."""
 
     def __init__(
         self, drive: Expiring, sensors: Mapping[Axis, AngleSensor], ends: Ends = no_switches, *, alarm: str = ""
@@ -53,7 +53,7 @@ class GuardedRotor(PlainRotor):
         return Condition(ends=self._ends(axis))
 
     def run(self, errand: Errand) -> None:
-        """No errand concerns this drive; a kind with errands overrides this."""
+        """Nothing to do: a kind for which there is something overrides this."""
 
     def off(self) -> None:
         self._drive.off()

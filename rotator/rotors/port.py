@@ -1,6 +1,6 @@
-"""The interface of a rotor to the control loop, the same for every kind.
+"""What the control loop drives and reads, whichever kind of rotor it is.
 
-Knows no kind: each has a file beside this one.
+Knows the shape that all of them have. Knows none of them: those are in `rotator.rotors`.
 """
 
 from __future__ import annotations
@@ -13,23 +13,23 @@ from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand
 
 AddAlarm = Callable[[Callable[[], float | None], Callable[[float], None]], None]
-"""Of a simulated clock: a function with the moment at which something is due, and the function to call then."""
+"""A simulated clock's: when something is due, and what is to be called then."""
 
 
 class Rotor(Protocol):
-    """Only the control loop drives it; any thread may call `off` at any time."""
+    """Only the control loop drives it. `off` may be called from any thread at any time."""
 
     sensors: Mapping[Axis, AngleSensor]
     """Read in a thread of their own."""
 
     def condition(self, axis: Axis) -> Condition:
-        """The condition of the axis; called right after its sensor has been read, in the same thread."""
+        """How the axis is, beside its angle: asked for right after its sensor has been read, in the same thread."""
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        """Returns the direction whose relay is closed now, OFF without relays. Raises HardwareError."""
+        """Do that. Returns which way a relay is closed now; OFF where there are none. Raises HardwareError."""
 
     def run(self, errand: Errand) -> None:
-        """Do this once. Raises HardwareError."""
+        """Something that is to be done once. Raises HardwareError."""
 
     def closed_contacts(self) -> frozenset[Axis]:
         """The axes whose index contact is closed now, for a lamp; from any thread. Raises HardwareError."""
@@ -38,16 +38,16 @@ class Rotor(Protocol):
         """The safe state, from any thread: relays open; a motor that holds its place decelerates and holds."""
 
     def cut(self) -> bool:
-        """Everything off and the motors' supply too; False: no output switches the supply. Raises HardwareError."""
+        """Everything off and the motors' supply with it; False: nothing here can switch it. Raises HardwareError."""
 
     def restore(self) -> None:
         """The supply may come back."""
 
     def start(self) -> None:
-        """Begin in real time: start the guard and the other threads."""
+        """Begin in real time: start the guard and all other threads."""
 
     def begin(self, add_alarm: AddAlarm) -> None:
-        """Begin on a simulated clock, without threads."""
+        """In place of `start` on a simulated clock, where there are no threads."""
 
     def check(self) -> None:
         """Raises HardwareError when the thread that ends expired commands has died: nothing may move without it."""

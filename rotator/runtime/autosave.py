@@ -1,12 +1,13 @@
-"""Keeps what a running box finds out: calibrations taken over a link, and what its motors have taught.
+"""Saves what a running box finds out: calibrations taken over a link, and what it has learnt of its motors.
 
-Knows when to look and where it goes. Knows nothing of how files are written, and never lets a full disk stop the box.
+Knows when to save, and which file takes what. Does not know how files are written. A full disk never stops the box.
 """
 
 from __future__ import annotations
 
 import asyncio
 import logging
+import threading
 from pathlib import Path
 
 from hw.ports import Axis
@@ -23,31 +24,46 @@ LEARNT_EVERY_S = 600.0
 
 
 class Autosave:
-    """`path`: the configuration file, if there is one. `run` while the box runs, `close` when its loop has ended."""
+    """`path`: the configuration file, if there is one. `run` while the box runs, `close` when its loop has ended.
+
+    Raises nothing: a file that cannot be written is in the log.
+    """
 
     def __init__(self, loop: ControlLoop, path: Path | None, offsets: Offsets, learnt: LearntFile) -> None:
         self._loop = loop
         self._path = path
         self._offsets = offsets
         self._learnt = learnt
+        self._saving = threading.Lock()
+        """The last save may come while another one is still under way."""
         self._points = {axis: loop.status.axis(axis).calibration for axis in Axis}
         learnt.note(self._motors())
 
     async def run(self) -> None:
+        """Save now and then, until cancelled."""
         looks = 0
         while True:
             await asyncio.sleep(CALIBRATIONS_EVERY_S)
             await asyncio.to_thread(self.keep_calibrations)
             looks += 1
             if looks * CALIBRATIONS_EVERY_S % LEARNT_EVERY_S == 0:
-                await asyncio.to_thread(self._learnt.save, self._motors(), ending=False)
+                await asyncio.to_thread(self._keep_learnt, ending=False)
 
     def close(self) -> None:
+        """Save the last changes. May be called twice."""
         self.keep_calibrations()
-        self._learnt.save(self._motors(), ending=True)
+        self._keep_learnt(ending=True)
 
     def keep_calibrations(self) -> None:
-        """Save a calibration taken over a link (O, F) as soon as it is there."""
+        """Save each calibration that was taken over a link (O, F) since the last call."""
+        with self._saving:
+            self._keep_calibrations()
+
+    def _keep_learnt(self, *, ending: bool) -> None:
+        with self._saving:
+            self._learnt.save(self._motors(), ending=ending)
+
+    def _keep_calibrations(self) -> None:
         for axis in Axis:
             points = self._loop.status.axis(axis).calibration
             if points is None or points == self._points[axis]:

@@ -1,7 +1,7 @@
-"""The box as one connection sees it: status to read, orders to hand in.
+"""The box as one connection sees it: it reads the status and gives orders.
 
-Knows one source, whether it may give orders, how many it may hurry, and where they go. Decides nothing else: admission
-does.
+Knows the connection's name and its rights: whether it may give orders, and how many a second. Whether an order makes
+sense is decided in `rotator.control.admission`.
 """
 
 from __future__ import annotations
@@ -25,15 +25,19 @@ MOST_PER_S = 100
 
 @dataclass(frozen=True, slots=True)
 class Rights:
-    """What a link may do."""
+    """What the connections of a link may do."""
 
     read_only: bool = False
+    """The link may ask and may not give orders, a stop included."""
     most_per_s: int = MOST_PER_S
-    """Orders a second from one connection that take effect at once."""
+    """Orders a second from one connection that take effect at once. Of those beyond, the newest of each kind counts."""
 
 
 class Client:
-    """`complaints` is shared by the connections of a link, so that one that comes anew each time is no news."""
+    """One connection's view of the box. `clock` gives seconds.
+
+    `complaints` limits the log lines. The connections of a link share it: a program may connect anew for each order.
+    """
 
     def __init__(
         self,
@@ -51,13 +55,15 @@ class Client:
         self._rights = rights
         self._complaints = complaints or LogLimit(clock)
         self._clock = clock
-        self._left = float(rights.most_per_s)
+        self._allowance = float(rights.most_per_s)
         self._counted_s = clock()
 
     def status(self) -> Status:
+        """The latest status. Never waits."""
         return self._loop.status
 
     def order(self, order: Order) -> Refusal | None:
+        """Hand an order to the control loop, or return why it is refused; the log has the reason then. Never waits."""
         refused = self._forbidden(order) or refusal(order, self._loop.status, self._mount)
         if refused:
             self._complain(f"refused: {refused.reason}")
@@ -71,19 +77,18 @@ class Client:
         return Refusal(f"the link is read_only, and takes no orders ({type(order).__name__})", forbidden=True)
 
     def _is_too_much(self, order: Order) -> bool:
-        """A stop never is."""
+        """Whether the order must wait for the next cycle, because too many came before it. A stop never waits."""
         if isinstance(order, Stop):
             return False
         now_s, most = self._clock(), self._rights.most_per_s
-        self._left = min(most, self._left + (now_s - self._counted_s) * most)
+        self._allowance = min(most, self._allowance + (now_s - self._counted_s) * most)
         self._counted_s = now_s
-        if self._left >= 1:
-            self._left -= 1
+        if self._allowance >= 1:
+            self._allowance -= 1
             return False
         self._complain(f"more than {most} orders a second: of those beyond, only the newest of each kind counts")
         return True
 
     def _complain(self, text: str) -> None:
-        told = self._complaints.tell(text)
-        if told:
-            log.warning("%s: %s", self._source, told)
+        if line := self._complaints.admit(text):
+            log.warning("%s: %s", self._source, line)

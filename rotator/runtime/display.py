@@ -1,7 +1,7 @@
-"""The display's thread: keeps a character display showing what it should.
+"""The display's thread: keeps the rows of a character display up to date.
 
-Knows when to write. Knows neither what the rows mean nor what the display is made of. It has a thread of its own
-because a slow or missing display may hold up nothing else.
+Knows when to write. Knows neither what the rows mean nor how the display works. It has a thread of its own because a
+slow or missing display must not delay anything else.
 """
 
 from __future__ import annotations
@@ -14,13 +14,18 @@ from hw.ports import CharacterDisplay, HardwareError
 
 log = logging.getLogger(__name__)
 
+DISPLAY_THREAD = "display"
+"""The name of the thread."""
 REFRESH_S = 0.2
 RESET_EVERY_S = 300.0
-"""Sparks from motor relays upset these displays; a fresh start now and then repairs what nobody sees happen."""
+"""Sparks of motor relays disturb these displays, and the program cannot read them back. A reset repairs them."""
 RETRY_S = 5.0
+"""The pause, in seconds, before a display that does not answer is tried again."""
 
 
 class DisplayThread:
+    """`rows` gives the text of each row, at a moment of `clock`, in seconds."""
+
     def __init__(
         self, display: CharacterDisplay, rows: Callable[[float], Sequence[str]], clock: Callable[[], float]
     ) -> None:
@@ -28,12 +33,13 @@ class DisplayThread:
         self._rows = rows
         self._clock = clock
         self._stopping = threading.Event()
-        self._thread = threading.Thread(target=self._keep, name="display", daemon=True)
+        self._thread = threading.Thread(target=self._keep, name=DISPLAY_THREAD, daemon=True)
 
     def start(self) -> None:
         self._thread.start()
 
     def stop(self) -> None:
+        """End the thread. May be called twice, and without `start`."""
         self._stopping.set()
         if self._thread.is_alive():
             self._thread.join(timeout=2.0)

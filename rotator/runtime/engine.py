@@ -1,6 +1,6 @@
-"""The control loop and the rotor with its guard, each with a thread, as one thing to start and to stop.
+"""Starts and stops the control loop and the rotor with its guard, each of which has a thread.
 
-Knows in which order they come and go. Knows nothing of what is controlled, and of no link.
+Knows in which order they start and stop. Knows neither what is controlled nor the links.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import asyncio
 import logging
 import os
 import threading
+from contextlib import suppress
 
 from hw.ports import HardwareError
 from rotator.rotors.port import Rotor
@@ -16,11 +17,13 @@ from rotator.runtime.loop import ControlLoop
 
 log = logging.getLogger(__name__)
 
+CONTROL_THREAD = "control"
+"""The name of the thread."""
 JOIN_S = 2.0
 
 
 async def process_end(pid: int) -> None:
-    """Wait for a child process that should never end. Raises HardwareError when it does."""
+    """Wait for the end of the sentinel, which should outlive the program. Raises HardwareError when it ends."""
     ended = asyncio.Event()
     handle = os.pidfd_open(pid)
     asyncio.get_running_loop().add_reader(handle, ended.set)
@@ -29,38 +32,42 @@ async def process_end(pid: int) -> None:
     finally:
         asyncio.get_running_loop().remove_reader(handle)
         os.close(handle)
-    raise HardwareError(f"the sentinel (process {pid}) has ended: nobody would open the relays if this program died")
+    raise HardwareError(f"the sentinel (process {pid}) has ended: nothing would open the relays if this program died")
 
 
 class ControlThread:
-    """The control loop in its thread, and its end as something asyncio can wait for."""
+    """Runs the control loop in a thread. `ended` is done when the loop has ended, with what ended it."""
 
     def __init__(self, loop: ControlLoop) -> None:
         self._loop = loop
         self._events = asyncio.get_running_loop()
         self.ended: asyncio.Future[Exception | None] = self._events.create_future()
-        self._thread = threading.Thread(target=self._run, name="control", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=CONTROL_THREAD, daemon=True)
 
     def start(self) -> None:
         self._thread.start()
 
     async def join(self) -> Exception | None:
-        """What stopped the loop, if something did. A thread that hangs on a dead bus is left behind: relays are off."""
-        try:
-            return await asyncio.wait_for(self.ended, JOIN_S)
-        except TimeoutError:
-            log.error("the control thread does not end; the relays are off")
-            return None
+        """Wait for the end. Returns what ended the loop, None for a proper end.
+
+        A thread that hangs on a dead bus is left behind: the guard has opened the relays.
+        """
+        if not self.ended.done():
+            await asyncio.wait([self.ended], timeout=JOIN_S)
+        if self.ended.done():
+            return self.ended.result()
+        log.error("the control thread does not end; the relays are off")
+        return None
 
     def _run(self) -> None:
         failure: Exception | None = None
         try:
             self._loop.run()
         except Exception as fault:
-            # It travels to whoever waits for the box; the loop has switched everything off on its way out.
-            log.exception("the control thread failed")
+            # The loop has switched everything off on its way out; the failure goes to the caller of `join`.
             failure = fault
-        self._events.call_soon_threadsafe(self._end, failure)
+        with suppress(RuntimeError):  # left behind, it has outlived the event loop
+            self._events.call_soon_threadsafe(self._end, failure)
 
     def _end(self, failure: Exception | None) -> None:
         if not self.ended.done():
@@ -68,24 +75,36 @@ class ControlThread:
 
 
 class Engine:
-    """`start` it in an event loop; after `halt` every relay is off, and it tells what went wrong, if something did."""
+    """The control loop and the rotor. After `halt` every relay is off and both threads have ended."""
 
     def __init__(self, loop: ControlLoop, rotor: Rotor) -> None:
         self.loop = loop
         self._rotor = rotor
         self._thread: ControlThread | None = None
+        self._closed = False
 
     def start(self) -> asyncio.Future[Exception | None]:
-        """The future that is done when the loop has ended."""
+        """Start both, in an event loop. Returns the future that is done when the control loop has ended."""
         self._thread = ControlThread(self.loop)
         self._rotor.start()
         self._thread.start()
         return self._thread.ended
 
     async def halt(self) -> Exception | None:
-        """Everything off. The rotor's guard goes last: until the loop has ended it may still be needed."""
+        """Switch everything off. May be called twice. Returns what ended the control loop, None for a proper end.
+
+        The guard ends last, because it is needed until the loop has ended. Raises HardwareError if a line fails and
+        the loop had ended properly.
+        """
         self.loop.stop()
+        failure = await self._thread.join() if self._thread else None
+        if self._closed:
+            return failure
         try:
-            return await self._thread.join() if self._thread else None
-        finally:
             await asyncio.to_thread(self._rotor.close)
+            self._closed = True
+        except Exception as fault:
+            if failure is None:
+                raise
+            log.error("the rotor cannot be closed: %s", fault)
+        return failure

@@ -1,6 +1,6 @@
-"""The same complaint again and again, told seldom: at once the first time, then once a minute with a count.
+"""Keeps a message that is repeated from filling the log: once at first, then once a minute with a count.
 
-Knows texts and moments. Knows no log.
+Knows texts and moments. Does not write the log.
 """
 
 from __future__ import annotations
@@ -9,30 +9,30 @@ from collections.abc import Callable
 
 EVERY_S = 60.0
 MOST = 5
-"""Different complaints a minute that are told in full: the angles of a moving target make each one different."""
+"""Different texts per minute that are admitted: the angles of a moving target make each text different."""
 
 
 class LogLimit:
-    """`clock` gives seconds."""
+    """`clock` gives seconds. Each text is admitted once in `every_s`, and at most `most` different texts."""
 
     def __init__(self, clock: Callable[[], float], every_s: float = EVERY_S, most: int = MOST) -> None:
         self._clock = clock
         self._every_s = every_s
         self._most = most
         self._until_s = clock()
-        self._told: set[str] = set()
+        self._admitted: set[str] = set()
         self._withheld = 0
 
-    def tell(self, text: str) -> str | None:
-        """What to say now; None: nothing, it has been said."""
+    def admit(self, text: str) -> str | None:
+        """The line to log now, with the count of those withheld before; None: log nothing."""
         now_s = self._clock()
         if now_s >= self._until_s:
             self._until_s = now_s + self._every_s
-            self._told = {text}
+            self._admitted = {text}
             withheld, self._withheld = self._withheld, 0
             return f"{text} ({withheld} more of the kind before)" if withheld else text
-        if text in self._told or len(self._told) >= self._most:
+        if text in self._admitted or len(self._admitted) >= self._most:
             self._withheld += 1
             return None
-        self._told.add(text)
+        self._admitted.add(text)
         return text

@@ -1,8 +1,8 @@
 """The control loop: reads the sensors, steps the controller, commands the drive. The only reader of the clock.
 
-Knows when to do what. Decides nothing: that is the controller's. Owns the rotor; nobody else touches it, but
-for the guard, which may open relays at any time. Sensors are read in a thread of their own, so that neither
-a slow bus nor one that hangs keeps an order waiting or a stale reading from being noticed.
+Knows when to do what. Decides nothing: the controller does. No other code touches the rotor, except the guard, which
+may open relays at any time. The sensors have a thread of their own: a bus that is slow or hangs delays no order, and
+the loop still notices that a reading is old.
 """
 
 from __future__ import annotations
@@ -22,13 +22,19 @@ from rotator.status import Status
 
 log = logging.getLogger(__name__)
 
+SENSORS_THREAD = "sensors"
+"""The name of the thread that reads the sensors."""
 LATE_PERIODS = 1.5
-"""Without news from the sensors for this long the loop goes on all the same, and notices that they are silent."""
+"""Without new readings for so many periods the loop acts all the same, and notices that the sensors are silent."""
 JOIN_S = 1.0
+"""How long the end waits for the sensors' thread, in seconds."""
 
 
 class ControlLoop:
-    """`post` and `status` may be used from any thread; the rest belongs to one: `run`'s, or a rehearsal's."""
+    """`post` and `status` may be used from any thread; the rest by one thread only: `run`'s, or a rehearsal's.
+
+    `after_good_step` is called after each step in which all that must obey did. It may raise HardwareError.
+    """
 
     def __init__(
         self,
@@ -49,22 +55,22 @@ class ControlLoop:
         self._wake = threading.Event()
         self._pause = threading.Event()
         self._stopping = False
-        self._failure: Exception | None = None
+        self._sensor_bug: Exception | None = None
         self._readings: dict[Axis, Reading] = {}
-        self._troubles: dict[str, str] = {}
+        self._failures: dict[str, str] = {}
         self._must_obey = ("supply", *(f"{axis.value} drive" for axis in Axis))
         self._late_s = 0.0
         self._supply_cut = False
         self._noticed: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         self._movers = LogLimit(clock)
         self.status: Status = controller.status(clock())
-        """The latest status; replaced whole, never changed."""
+        """The latest status. Each step replaces it whole; a status never changes."""
 
     def post(self, source: Source, order: Order, *, can_wait: bool = False) -> None:
-        """Hand over an order; it takes effect at once, not at the next cycle.
+        """Hand over an order. It takes effect at once, not in the next cycle. May be called from any thread.
 
-        One that `can_wait` does so until the next cycle, and takes the place of those of its kind from the same source
-        that wait as well: so many of them cost little, and the newest wins.
+        An order that `can_wait` takes effect in the next cycle. It replaces an order of the same kind from the same
+        source that waits as well, so a flood of orders costs little and the newest wins.
         """
         with self._inbox_lock:
             if can_wait:
@@ -79,7 +85,7 @@ class ControlLoop:
             self._wake.set()
 
     def cycle(self) -> None:
-        """Read every sensor, then act. For whoever runs the loop in one thread, in simulated time."""
+        """Read every sensor, then act: the whole loop in one thread, for simulated time."""
         self._read_all()
         self.act()
 
@@ -100,16 +106,17 @@ class ControlLoop:
         for axis, command in commands.items():
             try:
                 driven[axis] = self._rotor.obey(axis, command)
-                self._trouble(f"{axis.value} drive", "")
+                self._note_failure(f"{axis.value} drive", "")
             except HardwareError as fault:
-                self._trouble(f"{axis.value} drive", str(fault))
+                self._note_failure(f"{axis.value} drive", str(fault))
         self._controller.note_driven(now_s, driven)
         self.status = self._controller.status(now_s, self._late_s)
         self._switch_supply()
-        self._tell(before)
+        self._log_changes(before)
         self._sign_of_life()
 
     def _run_errands(self) -> None:
+        """Do what the controller wants done once, such as telling a rotor where an axis stands."""
         for errand in self._controller.errands:
             try:
                 self._rotor.run(errand)
@@ -118,17 +125,20 @@ class ControlLoop:
         self._controller.errands.clear()
 
     def _sign_of_life(self) -> None:
-        """Told to whoever would switch the motors off without it. Not where a relay may not have obeyed."""
-        if any(self._troubles.get(what) for what in self._must_obey):
+        """Feed the heartbeat line and the service manager, unless a relay may not have obeyed.
+
+        Without the signs of life they switch the motors off.
+        """
+        if any(self._failures.get(what) for what in self._must_obey):
             return
         try:
             self._after_good_step()
-            self._trouble("heartbeat", "")
+            self._note_failure("heartbeat", "")
         except HardwareError as fault:
-            self._trouble("heartbeat", str(fault))
+            self._note_failure("heartbeat", str(fault))
 
     def _switch_supply(self) -> None:
-        """Off where a fault asks for it, tried until it is; back when the fault has been acknowledged."""
+        """Cut the motors' supply when a fault asks for it; restore it after the acknowledgement. Try until done."""
         if self.status.cut == self._supply_cut:
             return
         try:
@@ -137,13 +147,13 @@ class ControlLoop:
             else:
                 self._rotor.restore()
             self._supply_cut = self.status.cut
-            self._trouble("supply", "")
+            self._note_failure("supply", "")
         except HardwareError as fault:
-            self._trouble("supply", str(fault))
+            self._note_failure("supply", str(fault))
 
     def run(self) -> None:
         """Act on every round of readings and on every order until `stop`. Relays are off when this returns."""
-        reader = threading.Thread(target=self._keep_reading, name="sensors", daemon=True)
+        reader = threading.Thread(target=self._keep_reading, name=SENSORS_THREAD, daemon=True)
         try:
             reader.start()
             while not self._stopping:
@@ -154,17 +164,18 @@ class ControlLoop:
                     break
                 self._late_s = max(0.0, self._clock() - asked_s - self._period_s)
                 self.act()
-                if self._failure is not None:
-                    raise self._failure
+                if self._sensor_bug is not None:
+                    raise self._sensor_bug
         finally:
             try:
                 self._rotor.off()
             finally:
                 self.stop()
-                # A bus that hangs holds the thread; it is left behind, for it cannot move anything.
+                # A bus that hangs holds the thread. It is left behind: it reads only, and cannot move anything.
                 reader.join(timeout=JOIN_S)
 
     def stop(self) -> None:
+        """Let `run` end, from any thread. May be called twice."""
         self._stopping = True
         self._pause.set()
         self._wake.set()
@@ -175,12 +186,12 @@ class ControlLoop:
             while not self._stopping:
                 self._read_all()
                 self._wake.set()
-                # Fallen behind, it goes on from now: a burst of readings to catch up would help nobody.
+                # When it has fallen behind, it goes on from now: a burst of readings would not help.
                 due_s = max(due_s + self._period_s, self._clock())
                 self._pause.wait(due_s - self._clock())
         except Exception as failure:
-            # Whatever it is, the control thread stops the motors and tells.
-            self._failure = failure
+            # The control thread raises it, and so stops the motors.
+            self._sensor_bug = failure
             self._wake.set()
 
     def _read_all(self) -> None:
@@ -191,22 +202,23 @@ class ControlLoop:
         try:
             raw = sensor.read()
         except HardwareError as fault:
-            self._trouble(axis.value, str(fault))
+            self._note_failure(axis.value, str(fault))
             return Reading(self._clock(), None, str(fault), self._rotor.condition(axis))
-        self._trouble(axis.value, "")
+        self._note_failure(axis.value, "")
         return Reading(self._clock(), raw, condition=self._rotor.condition(axis))
 
-    def _trouble(self, what: str, text: str) -> None:
-        """Log a trouble once when it comes and once when it goes."""
-        if text == self._troubles.get(what, ""):
+    def _note_failure(self, what: str, text: str) -> None:
+        """Log a failure of a device once when it begins and once when it ends (empty text)."""
+        if text == self._failures.get(what, ""):
             return
-        self._troubles[what] = text
+        self._failures[what] = text
         if text:
             log.error("%s: %s", what, text)
         else:
             log.warning("%s: answers again", what)
 
-    def _tell(self, before: Status) -> None:
+    def _log_changes(self, before: Status) -> None:
+        """Log the controller's messages, and what is new in the status."""
         for text in self._controller.troubles:
             log.warning("%s", text)
         self._controller.troubles.clear()
@@ -214,7 +226,7 @@ class ControlLoop:
             if fault not in before.faults:
                 log.log(logging.WARNING if fault.passing else logging.ERROR, "FAULT %s", fault)
         mover = self.status.controlled_by
-        if mover and mover != before.controlled_by and (told := self._movers.tell(f"{mover} moves the antenna")):
+        if mover and mover != before.controlled_by and (told := self._movers.admit(f"{mover} moves the antenna")):
             log.info("%s", told)
         if before.faults and not self.status.faults:
             passed = all(fault.passing for fault in before.faults)
@@ -229,5 +241,5 @@ class ControlLoop:
 
 
 def _kind(order: Order) -> object:
-    """Two orders of one kind: the later one alone is left to do."""
+    """Of two orders of one kind, only the later one need be done."""
     return (Jog, order.axis) if isinstance(order, Jog) else type(order)

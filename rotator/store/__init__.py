@@ -1,1 +1,1 @@
-"""What must survive the end of the program."""
+"""Files that survive the end of the program: counts, learnt motors, knobs, the compass's corrections."""

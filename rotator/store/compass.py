@@ -1,68 +1,63 @@
-"""What a compass has learnt of its own errors, kept in a small JSON file, for the chip forgets it without power.
+"""The corrections that a compass has found for its own errors: the chip loses them without power.
 
-Knows the file's form, and that a damaged or foreign file is as good as none. Does not know what the bytes mean.
+Knows the file's form. Does not know what the bytes mean.
 """
 
 from __future__ import annotations
 
-import json
-import logging
 from pathlib import Path
+from typing import Any
 
-from rotator.store.whole import write_whole
-
-log = logging.getLogger(__name__)
+from rotator.store import json_file
+from rotator.store.json_file import JsonFile
 
 FORMAT = "rotator compass 1"
 OFFSETS_COUNT = 22
+"""Bytes, as the BNO055's registers hold them."""
 
 
 def encode(offsets: bytes) -> str:
-    return json.dumps({"format": FORMAT, "offsets": offsets.hex(" ")}, indent=1) + "\n"
+    return json_file.encode(FORMAT, _content(offsets))
 
 
 def decode(text: str) -> bytes:
-    """Raises ValueError where that is not the box's."""
-    try:
-        whole = json.loads(text)
-        if not isinstance(whole, dict) or whole.get("format") != FORMAT:
-            raise ValueError("it is not the box's")
-        offsets = bytes.fromhex(whole["offsets"])
-    except (ValueError, KeyError, TypeError, RecursionError) as fault:
-        raise ValueError(str(fault) or type(fault).__name__) from fault
+    """Raises ValueError where the text is not such a file."""
+    return json_file.decode(FORMAT, text, _parse)
+
+
+def _content(offsets: bytes) -> dict[str, object]:
+    return {"offsets": offsets.hex(" ")}
+
+
+def _parse(content: dict[str, Any]) -> bytes:
+    offsets = bytes.fromhex(content["offsets"])
     if len(offsets) != OFFSETS_COUNT:
         raise ValueError(f"it holds {len(offsets)} bytes, not {OFFSETS_COUNT}")
     return offsets
 
 
 class CompassFile:
-    """The file. `load` it, `save` what is new; neither ever raises. `trouble` says why it could not be written."""
+    """`load` the corrections, `save` new ones; neither raises."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.trouble = ""
-        self._kept: bytes | None = None
+        self._file = JsonFile(path, FORMAT, "what the compass learnt")
+        self._saved: bytes | None = None
+
+    @property
+    def trouble(self) -> str:
+        """Why the file could not be written, as a sentence for the operator; empty: it was."""
+        reason = self._file.trouble
+        return f"{self.path}: what the compass learnt cannot be kept: {reason}" if reason else ""
 
     def load(self) -> bytes | None:
-        """What the compass knew; None where there is no file, or none that can be believed."""
-        try:
-            self._kept = decode(self.path.read_text(encoding="utf-8"))
-        except FileNotFoundError:
-            return None
-        except (OSError, ValueError) as fault:
-            log.warning("%s: ignored, the compass learns its errors anew: %s", self.path, fault)
-            return None
-        return self._kept
+        """The corrections; None where there is no file, or none that can be trusted."""
+        self._saved = self._file.load(
+            _parse, absent=None, damaged=None, consequence="ignored, the compass learns its errors anew"
+        )
+        return self._saved
 
     def save(self, offsets: bytes) -> None:
-        """Keep what a compass knows once its calibration is complete. What is there already is not written again."""
-        if offsets == self._kept:
-            return
-        try:
-            self.path.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(self.path, encode(offsets))
-        except OSError as fault:
-            self.trouble = f"{self.path}: what the compass learnt cannot be kept: {fault}"
-            log.error("%s", self.trouble)
-            return
-        self._kept, self.trouble = offsets, ""
+        """Keep the corrections of a compass whose calibration is complete. Equal ones are not written again."""
+        if offsets != self._saved and self._file.save(_content(offsets)):
+            self._saved = offsets

@@ -1,41 +1,46 @@
-"""What a front panel's knobs read at their maximum, kept in a small JSON file from one run to the next.
+"""What a front panel's knobs read at their maximum, from one run to the next.
 
-Knows the file's form, and that a damaged or foreign file is as good as none. Does not know how it was found out.
+Knows the file's form. Does not know how the maximum was measured.
 """
 
 from __future__ import annotations
 
-import json
-import logging
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from hw.ports import Axis
-from rotator.store.whole import write_whole
-
-log = logging.getLogger(__name__)
+from rotator.store import json_file
+from rotator.store.json_file import JsonFile
 
 FILE_NAME = "knobs.json"
 """Beside the state file."""
 FORMAT = "rotator knobs 1"
 LEAST, MOST = 0.1, 1.1
-"""A full scale outside of these is no knob's, in shares of its supply."""
+"""The full scale of a working knob lies between these shares of its supply."""
+
+FullScales = dict[Axis, float]
 
 
 def encode(full_scales: Mapping[Axis, float]) -> str:
-    shares = {axis.value: round(share, 4) for axis, share in full_scales.items()}
-    return json.dumps({"format": FORMAT, "full_scales": shares}, indent=1) + "\n"
+    return json_file.encode(FORMAT, _content(full_scales))
 
 
-def decode(text: str) -> dict[Axis, float]:
-    """Raises ValueError where that is not the box's."""
-    try:
-        whole = json.loads(text)
-        if not isinstance(whole, dict) or whole.get("format") != FORMAT:
-            raise ValueError("it is not the box's")
-        shares = {Axis(name): share for name, share in whole["full_scales"].items()}
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as fault:
-        raise ValueError(str(fault) or type(fault).__name__) from fault
+def decode(text: str) -> FullScales:
+    """Raises ValueError where the text is not such a file."""
+    return json_file.decode(FORMAT, text, _parse)
+
+
+def _content(full_scales: Mapping[Axis, float]) -> dict[str, object]:
+    return {"full_scales": {axis.value: share for axis, share in _rounded(full_scales).items()}}
+
+
+def _rounded(full_scales: Mapping[Axis, float]) -> FullScales:
+    return {axis: round(share, 4) for axis, share in full_scales.items()}
+
+
+def _parse(content: dict[str, Any]) -> FullScales:
+    shares = {Axis(name): share for name, share in content["full_scales"].items()}
     for axis, share in shares.items():
         if isinstance(share, bool) or not isinstance(share, (int, float)) or not LEAST <= share <= MOST:
             raise ValueError(f"{share!r} is no full scale of the {axis.value} knob")
@@ -43,32 +48,21 @@ def decode(text: str) -> dict[Axis, float]:
 
 
 class KnobsFile:
-    """The file. `load` it, `save` what is new; neither ever raises."""
+    """`load` the full scales, `save` new ones; neither raises."""
 
     def __init__(self, path: Path) -> None:
-        self._path = path
-        self._kept: dict[Axis, float] = {}
+        self._file = JsonFile(path, FORMAT, "the knobs' full scales")
+        self._saved: FullScales = {}
 
-    def load(self) -> dict[Axis, float]:
-        """The full scales that are known; none where there is no file, or none that can be believed."""
-        try:
-            self._kept = decode(self._path.read_text(encoding="utf-8"))
-        except FileNotFoundError:
-            return {}
-        except (OSError, ValueError) as fault:
-            log.warning("%s: ignored, the panel's knobs count as uncalibrated: %s", self._path, fault)
-            return {}
-        return dict(self._kept)
+    def load(self) -> FullScales:
+        """The known full scales; empty where there is no file, or none that can be trusted."""
+        self._saved = self._file.load(
+            _parse, absent={}, damaged={}, consequence="ignored, the panel's knobs count as uncalibrated"
+        )
+        return dict(self._saved)
 
     def save(self, full_scales: Mapping[Axis, float]) -> None:
-        """Keep them. What is there already is not written again."""
-        wanted = {axis: round(share, 4) for axis, share in full_scales.items()}
-        if wanted == self._kept:
-            return
-        try:
-            self._path.parent.mkdir(parents=True, exist_ok=True)
-            write_whole(self._path, encode(wanted))
-        except OSError as fault:
-            log.error("%s: the knobs' full scales cannot be kept: %s", self._path, fault)
-            return
-        self._kept = wanted
+        """Equal full scales are not written again."""
+        wanted = _rounded(full_scales)
+        if wanted != self._saved and self._file.save(_content(wanted)):
+            self._saved = wanted

@@ -1,6 +1,6 @@
-"""Replaces a file whole or not at all, whenever the power goes.
+"""Replaces a file whole or not at all, even if the power fails at any moment.
 
-Knows files. Knows nothing of what is in them.
+Knows files. Does not know their content.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ NEW = ".new"
 
 
 def write_whole(path: Path, content: str | bytes) -> None:
-    """Put `content` in the place of the file, text as UTF-8. Raises OSError; then the old file is as it was.
+    """Replace the file by `content`, text as UTF-8. Raises OSError; then the old file is unchanged.
 
-    A `.new` file that an earlier attempt left behind is written over. Mode and owner stay those of the old file; a
-    symbolic link stays one.
+    A `.new` file that an earlier attempt left is overwritten. Mode and owner stay those of the old file; a symbolic
+    link stays a link.
     """
     path = path.resolve()
     new = path.with_name(path.name + NEW)
@@ -30,7 +30,7 @@ def write_whole(path: Path, content: str | bytes) -> None:
         with suppress(PermissionError):
             os.chown(new, before.st_uid, before.st_gid)
     new.replace(path)
-    # The new name is only safe once the folder itself is on the disk.
+    # The new name is safe only after the folder itself is on the disk.
     folder = os.open(path.parent, os.O_RDONLY)
     try:
         os.fsync(folder)

@@ -1,1 +1,1 @@
-"""Status to something a person can read. Pure: a status and the time in, text out."""
+"""From a status to text that the operator reads. Pure: a status and the time in, text out."""

@@ -1,6 +1,6 @@
 """Two rows of sixteen characters: where the satellite is, where the antenna is.
 
-Knows the layout and what may take its place for a moment. Knows no display.
+Knows the layout, and the notices that replace the upper row for a moment. Does not know the display.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from rotator.status import Status
 
 COLUMNS = 16
 ALTERNATE_S = 2.0
-"""A fault takes the upper row every other two seconds."""
+"""Satellite and notices take the upper row in turn, for this long each."""
 _SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
 
 

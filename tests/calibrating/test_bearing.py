@@ -11,15 +11,23 @@ from firmware_sim.chips.bno055 import Bno055 as SimBno055
 from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.bno055 import Bno055
-from rotator.calibrating.bearing import COMPASS_DEG, LEAST_LOOKS, Look, North, NorthRefused, agree, find_north
+from rotator.calibrating.bearing import (
+    COMPASS_DEG,
+    LEAST_SAMPLES,
+    HeadingSample,
+    North,
+    NorthUncertain,
+    agree,
+    find_north,
+)
 from rotator.control.sky.angles import turn_deg
 
 
-def looks(*headings_deg: float, azimuth_deg: float = 90.0, magnetometer: int = 3) -> list[Look]:
-    """Enough looks, the headings over and over."""
+def samples(*headings_deg: float, azimuth_deg: float = 90.0, magnetometer: int = 3) -> list[HeadingSample]:
+    """Enough samples, the headings over and over."""
     return [
-        Look(headings_deg[at % len(headings_deg)], azimuth_deg, magnetometer)
-        for at in range(LEAST_LOOKS + len(headings_deg))
+        HeadingSample(headings_deg[at % len(headings_deg)], azimuth_deg, magnetometer)
+        for at in range(LEAST_SAMPLES + len(headings_deg))
     ]
 
 
@@ -31,7 +39,7 @@ def looks(*headings_deg: float, azimuth_deg: float = 90.0, magnetometer: int = 3
         (80.0, 90.0, 0.0, 0.0, -10.0),
         (90.0, 90.0, 4.5, 0.0, 4.5),  # declination east: true bearings are larger
         (90.0, 90.0, -11.0, 0.0, -11.0),
-        (90.0, 180.0, 0.0, 90.0, 0.0),  # the compass looks to the left of the boom
+        (90.0, 180.0, 0.0, 90.0, 0.0),  # the compass samples to the left of the boom
         (5.0, 365.0, 0.0, 0.0, 0.0),  # in the overlap
         (355.0, 5.0, 0.0, 0.0, -10.0),
         (5.0, 355.0, 0.0, 0.0, 10.0),
@@ -41,13 +49,13 @@ def looks(*headings_deg: float, azimuth_deg: float = 90.0, magnetometer: int = 3
 def test_the_offset_turns_the_rotors_scale_to_true_azimuths(
     heading_deg: float, azimuth_deg: float, declination_deg: float, compass_offset_deg: float, offset_deg: float
 ) -> None:
-    north = find_north(looks(heading_deg, azimuth_deg=azimuth_deg), declination_deg, compass_offset_deg)
+    north = find_north(samples(heading_deg, azimuth_deg=azimuth_deg), declination_deg, compass_offset_deg)
     assert north.offset_deg == pytest.approx(offset_deg, abs=1e-6)
     assert north.uncertainty_deg == pytest.approx(COMPASS_DEG, abs=1e-6)
 
 
 def test_around_north_the_mean_is_north_not_south() -> None:
-    assert find_north(looks(359.0, 1.0, azimuth_deg=0.0), 0.0).offset_deg == pytest.approx(0.0, abs=1e-6)
+    assert find_north(samples(359.0, 1.0, azimuth_deg=0.0), 0.0).offset_deg == pytest.approx(0.0, abs=1e-6)
 
 
 # --- refused
@@ -57,24 +65,24 @@ def test_around_north_the_mean_is_north_not_south() -> None:
     ("taken", "words"),
     [
         ([], "0 compass readings are too few"),
-        (looks(90.0)[: LEAST_LOOKS - 1], "29 compass readings are too few; let it take at least 30"),
-        (looks(90.0, magnetometer=1), r"\(1 of 3\); turn the antenna slowly all the way round"),
-        ([*looks(90.0), Look(90.0, 90.0, 1)], r"\(1 of 3\)"),
-        ([*looks(90.0), Look(90.0, 91.5, 3)], "the antenna turned while the compass was read"),
+        (samples(90.0)[: LEAST_SAMPLES - 1], "29 compass readings are too few; let it take at least 30"),
+        (samples(90.0, magnetometer=1), r"\(1 of 3\); turn the antenna slowly all the way round"),
+        ([*samples(90.0), HeadingSample(90.0, 90.0, 1)], r"\(1 of 3\)"),
+        ([*samples(90.0), HeadingSample(90.0, 91.5, 3)], "the antenna turned while the compass was read"),
         (
-            looks(80.0, 100.0),
+            samples(80.0, 100.0),
             "the compass swings by 10.0 degrees while the antenna stands, 3 are allowed; move it away",
         ),
-        (looks(0.0, 90.0, 180.0, 270.0), "the compass swings"),
+        (samples(0.0, 90.0, 180.0, 270.0), "the compass swings"),
     ],
 )
-def test_north_is_refused(taken: list[Look], words: str) -> None:
-    with pytest.raises(NorthRefused, match=words):
+def test_north_is_refused(taken: list[HeadingSample], words: str) -> None:
+    with pytest.raises(NorthUncertain, match=words):
         find_north(taken, 0.0)
 
 
 def test_calibrated_two_of_three_is_enough() -> None:
-    assert find_north(looks(90.0, magnetometer=2), 0.0).offset_deg == pytest.approx(0.0, abs=1e-6)
+    assert find_north(samples(90.0, magnetometer=2), 0.0).offset_deg == pytest.approx(0.0, abs=1e-6)
 
 
 # --- several places
@@ -94,12 +102,12 @@ def test_one_place_says_what_it_said() -> None:
 @pytest.mark.parametrize(
     ("places", "words"),
     [
-        ([], "no place tells north yet"),
+        ([], "no place gives north yet"),
         ([North(0.0, 2.5), North(30.0, 2.5)], "differs by 30 degrees from place to place; steel is too near"),
     ],
 )
 def test_places_that_contradict_each_other(places: list[North], words: str) -> None:
-    with pytest.raises(NorthRefused, match=words):
+    with pytest.raises(NorthUncertain, match=words):
         agree(places)
 
 
@@ -134,7 +142,7 @@ class Boom:
         for _ in range(count):
             self.clock.sleep(0.1)
             calibrated = self.compass.calibration()
-            taken.append(Look(self.compass.heading_deg(), azimuth_deg, calibrated.magnetometer))
+            taken.append(HeadingSample(self.compass.heading_deg(), azimuth_deg, calibrated.magnetometer))
         return find_north(taken, DECLINATION_DEG)
 
 
@@ -171,19 +179,19 @@ def test_steel_near_the_compass_is_averaged_out_over_the_circle() -> None:
 def test_too_much_steel_is_refused() -> None:
     boom = Boom()
     boom.chip.hard_iron_deg = 20.0
-    with pytest.raises(NorthRefused, match="steel is too near"):
+    with pytest.raises(NorthUncertain, match="steel is too near"):
         agree([boom.north(azimuth_deg) for azimuth_deg in (0.0, 90.0, 180.0, 270.0)])
 
 
 def test_a_compass_that_never_learnt_is_refused() -> None:
     boom = Boom()
     boom.chip.learns = False
-    with pytest.raises(NorthRefused, match=r"\(0 of 3\)"):
+    with pytest.raises(NorthUncertain, match=r"\(0 of 3\)"):
         boom.north(90.0)
 
 
 def test_a_magnetic_disturbance_is_refused() -> None:
     boom = Boom()
     boom.chip.wander_deg = 15.0
-    with pytest.raises(NorthRefused, match="the compass swings by"):
+    with pytest.raises(NorthUncertain, match="the compass swings by"):
         boom.north(90.0)

@@ -1,4 +1,4 @@
-"""The compass as the guide to north sees it: the real driver on a simulated chip, in step and with its own thread."""
+"""The compass reader: the real driver on a simulated chip, in simulated time and with its own thread."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from firmware_sim.rotors.rotor import SimRotor
 from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
 from hw.ports import HardwareError
 from rotator.assembly.board import Board
-from rotator.calibrating.compass import CompassReader, learnt_path, open_compass
+from rotator.assembly.calibration import compass_path, open_compass
+from rotator.calibrating.compass import CompassReader
 from rotator.config.load import parse
 from rotator.store.compass import CompassFile
 
@@ -30,50 +31,50 @@ def fitted(clock: Any, sleep: Any, file: CompassFile | None = None) -> tuple[Com
     return CompassReader(open_compass(CONFIG, board), clock, file), world
 
 
-def test_it_tells_where_the_boom_points_and_how_well_it_knows() -> None:
+def test_it_reads_the_heading_and_the_calibration() -> None:
     clock = SimClock()
     reader, _ = fitted(clock, clock.sleep)
-    reader.look()
+    reader.read()
     clock.sleep(20.0)
-    reader.look()
+    reader.read()
     seen = reader.latest
     assert seen is not None
     assert seen.problem == ""
     assert seen.heading_deg == pytest.approx(40.0, abs=2.0)
     assert seen.tilt_deg == 0.0
-    assert seen.learnt.complete
-    assert str(seen.learnt) == "system 3, gyroscope 3, accelerometer 3, magnetometer 3 of 3"
+    assert seen.calibration.complete
+    assert str(seen.calibration) == "system 3, gyroscope 3, accelerometer 3, magnetometer 3 of 3"
 
 
-def test_one_that_is_gone_says_so_and_comes_back() -> None:
+def test_a_missing_compass_is_a_problem_until_it_answers_again() -> None:
     clock = SimClock()
     reader, world = fitted(clock, clock.sleep)
     world.inject("compass-gone")
-    reader.look()
+    reader.read()
     assert reader.latest is not None
     assert "0x29" in reader.latest.problem
     world.clear("compass-gone")
-    reader.look()
+    reader.read()
     assert reader.latest.problem == ""
 
 
-def test_what_cannot_be_asked_for_is_not_kept(tmp_path: Path) -> None:
+def test_corrections_that_cannot_be_read_are_not_saved(tmp_path: Path) -> None:
     clock = SimClock()
     reader, world = fitted(clock, clock.sleep, CompassFile(tmp_path / "compass.json"))
-    reader.look()
+    reader.read()
     world.inject("compass-gone")
-    reader.keep()
-    reader.look()
-    assert not reader.keeps
-    assert "Not kept: " in reader.told.pop()
+    reader.request_save()
+    reader.read()
+    assert not reader.save_pending
+    assert "Not kept: " in reader.messages.pop()
     assert not list(tmp_path.iterdir())
 
 
-def test_its_thread_looks_until_it_is_stopped() -> None:
-    looked = threading.Event()
-    reader, _ = fitted(time.monotonic, lambda seconds: looked.set())
+def test_its_thread_reads_until_it_is_stopped() -> None:
+    read_once = threading.Event()
+    reader, _ = fitted(time.monotonic, lambda seconds: read_once.set())
     reader.start()
-    assert looked.wait(10.0)
+    assert read_once.wait(10.0)
     reader.stop()
 
 
@@ -87,6 +88,6 @@ def test_a_file_without_a_compass() -> None:
 
 
 def test_what_a_simulated_compass_has_learnt_never_reaches_a_real_one() -> None:
-    assert learnt_path(CONFIG) is None
+    assert compass_path(CONFIG) is None
     real = parse('[rotor]\nhardware = "pi"\n[state]\npath = "/var/lib/rotator/state.json"\n', "test")
-    assert learnt_path(real) == Path("/var/lib/rotator/compass.json")
+    assert compass_path(real) == Path("/var/lib/rotator/compass.json")

@@ -1,4 +1,4 @@
-"""`rotator calibrate` as a person starts it, without a terminal: lines in, lines out, the file at the end."""
+"""`rotator calibrate` without a terminal: lines in, lines out, the file at the end."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.calibrating.asking import Commissioned
-from rotator.calibrating.rig import as_toml
+from rotator.calibrating.results import AxisCalibrated
+from rotator.calibrating.saving import as_toml
 from rotator.config.load import load, parse
 from rotator.links.console import console_path
 
@@ -127,7 +127,7 @@ def test_leaving(start: Start) -> None:
 
 
 def test_without_a_file_the_lines_for_one_are_shown() -> None:
-    done = Commissioned(Axis.ELEVATION, ((0.0312, -2.0), (0.97, 92.0)), 0.0, 90.0)
+    done = AxisCalibrated(Axis.ELEVATION, ((0.0312, -2.0), (0.97, 92.0)), 0.0, 90.0)
     elevation = parse(as_toml(done), "shown").elevation
     assert elevation.calibration == [(0.0312, -2.0), (0.97, 92.0)]
     assert elevation.direction_checked

@@ -1,4 +1,4 @@
-"""`rotator calibrate north` as a person starts it, without a terminal: lines in, lines out, the file at the end."""
+"""`rotator calibrate north` without a terminal: lines in, lines out, the file at the end."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What the contract is checked on: pins, a bus, a converter and a display, with hands to meddle and eyes to look.
+"""The bench on which the contract is checked: pins, a bus, a converter and a display, to be set, broken and read.
 
-Knows what a test may ask. There are three: simulated chips, the kernel's own drivers, and a Raspberry Pi; what one of
-them cannot do skips the test with a sentence.
+Knows what a test may ask of a bench. There are three: simulated chips, the kernel's own drivers, and a Raspberry Pi.
+Where a bench cannot do something, the test is skipped with the reason.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from hw.buses.i2c import SmbusI2C
 
 RELAYS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25}
 LCD_PINS = {"rs": 17, "e": 27, "d4": 5, "d5": 6, "d6": 12, "d7": 13}
-ADC_ADDRESS, LCD_ADDRESS, NOBODY = 0x48, 0x27, 0x35
+ADC_ADDRESS, LCD_ADDRESS, EMPTY_ADDRESS = 0x48, 0x27, 0x35
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ class Bench(Protocol):
         """The physical level of a pin of the header."""
 
     def edges(self) -> list[Edge]:
-        """What the relays' pins did since this was asked the last time, in order."""
+        """The changes of the relays' pins since the last call, in order."""
 
     # --- I2C
 
@@ -88,7 +88,7 @@ class Bench(Protocol):
     # --- the display
 
     def read_glass(self, port: str, expected: Sequence[str]) -> tuple[str, ...]:
-        """What a person reads on the display that hangs on `port` (`backpack`, `lines`)."""
+        """The text on the display that is connected to `port` (`backpack` or `lines`)."""
 
     def close(self) -> None:
         """Take everything away again."""

@@ -1,6 +1,6 @@
 """The simulated chips on an I2C bus that every bench but a real Pi shares: a converter, and a display on a backpack.
 
-Knows their addresses and how to meddle with them. Does not know whether a kernel stands between them and the drivers.
+Knows their addresses, and how to set and unplug them. Does not know whether a kernel is between them and the drivers.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """The bench of `pytest tests/contract --hardware`: a Raspberry Pi, wired as its rotator.toml says.
 
-Knows the `pinctrl` tool of Raspberry Pi OS, which reads a pin's level beside whoever drives it. Nobody here can set a
-voltage, draw a plug or read a display: tests that need it skip and say so. A relay closes only with
+Knows the `pinctrl` tool of Raspberry Pi OS, which reads a pin's level while a program drives it. This bench cannot set
+a voltage, pull a plug or read a display: tests that need that are skipped, with the reason. A relay closes only with
 --motors-are-unplugged.
 """
 

@@ -8,7 +8,7 @@ import pytest
 
 from hw.chips.ads1115 import Ads1115
 from hw.ports import HardwareError
-from tests.contract.bench import NOBODY, Bench
+from tests.contract.bench import EMPTY_ADDRESS, Bench
 
 INPUTS_V = (0.2, 1.1, 2.2, 3.2)
 STEP_V = 125e-6
@@ -44,7 +44,7 @@ def test_a_voltage_that_changes_is_followed(bench: Bench, adc: Ads1115) -> None:
 
 def test_a_chip_that_is_not_there(bench: Bench) -> None:
     with pytest.raises(HardwareError, match=r"the device does not answer.*\(address 0x35\)"):
-        Ads1115(bench.bus, NOBODY, time.sleep).volts(0)
+        Ads1115(bench.bus, EMPTY_ADDRESS, time.sleep).volts(0)
 
 
 @pytest.mark.usefixtures("_volts")

@@ -112,7 +112,7 @@ def test_the_header_is_found(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize("place", [0, 1, 3])
-def test_the_header_is_found_whatever_its_number(bench: Bench, place: int) -> None:
+def test_the_header_is_found_by_its_label_not_its_number(bench: Bench, place: int) -> None:
     labels = ["gpio-brcmstb@107d508500", "raspberrypi-exp-gpio", "gpio-brcmstb@107d517c20"]
     labels.insert(place, "pinctrl-rp1")
     api, paths = bench.crowd(labels)

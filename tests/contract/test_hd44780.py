@@ -1,4 +1,4 @@
-"""The display's driver by both ways to its pins: what counts is what a person reads."""
+"""The display's driver by both ways to its pins: what counts is the text on the glass."""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
-"""The adapter through smbus2: bytes as on the wire, and one sentence for an error whatever its number."""
+"""The adapter through smbus2: bytes as on the wire, and one sentence for an error, with any of its numbers."""
 
 from __future__ import annotations
 
 import pytest
 
 from hw.ports import HardwareError
-from tests.contract.bench import NOBODY, Bench
+from tests.contract.bench import EMPTY_ADDRESS, Bench
 
 LOW_THRESHOLD = 0x02
 """A register of the converter that does nothing while its comparator is off."""
@@ -22,16 +22,16 @@ def test_a_row_of_a_display_fits_in_one_write(bench: Bench) -> None:
     bench.bus.write(bench.lcd_address, bytes(68))
 
 
-def test_nobody_there_is_a_sentence(bench: Bench) -> None:
+def test_an_empty_address_is_a_sentence(bench: Bench) -> None:
     with pytest.raises(HardwareError, match=r"^I2C .+: the device does not answer; .* \(address 0x35\)$") as fault:
-        bench.bus.write_read(NOBODY, b"\x00", 2)
+        bench.bus.write_read(EMPTY_ADDRESS, b"\x00", 2)
     assert isinstance(fault.value.__cause__, OSError)
 
 
-def test_nobody_there_hurts_nobody_else(bench: Bench) -> None:
+def test_an_empty_address_disturbs_no_other(bench: Bench) -> None:
     for _ in range(3):
         with pytest.raises(HardwareError):
-            bench.bus.write(NOBODY, b"\x00")
+            bench.bus.write(EMPTY_ADDRESS, b"\x00")
         assert len(bench.bus.write_read(bench.adc_address, b"\x01", 2)) == 2
 
 

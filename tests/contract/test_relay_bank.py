@@ -66,7 +66,7 @@ def test_each_direction_closes_its_own_relay(bench: Bench, bank: RelayBank, axis
     assert on(bench) == set()
 
 
-def test_nobody_renews_and_the_guard_opens_the_relay(bench: Bench, bank: RelayBank) -> None:
+def test_without_renewal_the_guard_opens_the_relay(bench: Bench, bank: RelayBank) -> None:
     drive(bank, AZ, PLUS, 0.1)
     until(lambda: not on(bench))
     assert bank.driven()[AZ] is OFF

@@ -1,4 +1,4 @@
-"""The simulated front panel by itself: what a person does there, as its pins, inputs and needles have it."""
+"""The simulated front panel by itself: what the operator does there, on its pins, inputs and needles."""
 
 from __future__ import annotations
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from rotator.protocols import macdoppler, n1mm, wsjtx
-from rotator.protocols.macdoppler import Report
+from rotator.protocols.macdoppler import SatelliteReport
 from rotator.protocols.n1mm import Go, Halt
-from rotator.protocols.wsjtx import Place
+from rotator.protocols.wsjtx import BodyDirection
 
 if TYPE_CHECKING:
     from tests.foreign.conftest import RunningBox
@@ -150,7 +150,7 @@ def test_macdoppler_until_a_stop_elsewhere(start_box: Start, udp_port: int, mout
     box = start_box(links=udp("macdoppler", udp_port))
 
     def report(azimuth_deg: float, elevation_deg: float) -> None:
-        mouth.sendto(macdoppler.encode(Report(azimuth_deg, elevation_deg, "XW-2C")), ("127.0.0.1", udp_port))
+        mouth.sendto(macdoppler.encode(SatelliteReport(azimuth_deg, elevation_deg, "XW-2C")), ("127.0.0.1", udp_port))
 
     with closing(Rotctld(box.rotctld_port)) as rotctld:
         rotctld.position()
@@ -166,7 +166,7 @@ def test_macdoppler_until_a_stop_elsewhere(start_box: Start, udp_port: int, mout
 
 def test_wsjtx(start_box: Start, tmp_path: Path) -> None:
     path = tmp_path / "azel.dat"
-    path.write_bytes(wsjtx.encode("Moon", Place(0, 200.0, 50.0)))
+    path.write_bytes(wsjtx.encode("Moon", BodyDirection(0, 200.0, 50.0)))
     box = start_box(links=f'[[link]]\nprotocol = "wsjtx"\nfile = "{path}"\n')
     seconds = iter(range(3600, 36_000))
 
@@ -174,7 +174,8 @@ def test_wsjtx(start_box: Start, tmp_path: Path) -> None:
         """Its clock is faster here than yours."""
         second = next(seconds)
         path.write_bytes(
-            wsjtx.encode("Moon", Place(second, 90.0, 45.0)) + wsjtx.encode("Sun", Place(second, 10.0, -20.0))
+            wsjtx.encode("Moon", BodyDirection(second, 90.0, 45.0))
+            + wsjtx.encode("Sun", BodyDirection(second, 10.0, -20.0))
         )
         time.sleep(0.1)
 

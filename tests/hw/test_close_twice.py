@@ -7,7 +7,7 @@ import inspect
 import pkgutil
 import time
 from collections.abc import Callable
-from typing import Protocol
+from typing import Any, Protocol
 
 import pytest
 
@@ -24,6 +24,7 @@ from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import SerialPort
 from hw.moteus.orders import MoteusSpec
+from hw.ports import HardwareError
 from hw.sensors.pulses import TappedLines
 
 PATH, PINS = "/dev/gpiochip0", {"azimuth_cw": 22, "azimuth_ccw": 23}
@@ -76,12 +77,32 @@ def test_closed_twice(make: Callable[[], Closable]) -> None:
     thing.close()
 
 
+@pytest.mark.parametrize(
+    ("what", "use"),
+    [
+        ("outputs", lambda lines: lines.set({"azimuth_cw": False})),
+        ("inputs", lambda lines: lines.read()),
+        ("contact", lambda contact: contact.closed()),
+        ("contact", lambda contact: contact.changes()),
+        ("I2C", lambda bus: bus.write(0x48, b"")),
+    ],
+)
+def test_using_it_after_close_is_a_hardware_error(what: str, use: Callable[[Any], object]) -> None:
+    thing = CLOSABLES[what]()
+    thing.close()
+    with pytest.raises(HardwareError, match=r"released|closed"):
+        use(thing)
+
+
 def test_no_driver_is_left_out() -> None:
     modules = [importlib.import_module(module.name) for module in pkgutil.walk_packages(hw.__path__, "hw.")]
     drivers = {
         kind.__name__
         for module in modules
         for _, kind in inspect.getmembers(module, inspect.isclass)
-        if kind.__module__ == module.__name__ and hasattr(kind, "close") and not getattr(kind, "_is_protocol", False)
+        if kind.__module__ == module.__name__
+        and hasattr(kind, "close")
+        and not getattr(kind, "_is_protocol", False)
+        and not kind.__name__.startswith("_")
     }
     assert drivers == TRIED | ELSEWHERE, "give it a line in CLOSABLES"

@@ -15,9 +15,10 @@ import pytest
 
 from tests.install.roots import Layer, Root, can_run_arm64, debian
 from tests.install.visit import Visit, visit
+from tests.kept import kept
 
 PROJECT = Path(__file__).parent.parent.parent
-ROOTS = PROJECT / "build" / "roots"
+ROOTS = kept("roots")
 WHAT_IT_TAKES = ("install.sh", "install", "pyproject.toml", "README.md", "LICENSE", "rotator", "hw", "firmware_sim")
 RELEASES = ("trixie", "bookworm")
 
@@ -47,7 +48,7 @@ def able() -> None:
 
 @pytest.fixture(scope="session")
 def amd64(able: None) -> Path:
-    """A bare Debian 12 on this machine's own architecture. Made once, and kept in build/roots."""
+    """A bare Debian 12 on this machine's own architecture. Made once a machine."""
     return debian("bookworm", "amd64", ROOTS)
 
 

@@ -1,4 +1,4 @@
-"""Debian roots: made by debootstrap once, then entered through an overlay that is thrown away after each test.
+"""Debian roots: made by debootstrap once a machine, entered through an overlay that is thrown away after each test.
 
 Knows how to make one, run a command in it, and take down all that stands in it. Knows nothing of what is installed.
 Every mount is in a namespace of its own, which ends with the process that holds it, whatever becomes of the tests.
@@ -8,14 +8,19 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import shutil
 import stat
 import subprocess
 import threading
+import urllib.request
 from collections import defaultdict
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from types import TracebackType
+
+from tests.kept import keep
 
 MIRROR = "http://deb.debian.org/debian"
 PACKAGES = "systemd,python3-venv"
@@ -28,6 +33,9 @@ PASSING = ("/proc", "/dev", "/sys", "/run", "/tmp", "/src", "/newer", "/wheels",
 """Where things come and go: not part of what an installer leaves."""
 
 
+_RECIPE = hashlib.sha256(f"{MIRROR} {PACKAGES}".encode()).hexdigest()[:8]
+
+
 def can_run_arm64() -> bool:
     return os.uname().machine == "aarch64" or Path("/proc/sys/fs/binfmt_misc/qemu-aarch64").exists()
 
@@ -36,22 +44,23 @@ _making: defaultdict[str, threading.Lock] = defaultdict(threading.Lock)
 
 
 def debian(release: str, arch: str, kept_in: Path) -> Path:
-    """The folder of a bare Debian with Python and systemd; made unless it is there. May be asked from any thread."""
-    root = kept_in / f"{release}-{arch}"
-    with _making[root.name]:
-        if not root.exists():
-            _make(root, release, arch)
-    return root
+    """The folder of a bare Debian with Python and systemd, of the mirror's version of that release (12.11, say); made
+    unless it is there. May be asked from any thread."""
+    with _making[f"{release}-{arch}"]:
+        name = f"{release}-{_point_release(release)}-{arch}-{_RECIPE}"
+        return keep(kept_in / name, lambda half: _make(half, release, arch))
 
 
-def _make(root: Path, release: str, arch: str) -> None:
-    root.parent.mkdir(parents=True, exist_ok=True)
-    half = root.with_name(f"{root.name}.new")
-    assert not any(f" {half}/" in line for line in Path("/proc/self/mounts").read_text().splitlines()), (
-        f"umount {half}/*"
-    )
-    if half.exists():
-        shutil.rmtree(half)
+@cache
+def _point_release(release: str) -> str:
+    """What the mirror has today. An older root would lack its updates."""
+    with urllib.request.urlopen(f"{MIRROR}/dists/{release}/Release", timeout=60) as answer:
+        found = re.search(rb"^Version: ([\d.]+)$", answer.read(4096), re.MULTILINE)
+    assert found, f"{MIRROR} does not say its version of {release}"
+    return found[1].decode()
+
+
+def _make(half: Path, release: str, arch: str) -> None:
     made = subprocess.run(
         [
             *PRIVATE,
@@ -68,7 +77,6 @@ def _make(root: Path, release: str, arch: str) -> None:
         check=False,
     )
     assert made.returncode == 0, f"debootstrap {release} {arch}: {made.stdout[-2000:]}{made.stderr[-500:]}"
-    half.rename(root)
 
 
 @dataclass(frozen=True, slots=True)

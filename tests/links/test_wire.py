@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from rotator.links.wire import KEPT_BYTES, Conversation, Wire
+from rotator.links.wire import Conversation, Wire
 
 PATIENCE_S = 30.0
 
@@ -34,20 +34,6 @@ def test_each_reply_is_one_write(wire: Wire) -> None:
     sent: list[bytes] = []
     Conversation(Parrot(), wire, sent.append).received(b"ab")
     assert sent == [b"aaa", b"bbb"]
-
-
-def test_the_wire_shows_what_came_and_went(wire: Wire) -> None:
-    Conversation(Parrot(), wire, lambda data: None).received(b"ab")
-    assert (wire.last_in, wire.last_out) == (b"ab", b"aaabbb")
-
-
-def test_the_wire_keeps_only_the_latest_bytes(wire: Wire) -> None:
-    conversation = Conversation(Parrot(), wire, lambda data: None)
-    for byte in range(256):
-        conversation.received(bytes([byte]).replace(b"!", b"?").replace(b"q", b"?"))
-    assert len(wire.last_in) == len(wire.last_out) == KEPT_BYTES
-    assert wire.last_in.endswith(b"\xfd\xfe\xff")
-    assert wire.last_out.endswith(b"\xff\xff\xff")
 
 
 def test_replies_go_out_before_the_line_is_hung_up(wire: Wire) -> None:

@@ -7,6 +7,7 @@ from datetime import datetime, timedelta
 
 import pytest
 
+from rotator.links.wire import KEPT_BYTES, Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import Way
 from rotator.orders import Source
@@ -29,7 +30,8 @@ class Room:
         self.asked = 0
         self.told: list[str] = []
         self.tap = Tap(lambda: self.now, self._status)
-        self.tap.link("gs232b", {"protocol": "gs232b", "pty": "run/gs232"})
+        self.wire = Wire("gs232b", "gs232b", "run/gs232")
+        self.tap.link(self.wire, {"protocol": "gs232b", "pty": "run/gs232"})
 
     def _status(self) -> Status:
         self.asked += 1
@@ -66,6 +68,24 @@ def test_every_piece_with_its_time_and_source(room: Room) -> None:
         r"23:59:58.000 gs232b#1 < EL=025\r\n",
     ]
     assert room.told[0].endswith(", 2026-11-21")
+
+
+def test_the_wire_shows_what_came_and_went_without_a_listener_too(room: Room) -> None:
+    session = TappedSession(Gs232Session(Example(), Dialect.B), room.tap, GS232)
+    session.receive(b"C")
+    session.receive(b"2\rB\r")
+    assert (room.wire.last_in, room.wire.last_out) == (b"C2\rB\r", b"AZ=235  EL=025\r\nEL=025\r\n")
+    TappedSession(RotctldSession(Example()), room.tap, ROTCTLD).receive(b"p\n")
+    assert room.wire.last_in == b"C2\rB\r", "another link's bytes are not shown here"
+
+
+def test_the_wire_keeps_only_the_latest_bytes(room: Room) -> None:
+    for byte in range(256):
+        room.tap.note(GS232, Way.IN, bytes([byte]), text=False)
+        room.tap.note(GS232, Way.OUT, bytes([byte]) * 3, text=False)
+    assert len(room.wire.last_in) == len(room.wire.last_out) == KEPT_BYTES
+    assert room.wire.last_in.endswith(b"\xfd\xfe\xff")
+    assert room.wire.last_out.endswith(b"\xff\xff\xff")
 
 
 def test_an_answer_to_silence_and_a_connection_that_ends(room: Room) -> None:

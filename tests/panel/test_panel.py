@@ -14,7 +14,7 @@ from hw.ports import AngleSource, Axis, Direction
 from rotator.faults import Missing
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.panel.ladder import HALF_BAND, LEVELS, level, thrown
-from rotator.panel.panel import LAMPS, Panel, PanelAct, PanelLook, PanelSettings
+from rotator.panel.panel import LAMPS, Panel, PanelInputs, PanelOutput, PanelSettings
 from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -37,15 +37,15 @@ class Person:
     """At the panel, with time in hand."""
 
     panel: Panel = field(default_factory=lambda: Panel(PanelSettings()))
-    look: PanelLook = field(
-        default_factory=lambda: PanelLook(mode_bits=AUTO, jog=CENTRE, azimuth_knob=0.0, elevation_knob=0.0)
+    look: PanelInputs = field(
+        default_factory=lambda: PanelInputs(mode_bits=AUTO, jog=CENTRE, azimuth_knob=0.0, elevation_knob=0.0)
     )
     status: Status = STILL
     looks: int = 0
-    act: PanelAct = field(default_factory=lambda: PanelAct((), {}, {}))
+    act: PanelOutput = field(default_factory=lambda: PanelOutput((), {}, {}))
 
     def sees(self, **parts: object) -> list[Order]:
-        """One look at the panel, with these parts changed."""
+        """One step of the panel, with these inputs changed."""
         self.look = replace(self.look, **parts)  # type: ignore[arg-type]
         self.looks += 1
         self.act = self.panel.step(100.0 + self.looks * LOOK_S, self.look, self.status)
@@ -60,7 +60,7 @@ class Person:
 
 
 def at_the_panel(bits: tuple[bool, bool], settings: PanelSettings | None = None) -> Person:
-    """With the mode told, and every switch let go."""
+    """With the mode set, and every switch released."""
     person = Person(Panel(settings or PanelSettings()))
     assert person.waits(1.5, mode_bits=bits) == [SetMode(BITS[bits])]
     return person
@@ -100,7 +100,7 @@ def test_a_reading_between_bands_or_at_an_end_is_nothing(share: float) -> None:
 
 
 @pytest.mark.parametrize(("bits", "mode"), BITS.items())
-def test_at_the_start_the_mode_is_told_after_a_second(bits: tuple[bool, bool], mode: Mode) -> None:
+def test_at_the_start_the_mode_is_set_after_a_second(bits: tuple[bool, bool], mode: Mode) -> None:
     person = Person()
     assert person.waits(1.0, mode_bits=bits) == []
     assert person.sees() == [SetMode(mode)]
@@ -115,7 +115,7 @@ def test_a_mode_must_be_still_for_a_second_and_is_lit_meanwhile() -> None:
     assert person.lit() == {"park"}
 
 
-def test_what_it_passes_on_its_way_is_not_told() -> None:
+def test_positions_on_the_way_set_no_mode() -> None:
     person = at_the_panel(AUTO)
     assert person.waits(0.8, mode_bits=PARK) == []
     assert person.waits(0.8, mode_bits=MANUAL) == []
@@ -133,7 +133,7 @@ def test_a_mode_switch_that_cannot_be_read_for_a_while_has_not_been_turned() -> 
     assert person.waits(3.0, mode_bits=None) == person.waits(3.0, mode_bits=AUTO) == []
 
 
-def test_without_a_mode_switch_no_mode_is_told_and_the_jog_switches_nudge() -> None:
+def test_without_a_mode_switch_no_mode_is_set_and_the_jog_switches_nudge() -> None:
     person = Person(Panel(PanelSettings(mode_switch=False)))
     assert person.waits(3.0, mode_bits=None) == []
     assert person.waits(0.2, jog=CW) == [Nudge(AZ, 5.0)]
@@ -227,7 +227,7 @@ def test_jitter_of_one_count_is_ignored() -> None:
     assert person.waits(2.0, azimuth_knob=2 / 255) == [Aim(about(360 * 2 / 255), None)]
 
 
-def test_a_knob_turned_before_the_mode_was_told_orders_nothing() -> None:
+def test_a_knob_turned_before_the_mode_was_set_orders_nothing() -> None:
     person = at_the_panel(PARK)
     person.sees(azimuth_knob=0.7, mode_bits=MANUAL)
     assert person.waits(0.5, azimuth_knob=0.9) == []
@@ -257,13 +257,13 @@ def test_in_park_knobs_only_show_and_nothing_moves() -> None:
 
 def test_in_jog_it_drives_while_held_and_stops_when_let_go() -> None:
     person = at_the_panel(JOG)
-    assert person.waits(0.5, jog=CCW) == [Jog(AZ, MINUS, 0.3)] * 9  # renewed with every look
+    assert person.waits(0.5, jog=CCW) == [Jog(AZ, MINUS, 0.3)] * 9  # renewed with every step
     assert person.lit() == {"jog", "switch"}
     assert person.waits(1.0, jog=CENTRE) == [Stop((AZ,))]
 
 
 @pytest.mark.parametrize("jog", [CW_AND_UP, UP, None, 0.0, 1.0], ids=["two", "other", "gone", "ground", "supply"])
-def test_whatever_is_not_the_same_switch_alone_stops_it_until_all_are_let_go(jog: float | None) -> None:
+def test_any_other_reading_stops_it_until_all_switches_are_released(jog: float | None) -> None:
     person = at_the_panel(JOG)
     person.waits(0.5, jog=CW)
     assert person.waits(1.0, jog=jog) == [Stop((AZ,))]
@@ -276,7 +276,7 @@ def test_two_at_once_do_nothing() -> None:
     assert at_the_panel(JOG).waits(2.0, jog=CW_AND_UP) == []
 
 
-def test_a_switch_held_since_before_the_mode_was_told_must_be_let_go_first() -> None:
+def test_a_switch_held_since_before_the_mode_was_set_must_be_released_first() -> None:
     person = at_the_panel(PARK)
     assert person.waits(5.0, jog=CW, mode_bits=JOG) == [Release(), SetMode(Mode.JOG)]
 
@@ -288,7 +288,7 @@ def test_turning_the_mode_switch_ends_a_jog_at_once() -> None:
     assert person.waits(2.0) == [Release(), SetMode(Mode.AUTO)]
 
 
-def test_an_axis_that_nobody_has_calibrated_gets_two_seconds_a_press() -> None:
+def test_an_axis_without_calibration_gets_two_seconds_a_press() -> None:
     person = at_the_panel(JOG)
     person.status = replace(STILL, azimuth=replace(STILL.azimuth, missing=(Missing.HOMING,)))
     *jogs, last = person.waits(5.0, jog=CW)
@@ -366,7 +366,7 @@ def test_open_at_power_up_it_stops() -> None:
     assert Person().sees(stop_open=True) == [Stop(latch=True)]
 
 
-def test_a_jog_ends_when_somebody_stops_the_box_elsewhere_and_does_not_begin_again_by_itself() -> None:
+def test_a_jog_ends_when_the_box_is_stopped_elsewhere_and_does_not_begin_again_by_itself() -> None:
     person = at_the_panel(JOG)
     person.waits(0.5, jog=CW)
     person.status = LATCHED
@@ -404,7 +404,7 @@ def test_the_calibrate_switch_is_read_at_power_up_only() -> None:
     assert person.waits(2.0, mode_bits=PARK) == [Release(), SetMode(Mode.PARK)]
 
 
-def test_a_knob_that_is_not_at_its_maximum_is_not_believed() -> None:
+def test_a_knob_that_is_not_at_its_maximum_is_not_trusted() -> None:
     person = Person()
     person.sees(calibrate=True, azimuth_knob=0.1, elevation_knob=0.95)
     assert person.act.full_scales == {AZ: 1.0, EL: 0.95}
@@ -445,7 +445,7 @@ def test_lamps_of_motors_data_and_pulses() -> None:
     assert set(person.act.lamps) == set(LAMPS)
 
 
-def test_meters_show_where_the_axes_stand_and_nothing_where_nobody_knows() -> None:
+def test_meters_show_where_the_axes_stand_and_zero_where_the_angle_is_unknown() -> None:
     person = at_the_panel(AUTO)
     person.status = replace(
         STILL,
@@ -456,10 +456,10 @@ def test_meters_show_where_the_axes_stand_and_nothing_where_nobody_knows() -> No
     assert person.act.meters == {AZ: 1.0, EL: 0.0}
 
 
-# --- whatever the switches do
+# --- any sequence of switches
 
 Deed = list[tuple[dict[str, object], int]]
-"""What is changed at the panel, and for how many looks it stays so, one after the other."""
+"""(inputs that change, number of steps that they stay so), one after the other."""
 
 LOOKS = st.sampled_from([25, 3, 1])
 SINGLES = st.sampled_from([CW, CCW, UP, DOWN])

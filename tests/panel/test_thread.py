@@ -28,7 +28,7 @@ from hw.ports import AngleSource, Axis, Direction
 from hw.sensors.pot import PotSensor, Reference
 from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
 from rotator.panel.panel import LAMPS, Panel, PanelSettings
-from rotator.panel.thread import PanelParts, PanelThread
+from rotator.panel.thread import PANEL_THREADS, PanelParts, PanelThread
 from rotator.status import AxisStatus, Status
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -130,7 +130,7 @@ class Bench:
 
 
 class Desk(Bench):
-    """In simulated time, one look after the other."""
+    """In simulated time, one step after the other."""
 
     def __init__(self, reference: int | None = None) -> None:
         self.clock = SimClock(100.0)
@@ -156,7 +156,7 @@ def in_mode(position: int, reference: int | None = None) -> Desk:
 
 
 @pytest.mark.parametrize(("position", "name"), list(enumerate(("manual", "park", "auto", "jog"))))
-def test_each_position_is_told_and_its_lamp_lit(position: int, name: str) -> None:
+def test_each_position_sets_its_mode_and_lights_its_lamp(position: int, name: str) -> None:
     assert in_mode(position).sim.lit() == {name}
 
 
@@ -227,7 +227,7 @@ def test_jog_drives_while_held_and_two_at_once_stop() -> None:
 
 
 @pytest.mark.parametrize("fault", ["jog-wire-broken", "jog-shorted", "adc-gone"])
-def test_whatever_happens_to_the_jog_switches_stops_it(fault: str) -> None:
+def test_any_fault_of_the_jog_switches_stops_it(fault: str) -> None:
     desk = in_mode(JOG)
     desk.sim.throw("azimuth", 1)
     desk.waits(0.5)
@@ -276,7 +276,7 @@ def test_a_broken_wire_to_the_stop_button_is_a_pressed_button() -> None:
     assert desk.waits(1.0) == [Stop(latch=True)]
 
 
-def test_switches_that_cannot_be_read_are_a_pressed_stop_button_and_told_once(
+def test_switches_that_cannot_be_read_are_a_pressed_stop_button_and_logged_once(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     desk = in_mode(AUTO)
@@ -310,7 +310,7 @@ def test_calibration_at_power_up() -> None:
 def test_lamps_of_pulses_and_data() -> None:
     desk = in_mode(AUTO)
     desk.pulses = {AZ}
-    desk.thread.heard()
+    desk.thread.data_received()
     desk.waits(0.05)
     assert desk.sim.lit() == {"auto", "azimuth_pulse", "data"}
     desk.waits(0.3)
@@ -320,7 +320,7 @@ def test_lamps_of_pulses_and_data() -> None:
 @pytest.mark.parametrize(
     ("fault", "what"), [("adc-gone", "knobs and jog switches"), ("outputs-gone", "lamps and meters")]
 )
-def test_a_chip_that_fails_is_told_once_and_tried_again(
+def test_a_chip_that_fails_is_logged_once_and_tried_again(
     fault: str, what: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     caplog.set_level(logging.INFO, "rotator.panel.thread")
@@ -388,7 +388,7 @@ def running() -> Iterator[Bench]:
     yield bench
     bench.sim.clear("bus-hung")
     bench.thread.stop()
-    assert not {"panel", "panel-bus"} & {thread.name for thread in threading.enumerate()}
+    assert not set(PANEL_THREADS) & {thread.name for thread in threading.enumerate()}
 
 
 def test_a_bus_that_hangs_does_not_take_the_stop_button_with_it(running: Bench) -> None:
@@ -404,7 +404,7 @@ def test_running_it_reads_and_posts(running: Bench) -> None:
 
 
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
-def test_where_nobody_looks_any_more_it_is_as_if_the_button_were_pressed() -> None:
+def test_when_the_thread_fails_it_is_as_if_the_button_were_pressed() -> None:
     bench = Bench(time.monotonic, lambda _seconds: None)
     bench.bug = True
     bench.thread.start()

@@ -190,7 +190,7 @@ def test_pieces_make_no_difference(new_box: type[BenchBox], protocol: str, piece
 @given(
     st.binary(max_size=80), st.integers(0, 450), st.integers(1, 180), st.sampled_from([b"%d %d", b"%03d %03d"]), ENDS
 )
-def test_whatever_came_before_a_good_order_is_obeyed(  # noqa: PLR0917
+def test_a_good_order_is_obeyed_after_any_bytes(  # noqa: PLR0917
     new_box: type[BenchBox], protocol: str, junk: bytes, az: int, el: int, form: bytes, end: bytes
 ) -> None:
     box = new_box()

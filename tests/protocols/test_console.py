@@ -11,7 +11,7 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.faults import Missing
 from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Refusal, Release, Source, Stop
-from rotator.protocols.console import VERBS, Ask, Said, encode, parse
+from rotator.protocols.console import VERBS, Ask, ConsoleCommand, encode, parse
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Feed = Callable[[Session, bytes], list[bytes]]
 
-CANONICAL: list[tuple[bytes, Said]] = [
+CANONICAL: list[tuple[bytes, ConsoleCommand]] = [
     (b"status", Ask.STATUS),
     (b"stop", Stop(latch=True)),
     (b"resume", Release()),
@@ -40,7 +40,7 @@ CANONICAL: list[tuple[bytes, Said]] = [
     (b"point 235 25.5", Aim(235.0, 25.5)),
     (b"help", Ask.HELP),
 ]
-ALSO: list[tuple[bytes, Said]] = [
+ALSO: list[tuple[bytes, ConsoleCommand]] = [
     (b"STOP", Stop(latch=True)),
     (b"stop at once", Stop(latch=True)),
     (b" \tPoint\t235   25 ", Aim(235.0, 25.0)),
@@ -56,23 +56,23 @@ MISTAKES = [
     (b"W235 025", f"there is no command 'w235'. There are: {COMMANDS}"),
     (b"stop!", f"there is no command 'stop!'; did you mean stop? There are: {COMMANDS}"),
     (b"\xffpark", f"there is no command '\\xffpark'; did you mean park? There are: {COMMANDS}"),
-    (b"home", "say it like this: home azimuth|elevation"),
-    (b"home polarisation", "say it like this: home azimuth|elevation"),
-    (b"park now", "say it like this: park"),
-    (b"resume azimuth", "say it like this: resume"),
-    (b"jog cw", "say it like this: jog cw|ccw|up|down SECONDS"),
-    (b"jog left 1", "say it like this: jog cw|ccw|up|down SECONDS"),
+    (b"home", "write it like this: home azimuth|elevation"),
+    (b"home polarisation", "write it like this: home azimuth|elevation"),
+    (b"park now", "write it like this: park"),
+    (b"resume azimuth", "write it like this: resume"),
+    (b"jog cw", "write it like this: jog cw|ccw|up|down SECONDS"),
+    (b"jog left 1", "write it like this: jog cw|ccw|up|down SECONDS"),
     (b"jog cw 5.1", "'5.1' is no time to jog: seconds, 5 at most"),
     (b"jog cw 0", "'0' is no time to jog: seconds, 5 at most"),
     (b"jog cw -1", "'-1' is no time to jog: seconds, 5 at most"),
     (b"jog cw nan", "'nan' is no time to jog: seconds, 5 at most"),
-    (b"point 235", "say it like this: point AZIMUTH ELEVATION"),
+    (b"point 235", "write it like this: point AZIMUTH ELEVATION"),
     (b"point 541 25", "'541' is no azimuth: degrees from -180 to 540"),
     (b"point 235 181", "'181' is no elevation: degrees from -90 to 180"),
     (b"point 2x5 25", "'2x5' is no azimuth: degrees from -180 to 540"),
     (b"point 1e2 25", "'1e2' is no azimuth: degrees from -180 to 540"),
     (b"point \xb2 25", "'\\xb2' is no azimuth: degrees from -180 to 540"),
-    (b"confirm azimuth", "say it like this: confirm azimuth|elevation DEGREES"),
+    (b"confirm azimuth", "write it like this: confirm azimuth|elevation DEGREES"),
     (b"confirm azimuth here", "'here' is no azimuth: degrees from -180 to 540"),
     (b"confirm elevation inf", "'inf' is no elevation: degrees from -90 to 180"),
 ]
@@ -92,7 +92,7 @@ class Notebook:
 
 
 @pytest.mark.parametrize(("line", "said"), CANONICAL)
-def test_reads_what_it_writes_and_writes_what_it_reads(line: bytes, said: Said) -> None:
+def test_reads_what_it_writes_and_writes_what_it_reads(line: bytes, said: ConsoleCommand) -> None:
     assert parse(line) == said
     assert encode(said) == line + b"\n"
 
@@ -102,13 +102,13 @@ def test_every_row_of_the_table_is_written_and_read_above() -> None:
 
 
 @pytest.mark.parametrize(("line", "said"), ALSO)
-def test_reads_as_well(line: bytes, said: Said) -> None:
+def test_reads_as_well(line: bytes, said: ConsoleCommand) -> None:
     assert parse(line) == said
 
 
 @pytest.mark.parametrize("order", [Stop(), Park(), Aim(235.0, None), Jog(Axis.AZIMUTH, Direction.PLUS)])
 def test_has_no_words_for_what_links_say(order: Order) -> None:
-    with pytest.raises(ValueError, match="the console has no words for"):
+    with pytest.raises(ValueError, match="the console has no command for"):
         encode(order)
 
 

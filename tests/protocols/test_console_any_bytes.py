@@ -58,7 +58,7 @@ WAYS = {
 
 
 class Notebook:
-    """A box that takes every order; not every rotor does. A stop, a park and letting go hold until somebody resumes."""
+    """A box that accepts every order, as few rotors do. A stop, a park and a let-go hold until a resume."""
 
     def __init__(self) -> None:
         self.orders: list[Order] = []
@@ -107,7 +107,7 @@ def orders_in(heard: bytes) -> list[Order]:
 
 
 def held(orders: list[Order]) -> list[Order]:
-    """What is left of them where a stop, a park or letting go holds until somebody resumes."""
+    """The orders that remain when a stop, a park or a let-go holds until a resume."""
     left: list[Order] = []
     holds = False
     for order in orders:
@@ -146,7 +146,7 @@ def test_pieces_make_no_difference(pieces: list[bytes]) -> None:
 
 @settings(max_examples=100, deadline=None)
 @given(junk=st.binary(max_size=300))
-def test_a_stop_is_heard_whatever_came_before(junk: bytes) -> None:
+def test_a_stop_is_obeyed_after_any_bytes(junk: bytes) -> None:
     box = Notebook()
     session = ConsoleSession(box)
     session.receive(junk + b"\n")

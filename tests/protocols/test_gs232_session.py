@@ -213,7 +213,7 @@ def test_help_comes_in_one_piece_of_whole_lines(session: Gs232Session, feed: Fee
     assert not any(end in reply.replace(b"\r\n", b"") for reply in replies for end in (b"\r", b"\n", b">"))
 
 
-def test_an_axis_nobody_commissioned_obeys_only_jog(new_box: type[BenchBox]) -> None:
+def test_an_axis_that_is_not_set_up_obeys_only_jog(new_box: type[BenchBox]) -> None:
     box = new_box(missing=(Missing.CALIBRATION,))
     session = Gs232Session(box, Dialect.B)
     assert session.receive(b"W100 045\rM100\rM005 010 020\rT\r") == [WRONG] * 4

@@ -1,4 +1,4 @@
-"""A stream of bytes cut into lines: whatever ends them, however it arrives, in bounded memory."""
+"""A stream of bytes cut into lines: every line end, any pieces, bounded memory."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ ROWS: list[tuple[bytes, list[Order]]] = [
     (b"<N1MMRotor><stop></stop></N1MMRotor>", [Stop()]),
     (b"<N1MMRotor><rotor>G-5500</rotor><goazi>123.4</goazi><stop>False</stop></N1MMRotor>", [Aim(123.4, None)]),
     (b"<N1MMRotor><rotor>G-5500</rotor><goazi>123.4</goazi><stop>True</stop></N1MMRotor>", [Stop()]),
-    # a stop counts whatever else is wrong
+    # a stop counts even in a damaged message
     (b"<N1MMRotor><goazi>1x2</goazi><stop><rotor>G-5500</rotor></stop></N1MMRotor>", [Stop()]),
     # none of these is an order
     (b"", []),
@@ -75,7 +75,7 @@ def test_another_rotor_is_not_ours(box: BenchBox, rotor: bytes) -> None:
     assert remarks == [f"orders for rotor '{rotor.decode()}' are not for this box, which is \"G-5500\""]
 
 
-def test_a_stop_for_another_rotor_is_not_ours_and_one_for_nobody_is(box: BenchBox) -> None:
+def test_a_stop_without_a_name_is_ours_and_one_for_another_rotor_is_not(box: BenchBox) -> None:
     session = N1mmSession(box, "G-5500")
     session.receive(HALT.replace(b"G-5500", b"Beam"))
     assert box.orders == []

@@ -40,7 +40,7 @@ PIECES = st.lists(st.one_of(TEMPTING, TEMPTING, st.binary(max_size=16)), max_siz
 
 
 def fixed(box: BenchBox) -> list[tuple[object, ...]]:
-    """What nobody on a link may change."""
+    """What no link may change."""
     axes = [box.status().axis(axis) for axis in Axis]
     return [(axis.min_deg, axis.max_deg, axis.calibration, axis.uncalibrated) for axis in axes]
 

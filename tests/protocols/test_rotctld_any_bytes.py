@@ -131,7 +131,7 @@ def test_pieces_make_no_difference(new_box: type[BenchBox], pieces: list[bytes])
 
 @settings(max_examples=100, deadline=None)
 @given(junk=st.binary(max_size=80), az=st.integers(0, 450), el=st.integers(0, 180), end=ENDS)
-def test_whatever_came_before_a_good_order_is_obeyed(
+def test_a_good_order_is_obeyed_after_any_bytes(
     new_box: type[BenchBox], junk: bytes, az: int, el: int, end: bytes
 ) -> None:
     box = new_box()

@@ -30,7 +30,7 @@ def answer(follower: RotctldFollower, *answers: bytes) -> None:
 
 
 def test_the_first_answer_is_where_it_stands_and_no_order(box: BenchBox, follower: RotctldFollower) -> None:
-    """A dummy at 0/0 that nobody commands, or one that has been started anew, turns no antenna."""
+    """A dummy rotor at 0/0 without a client, or one that has just been started, turns no antenna."""
     answer(follower, b"0.00\n0.00\n", b"0.00\n0.00\n", b"0.00\n0.00\n")
     box.wait(1)
     assert box.orders == []
@@ -162,7 +162,7 @@ def test_half_an_answer_is_forgotten_with_the_next_question(box: BenchBox, follo
     pieces=st.lists(st.one_of(st.binary(max_size=12), st.sampled_from([b"\n", b"RPRT -1\n", b"12.5\n"])), max_size=30)
 )
 def test_any_bytes(new_box: type[BenchBox], pieces: list[bytes]) -> None:
-    """It understands or it does not; an order has two numbers that somebody said."""
+    """An answer is understood or refused; both numbers of an order come from one answer."""
     box = new_box()
     follower = RotctldFollower(box, 1.0)
     follower.ask()

@@ -68,7 +68,7 @@ def test_what_hamlib_leaves_in_a_moves_fifth_and_tenth_byte_means_nothing(garbag
 
 
 @pytest.mark.parametrize("pulses_sent", [0, 1, 2, 10, 0xFF])
-def test_a_controller_counts_its_own_pulses_whatever_is_sent(pulses_sent: int) -> None:
+def test_a_controller_counts_its_own_pulses_not_the_clients(pulses_sent: int) -> None:
     wire = bytearray(SET_123_77)
     wire[5] = wire[10] = pulses_sent
     assert decode(bytes(wire), ROT2, 2) == Frame(Command.SET, 123.5, 77)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.orders import Aim
-from rotator.protocols.wsjtx import DAY_S, Place, WsjtxSession, encode, parse
+from rotator.protocols.wsjtx import DAY_S, BodyDirection, WsjtxSession, encode, parse
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -32,25 +32,25 @@ AT_S = 17 * 3600 + 3 * 60 + 22
 
 
 def moon(second_of_day: int, azimuth_deg: float, elevation_deg: float) -> bytes:
-    return encode("Moon", Place(second_of_day, azimuth_deg, elevation_deg))
+    return encode("Moon", BodyDirection(second_of_day, azimuth_deg, elevation_deg))
 
 
 @pytest.mark.parametrize("text", [NOW, NOW.replace(b"\n", b"\r\n"), OF_OLD, NOW.replace(b",123", b", 123")])
 def test_the_moon(text: bytes) -> None:
-    assert parse(text, "Moon") == Place(AT_S, 123.4, 45.6)
+    assert parse(text, "Moon") == BodyDirection(AT_S, 123.4, 45.6)
 
 
 @pytest.mark.parametrize(
     ("text", "body", "place"),
     [
-        (NOW, "Sun", Place(AT_S, 200.0, -12.3)),
-        (NOW, "Source", Place(AT_S, 10.5, -5.3)),
-        (OF_OLD, "Sun", Place(AT_S, 200.0, -12.3)),
+        (NOW, "Sun", BodyDirection(AT_S, 200.0, -12.3)),
+        (NOW, "Source", BodyDirection(AT_S, 10.5, -5.3)),
+        (OF_OLD, "Sun", BodyDirection(AT_S, 200.0, -12.3)),
         (OF_OLD, "Source", None),
         (b"", "Moon", None),
     ],
 )
-def test_bodies(text: bytes, body: str, place: Place | None) -> None:
+def test_bodies(text: bytes, body: str, place: BodyDirection | None) -> None:
     assert parse(text, body) == place
 
 
@@ -64,7 +64,7 @@ def test_half_a_file_says_only_what_is_whole(body: str) -> None:
 
 @given(st.integers(0, DAY_S - 1), st.integers(0, 3600), st.integers(-900, 900))
 def test_reads_what_it_writes(second_of_day: int, azimuth_tenths: int, elevation_tenths: int) -> None:
-    place = Place(second_of_day, azimuth_tenths / 10, elevation_tenths / 10)
+    place = BodyDirection(second_of_day, azimuth_tenths / 10, elevation_tenths / 10)
     assert parse(encode("Moon", place), "Moon") == place
 
 
@@ -97,7 +97,7 @@ def test_what_it_says_first_is_no_order_and_then_every_second(box: BenchBox) -> 
     assert box.orders == [Aim(120.0, 10.0), Aim(120.1, 10.1)]
 
 
-def test_a_file_that_nobody_has_written_anew_is_stale(box: BenchBox) -> None:
+def test_a_file_that_is_no_longer_written_is_stale(box: BenchBox) -> None:
     """Copied, touched, restored, or written again after a night: the first look only tells that it lives."""
     session = WsjtxSession(box, "Moon")
     session.receive(moon(100, 120.0, 10.0))

@@ -80,7 +80,7 @@ def test_azimuth_goes_the_short_way_round(azimuths_deg: tuple[float, float], hal
     assert flown.at(1.0) == pytest.approx((half_way_deg, 15.0))
 
 
-def test_through_north_it_never_looks_south() -> None:
+def test_through_north_it_never_points_south() -> None:
     flown = Pass("test", ((0.0, 340.0, 10.0), (10.0, 20.0, 10.0)))
     azimuths_deg = [flown.at(t / 10)[0] for t in range(101)]
     assert all(azimuth >= 340 or azimuth <= 20 for azimuth in azimuths_deg)

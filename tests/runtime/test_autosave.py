@@ -151,3 +151,13 @@ def test_a_file_that_is_gone_is_said(path: Path, caplog: pytest.LogCaptureFixtur
     path.unlink()
     calibrate_low(box, Axis.AZIMUTH)
     assert "azimuth: calibration cannot be saved" in caplog.text
+
+
+def test_closed_twice_it_saves_once(path: Path) -> None:
+    box = Running(path, path)
+    box.turn_about()
+    box.autosave.close()
+    state = path.parent / "var" / "state.json"
+    written_ns = state.stat().st_mtime_ns
+    box.autosave.close()
+    assert state.stat().st_mtime_ns == written_ns

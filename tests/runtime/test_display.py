@@ -18,7 +18,7 @@ from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
 from hw.chips.hd44780 import BACKPACKS, BackpackPort, Hd44780
 from hw.ports import HardwareError
-from rotator.runtime.display import RESET_EVERY_S, DisplayThread
+from rotator.runtime.display import DISPLAY_THREAD, RESET_EVERY_S, DisplayThread
 
 ADDRESS = 0x27
 PATIENCE_S = 30.0
@@ -150,15 +150,22 @@ def test_a_display_that_was_never_there_holds_up_nothing(bench: Bench) -> None:
     bench.thread.start()
     assert bench.display.wait(failures=1)
     bench.thread.stop()  # it waits to try again, and is woken from that
-    assert "display" not in {thread.name for thread in threading.enumerate()}
+    assert DISPLAY_THREAD not in {thread.name for thread in threading.enumerate()}
 
 
 def test_stopped_it_ends(bench: Bench) -> None:
     bench.thread.start()
     assert bench.display.wait(shows=1)
     bench.thread.stop()
-    assert "display" not in {thread.name for thread in threading.enumerate()}
+    assert DISPLAY_THREAD not in {thread.name for thread in threading.enumerate()}
 
 
 def test_stopping_what_never_started_is_nothing(bench: Bench) -> None:
     bench.thread.stop()
+
+
+def test_it_can_be_stopped_twice(bench: Bench) -> None:
+    bench.thread.start()
+    bench.thread.stop()
+    bench.thread.stop()
+    assert DISPLAY_THREAD not in {thread.name for thread in threading.enumerate()}

@@ -20,9 +20,9 @@ def clock() -> Clock:
 
 
 def test_once_and_then_every_minute_with_a_count(clock: Clock) -> None:
-    seldom, told = LogLimit(clock), []
+    limit, told = LogLimit(clock), []
     for _ in range(int(2.5 * EVERY_S * 16)):
-        told.append(seldom.tell("refused"))
+        told.append(limit.admit("refused"))
         clock.now_s += 1 / 16
     assert [text for text in told if text] == [
         "refused",
@@ -32,21 +32,21 @@ def test_once_and_then_every_minute_with_a_count(clock: Clock) -> None:
 
 
 def test_another_complaint_is_told_at_once(clock: Clock) -> None:
-    seldom = LogLimit(clock)
-    assert seldom.tell("one") == "one"
-    assert seldom.tell("other") == "other"
-    assert seldom.tell("one") is None
+    limit = LogLimit(clock)
+    assert limit.admit("one") == "one"
+    assert limit.admit("other") == "other"
+    assert limit.admit("one") is None
 
 
 def test_one_that_is_different_each_time_is_soon_told_no_more(clock: Clock) -> None:
-    seldom = LogLimit(clock)
-    assert [seldom.tell(f"azimuth {n}") is not None for n in range(100)] == [True] * MOST + [False] * (100 - MOST)
+    limit = LogLimit(clock)
+    assert [limit.admit(f"azimuth {n}") is not None for n in range(100)] == [True] * MOST + [False] * (100 - MOST)
     clock.now_s += EVERY_S
-    assert seldom.tell("azimuth 100") == "azimuth 100 (95 more of the kind before)"
+    assert limit.admit("azimuth 100") == "azimuth 100 (95 more of the kind before)"
 
 
 def test_after_a_quiet_minute_it_is_news_again(clock: Clock) -> None:
-    seldom = LogLimit(clock)
-    seldom.tell("refused")
+    limit = LogLimit(clock)
+    limit.admit("refused")
     clock.now_s += 2 * EVERY_S
-    assert seldom.tell("refused") == "refused"
+    assert limit.admit("refused") == "refused"

@@ -48,34 +48,34 @@ def clock() -> SimClock:
 
 
 def test_ready_and_stopping(manager: Manager, clock: SimClock) -> None:
-    supervisor = ServiceManager({"NOTIFY_SOCKET": str(manager.path)}, clock)
-    supervisor.ready()
-    supervisor.stopping()
-    supervisor.close()
+    notifier = ServiceManager({"NOTIFY_SOCKET": str(manager.path)}, clock)
+    notifier.ready()
+    notifier.stopping()
+    notifier.close()
     assert manager.heard() == ["READY=1", "STOPPING=1"]
 
 
 def test_four_signs_of_life_in_the_time_allowed(manager: Manager, clock: SimClock) -> None:
-    supervisor = ServiceManager({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
+    notifier = ServiceManager({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
     for _ in range(100):  # five seconds of a control loop at 20 Hz
-        supervisor.alive()
+        notifier.alive()
         clock.sleep(0.05)
-    supervisor.close()
+    notifier.close()
     assert manager.heard() == ["WATCHDOG=1"] * 4
 
 
 def test_no_step_no_sign_of_life(manager: Manager, clock: SimClock) -> None:
-    supervisor = ServiceManager({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
+    notifier = ServiceManager({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
     clock.sleep(60.0)
-    supervisor.close()
+    notifier.close()
     assert manager.heard() == []
 
 
 @pytest.mark.parametrize("asked", [{}, {"WATCHDOG_USEC": "soon"}, {"WATCHDOG_USEC": "5000000", "WATCHDOG_PID": "1"}])
 def test_without_a_watchdog_of_ours_it_is_silent(manager: Manager, clock: SimClock, asked: dict[str, str]) -> None:
-    supervisor = ServiceManager({"NOTIFY_SOCKET": str(manager.path), **asked}, clock)
-    supervisor.alive()
-    supervisor.close()
+    notifier = ServiceManager({"NOTIFY_SOCKET": str(manager.path), **asked}, clock)
+    notifier.alive()
+    notifier.close()
     assert manager.heard() == []
 
 
@@ -83,28 +83,28 @@ def test_a_socket_without_a_file(clock: SimClock) -> None:
     name = f"rotator-test-{os.getpid()}"
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as listening:
         listening.bind("\0" + name)
-        supervisor = ServiceManager({"NOTIFY_SOCKET": "@" + name}, clock)
-        supervisor.ready()
-        supervisor.close()
+        notifier = ServiceManager({"NOTIFY_SOCKET": "@" + name}, clock)
+        notifier.ready()
+        notifier.close()
         assert listening.recv(100) == b"READY=1"
 
 
 def test_without_a_service_manager_nothing_happens(clock: SimClock) -> None:
-    supervisor = ServiceManager({}, clock)
-    supervisor.ready()
-    supervisor.alive()
-    supervisor.leave("lines", "text")
-    supervisor.close()
+    notifier = ServiceManager({}, clock)
+    notifier.ready()
+    notifier.alive()
+    notifier.leave("lines", "text")
+    notifier.close()
 
 
 def test_a_service_manager_that_has_gone_stops_nothing(tmp_path: Path, clock: SimClock) -> None:
-    supervisor = ServiceManager({"NOTIFY_SOCKET": str(tmp_path / "nobody")}, clock)
-    supervisor.ready()
-    supervisor.close()
+    notifier = ServiceManager({"NOTIFY_SOCKET": str(tmp_path / "nobody")}, clock)
+    notifier.ready()
+    notifier.close()
 
 
 def test_it_leaves_word_in_the_folder_that_it_was_given(tmp_path: Path, clock: SimClock) -> None:
-    supervisor = ServiceManager({"RUNTIME_DIRECTORY": f"{tmp_path}:/elsewhere"}, clock)
-    supervisor.leave("relay-lines.json", json.dumps({"chip": "/dev/gpiochip0"}))
-    supervisor.close()
+    notifier = ServiceManager({"RUNTIME_DIRECTORY": f"{tmp_path}:/elsewhere"}, clock)
+    notifier.leave("relay-lines.json", json.dumps({"chip": "/dev/gpiochip0"}))
+    notifier.close()
     assert json.loads((tmp_path / "relay-lines.json").read_text()) == {"chip": "/dev/gpiochip0"}

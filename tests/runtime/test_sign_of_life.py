@@ -14,7 +14,7 @@ from hw.drives.relays import RelayBank
 from hw.ports import Axis, Direction, HardwareError
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
-from rotator.calibrating.rig import Bench
+from rotator.calibrating.rig import AxisRig
 from rotator.config.load import parse
 from rotator.orders import Aim, Source
 from rotator.rotors.relays import RelayRotor
@@ -99,7 +99,7 @@ def test_the_line_changes_with_every_step(rig: Rig) -> None:
 def test_setting_an_axis_up_beats_too() -> None:
     clock = SimClock()
     station = Station(CONFIG, clock, clock.sleep)
-    bench = Bench(CONFIG, Axis.AZIMUTH, station, clock)
+    bench = AxisRig(CONFIG, Axis.AZIMUTH, station, clock)
     seen = edges(station)
     for _ in range(4):
         bench.loop.cycle()

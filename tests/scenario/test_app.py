@@ -15,13 +15,19 @@ import pytest
 
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
 from hw.ports import AngleSensor, AngleSource, Axis
+from hw.safety.guard import GUARD_THREAD
 from rotator.app import App
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.links.wire import LinkError
+from rotator.runtime.display import DISPLAY_THREAD
+from rotator.runtime.engine import CONTROL_THREAD
+from rotator.runtime.loop import SENSORS_THREAD
 
 PATIENCE_S = 60.0
 OFF = (0, 0)
+THREADS = {CONTROL_THREAD, GUARD_THREAD, SENSORS_THREAD, DISPLAY_THREAD}
+"""The threads of the shipped station."""
 
 
 class Relays:
@@ -131,8 +137,11 @@ def position(reply: bytes) -> tuple[int, int]:
 
 def test_w_moves_c2_answers_s_stops(config: Config, tmp_path: Path) -> None:
     async def talk() -> None:
-        async with running(App(config)) as (world, relays), terminal(tmp_path / "gs232") as line:
+        app = App(config)
+        async with running(app) as (world, relays), terminal(tmp_path / "gs232") as line:
             assert await line.ask(b"C2\r") == b"AZ=000  EL=000\r\n"
+            wire = app.links[0].wire
+            assert (wire.last_in, wire.last_out) == (b"C2\r", b"AZ=000  EL=000\r\n")
             line.send(b"W235 025\r")
             await relays.until((1, 1).__eq__)
             async with asyncio.timeout(PATIENCE_S):
@@ -228,14 +237,23 @@ def test_its_links_can_be_watched_and_where_they_cannot_it_runs_all_the_same(con
     asyncio.run(talk())
 
 
-# --- ends that nobody asked for
+# --- ends without a stop
+
+
+def test_each_part_with_a_thread_has_one_while_it_runs(config: Config) -> None:
+    """What `check_all_gone` looks for is there under these names."""
+
+    async def talk() -> None:
+        async with running(App(config)):
+            assert {thread.name for thread in threading.enumerate()} >= THREADS
+
+    asyncio.run(talk())
 
 
 def check_all_gone(app: App) -> None:
     assert app.station.world is not None
     assert app.station.world.drives() == OFF
-    left = {thread.name for thread in threading.enumerate()} & {"control", "relay-guard", "sensors", "display"}
-    assert not left
+    assert not THREADS & {thread.name for thread in threading.enumerate()}
     assert all(link.wire.state == "closed" for link in app.links)
 
 

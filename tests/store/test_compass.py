@@ -44,7 +44,7 @@ def test_no_file_nothing_known(path: Path, caplog: pytest.LogCaptureFixture) -> 
     ],
     ids=lambda text: text[:30].replace("\n", " ") or "empty",
 )
-def test_a_file_that_cannot_be_believed(path: Path, text: str, caplog: pytest.LogCaptureFixture) -> None:
+def test_a_file_that_cannot_be_trusted(path: Path, text: str, caplog: pytest.LogCaptureFixture) -> None:
     path.parent.mkdir()
     path.write_text(text)
     assert CompassFile(path).load() is None
@@ -62,7 +62,7 @@ def test_what_is_there_is_not_written_again(path: Path) -> None:
     assert CompassFile(path).load() == OFFSETS[::-1]
 
 
-def test_where_it_cannot_be_written_it_is_told_and_tried_again(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_where_it_cannot_be_written_it_is_logged_and_tried_again(path: Path, caplog: pytest.LogCaptureFixture) -> None:
     path.parent.write_text("")  # a file where its folder should be: not even root writes there
     file = CompassFile(path)
     file.save(OFFSETS)

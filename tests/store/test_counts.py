@@ -72,7 +72,7 @@ def test_another_cam_makes_the_count_worthless() -> None:
     ],
     ids=lambda text: text[:30].replace("\n", " ") or "empty",
 )
-def test_a_file_that_cannot_be_believed_leaves_every_axis_lost(
+def test_a_file_that_cannot_be_trusted_leaves_every_axis_lost(
     path: Path, text: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     path.parent.mkdir()

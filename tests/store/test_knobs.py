@@ -56,7 +56,7 @@ def shares(value: object) -> str:
     ],
     ids=lambda text: text[:60].replace("\n", " ") or "empty",
 )
-def test_a_file_that_cannot_be_believed(path: Path, text: str, caplog: pytest.LogCaptureFixture) -> None:
+def test_a_file_that_cannot_be_trusted(path: Path, text: str, caplog: pytest.LogCaptureFixture) -> None:
     path.parent.mkdir()
     path.write_text(text)
     assert KnobsFile(path).load() == {}
@@ -74,7 +74,7 @@ def test_what_is_there_is_not_written_again(path: Path) -> None:
     assert KnobsFile(path).load() == {AZ: 0.5, EL: 0.9384}
 
 
-def test_where_it_cannot_be_written_it_is_told_and_tried_again(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+def test_where_it_cannot_be_written_it_is_logged_and_tried_again(path: Path, caplog: pytest.LogCaptureFixture) -> None:
     path.parent.write_text("")  # a file where its folder should be: not even root writes there
     file = KnobsFile(path)
     file.save(FULL_SCALES)

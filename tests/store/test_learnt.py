@@ -142,7 +142,7 @@ def test_at_the_end_any_news_is_written_and_no_news_is_not(path: Path) -> None:
 
 
 def test_where_nothing_can_be_written_it_is_said_once(path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    # A file where its folder should be: nobody can write there, not even root.
+    # A file in place of its folder: even root cannot write there.
     path.parent.write_text("")
     file = LearntFile(path, BEGUN)
     for _ in range(3):

@@ -174,7 +174,7 @@ def test_a_notice_without_a_text_for_the_display_leaves_the_satellite_its_row() 
     assert set(uppers(with_axis(AZ, notices=(BLIND,)))) == {"SAT A:235 E:025"}
 
 
-# --- whatever the status
+# --- any status
 
 angles = st.none() | st.floats(-720, 1080)
 words = st.text(st.characters(min_codepoint=32, max_codepoint=126), max_size=40)

@@ -94,4 +94,9 @@ class DigipotKind(Kind):
 
     def first_move(self, axis: Axis) -> str:
         start_deg = self.digipot.of(axis).start_deg
-        return f"It is taken to stand at {start_deg:g}° (start_deg); if it does not, its first move goes there."
+        return (
+            f"The box assumes that it stands at {start_deg:g}° (start_deg). If it does not, its first move goes there."
+        )
+
+    def reversal(self, axis: Axis) -> str:
+        return f"exchange PA0 and PB0 of the {axis.value}'s chip, or let digipot.{axis.value}.steps fall"

@@ -104,3 +104,7 @@ class Kind:
     def first_move(self, axis: Axis) -> str:
         """A warning before the first move of a calibration; empty: it needs none."""
         return ""
+
+    def reversal(self, axis: Axis) -> str:
+        """What to change where the antenna turns the wrong way; empty: the two relays."""
+        return ""

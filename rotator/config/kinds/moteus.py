@@ -78,3 +78,6 @@ class MoteusKind(Kind):
 
     def accel_dps2(self, axis: Axis) -> float | None:
         return self.moteus.of(axis).accel_limit_dps2
+
+    def reversal(self, axis: Axis) -> str:
+        return f"change the sign of moteus.{axis.value}.rev_per_turn"

@@ -91,3 +91,6 @@ class ServoKind(Kind):
             f"With its first pulse, that of the first press, the servo runs to {self.servo.of(axis).start_deg:g}°, "
             "as fast as it can: keep clear. When it stands, press again."
         )
+
+    def reversal(self, axis: Axis) -> str:
+        return f"swap the pulse widths in servo.{axis.value}.pulses_us"

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from rotator.control.sky.joining import direction
 from rotator.control.sky.mount import ZENITH_DEG, Mount
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way
@@ -87,7 +88,7 @@ class Pointing:
         if self._way is not None and moving:
             # The antenna stays on its way, wherever it is now.
             flown_deg, _ = self._mount.on_the_way(
-                *_direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
+                *direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
             )
             self._way = Way(flown_deg, self._way.flipped)
         elif not again:
@@ -157,7 +158,7 @@ class Pointing:
         if wanted.elevation_deg is None:
             return AimGoal(self._mount.azimuth.nearest(way.azimuth_deg), self._azimuth_tolerance_deg), None
         azimuth_deg, elevation_deg = self._mount.on_the_way(
-            *_direction(wanted.azimuth_deg, wanted.elevation_deg), way.azimuth_deg, flipped=way.flipped
+            *direction(wanted.azimuth_deg, wanted.elevation_deg), way.azimuth_deg, flipped=way.flipped
         )
         azimuth_deg = self._mount.azimuth.nearest(azimuth_deg)
         elevation_deg = self._mount.clear_deg(azimuth_deg, elevation_deg)
@@ -170,10 +171,3 @@ class Pointing:
         """The tolerance is on the sky: high up, a degree of azimuth moves the antenna less than a degree."""
         weight = max(LEAST_WEIGHT, abs(math.cos(math.radians(elevation_deg))))
         return self._azimuth_tolerance_deg / weight
-
-
-def _direction(azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
-    """An order past the zenith as the direction that it means."""
-    if elevation_deg > ZENITH_DEG:
-        return (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
-    return azimuth_deg, elevation_deg

@@ -1,1 +1,1 @@
-"""The reference pages of the protocols, made from their command tables."""
+"""The reference tables of docs/protocols.md, made from the code's own command tables."""

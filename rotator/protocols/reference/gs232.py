@@ -73,11 +73,11 @@ def rotctld_table() -> str:
         request = rotctld.Request(verb.name, tuple(_ROTCTLD_EXAMPLES.get(verb.name, "").split()))
         session = RotctldSession(Example())
         answer = b"".join(session.receive(rotctld.encode(request)))
-        said = "the connection ends" if session.closed else shown(answer)
+        answer_text = "the connection ends" if session.closed else shown(answer)
         example = rotctld.encode(request).decode().strip()
         if verb.letter.isascii():
             example = verb.letter + example[1:]
-        rows.append((f"`{example}`", f"`\\{verb.name}`", verb.help, said))
+        rows.append((f"`{example}`", f"`\\{verb.name}`", verb.help, answer_text))
     return table(rows)
 
 

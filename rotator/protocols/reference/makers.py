@@ -44,9 +44,9 @@ def spid_table() -> str:
         for model in row.models:
             sent, answer = _exchange(row.command, model)
             as_read = row.command is not Command.STATUS and answer == _exchange(Command.STATUS, model)[1]
-            said = f"as `{Command.STATUS:02X}`" if as_read else _hex(answer)
-            models.setdefault((_hex(sent), said), []).append(model.value)
-        rows += [(f"`{row.command:02X}`", row.help, ", ".join(each), *cells) for cells, each in models.items()]
+            answer_text = f"as `{Command.STATUS:02X}`" if as_read else _hex(answer)
+            models.setdefault((_hex(sent), answer_text), []).append(model.value)
+        rows += [(f"`{row.command:02X}`", row.help, ", ".join(names), *cells) for cells, names in models.items()]
     return table(rows)
 
 

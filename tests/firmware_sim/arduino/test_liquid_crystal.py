@@ -98,7 +98,7 @@ def test_a_display_shows_it_and_is_never_driven_while_busy(bench: Bench) -> None
     assert bench.display.busy_violations == 0
 
 
-def test_starts_again_whatever_state_the_display_was_left_in(bench: Bench) -> None:
+def test_starts_again_from_any_state_of_the_display(bench: Bench) -> None:
     bench.lcd.begin()
     bench.board.digital_write(PINS.enable, True)  # half a byte, as a reset in mid-character leaves it
     bench.board.digital_write(PINS.enable, False)

@@ -1,4 +1,4 @@
-"""The Arduino station as somebody standing before it sees it: the antenna turns, the display shows it."""
+"""The Arduino station as an observer sees it: the antenna turns, the display shows it."""
 
 from __future__ import annotations
 

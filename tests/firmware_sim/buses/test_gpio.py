@@ -233,7 +233,7 @@ def test_a_request_that_cannot_be(gpio: SimGpio, config: object, fault: type[Exc
         gpio.request_lines(HEADER, config)  # type: ignore[arg-type]
 
 
-def test_a_line_of_somebody_else_cannot_be_set(gpio: SimGpio) -> None:
+def test_a_line_of_another_request_cannot_be_set(gpio: SimGpio) -> None:
     with pytest.raises(ValueError, match="Invalid argument"):
         gpio.request_lines(HEADER, {12: OUTPUT}).set_value(13, Value.ACTIVE)
 

@@ -104,7 +104,7 @@ def test_a_line_whose_edges_are_wanted_is_an_input(gpio: SimGpio) -> None:
     [((17, 27), None, 32), ((17, 27), 256, 100), ((17,), None, 16), ((17,), 33, 64), ((17,), 5000, 100)],
     ids=["as seen: 16 a line", "as seen: 256", "one line", "a power of two", "no more than 1024"],
 )
-def test_a_burst_of_a_hundred_edges_with_nobody_reading(
+def test_a_burst_of_a_hundred_unread_edges(
     gpio: SimGpio, clock: SimClock, lines: tuple[int, ...], size: int | None, kept: int
 ) -> None:
     request = gpio.request_lines(HEADER, {lines: BOTH}, event_buffer_size=size)
@@ -191,7 +191,7 @@ def test_who_waits_is_woken_by_an_edge_or_by_the_clock_on_the_wall() -> None:
         thread.join()
 
 
-def test_what_moves_by_itself_tells_when_somebody_looks(gpio: SimGpio, clock: SimClock) -> None:
+def test_hardware_that_moves_by_itself_reports_when_it_is_read(gpio: SimGpio, clock: SimClock) -> None:
     pending = [(1000.25, True), (1000.75, False)]
 
     def catch_up(now_s: float) -> None:

@@ -1,6 +1,6 @@
 """The adapter as Linux and the I2C specification describe it.
 
-Knows smbus2's real message objects. Knows no chip but a memory that keeps what it is told.
+Knows smbus2's real message objects. Knows one chip only: a memory that stores the bytes it gets.
 """
 
 from __future__ import annotations
@@ -94,7 +94,7 @@ def test_smbus_calls_are_the_same_bytes() -> None:
     assert chip.written == [b"", b"\x10", b"\x20\x21", b"\x30\x31\x32"]
     assert bus.read_byte(ADDRESS) == 0xA1
     assert bus.read_byte_data(ADDRESS, 0x40) == 0xA1
-    assert bus.read_i2c_block_data(ADDRESS, 0x50, 4) == [0xA1, 0xA2, 0xA3, 0xFF]  # nobody pulls down the last
+    assert bus.read_i2c_block_data(ADDRESS, 0x50, 4) == [0xA1, 0xA2, 0xA3, 0xFF]  # no chip pulls the last one down
     assert chip.written[4:] == [b"\x40", b"\x50"]
 
 
@@ -186,7 +186,7 @@ def test_two_threads_take_turns() -> None:
 # --- what goes wrong
 
 
-def test_nobody_at_the_address_is_errno_121() -> None:
+def test_an_empty_address_is_errno_121() -> None:
     # Linux, Documentation/i2c/fault-codes.rst; i2c-bcm2835 says EREMOTEIO
     with pytest.raises(OSError, match="Remote I/O error") as error:
         SimI2CBus().read_byte(ADDRESS)

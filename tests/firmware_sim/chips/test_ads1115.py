@@ -119,7 +119,7 @@ def test_output_code_of_a_differential_input(volts: tuple[float, float], counts:
 
 @pytest.mark.parametrize(("volts", "seen_v"), [(5.0, 3.6), (-2.0, -0.3), (3.3, 3.3)])
 def test_the_pins_clamp_a_diode_beyond_the_rails(volts: float, seen_v: float) -> None:
-    # 7.1 Absolute Maximum Ratings: GND - 0.3 V to VDD + 0.3 V, whatever the range
+    # 7.1 Absolute Maximum Ratings: GND - 0.3 V to VDD + 0.3 V, in every range
     assert Bench(volts).convert(0xC183) == round(seen_v / 187.5e-6)
 
 

@@ -26,7 +26,7 @@ def test_it_powers_up_in_the_middle() -> None:
     [
         ("00010001 01000000", 0x40),
         ("00010011 11111111", 0xFF),  # both pots
-        ("11011101 00000001", 0x01),  # bits that nobody cares about
+        ("11011101 00000001", 0x01),  # "don't care" bits
         ("00010010 01000000", 0x80),  # the other pot
         ("00000001 01000000", 0x80),  # no command
         ("00110001 01000000", 0x80),
@@ -62,7 +62,7 @@ def test_shutdown_joins_wiper_and_b_until_the_next_write() -> None:
     assert chip.share() == 0.25
 
 
-def test_clocks_without_select_are_somebody_elses() -> None:
+def test_clocks_without_select_are_for_another_chip() -> None:
     chip = Mcp41010()
     for bit in "0001000101000000":
         chip.pins(cs=True, sck=False, si=bit == "1")

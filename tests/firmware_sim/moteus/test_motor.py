@@ -1,4 +1,4 @@
-"""What a simulated controller does, as the moteus reference tells it: limits, NaN, watchdog, latches, bounds, home."""
+"""A simulated controller, as the moteus reference describes it: limits, NaN, watchdog, latches, bounds, home."""
 
 from __future__ import annotations
 

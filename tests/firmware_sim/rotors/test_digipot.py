@@ -1,4 +1,4 @@
-"""A control box of the ORBIT-360 kind: it follows its wiper, and does not bother within its dead band."""
+"""A control box of the ORBIT-360 kind: it follows its wiper, and stays still within its dead band."""
 
 from __future__ import annotations
 
@@ -47,6 +47,6 @@ def test_a_shut_down_chip_means_the_low_end() -> None:
     assert bench.rotor.antenna()[0] == pytest.approx(2.0, abs=1.2)
 
 
-def test_a_fault_that_nobody_knows() -> None:
+def test_an_unknown_fault() -> None:
     with pytest.raises(ValueError, match="there are: azimuth-chip-dips, azimuth-motor-slow"):
         Bench().rotor.inject("gremlins")

@@ -56,7 +56,7 @@ def take(gpio: object, path: str = "/dev/gpiochip0", pins: dict[str, int] | None
     ],
     ids=["pi-3", "pi-4", "pi-5", "pi-5-renumbered", "pi-5-renumbered-again"],
 )
-def test_the_header_is_found_whatever_its_number(chips: dict[str, str], path: str) -> None:
+def test_the_header_is_found_by_its_label_not_its_number(chips: dict[str, str], path: str) -> None:
     gpio = simulated(chips)
     assert find_chip(gpio, paths=gpio.paths()) == path
 

@@ -86,7 +86,7 @@ def test_what_was_dropped_is_counted(gpio: SimGpio, clock: SimClock) -> None:
 
 
 def test_a_busy_line_is_named(gpio: SimGpio) -> None:
-    GpioContact(gpio, PATH, PIN, consumer="somebody")
+    GpioContact(gpio, PATH, PIN, consumer="another program")
     with pytest.raises(LinesBusyError, match=r"cannot take contact on GPIO17: a line is taken by another program"):
         GpioContact(gpio, PATH, PIN, consumer="test")
 

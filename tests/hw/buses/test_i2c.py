@@ -1,4 +1,4 @@
-"""The adapter through smbus2: whole transfers, and Linux's error numbers as sentences for a person."""
+"""The adapter through smbus2: whole transfers, and Linux's error numbers as sentences."""
 
 from __future__ import annotations
 
@@ -84,9 +84,9 @@ def test_bytes_come_in_the_order_of_the_wire(bus: SmbusI2C, chip: Memory) -> Non
     assert int.from_bytes(bus.write_read(ADDRESS, b"\x00", 2), "big") == 0x2710
 
 
-@pytest.mark.parametrize("way", ["nobody there", "gone"])
+@pytest.mark.parametrize("way", ["empty", "gone"])
 def test_a_chip_that_does_not_answer(bus: SmbusI2C, wire: SimI2CBus, way: str) -> None:
-    address = 0x49 if way == "nobody there" else ADDRESS
+    address = 0x49 if way == "empty" else ADDRESS
     wire.gone.add(address)
     with pytest.raises(HardwareError) as fault:
         bus.write_read(address, b"\x00", 2)
@@ -119,7 +119,7 @@ def test_asking_who_answers_writes_nothing(bus: SmbusI2C, chip: Memory) -> None:
 
 
 @pytest.mark.parametrize("number", [errno.EREMOTEIO, errno.ENXIO], ids=["the Pi's own", "on USB"])
-def test_whichever_way_an_adapter_says_that_nobody_answers(number: int) -> None:
+def test_each_error_number_for_an_address_without_an_answer(number: int) -> None:
     assert not SmbusI2C(BrokenAdapter(number), "bus 1").answers(ADDRESS)
 
 

@@ -125,7 +125,7 @@ def test_a_conversion_that_does_not_end() -> None:
     assert bench.clock() - 10.0 < 0.05, "a dead chip may not hold up the loop"
 
 
-def test_a_conversion_that_somebody_else_began_is_not_taken_for_ours() -> None:
+def test_a_conversion_that_another_program_began_is_not_used() -> None:
     # Section "Conversion modes": a running conversion is completed first; OS written meanwhile has no effect.
     bench = Bench()
     bench.chip.write(b"\x01\x42\xe3")  # continuous, input 0

@@ -157,10 +157,10 @@ def test_offsets_are_read_and_fusion_goes_on(bench: Bench) -> None:
 def test_with_its_offsets_a_chip_learns_faster(bench: Bench) -> None:
     offsets = bench.learnt().offsets()
     bench.chip.brown_out()
-    anew = bench.driver()
-    anew.restore(offsets)
+    restarted = bench.driver()
+    restarted.restore(offsets)
     bench.clock.sleep(4.0)
-    assert anew.calibration() == (3, 3, 3, 3)
+    assert restarted.calibration() == (3, 3, 3, 3)
 
 
 def test_after_a_dip_in_the_supply_the_offsets_are_given_again(bench: Bench) -> None:

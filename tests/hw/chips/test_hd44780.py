@@ -1,7 +1,7 @@
 """The HD44780 driver on a simulated display: six GPIO lines, and every way a backpack is wired.
 
-What counts is what a person reads on the glass, and that the controller (Hitachi ADE-207-272) was never spoken to while
-it was busy.
+What counts is the text on the glass, and that nothing was sent to the controller (Hitachi ADE-207-272) while it was
+busy.
 """
 
 from __future__ import annotations

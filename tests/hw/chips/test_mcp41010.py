@@ -75,7 +75,7 @@ def test_taking_the_lines_moves_no_wiper() -> None:
     assert bench.gpio.level(SELECTS["azimuth"])
 
 
-def test_the_lines_rest_with_the_clock_low_and_nobody_selected() -> None:
+def test_the_lines_rest_with_the_clock_low_and_no_chip_selected() -> None:
     bench = Bench()
     Mcp41010(bench.lines(), "azimuth").write(0xFF)
     assert (bench.gpio.level(SCK_PIN), bench.gpio.level(8), bench.gpio.level(7)) == (False, True, True)

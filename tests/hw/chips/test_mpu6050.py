@@ -56,7 +56,7 @@ def test_it_is_an_angle_sensor_that_measures(bench: Bench) -> None:
 
 
 def test_the_chip_is_woken_and_set_up(bench: Bench) -> None:
-    bench.chip.write(b"\x1c\x18")  # somebody left it at 16 g
+    bench.chip.write(b"\x1c\x18")  # another program left it at 16 g
     bench.driver().read()
     assert (bench.register(0x6B), bench.register(0x1A), bench.register(0x1C)) == (0, 5, 0)
 

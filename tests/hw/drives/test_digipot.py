@@ -22,7 +22,7 @@ BAND_DEG = 2.0 + 0.7 + 0.5
 
 
 class Bench:
-    """The rotor stands at 40° and 30° when the power comes, and the drive is told so."""
+    """The rotor stands at 40° and 30° when the power comes, and the drive is configured so."""
 
     def __init__(self, *, relay: bool = True, kernel: bool = False, start_deg: float = 40.0) -> None:
         self.clock = SimClock(100.0)
@@ -63,7 +63,7 @@ class Bench:
 # --- power-on
 
 
-def test_without_a_relay_the_box_turns_to_the_middle_before_anybody_asked() -> None:
+def test_without_a_relay_the_box_turns_to_the_middle_before_any_order() -> None:
     bench = Bench(relay=False)
     bench.clock.sleep(40.0)
     assert bench.antenna(AZ) == pytest.approx(180.0, abs=BAND_DEG)

@@ -1,4 +1,4 @@
-"""What the relay bank tells the sentinel: every lease before it counts, and the end of the last one."""
+"""What the relay bank reports to the sentinel: each lease before its relay closes, and the end of the last one."""
 
 from __future__ import annotations
 
@@ -109,7 +109,7 @@ def test_a_motor_that_waits_out_its_dead_time_is_not_on(bench: Bench) -> None:
     assert bench.journal.words() == ["renew", "rest"]
 
 
-def test_with_nobody_watching_no_relay_closes(bench: Bench) -> None:
+def test_without_a_watch_no_relay_closes(bench: Bench) -> None:
     bench.journal.gone = True
     with pytest.raises(HardwareError, match="the sentinel is gone"):
         bench.drive(AZ, PLUS)

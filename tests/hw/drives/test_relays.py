@@ -1,4 +1,4 @@
-"""The relay bank on simulated GPIO lines: the rules that nobody above it can go round.
+"""The relay bank on simulated GPIO lines: the rules that no caller can bypass.
 
 Off from the first instant; opposite relays never together; a reversal waits; every command ends by itself; the master
 relay follows the motors.
@@ -130,7 +130,7 @@ def test_one_axis_does_not_wait_for_the_other() -> None:
 
 
 @pytest.mark.parametrize("asked_s", [0.02, 0.25, LONGEST_LEASE_S, 0.51, 3600.0, math.inf])
-def test_nobody_renews_and_the_relay_opens(asked_s: float) -> None:
+def test_without_renewal_the_relay_opens(asked_s: float) -> None:
     bench = Bench()
     bench.drive(EL, PLUS, asked_s)
     bench.clock.sleep(60.0)
@@ -291,9 +291,9 @@ def test_off_works_from_any_thread(master: bool) -> None:
     bench = Bench(master=master)
     bench.drive(AZ, PLUS)
     bench.drive(EL, MINUS)
-    somebody = threading.Thread(target=bench.bank.off)
-    somebody.start()
-    somebody.join(10.0)
+    caller = threading.Thread(target=bench.bank.off)
+    caller.start()
+    caller.join(10.0)
     assert bench.on() == set()
     assert set(bench.bank.driven().values()) == {OFF}
 

@@ -29,7 +29,7 @@ TICK_DEG = 4.88 / 2000 * 180
 
 
 class Bench:
-    """The servos stand at 90° when the power comes, and the drive is told to start at 60° and 10°."""
+    """The servos stand at 90° when the power comes, and the drive is configured to start at 60° and 10°."""
 
     def __init__(self, idle_off_s: float | None = None, *, on_the_wire: bool = False) -> None:
         self.clock = SimClock(100.0)
@@ -157,7 +157,7 @@ def test_stop_at_once(stop: str) -> None:
     assert bench.antenna(AZ) == pytest.approx(at_deg, abs=1.0)
 
 
-def test_nobody_who_stops_waits_for_a_bus_that_hangs() -> None:
+def test_a_stop_never_waits_for_a_bus_that_hangs() -> None:
     bench = Bench()
     bench.settle()
     bench.drive.aim(AZ, 180.0, 0.0, bench.clock() + 0.5)
@@ -178,7 +178,7 @@ def test_nobody_who_stops_waits_for_a_bus_that_hangs() -> None:
 
 
 @pytest.mark.parametrize("fault", ["azimuth-servo-stalled", "azimuth-servo-unpowered"])
-def test_nobody_notices_a_servo_that_does_not_turn(fault: str) -> None:
+def test_a_servo_that_does_not_turn_goes_unnoticed(fault: str) -> None:
     bench = Bench()
     bench.settle()
     bench.rotor.inject(fault)

@@ -16,7 +16,7 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 from firmware_sim.moteus.bus import Frame, padded
 from firmware_sim.moteus.motor import Mode
 from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
-from hw.moteus.bus import MoteusBus
+from hw.moteus.bus import MOTEUS_THREAD, MoteusBus
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import CanChannel, SerialPort
 from hw.moteus.orders import MoteusSpec
@@ -166,7 +166,7 @@ def test_closing_decelerates_and_ends_the_thread(bench: Bench) -> None:
     assert bench.world.controller("azimuth").motor.set_point.velocity_rev_s == pytest.approx(0.0, abs=1e-4)
     wait_for(lambda: bench.mode(AZ) is Mode.TIMEOUT)
     assert bench.world.antenna()[0] == pytest.approx(stopped_deg, abs=0.05)
-    assert "moteus" not in [thread.name for thread in threading.enumerate()]
+    assert MOTEUS_THREAD not in [thread.name for thread in threading.enumerate()]
 
 
 def test_closing_at_once_after_an_aim_still_tells_it_to_hold(bench: Bench) -> None:

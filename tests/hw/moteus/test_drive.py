@@ -129,7 +129,7 @@ def test_a_step_keeps_to_30_dps_and_20_dps2() -> None:
     assert angles_deg[-1] == pytest.approx(90.0, abs=1e-3)
 
 
-def test_an_aim_that_nobody_renews_ends_in_a_hold() -> None:
+def test_an_aim_without_renewal_ends_in_a_hold() -> None:
     bench = Bench()
     bench.follow(AZ, 0.0, 5.0, rate_dps=10.0)
     at_deg = bench.antenna(AZ)
@@ -306,7 +306,7 @@ def test_behind_a_gear_a_new_supply_means_an_unknown_position() -> None:
     for ask in (bench.drive.sensor(AZ).read, lambda: bench.follow(AZ, 120.0, 0.1)):
         with pytest.raises(HardwareError, match="does not know which way the antenna points"):
             ask()
-    # A person looks: some 3° off, and less than half a turn of the rotor, which is 7.2° of antenna.
+    # The operator estimates: some 3° off, and less than half a turn of the rotor, which is 7.2° of antenna.
     bench.drive.confirm(AZ, 127.0)
     bench.clock.sleep(0.5)
     assert bench.drive.position_known(AZ)

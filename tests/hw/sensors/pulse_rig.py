@@ -1,6 +1,6 @@
 """A simulated U-100 with the real drivers on it: relay bank, kernel-debounced contact, counter.
 
-Knows how it is wired. Knows nothing of what a test is after.
+Knows how it is wired. Does not know what a test checks.
 """
 
 from __future__ import annotations

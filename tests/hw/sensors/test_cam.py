@@ -204,7 +204,7 @@ def test_one_pulse_missed_anywhere_is_noticed(missed: int, speed_dps: float) -> 
     assert "too late" in count.trouble
 
 
-def test_changes_that_nobody_read_are_noticed() -> None:
+def test_unread_changes_are_noticed() -> None:
     count = running()
     count.change(2.9, closed=True, lost=1)
     assert count.trouble == "1 changes of the contact went unseen"
@@ -231,7 +231,7 @@ def test_a_contact_that_trembles_at_rest_is_not() -> None:
     assert (count.zone, count.trouble) == (1, "")
     count.change(40.0, closed=True)  # it has crept over the edge
     assert (count.zone, count.trouble) == (2, "")
-    count.change(50.0, closed=False)  # and on: nobody knows which way
+    count.change(50.0, closed=False)  # and on, in an unknown direction
     assert count.trouble == "it turns with no relay on"
 
 

@@ -1,6 +1,6 @@
 """Counting the closures of a U-100's cam: the real relay bank, contact driver and counter on a simulated rotor.
 
-What goes wrong is put into the rotor by name, never into the driver.
+Each fault is injected into the rotor by name, never into the driver.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def test_it_does_not_matter_when_it_is_read() -> None:
 def test_read_late_the_kernel_has_kept_every_moment() -> None:
     rig = PulseRig(100.0)
     until_s = rig.clock() + 60.0
-    while rig.clock() < until_s:  # somebody drives, nobody reads
+    while rig.clock() < until_s:  # the motor is driven, and nothing reads
         rig.bank.drive(AZ, PLUS if rig.clock() < until_s - 30.0 else MINUS, until_s)
         rig.clock.sleep(0.1)
     rig.clock.sleep(STANDS_S)
@@ -59,7 +59,7 @@ def test_read_late_the_kernel_has_kept_every_moment() -> None:
     assert (rig.off_by, rig.counter.trouble) == (0, "")
 
 
-def test_a_change_counts_from_when_it_happened_not_from_when_it_was_told() -> None:
+def test_a_change_counts_from_when_it_happened_not_from_when_it_was_reported() -> None:
     rig = PulseRig(100.0, bounce_s=0.0)
     rig.drive(PLUS, 5.0)
     errors_deg = []
@@ -67,7 +67,7 @@ def test_a_change_counts_from_when_it_happened_not_from_when_it_was_told() -> No
         rig.drive(PLUS, 0.01, cycle_s=0.01)
         errors_deg.append(abs(rig.counter.read() - rig.shaft_deg))
     assert statistics.median(errors_deg) < 0.02
-    assert max(errors_deg) < 0.13  # until it is told, the next pulse holds the angle back
+    assert max(errors_deg) < 0.13  # until the change is reported, the edge holds the angle back
 
 
 def test_a_lease_that_runs_out_between_two_readings_is_heard() -> None:
@@ -175,7 +175,7 @@ def test_a_hand_on_the_mast_is_noticed() -> None:
     assert "no relay on" in rig.counter.trouble
 
 
-def test_a_minute_of_chatter_that_nobody_reads_is_noticed() -> None:
+def test_a_minute_of_unread_chatter_is_noticed() -> None:
     rig = PulseRig(100.0)
     for change in range(1200):
         rig.rotor.gpio.drive_input(17, change % 2 == 1)
@@ -193,10 +193,10 @@ def test_a_motor_much_slower_than_it_is_said_to_be_makes_the_count_doubtful_not_
 # --- placing
 
 
-def test_before_anybody_has_placed_it_the_count_is_worth_nothing() -> None:
+def test_before_it_is_placed_the_count_is_worth_nothing() -> None:
     rig = PulseRig()
     fresh = PulseCounter(Axis.ELEVATION, contact(rig, 26), rig.tapped, CAM, rig.clock)
-    assert fresh.trouble == "its place has not been told yet"
+    assert fresh.trouble == "it has not been placed yet"
 
 
 def test_a_kept_count_goes_on_where_it_was() -> None:

@@ -32,7 +32,7 @@ def close(gpio: SimGpio, *pins: int) -> None:
 
 
 def open_up(gpio: SimGpio, *pins: int) -> None:
-    """Or break the wire: nobody drives the line any more."""
+    """Or break the wire: nothing drives the line any more."""
     for pin in pins:
         gpio.drive_input(pin, None)
 
@@ -52,7 +52,7 @@ def test_what_is_closed_already_is_read_closed(gpio: SimGpio) -> None:
     assert GpioInputs(gpio, PATH, PINS, consumer="test").read() == {"stop": True, "calibrate": True}
 
 
-def test_a_line_that_somebody_else_holds_is_named(gpio: SimGpio) -> None:
+def test_a_line_that_another_program_holds_is_named(gpio: SimGpio) -> None:
     inputs = GpioInputs(gpio, PATH, PINS, consumer="test")
     with pytest.raises(LinesBusyError, match="cannot take stop on GPIO16: a line is taken"):
         GpioInputs(gpio, PATH, {"stop": 16}, consumer="other")

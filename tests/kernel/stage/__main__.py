@@ -1,6 +1,6 @@
 """`python -m tests.kernel.stage [pytest arguments]`: the tests that need a real kernel, in one boot of Debian's own.
 
-Knows the steps and their order. Everything is kept under build/kernel: the second run only boots.
+Knows the steps and their order. What is built is kept, once a machine and version: the second run only boots.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ import sys
 import time
 from pathlib import Path
 
+from tests.kept import keep, kept
 from tests.kernel.stage.boot import NO_VERDICT, boot
-from tests.kernel.stage.build import build, fetch, is_built
+from tests.kernel.stage.build import build, fetch, recipe
 from tests.kernel.stage.debian import StageError, current, missing_tools
 
 PROJECT = Path(__file__).resolve().parents[3]
-CACHE = PROJECT / "build/kernel"
 SELECTION = ("tests/kernel", "tests/contract")
 PATIENCE_S = 600.0
 """Far longer than it takes, for a machine that is busy with other things."""
@@ -58,13 +58,15 @@ def run(arguments: list[str]) -> int:
     took_s: dict[str, float] = {}
     started_s = time.monotonic()
     packages = current()
-    kernel = CACHE / packages.version
-    if not is_built(kernel):
-        scratch = CACHE / "scratch"
+
+    def make(half: Path) -> None:
+        scratch = half.with_name("scratch")
         fetch(packages, scratch)
         took_s["download"] = time.monotonic() - started_s
-        build(packages, scratch, kernel)
+        build(packages, scratch, half)
         took_s["build"] = time.monotonic() - started_s - took_s["download"]
+
+    kernel = keep(kept("kernel") / f"{packages.version}-{recipe()}", make)
     # Hypothesis alone takes eight seconds to load on this machine.
     quick = ["-p", "no:cacheprovider", "-p", "no:hypothesispytest"]
     pytest = [

@@ -46,33 +46,23 @@ XZ, ZSTD = b"\xfd7zXZ\x00", b"\x28\xb5\x2f\xfd"
 
 def recipe() -> str:
     """Changes whenever this file does: what an older one built is built anew."""
-    return hashlib.sha256(Path(__file__).read_bytes()).hexdigest()
-
-
-def is_built(folder: Path) -> bool:
-    stamp = folder / "recipe"
-    return stamp.exists() and stamp.read_text() == recipe()
+    return hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:12]
 
 
 def fetch(packages: KernelPackages, scratch: Path) -> None:
-    shutil.rmtree(scratch, ignore_errors=True)
-    scratch.mkdir(parents=True)
+    """Debian's packages, into a folder that is not there yet."""
+    scratch.mkdir()
     download(packages, scratch)
 
 
 def build(packages: KernelPackages, scratch: Path, folder: Path) -> None:
-    """`vmlinux` and `modules/` (numbered in the order of loading) in `folder`. The scratch folder is used up."""
+    """`vmlinux` and `modules/` (numbered in the order of loading) in `folder`. Works in the scratch folder."""
     root = scratch / "root"
     unpack(packages, scratch, root)
-    made = scratch / "made"
-    made.mkdir()
-    (made / "vmlinux").write_bytes(_kernel_in((root / f"boot/vmlinuz-{packages.release}").read_bytes()))
+    folder.mkdir()
+    (folder / "vmlinux").write_bytes(_kernel_in((root / f"boot/vmlinuz-{packages.release}").read_bytes()))
     gpio_sim = _gpio_sim(packages, scratch, root)
-    _collect_modules(packages, root, gpio_sim, made / "modules")
-    (made / "recipe").write_text(recipe())
-    shutil.rmtree(folder, ignore_errors=True)
-    made.rename(folder)
-    shutil.rmtree(scratch)
+    _collect_modules(packages, root, gpio_sim, folder / "modules")
 
 
 def _kernel_in(image: bytes) -> bytes:

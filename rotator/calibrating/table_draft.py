@@ -1,6 +1,6 @@
-"""The table that commissioning makes: points from reading to degrees, what is wrong with them, how they look.
+"""The calibration table while it is made: points from reading to degrees, what is wrong with them, and their text.
 
-Knows numbers and their text. Knows nothing of how a point was found or of where the table goes.
+Knows numbers. Does not know how a point was read, nor where the table is saved.
 """
 
 from __future__ import annotations
@@ -9,18 +9,19 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from hw.interpolation import PiecewiseLinear
-from rotator.calibrating.readings import Doubt, Measured
+from rotator.calibrating.readings import Measured, NotTrusted
 
 LEAST_SPAN = 0.05
-"""Two ends that read closer than this are one place."""
+"""Two ends whose readings are closer than this are the same place."""
 LEAST_SPAN_DEG = 10.0
 LEAST_STEP = 0.002
+"""The least difference of reading between two neighbouring points."""
 LEAST_MARGIN = 0.01
-"""Nearer to lowest_reading or highest_reading than this, a little drift would be taken for a broken wire."""
+"""A point nearer than this to lowest_reading or highest_reading: a small drift would look like a broken wire."""
 
 
 @dataclass(frozen=True, slots=True)
-class Point:
+class TablePoint:
     measured: Measured
     angle_deg: float
 
@@ -30,39 +31,39 @@ class Point:
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class TableDraft:
     """Points in order of their degrees."""
 
-    points: tuple[Point, ...] = ()
+    points: tuple[TablePoint, ...] = ()
     rising: bool = True
-    """Readings grow with the degrees: what the direction check has found."""
+    """The direction check has found that readings rise with the degrees."""
 
-    def with_end(self, end: Point) -> Table:
-        """The first end, or the second above it. Raises Doubt."""
+    def with_end(self, end: TablePoint) -> TableDraft:
+        """With the low end, or with the high end above it. Raises NotTrusted."""
         if self.points:
             low = self.points[0]
             if end.angle_deg - low.angle_deg < LEAST_SPAN_DEG:
-                raise Doubt(f"the ends are {low.angle_deg:g}° and {end.angle_deg:g}°: too close, or swapped")
+                raise NotTrusted(f"the ends are {low.angle_deg:g}° and {end.angle_deg:g}°: too close, or swapped")
             if abs(end.raw - low.raw) < LEAST_SPAN:
-                raise Doubt(f"the ends read {low.raw:.4f} and {end.raw:.4f}: too close to be two ends")
+                raise NotTrusted(f"the ends read {low.raw:.4f} and {end.raw:.4f}: too close to be two ends")
             if (end.raw > low.raw) != self.rising:
-                raise Doubt(
+                raise NotTrusted(
                     f"the ends read {low.raw:.4f} and {end.raw:.4f}, but the direction check saw the reading "
                     f"{'rise' if self.rising else 'fall'} with the degrees"
                 )
         return replace(self, points=(*self.points, end))
 
-    def with_point(self, point: Point) -> Table:
-        """A point between the ends. Raises Doubt where the table would not be monotonic."""
-        points = tuple(sorted((*self.points, point), key=lambda each: each.angle_deg))
+    def with_point(self, point: TablePoint) -> TableDraft:
+        """With a point between the ends. Raises NotTrusted where the table would not be monotonic."""
+        points = tuple(sorted((*self.points, point), key=lambda at: at.angle_deg))
         if point in (points[0], points[-1]):
             low, high = self.points[0].angle_deg, self.points[-1].angle_deg
-            raise Doubt(f"{point.angle_deg:g}° is not between the ends, {low:g}° and {high:g}°")
+            raise NotTrusted(f"{point.angle_deg:g}° is not between the ends, {low:g}° and {high:g}°")
         for a, b in pairwise(points):
             if b.angle_deg <= a.angle_deg:
-                raise Doubt(f"{point.angle_deg:g}° is in the table already")
+                raise NotTrusted(f"{point.angle_deg:g}° is in the table already")
             if (b.raw - a.raw if self.rising else a.raw - b.raw) < LEAST_STEP:
-                raise Doubt(
+                raise NotTrusted(
                     f"not monotonic: {a.angle_deg:g}° reads {a.raw:.4f} and {b.angle_deg:g}° reads {b.raw:.4f}, "
                     f"but readings {'rise' if self.rising else 'fall'} with the degrees"
                 )
@@ -73,14 +74,17 @@ class Table:
         low, high = self.points[0], self.points[-1]
         return (high.angle_deg - low.angle_deg) / abs(high.raw - low.raw)
 
-    def off_line_deg(self, point: Point) -> float:
+    def off_line_deg(self, point: TablePoint) -> float:
         """How far a point lies off the straight line through the ends."""
         low, high = self.points[0], self.points[-1]
         line = PiecewiseLinear(((low.angle_deg, low.raw), (high.angle_deg, high.raw)))
         return point.angle_deg - line.inverse(point.raw)
 
     def lines(self, supply_v: float | None, lowest: float, highest: float) -> list[str]:
-        """The table as text, with volts where it is a pot's, and how far its ends are from what counts as a fault."""
+        """The table as text, with the distance of its ends from the readings that count as a fault.
+
+        `supply_v`: the supply of a pot, to show volts; None: the sensor is no pot.
+        """
 
         def volts(share: float) -> str:
             return "" if supply_v is None else f"{share * supply_v:.3f} V"

@@ -1,6 +1,6 @@
-"""The guide's words for each axis: which way is which, which key turns it, what to look at.
+"""The sentences of the guides for each axis: names of the directions, the keys that turn it, what to look at.
 
-Knows language. Knows nothing of when anything is said.
+Knows language. Does not know when a sentence is shown.
 """
 
 from __future__ import annotations
@@ -8,10 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.ports import Axis
+from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class Phrases:
     axis: str
     plus: str
     minus: str
@@ -34,9 +35,9 @@ class Words:
     @property
     def introduction(self) -> tuple[str, ...]:
         return (
-            f"Setting up the {self.axis}. It does not know its limits yet: be ready to cut the motors' supply.",
+            f"Setting up the {self.axis}. The box does not know its limits yet: be ready to cut the motors' supply.",
             f"  {self.plus_key} or {self.arrows}: {self.plus} / {self.minus} ({self.minus_key}), for as long as the "
-            f"key is held; {self.plus_key.upper()} and {self.minus_key.upper()}: 2 s a press.",
+            f"key is held; {self.plus_key.upper()} and {self.minus_key.upper()}: {UNCALIBRATED_JOG_S:g} s a press.",
             "  Space or s stops. Ctrl-C or q leaves at any moment: the motors stop, nothing is saved.",
         )
 
@@ -74,18 +75,9 @@ class Words:
             "again. Nothing is saved."
         )
 
-    def wrong_way(self, rotor: str) -> str:
-        """What to change where the antenna of this type of rotor turned the other way."""
-        match rotor:
-            case "moteus":
-                what = f"change the sign of moteus.{self.axis}.rev_per_turn"
-            case "servo":
-                what = f"swap the pulse widths in servo.{self.axis}.pulses_us"
-            case "digipot":
-                what = f"exchange PA0 and PB0 of the {self.axis}'s chip, or let digipot.{self.axis}.steps fall"
-            case _:
-                return self.swap
-        return f"Then {what}, and begin again. Nothing is saved."
+    def turned_wrong(self, remedy: str) -> str:
+        """What to change when the antenna turned the other way; an empty `remedy` means the relays."""
+        return f"Then {remedy}, and begin again. Nothing is saved." if remedy else self.swap
 
     @property
     def same_way(self) -> str:
@@ -98,28 +90,28 @@ class Words:
     def reads_backwards(self) -> str:
         return (
             f"Refused: it turned {self.plus}, and the reading fell. `forward` and `up` of {self.axis}.sensor do not "
-            "say how the board lies (docs/sensors.md). Nothing is saved."
+            "match how the board is mounted (docs/sensors.md). Nothing is saved."
         )
 
     @property
     def homing(self) -> tuple[str, ...]:
         return (
             f"   Watch the antenna: it turns {self.minus} to its stop, a little back, and there again. The box cannot",
-            "   tell a stop from a branch that the antenna hangs in: you can. Space or s stops it.",
+            "   tell a stop from a branch that the antenna hangs in; you can. Space or s stops it.",
         )
 
     def limit(self, where: str) -> tuple[str, ...]:
         return (
             f"{where} angle that it may be sent to: drive it there, or type it. A degree or two before its stop,",
-            "   or earlier, where cables, guy wires or a chimney want it.",
+            "   or earlier, where cables, guy wires or a chimney are in the way.",
         )
 
     def drive_to(self, where: str) -> tuple[str, ...]:
-        number, key, way = (
+        number, key, direction = (
             ("2", self.minus_key, self.minus) if where == self.low_end else ("3", self.plus_key, self.plus)
         )
         return (
-            f"{number}. The {where}. Drive it there with {key} ({way}): to its stop, or to a mark that you trust.",
+            f"{number}. The {where}. Drive it there with {key} ({direction}): to its stop, or to a mark you trust.",
             "   Just before the stop is better than hard against it.",
         )
 
@@ -137,7 +129,7 @@ class Words:
         return ("", f"[{self.axis}]: limits {min_deg:g} to {max_deg:g}, direction checked.")
 
 
-AZIMUTH = Words(
+AZIMUTH = Phrases(
     axis="azimuth",
     plus="clockwise",
     minus="counter-clockwise",
@@ -150,7 +142,7 @@ AZIMUTH = Words(
     low_end="low end (counter-clockwise)",
     high_end="high end (clockwise)",
 )
-ELEVATION = Words(
+ELEVATION = Phrases(
     axis="elevation",
     plus="up",
     minus="down",
@@ -165,5 +157,5 @@ ELEVATION = Words(
 )
 
 
-def words_for(axis: Axis) -> Words:
+def phrases_for(axis: Axis) -> Phrases:
     return AZIMUTH if axis is Axis.AZIMUTH else ELEVATION

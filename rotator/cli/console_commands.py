@@ -1,4 +1,4 @@
-"""The commands by which a person speaks to the running box: their names, words and options. No logic: see `tell`."""
+"""The commands that speak to the running box over its console: names, arguments, options. The logic is in `console`."""
 
 # ruff: noqa: PLC0415 - a command loads what it needs and no more
 
@@ -22,8 +22,8 @@ MINUS_IS_A_NUMBER = {"ignore_unknown_options": True}
 @CONFIG
 @click.argument("words", nargs=-1, type=click.UNPROCESSED)
 def tell(path: Path | None, words: tuple[str, ...]) -> None:
-    """Say to the running box anything that its console knows. Without WORDS: list that."""
-    from rotator.cli import tell as console
+    """Send words to the console of the running box. Without WORDS: list the words it knows."""
+    from rotator.cli import console
 
     console.tell(path, words)
 
@@ -31,8 +31,8 @@ def tell(path: Path | None, words: tuple[str, ...]) -> None:
 @click.command()
 @CONFIG
 def where(path: Path | None) -> None:
-    """Tell where the antenna is, and what is wrong. Also who moves it, and what is missing."""
-    from rotator.cli import tell as console
+    """Show where the antenna is, and what is wrong. Also who moves it, and what is missing."""
+    from rotator.cli import console
 
     console.where(path)
 
@@ -41,7 +41,7 @@ def where(path: Path | None) -> None:
 @CONFIG
 def stop(path: Path | None) -> None:
     """Stop the antenna, until `rotator resume`. No link can move it in between."""
-    from rotator.cli import tell as console
+    from rotator.cli import console
 
     console.stop(path)
 
@@ -50,7 +50,7 @@ def stop(path: Path | None) -> None:
 @CONFIG
 def resume(path: Path | None) -> None:
     """Let the antenna move again after a stop at the box. Acknowledges faults."""
-    from rotator.cli import tell as console
+    from rotator.cli import console
 
     console.resume(path)
 
@@ -61,7 +61,7 @@ def resume(path: Path | None) -> None:
 @AXIS
 def home(path: Path | None, yes: bool, axis: str) -> None:
     """Find the end stop of an axis that counts pulses. You watch the antenna; Ctrl-C stops it."""
-    from rotator.cli import tell as console
+    from rotator.cli import console
 
     console.home(path, Axis(axis), yes=yes)
 
@@ -71,8 +71,8 @@ def home(path: Path | None, yes: bool, axis: str) -> None:
 @AXIS
 @click.argument("degrees", type=float)
 def confirm(path: Path | None, axis: str, degrees: float) -> None:
-    """Say where an axis stands that cannot know it. A moteus behind a gear needs it after power-on."""
-    from rotator.cli import tell as console
+    """Say where an axis stands that cannot know it itself. A moteus behind a gear needs it after power-on."""
+    from rotator.cli import console
 
     console.confirm(path, Axis(axis), degrees)
 
@@ -82,9 +82,9 @@ def confirm(path: Path | None, axis: str, degrees: float) -> None:
 @YES
 def let_go(path: Path | None, yes: bool) -> None:
     """Take the torque from the motors. An antenna out of balance turns; nothing moves it until `rotator resume`."""
-    from rotator.cli import tell as console
+    from rotator.cli import console
 
     console.let_go(path, yes=yes)
 
 
-PERSONAL = (tell, where, stop, resume, home, confirm, let_go)
+CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, let_go)

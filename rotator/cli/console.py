@@ -1,6 +1,6 @@
-"""What a person says to the running box, over its console: the questions asked first, and what is shown afterwards.
+"""The commands that speak to the running box over its console: the questions before, and what is shown afterwards.
 
-Knows the console's words and answers. Whether the box obeys is the box's.
+Knows the console's words and answers. Does not know whether the box will obey.
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ from rotator.cli.reach import monitor_places, reach
 from rotator.links.console import console_path
 from rotator.links.wire import LinkError
 from rotator.orders import Confirm, Home, LetGo, Release, Stop
-from rotator.protocols.console import Ask, Said, encode
+from rotator.protocols.console import Ask, ConsoleCommand, encode
 from rotator.protocols.console_session import ERROR, OK
 
 ANSWER_S = 5.0
 LOOK_S = 0.25
 STANDING_LOOKS = 12
-"""Homing stands between its turns, for less than this many looks."""
+"""Between two turns of a homing the axis stands, for fewer looks than this."""
 CONSOLE = "console"
-"""How the box calls those who speak to it here."""
+"""How the status names the users of the console."""
 
 Lines = list[tuple[str, str]]
-"""What the box says of itself: what, and how."""
+"""The lines of a status: a name and a value each."""
 
 
 class Refused(LinkError):  # noqa: N818 - the box's answer, no failure of the program
-    """The box has heard it, and says why not."""
+    """The box refuses the order. The text says why."""
 
 
-class Talk:
-    """One connection to the console. Raises ConfigError; LinkError, where no box answers."""
+class ConsoleClient:
+    """One connection to the console. Raises ConfigError; LinkError when no box answers."""
 
     def __init__(self, path: Path | None) -> None:
         self._box = reach([console_path(each) for each in monitor_places(path)], "console")
@@ -52,21 +52,22 @@ class Talk:
         self._answers.close()
         self._box.close()
 
-    def say(self, said: Said) -> list[str]:
+    def send(self, said: ConsoleCommand) -> list[str]:
+        """Send an order or a question. Returns the lines of the answer. Raises Refused, LinkError."""
         return self.line(encode(said))
 
     def line(self, line: bytes) -> list[str]:
-        """The lines of the answer before its `ok`. Raises Refused, LinkError."""
-        told: list[str] = []
+        """Send one line. Returns the lines of the answer before its `ok`. Raises Refused, LinkError."""
+        answers: list[str] = []
         try:
             self._box.sendall(line)
             while (answer := self._answers.readline()).endswith("\n"):
                 answer = answer.rstrip("\n")
                 if answer == OK:
-                    return told
+                    return answers
                 if answer.startswith(ERROR):
                     raise Refused(answer.removeprefix(ERROR))
-                told.append(answer)
+                answers.append(answer)
         except TimeoutError:
             raise LinkError("the box does not answer") from None
         except OSError:
@@ -74,58 +75,58 @@ class Talk:
         raise LinkError("the box has ended")
 
     def status(self) -> Lines:
-        return [(what, how) for what, _, how in (line.partition(": ") for line in self.say(Ask.STATUS))]
+        return [(what, how) for what, _, how in (line.partition(": ") for line in self.send(Ask.STATUS))]
 
 
 def tell(path: Path | None, words: Sequence[str]) -> None:
-    """Anything the console knows. Without words: what that is."""
+    """Send words to the console. Without words: ask which words it knows."""
     line = " ".join(" ".join(words).split()) or Ask.HELP.value
-    with Talk(path) as box:
-        for told in box.line(line.encode("utf-8", "replace") + b"\n") or [OK]:
-            click.echo(told)
+    with ConsoleClient(path) as box:
+        for answer in box.line(line.encode("utf-8", "replace") + b"\n") or [OK]:
+            click.echo(answer)
 
 
 def where(path: Path | None) -> None:
-    with Talk(path) as box:
-        for told in box.say(Ask.STATUS):
-            click.echo(told)
+    with ConsoleClient(path) as box:
+        for line in box.send(Ask.STATUS):
+            click.echo(line)
 
 
 def stop(path: Path | None) -> None:
-    with Talk(path) as box:
-        box.say(Stop(latch=True))
+    with ConsoleClient(path) as box:
+        box.send(Stop(latch=True))
     click.echo("Stopped. Nothing moves until `rotator resume`.")
 
 
 def resume(path: Path | None) -> None:
-    with Talk(path) as box:
-        box.say(Release())
+    with ConsoleClient(path) as box:
+        box.send(Release())
     click.echo("Whoever may move the antenna can do so again.")
 
 
 def let_go(path: Path | None, *, yes: bool) -> None:
-    with Talk(path) as box:
+    with ConsoleClient(path) as box:
         _ask("Without torque an antenna that is out of balance turns. Let go of both axes?", yes=yes)
-        box.say(LetGo())
+        box.send(LetGo())
     click.echo("The motors are without torque. Nothing moves until `rotator resume`.")
 
 
 def confirm(path: Path | None, axis: Axis, angle_deg: float) -> None:
-    with Talk(path) as box:
-        box.say(Confirm(axis, angle_deg))
+    with ConsoleClient(path) as box:
+        box.send(Confirm(axis, angle_deg))
     click.echo(f"{axis.value} stands at {angle_deg:g}°.")
 
 
 def home(path: Path | None, axis: Axis, *, yes: bool) -> None:
-    """Ends when the axis stands. Whatever else ends it stops the antenna. Raises LinkError where it is not homed."""
+    """Home an axis, and return when it stands. Any other end stops the antenna. Raises LinkError if it is not homed."""
     for signum in (signal.SIGTERM, signal.SIGHUP):
-        # The person who watches has gone: as good as Ctrl-C.
+        # A closed terminal means that the user no longer watches: the same as Ctrl-C.
         signal.signal(signum, signal.default_int_handler)
-    with Talk(path) as box:
+    with ConsoleClient(path) as box:
         _ask(f"Watch the antenna: {axis.value} turns to its low end. Ctrl-C stops it. Begin?", yes=yes)
         over = False
         try:
-            box.say(Home(axis))
+            box.send(Home(axis))
             lines = _until_it_stands(box, axis)
             over = True
         except Refused:
@@ -135,7 +136,7 @@ def home(path: Path | None, axis: Axis, *, yes: bool) -> None:
             raise LinkError(f"{axis.value} is not homed") from None
         finally:
             if not over:
-                # A second Ctrl-C is not to keep the first one from being heard.
+                # A second Ctrl-C must not interrupt the stop.
                 signal.signal(signal.SIGINT, signal.SIG_IGN)
                 stop(path)
     for what, how in lines:
@@ -146,8 +147,11 @@ def home(path: Path | None, axis: Axis, *, yes: bool) -> None:
     click.echo(f"{axis.value} stands: {dict(lines)[axis.value]}")
 
 
-def _until_it_stands(box: Talk, axis: Axis) -> Lines:
-    """Or until somebody else has it. Shows where it is: in a terminal on one row, else line by line while it turns."""
+def _until_it_stands(box: ConsoleClient, axis: Axis) -> Lines:
+    """Wait until the axis stands, or until another source moves it. Returns the last status.
+
+    Shows the angle meanwhile: in a terminal on one row, else line by line while the axis turns.
+    """
     row = sys.stdout.isatty()
     still, ours = 0, False
     try:

@@ -1,0 +1,87 @@
+"""What a calibration needs of the configured rotor: its traits, its compass, a controller for an axis not yet set up.
+
+Part of the composition root. How kinds of rotor differ during a calibration is in `rotator.config.kinds`. Does not know
+the questions that the operator is asked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from hw.ports import Axis, Compass, HardwareError
+from rotator.assembly.board import Board
+from rotator.assembly.sensors import compass_chip
+from rotator.assembly.settings import build_controller, build_offsets
+from rotator.config.model import Config
+from rotator.control.controller import Controller
+
+SCALES_DEG = {Axis.AZIMUTH: (-360.0, 720.0), Axis.ELEVATION: (-90.0, 210.0)}
+"""The angles of an axis that the configuration file accepts."""
+SETTLE_S = 2.0
+"""A motor that goes to an angle by itself still moves for 1.5 s: it brakes from 30°/s at 20°/s²."""
+COMPASS_FILE = "compass.json"
+"""Beside the state file: what the compass forgets without power."""
+
+
+@dataclass(frozen=True, slots=True)
+class CalibrationTraits:
+    """How this kind of rotor behaves while an axis is set up."""
+
+    reach_deg: tuple[float, float]
+    """Where the limits of the axis can be, on the rotor's own scale."""
+    shift_deg: float
+    """Added to the rotor's own scale this gives the angle that the box reports."""
+    homes: bool
+    """The axis counts from its end stop."""
+    settle_s: float
+    first_press: str
+    """What the operator must expect of the first press; empty: nothing unusual."""
+    reversal: str
+    """What to change when the antenna turns the wrong way; empty: the two relays."""
+
+
+def calibration_traits(config: Config, axis: Axis) -> CalibrationTraits:
+    return CalibrationTraits(
+        reach_deg=_reach_deg(config, axis),
+        shift_deg=build_offsets(config).of(axis),
+        homes=config.counts(axis),
+        settle_s=0.0 if config.rotor.switched else SETTLE_S,
+        first_press=config.kind.first_move(axis),
+        reversal=config.kind.reversal(axis),
+    )
+
+
+def calibration_controller(config: Config, axis: Axis) -> Controller:
+    """A controller that treats `axis` as never set up: it obeys jog only, 2 s a press."""
+    return build_controller(_without_limits(config, axis), commissioning=axis)
+
+
+def open_compass(config: Config, board: Board) -> Compass:
+    """Raises HardwareError where the file has no compass. A chip that is missing shows only when it is read."""
+    table = config.compass
+    if table.kind == "none":
+        raise HardwareError(
+            'the file has no compass: fit a BNO055 to the boom and write [compass] kind = "bno055" (docs/sensors.md)'
+        )
+    return compass_chip(table, board.bus(table.bus), board.clock, board.sleep)
+
+
+def compass_path(config: Config) -> Path | None:
+    """The file with the compass's own corrections. None for a simulated compass: a real chip must never get those."""
+    return None if config.rotor.hardware == "sim" else Path(config.state.path).with_name(COMPASS_FILE)
+
+
+def _reach_deg(config: Config, axis: Axis) -> tuple[float, float]:
+    low_deg, high_deg = config.reach_deg(axis)
+    lowest_deg, highest_deg = SCALES_DEG[axis]
+    return lowest_deg if low_deg is None else low_deg, highest_deg if high_deg is None else high_deg
+
+
+def _without_limits(config: Config, axis: Axis) -> Config:
+    """A motor that goes to an angle by itself stops at its limits, and the limits have still to be found."""
+    if config.rotor.switched:
+        return config
+    low_deg, high_deg = _reach_deg(config, axis)
+    table = config.axis(axis).model_copy(update={"min_deg": low_deg, "max_deg": high_deg})
+    return config.model_copy(update={axis.value: table})

@@ -1,0 +1,168 @@
+"""Guides the operator through an axis whose readings are degrees: a count, a controller, a model, gravity.
+
+Such an axis needs no table: only the direction check, the end stop of a count, and the limits. Pure, and one path from
+top to bottom (`_path`). Does not know drivers: how kinds of rotors differ is in `CalibrationTraits`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+
+from hw.ports import Direction
+from rotator.assembly.calibration import CalibrationTraits
+from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
+from rotator.calibrating.axis_state import needs_homing, position_unknown
+from rotator.calibrating.entries import Enter, Number, StopNow
+from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps
+from rotator.calibrating.reading_watch import AxisMoved
+from rotator.calibrating.readings import NotTrusted
+from rotator.calibrating.results import AxisCalibrated
+from rotator.calibrating.table_draft import LEAST_SPAN_DEG
+from rotator.orders import Confirm, Home, Stop
+
+
+class DegreesGuide(AxisGuide):
+    def __init__(self, facts: AxisFacts, traits: CalibrationTraits) -> None:
+        super().__init__(facts)
+        self._traits = traits
+
+    def _path(self) -> Steps:
+        phrases, facts = self._phrases, self.facts
+        self._say(*phrases.introduction)
+        if self._traits.first_press:
+            self._say("", self._traits.first_press)
+        yield from self._find_position()
+        self._say("", *phrases.direction_check)
+        if self._traits.homes:
+            yield from self._check_by_eye()
+            yield from self._find_end_stop()
+        else:
+            yield from self._check_by_reading()
+        number = 3 if self._traits.homes else 2
+        low_deg = yield from self._limit(f"{number}. The lowest", facts.min_deg, facts.least_deg)
+        high_deg = yield from self._limit(f"{number + 1}. The highest", facts.max_deg, low_deg + LEAST_SPAN_DEG)
+        self._say(*phrases.degrees_summary(low_deg, high_deg))
+        if (yield from self._agrees("Save this? y or n:")):
+            self.result = AxisCalibrated(facts.axis, None, low_deg, high_deg)
+        else:
+            self._say(NOTHING_SAVED)
+
+    # --- the angle after power-on
+
+    def _find_position(self) -> Steps:
+        """A controller behind a gear does not know its angle after power-on, and nothing moves before it does."""
+        yield
+        yield from self._await_axis()
+        while position_unknown(self._axis):
+            self._say("", "The controller does not know where it stands. Look at the antenna.")
+            angle_deg = yield from self._number("Which angle is that on the rotor's own scale?", None)
+            if angle_deg is not None:
+                yield from self._confirm(angle_deg)
+
+    def _confirm(self, angle_deg: float) -> Steps:
+        self._orders.append(Confirm(self.facts.axis, angle_deg + self._traits.shift_deg))
+        began_s = self._now_s
+        while position_unknown(self._axis) and self._now_s - began_s < CONFIRM_S:
+            yield
+        if position_unknown(self._axis):
+            self._say("The controller did not accept this angle.")
+        else:
+            self._say(f"It stands at {self._angle_text()}.")
+
+    # --- directions
+
+    def _check_by_reading(self) -> Steps:
+        """The sensor may be another device than the drive: both must agree with the operator's eye."""
+        phrases = self._phrases
+        change = yield from self._turn(Direction.PLUS, phrases.turn_plus, 0)
+        if not (yield from self._agrees(phrases.did_it_turn)):
+            raise Abandoned(phrases.turned_wrong(self._traits.reversal))
+        if change < 0:
+            raise Abandoned(phrases.reads_backwards)
+        yield from self._turn(Direction.MINUS, phrases.turn_minus, -1)
+        self._say("The degrees grow and shrink as they should: the directions are right.")
+
+    def _check_by_eye(self) -> Steps:
+        """A count takes its direction from the relays, so only the eye sees which way the antenna turned."""
+        phrases = self._phrases
+        for direction, prompt, question in (
+            (Direction.PLUS, phrases.turn_plus, phrases.did_it_turn),
+            (Direction.MINUS, phrases.turn_minus, phrases.did_it_turn_back),
+        ):
+            while True:
+                event = yield from self._ask(prompt)
+                if isinstance(event, AxisMoved) and event.direction is direction:
+                    break
+                if not isinstance(event, AxisMoved):
+                    self._say(phrases.press_first)
+            if not (yield from self._agrees(question)):
+                raise Abandoned(phrases.swap)
+        self._say("The directions are right.")
+
+    # --- the end stop
+
+    def _find_end_stop(self) -> Steps:
+        self._say("", "2. The end stop, where the count begins.", *self._phrases.homing)
+        if not needs_homing(self._axis):
+            # A count made with exchanged relays is not the antenna's angle.
+            question = f"It says that it stands at {self._angle_text()}. Look for the stop all the same? y or n:"
+            if (yield from self._agrees(question)):
+                yield from self._home()
+        while needs_homing(self._axis) or self._fault_text:
+            if not (yield from self._agrees("Look for it now? y or n:")):
+                raise Abandoned("Left: without its end stop it does not know where it stands. Nothing is saved.")
+            yield from self._home()
+        self._say(f"It stands at {self._angle_text()}.")
+
+    def _home(self) -> Steps:
+        """Home the axis, and wait until it stands again, with or without success."""
+        if self._fault_text:
+            self._orders.append(Stop())
+        self._orders.append(Home(self.facts.axis))
+        self.prompt = "It looks for its stop; s stops it."
+        began_s = self._now_s
+        while self._now_s - began_s < ORDER_TAKEN_S or self._axis.homing or self._axis.moving:
+            if isinstance(self._entry, StopNow):
+                self._halt()
+                self._say("Stopped.")
+            yield
+
+    @property
+    def _readings_count(self) -> bool:
+        return not needs_homing(self._axis)
+
+    # --- limits
+
+    def _limit(self, which: str, now_deg: float, least_deg: float) -> Generator[None, None, float]:
+        self._say("", *self._phrases.limit(which))
+        while True:
+            event = yield from self._ask(f"Enter: here; or an angle (in the file: {now_deg:g}):")
+            match event:
+                case Enter():
+                    angle_deg = yield from self._angle_here()
+                case Number(value) if self._is_angle(value):
+                    angle_deg = value
+                case Number(_) | AxisMoved():
+                    continue
+                case _:
+                    self._say("Drive there and Enter, or type the angle.")
+                    continue
+            if angle_deg is None:
+                continue
+            if angle_deg >= least_deg:
+                self._say(f"Taken: {angle_deg:g}°.")
+                return angle_deg
+            self._say(f"Refused: {angle_deg:g}° is too low, it must be {least_deg:g}° or more.")
+
+    def _angle_here(self) -> Generator[None, None, float | None]:
+        try:
+            measured = yield from self._measured()
+        except NotTrusted as reason:
+            self._say(f"Refused: {reason}.")
+            return None
+        angle_deg = round(measured.raw, 1) + 0.0
+        return angle_deg if self._is_angle(angle_deg) else None
+
+    def _angle_text(self) -> str:
+        raw = self._axis.raw
+        return "----" if raw is None else self.reading_text(raw)

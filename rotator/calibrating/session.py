@@ -1,0 +1,123 @@
+"""One calibration session: the axes, or north, one after the other. Each opens the hardware again.
+
+Knows how a rig is started, stepped and stopped, and that its result is saved. Does not know the terminal: lines go to
+`show`, entries come from `TypedAhead`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable, Sequence
+from contextlib import AbstractAsyncContextManager
+from pathlib import Path
+from typing import Protocol
+
+from hw.ports import Axis
+from rotator.assembly.calibration import compass_path
+from rotator.assembly.station import Station
+from rotator.calibrating.results import AngleConfirmed, Result
+from rotator.calibrating.rig import AxisRig, NorthRig, Rig
+from rotator.calibrating.saving import as_toml, save
+from rotator.calibrating.typed_ahead import TypedAhead
+from rotator.config.load import ConfigError
+from rotator.config.model import Config
+from rotator.runtime.engine import Engine
+
+POLL_S = 0.02
+NORTH = "north"
+
+
+class Screen(Protocol):
+    """Where the operator reads and types."""
+
+    typed: TypedAhead
+
+    def show(self, text: str) -> None: ...
+
+    def ask(self, prompt: str) -> None:
+        """The open question has changed; empty: none is open."""
+
+    def open(self, rig: Rig) -> AbstractAsyncContextManager[None]:
+        """While it is open the state of the rig is drawn, and entries arrive in `typed`."""
+
+
+class CalibrationSession:
+    """`path`: the file that results are saved in; None: they are shown instead. `open_station` raises HardwareError."""
+
+    def __init__(
+        self,
+        config: Config,
+        path: Path | None,
+        screen: Screen,
+        open_station: Callable[[Config], Station],
+        on_open: Callable[[Station], None],
+    ) -> None:
+        self._config = config
+        self._path = path
+        self._screen = screen
+        self._open_station = open_station
+        self._on_open = on_open
+
+    async def run(self, tasks: Sequence[str], stop: asyncio.Event) -> bool:
+        """`tasks`: names of axes, or NORTH. Returns whether every one of them has a result that is saved."""
+        if self._config.rotor.hardware == "sim":
+            self._screen.show("SIMULATED rotor: nothing real turns.")
+        for task in tasks:
+            station = self._open_station(self._config)
+            try:
+                self._on_open(station)
+                result = await self._calibrate(task, station, stop)
+            finally:
+                await asyncio.to_thread(station.close)
+            if result is None or not await self._save(result):
+                return False
+        return True
+
+    def _rig(self, task: str, station: Station) -> Rig:
+        if task == NORTH:
+            corrections = compass_path(self._config)
+            return NorthRig(self._config, station, time.monotonic, time.sleep, corrections=corrections)
+        return AxisRig(self._config, Axis(task), station, time.monotonic)
+
+    async def _calibrate(self, task: str, station: Station, stop: asyncio.Event) -> Result | None:
+        """Run one guide to its end. The motors stand when it returns, and when it raises."""
+        rig = self._rig(task, station)
+        engine = Engine(rig.loop, station.rotor)
+        async with self._screen.open(rig):
+            try:
+                ended = engine.start()
+                rig.start()
+                asked = ""
+                while not (rig.guide.ended or stop.is_set() or ended.done()):
+                    for line in rig.step(self._screen.typed.next(rig.guide)):
+                        self._screen.show(line)
+                    if rig.guide.prompt != asked:
+                        asked = rig.guide.prompt
+                        self._screen.ask(asked)
+                    await asyncio.sleep(POLL_S)
+            finally:
+                # The motors first: a compass that hangs takes seconds to stop.
+                try:
+                    failure = await engine.halt()
+                finally:
+                    await asyncio.to_thread(rig.stop)
+        if failure is not None:
+            raise failure
+        if not rig.guide.ended:
+            self._screen.show(f"Stopped: the motors stand, nothing of the {task} is saved.")
+        return rig.result
+
+    async def _save(self, result: Result) -> bool:
+        if isinstance(result, AngleConfirmed):
+            return True
+        if self._path is None:
+            self._screen.show("No --config, so nothing is saved. In a file it would be:\n\n" + as_toml(result))
+            return True
+        try:
+            await asyncio.to_thread(save, result, self._path)
+        except (OSError, ConfigError) as fault:
+            self._screen.show(f"It cannot be saved: {fault}. In the file it would be:\n\n{as_toml(result)}")
+            return False
+        self._screen.show(f"Saved in {self._path}; the file before is {self._path.name}.bak.")
+        return True

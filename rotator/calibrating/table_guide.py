@@ -1,0 +1,115 @@
+"""Guides the operator through an axis with a pot, or a magnet: directions, both ends, points between, limits.
+
+Knows what to ask, in which order, and what to refuse. Pure: no clock, no terminal, no file. The questions are one path
+from top to bottom (`_path`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+
+from hw.ports import Direction
+from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
+from rotator.calibrating.entries import Enter, Finish, No
+from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Steps
+from rotator.calibrating.reading_watch import AxisMoved
+from rotator.calibrating.readings import READINGS, NotTrusted
+from rotator.calibrating.results import AxisCalibrated
+from rotator.calibrating.table_draft import TableDraft, TablePoint
+
+
+class TableGuide(AxisGuide):
+    """`supply_v`: the supply of a pot, to show readings in volts too; None: the sensor is no pot."""
+
+    def __init__(self, facts: AxisFacts, supply_v: float | None) -> None:
+        super().__init__(facts)
+        self._supply_v = supply_v
+
+    def reading_text(self, raw: float) -> str:
+        volts = "" if self._supply_v is None else f" ({raw * self._supply_v:.3f} V)"
+        return super().reading_text(raw) + volts
+
+    def _path(self) -> Steps:
+        phrases, facts = self._phrases, self.facts
+        self._say(*phrases.introduction)
+        rising = yield from self._check_plus()
+        yield from self._check_minus(rising=rising)
+        table = TableDraft(rising=rising)
+        table = yield from self._end(table, phrases.low_end, facts.min_deg)
+        table = yield from self._end(table, phrases.high_end, facts.max_deg)
+        table = yield from self._between(table)
+        self._say("", *table.lines(self._supply_v, facts.lowest_reading, facts.highest_reading))
+        limits = yield from self._limits(table)
+        self._say(*phrases.summary(*limits))
+        if (yield from self._agrees("Save this? y or n:")):
+            points = tuple((point.raw, point.angle_deg) for point in table.points)
+            self.result = AxisCalibrated(facts.axis, points, *limits)
+        else:
+            self._say(NOTHING_SAVED)
+
+    def _check_plus(self) -> Generator[None, None, bool]:
+        """Returns whether the reading rises with the degrees."""
+        phrases = self._phrases
+        self._say("", *phrases.direction_check)
+        change = yield from self._turn(Direction.PLUS, phrases.turn_plus, 0)
+        if not (yield from self._agrees(phrases.did_it_turn)):
+            raise Abandoned(phrases.swap)
+        self._say(f"The reading {'rises' if change > 0 else 'falls'} with it: good, either will do.")
+        return change > 0
+
+    def _check_minus(self, *, rising: bool) -> Steps:
+        change = yield from self._turn(Direction.MINUS, self._phrases.turn_minus, -1 if rising else 1)
+        self._say(f"The reading {'rises' if change > 0 else 'falls'} on the way back: the directions are right.")
+
+    def _end(self, table: TableDraft, where: str, proposed_deg: float) -> Generator[None, None, TableDraft]:
+        self._say("", *self._phrases.drive_to(where))
+        while True:
+            event = yield from self._ask(f"At the {where}? Enter reads.")
+            if isinstance(event, Enter):
+                point = yield from self._read(proposed_deg)
+                try:
+                    if point is not None:
+                        return table.with_end(point)
+                except NotTrusted as reason:
+                    self._say(f"Refused: {reason}.")
+            elif not isinstance(event, AxisMoved):
+                self._say("Drive there, then Enter.")
+
+    def _between(self, table: TableDraft) -> Generator[None, None, TableDraft]:
+        self._say("", *self._phrases.between)
+        while True:
+            event = yield from self._ask("Another point? Enter reads; f when there are no more.")
+            match event:
+                case Finish() | No():
+                    return table
+                case Enter():
+                    point = yield from self._read(None)
+                    try:
+                        if point is not None:
+                            table = table.with_point(point)
+                            self._say(f"Taken: {table.off_line_deg(point):+.1f}° off the straight line.")
+                    except NotTrusted as reason:
+                        self._say(f"Refused: {reason}.")
+                case _ if not isinstance(event, AxisMoved):
+                    self._say("Drive to a known angle, then Enter; or f.")
+
+    def _read(self, proposed_deg: float | None) -> Generator[None, None, TablePoint | None]:
+        """Read the axis at rest, and ask for its angle. None: not trusted, or the operator wants to read again."""
+        try:
+            measured = yield from self._measured()
+        except NotTrusted as reason:
+            self._say(f"Refused: {reason}.")
+            return None
+        self._say(f"It reads {measured.raw:.4f}, with a noise of {measured.noise:.4f} in each of {READINGS} readings.")
+        angle_deg = yield from self._number("Which angle is that on the rotor's own scale?", proposed_deg)
+        return None if angle_deg is None else TablePoint(measured, angle_deg)
+
+    def _limits(self, table: TableDraft) -> Generator[None, None, tuple[float, float]]:
+        low_deg, high_deg = table.points[0].angle_deg, table.points[-1].angle_deg
+        self._say("", f"Between which angles may it be sent? They lie within {low_deg:g} to {high_deg:g}.")
+        while True:
+            least = yield from self._number("Lowest angle:", min(max(self.facts.min_deg, low_deg), high_deg))
+            most = yield from self._number("Highest angle:", max(min(self.facts.max_deg, high_deg), low_deg))
+            if least is not None and most is not None and low_deg <= least < most <= high_deg:
+                return least, most
+            self._say(f"Refused: the limits must lie within {low_deg:g} to {high_deg:g}, the lower one first.")

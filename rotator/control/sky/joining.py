@@ -1,0 +1,43 @@
+"""One coordinate alone (`AZ200`, `M200`, `EL20`): joined with the other one, on the sky, before it becomes axis angles.
+
+An antenna over the top has its boom on the other side: its elevation axis stands at 150° while it points 30° high. An
+order for one coordinate then changes both axes. Where the antenna is not over the top, and cannot go there, the order
+moves one axis. Knows directions and the mount. Knows nothing of goals, motors or time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from rotator.control.sky.mount import ZENITH_DEG, Mount
+from rotator.orders import Aim
+
+Pair = tuple[float | None, float | None]
+"""Azimuth and elevation in degrees; None: not known, or not ordered."""
+
+
+def joined(mount: Mount, aim: Aim, wanted: Pair, axes: Pair) -> Aim:
+    """The order with both coordinates, where the mount needs both; else the order as it is.
+
+    `wanted`: the direction in force, as ordered; `axes`: where the axes go, or stand, on their own scale.
+    """
+    if (aim.azimuth_deg is None) is (aim.elevation_deg is None):
+        return aim
+    axis_azimuth_deg, axis_elevation_deg = axes
+    if axis_azimuth_deg is None or axis_elevation_deg is None:
+        return aim
+    if not mount.flip and axis_elevation_deg <= ZENITH_DEG:
+        return aim
+    azimuth_deg, elevation_deg = wanted
+    if azimuth_deg is None or elevation_deg is None:
+        azimuth_deg, elevation_deg = direction(axis_azimuth_deg, axis_elevation_deg)
+    if aim.azimuth_deg is None:
+        return replace(aim, azimuth_deg=azimuth_deg)
+    return replace(aim, elevation_deg=elevation_deg)
+
+
+def direction(azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
+    """Axis angles as the direction on the sky: azimuth 0 to below 360, elevation up to 90."""
+    if elevation_deg > ZENITH_DEG:
+        return (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
+    return azimuth_deg % 360.0, elevation_deg

@@ -1,0 +1,140 @@
+"""The clients of a listening stream socket, TCP or Unix: each has a conversation of its own.
+
+Knows connections, and clients that are too many or that read nothing. Knows neither addresses nor protocols.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from collections.abc import Callable
+from typing import cast
+
+from rotator.links.wire import Conversation, Wire
+from rotator.protocols.session import Session
+from rotator.runtime.log_limit import LogLimit
+
+log = logging.getLogger(__name__)
+
+UNREAD_LIMIT = 65_536
+"""A client that reads nothing is dropped when more than this many bytes would wait for it."""
+READ_BYTES = 512
+"""The most bytes read from one client before the others have their turn: a flood of commands delays no other's stop."""
+
+
+class Clients:
+    """`session` makes the conversation of one connection.
+
+    `allowed` says whether the machine with an address may connect. When `most` clients are connected, a new one is
+    turned away; with `makes_room` it is let in, and the one that has been silent longest is dropped.
+    """
+
+    def __init__(
+        self,
+        wire: Wire,
+        session: Callable[[], Session],
+        most: int,
+        *,
+        allowed: Callable[[str], bool] = lambda _host: True,
+        makes_room: bool = False,
+    ) -> None:
+        self.wire = wire
+        self.session = session
+        self._most = most
+        self._allowed = allowed
+        self._makes_room = makes_room
+        self._connected: dict[_Client, None] = {}
+        """The client that has been silent longest comes first."""
+        self._complaints = LogLimit(time.monotonic)
+
+    def __len__(self) -> int:
+        return len(self._connected)
+
+    def new(self) -> asyncio.BufferedProtocol:
+        """The protocol of a new connection, for asyncio's `create_server`."""
+        return _Client(self)
+
+    def drop_all(self) -> None:
+        connected, self._connected = self._connected, {}
+        for client in connected:
+            client.drop()
+
+    def admit(self, client: _Client, host: str) -> bool:
+        """Whether a client that has just connected may stay."""
+        if not self._allowed(host):
+            self.complain(f"{host} is not in allow: turned away")
+            return False
+        if len(self._connected) >= self._most:
+            if not self._makes_room:
+                self.complain(f"{self._most} clients already, one more is turned away")
+                return False
+            silent = next(iter(self._connected))
+            del self._connected[silent]
+            silent.drop()
+        self._connected[client] = None
+        self._show_count()
+        return True
+
+    def heard(self, client: _Client) -> bool:
+        """Note that a client has said something. False: it has been dropped."""
+        if client not in self._connected:
+            return False
+        del self._connected[client]
+        self._connected[client] = None
+        return True
+
+    def forget(self, client: _Client) -> None:
+        if client in self._connected:
+            del self._connected[client]
+            self._show_count()
+
+    def complain(self, text: str) -> None:
+        if line := self._complaints.admit(text):
+            log.warning("%s: %s", self.wire.name, line)
+
+    def _show_count(self) -> None:
+        count = len(self._connected)
+        self.wire.state = f"{count} client{'s' if count != 1 else ''}" if count else "listening"
+
+
+class _Client(asyncio.BufferedProtocol):
+    def __init__(self, clients: Clients) -> None:
+        self._clients = clients
+        self._buffer = bytearray(READ_BYTES)
+        self._transport: asyncio.Transport | None = None
+        self._conversation: Conversation | None = None
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        self._transport = cast(asyncio.Transport, transport)
+        peer = self._transport.get_extra_info("peername")  # of a Unix socket: an empty text
+        if not self._clients.admit(self, str(peer[0]) if peer else ""):
+            self._transport.abort()
+            return
+        clients = self._clients
+        self._conversation = Conversation(clients.session(), clients.wire, self._write, self._transport.close)
+
+    def get_buffer(self, sizehint: int) -> bytearray:
+        return self._buffer
+
+    def buffer_updated(self, nbytes: int) -> None:
+        if self._conversation is not None and self._clients.heard(self):
+            self._conversation.received(bytes(self._buffer[:nbytes]))
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        if self._conversation is not None:
+            self._conversation.close()
+        self._clients.forget(self)
+
+    def drop(self) -> None:
+        if self._transport is not None:
+            self._transport.abort()
+
+    def _write(self, data: bytes) -> None:
+        if self._transport is None or self._transport.is_closing():
+            return
+        if self._transport.get_write_buffer_size() + len(data) > UNREAD_LIMIT:
+            self._clients.complain("a client reads nothing: dropped")
+            self._transport.abort()
+            return
+        self._transport.write(data)

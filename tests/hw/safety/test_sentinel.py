@@ -1,0 +1,80 @@
+"""The program's side of the sentinel, with a real process behind it that finds a gpiod of this test's in its path.
+
+Its life beside the box, on real lines, is tried on a real kernel (tests/kernel).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from hw.ports import HardwareError
+from hw.safety.lines_off import RelayLines
+from hw.safety.sentinel import Sentinel
+
+LINES = RelayLines("/dev/gpiochip0", {"azimuth_cw": 22}, active_low=False)
+GPIOD = """
+import os
+from contextlib import nullcontext
+from enum import Enum
+from types import SimpleNamespace
+
+line = SimpleNamespace(
+    Value=Enum("Value", "ACTIVE INACTIVE"), Direction=Enum("Direction", "INPUT OUTPUT"), Bias=None, Edge=None
+)
+LineSettings = dict
+
+def Chip(path):
+    return nullcontext()
+
+def request_lines(path, **_):
+    open(os.environ["SWITCHED_OFF"], "w").close()
+    return SimpleNamespace(release=lambda: None)
+"""
+
+
+@pytest.fixture
+def switched_off(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The file that is there when the sentinel has taken the lines with their off level."""
+    (tmp_path / "gpiod.py").write_text(GPIOD)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setenv("SWITCHED_OFF", str(tmp_path / "off"))
+    return tmp_path / "off"
+
+
+def test_dismissed_it_ends_and_leaves_the_lines_alone(switched_off: Path) -> None:
+    sentinel = Sentinel(LINES)
+    sentinel.renew()
+    sentinel.rest()
+    sentinel.dismiss()
+    sentinel.close()
+    assert not switched_off.exists()
+
+
+def test_closed_without_a_dismissal_it_switches_the_lines_off(switched_off: Path) -> None:
+    sentinel = Sentinel(LINES)
+    sentinel.renew()
+    sentinel.close()
+    assert switched_off.exists()
+
+
+@pytest.mark.usefixtures("switched_off")
+def test_closed_twice_it_says_nothing_into_another_file(tmp_path: Path) -> None:
+    sentinel = Sentinel(LINES)
+    sentinel.dismiss()
+    sentinel.close()
+    sentinel.close()
+    with (tmp_path / "other").open("wb", buffering=0) as other:  # it gets the number of the closed pipe
+        sentinel.dismiss()
+        sentinel.rest()
+        with pytest.raises(HardwareError, match="gone or stuck: no relay may close"):
+            sentinel.renew()
+        assert other.tell() == 0
+
+
+def test_where_it_does_not_start_nothing_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "gpiod.py").write_text("")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    with pytest.raises(HardwareError, match="does not start"):
+        Sentinel(LINES)
