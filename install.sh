@@ -19,7 +19,7 @@ usage: sudo ./install.sh [--profile NAME] [--wheels DIR]    install, or update t
   --arch ARCH       for --fetch-wheels: arm64, armhf or amd64; this machine's unless given
   --yes             do not ask before configuration and state are lost
 
-A configuration of moteus controllers, or of digital pots on the kernel's SPI, brings the packages that these need.
+A configuration of moteus controllers, or of chips on the kernel's SPI, brings the packages that these need.
 Another Python than python3: sudo PYTHON=python3.12 ./install.sh
 END
 }

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from benchmarks.passes import Flight, fly_all, mean
 from firmware_sim.clock import SimClock
-from rotator.assembly.simulation import SIM_CALIBRATION_RAW
+from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
 from rotator.config.load import parse
 from rotator.control.sky.angles import turn_deg
 from rotator.rehearsal.flight import BoxPlant

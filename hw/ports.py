@@ -122,6 +122,16 @@ class AngleSensor(Protocol):
         """
 
 
+class AnalogInputs(Protocol):
+    """The inputs of an analog-to-digital converter, by number from 0."""
+
+    def volts(self, channel: int) -> float:
+        """Volts at this input against ground, converted now. May take milliseconds.
+
+        Raises HardwareError when the converter does not answer; the next call tries again.
+        """
+
+
 @dataclass(frozen=True, slots=True)
 class ContactChange:
     """A contact closed or opened at `at_s`; `lost` changes before this one were not recorded."""

@@ -28,7 +28,7 @@ try:
     file = tomllib.loads(text)
     rotor = file["rotor"]
     kind, is_pi = rotor.get("type"), rotor.get("hardware") == "pi"
-    on_spi = kind == "digipot" and is_pi and file.get("digipot", {}).get("spi") == "kernel"
+    on_spi = is_pi and any(isinstance(table, dict) and table.get("spi") == "kernel" for table in file.values())
 except (OSError, KeyError, ValueError, AttributeError, TypeError, zipfile.BadZipFile):
     sys.exit()  # a profile there is not, or a file that is wrong: the program itself says so, in a moment
 print(*["moteus"] * (kind == "moteus"), *["spidev"] * on_spi)

@@ -1,14 +1,11 @@
 """A simulated MCP41010: a shift register behind three pins, and the wiper it sets.
 
-Knows edges, frames and commands (Microchip DS11195C). Does not know what the wiper is wired to. Also here: the kernel's
-SPI controller in the shape of the module `spidev`, which moves the same pins.
+Knows edges, frames and commands. Knows nothing of what the wiper is wired to.
 """
 
 from __future__ import annotations
 
-import errno
-import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 
 FRAME_BITS = 16
 POWER_ON_STEP = 0x80
@@ -17,6 +14,9 @@ WRITE, SHUTDOWN = 0b01, 0b10
 
 class Mcp41010:
     """The chip. `before_change` is called before the wiper moves, so that the parts behind it catch up first."""
+
+    so = None
+    """It has no output: nothing can be read back."""
 
     def __init__(self) -> None:
         self.before_change: list[Callable[[], None]] = []
@@ -67,48 +67,3 @@ class Mcp41010:
     def _announce(self) -> None:
         for catch_up in self.before_change:
             catch_up()
-
-
-class SimSpidev:
-    """Takes the place of the module `spidev`. `chips` by the numbers of /dev/spidevBUS.SELECT."""
-
-    def __init__(self, chips: Mapping[tuple[int, int], Mcp41010]) -> None:
-        self.chips = chips
-
-    def SpiDev(self) -> SimSpiDevice:  # noqa: N802 - spidev's own name
-        return SimSpiDevice(self.chips)
-
-
-class SimSpiDevice:
-    """In the shape of `spidev.SpiDev`, in modes 0 and 3 (CPOL equals CPHA), which this chip works with."""
-
-    def __init__(self, chips: Mapping[tuple[int, int], Mcp41010]) -> None:
-        self.mode = 0
-        self.max_speed_hz = 500_000
-        self._chips = chips
-        self._chip: Mcp41010 | None = None
-
-    def open(self, bus: int, device: int) -> None:
-        if (bus, device) not in self._chips:
-            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
-        self._chip = self._chips[bus, device]
-
-    def xfer2(self, values: Sequence[int]) -> list[int]:
-        """Select the chip, clock the bytes in, release it. The chip has no output: the answer is zeros."""
-        if self._chip is None:
-            raise OSError(errno.EBADF, os.strerror(errno.EBADF))
-        rest = self.mode == 3
-        si = False
-        self._chip.pins(cs=True, sck=rest, si=si)
-        self._chip.pins(cs=False, sck=rest, si=si)
-        for value in values:
-            for bit in range(7, -1, -1):
-                si = bool(value >> bit & 1)
-                self._chip.pins(cs=False, sck=False, si=si)
-                self._chip.pins(cs=False, sck=True, si=si)
-        self._chip.pins(cs=False, sck=rest, si=si)
-        self._chip.pins(cs=True, sck=rest, si=si)
-        return [0] * len(values)
-
-    def close(self) -> None:
-        self._chip = None

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from firmware_sim.chips.mcp41010 import Mcp41010, SimSpidev
+from firmware_sim.chips.mcp41010 import Mcp41010
 from firmware_sim.faults import SimFault
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.rotors.geared import GearedRotor
@@ -84,7 +84,7 @@ class SimDigipotRotor(GearedRotor):
         self._wires = sck_pin, si_pin
         self._enable_pin = enable_pin
         self.azimuth, self.elevation = SimBox(azimuth, clock()), SimBox(elevation, clock())
-        self.spidev = SimSpidev({(0, 0): self.azimuth.chip, (0, 1): self.elevation.chip})
+        self.spidev.chips |= {(0, 0): self.azimuth.chip, (0, 1): self.elevation.chip}
         self._boxes = self.azimuth, self.elevation
         for box in self._boxes:
             box.chip.before_change.append(self._advance)

@@ -1,7 +1,7 @@
-"""A simulated rotor of motors on relays with a pot on each shaft, as a Yaesu G-5500 behind an ADS1115.
+"""A simulated rotor of motors on relays with a pot on each shaft, as a Yaesu G-5500.
 
-Knows what is wired where, and its faults by name. Knows no driver: it offers a bus in the shape of smbus2 and lines in
-the shape of gpiod, and the rest is physics.
+Knows what is wired where, and its faults by name. Knows no driver and no converter: it offers lines in the shape of
+gpiod and the volts at the wipers, and the rest is physics.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from firmware_sim.chips.ads1115 import Ads1115
 from firmware_sim.faults import SimFault
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.parts.pot import PotFault, PotSpec, SimPot
@@ -26,27 +25,23 @@ SPARK_DEG = 90.0
 
 @dataclass(frozen=True, slots=True)
 class RelayPotAxisSpec:
-    """One axis: its parts, the GPIO numbers of its relays, and the converter's input its wiper is wired to."""
+    """One axis: its parts, and the GPIO numbers of its relays."""
 
     motor: MotorSpec
     pot: PotSpec
     start_deg: float
     plus_pin: int
     minus_pin: int
-    adc_channel: int
 
 
 @dataclass(frozen=True, slots=True)
 class RelayPotSpec:
-    """Both axes, and what they share: the relay board's levels, the master relay, the converter, the pots' supply."""
+    """Both axes, and what they share: the relay board's levels, the master relay, the pots' supply."""
 
     azimuth: RelayPotAxisSpec
     elevation: RelayPotAxisSpec
     relays_active_low: bool = False
     master_pin: int | None = None
-    adc_address: int = 0x48
-    reference_channel: int | None = None
-    """The converter's input that measures the pots' supply; None: no input does."""
     pot_supply_v: float = 3.3
 
 
@@ -69,15 +64,12 @@ class SimRelayPotRotor(RelayedRotor):
         self, spec: RelayPotSpec, clock: Callable[[], float], sleep: Callable[[float], None] | None = None
     ) -> None:
         super().__init__(clock, sleep)
-        self._spec = spec
         self.azimuth = RelayPotAxis(spec.azimuth, spec.pot_supply_v, clock())
         self.elevation = RelayPotAxis(spec.elevation, spec.pot_supply_v, clock())
-        adc = Ads1115(clock, vdd_v=max(3.3, spec.pot_supply_v))
-        for axis in (self.azimuth, self.elevation):
-            adc.inputs[axis.spec.adc_channel] = lambda axis=axis: self._wiper_v(axis)  # type: ignore[misc]
-        if spec.reference_channel is not None:
-            adc.inputs[spec.reference_channel] = lambda: spec.pot_supply_v
-        self.bus.attach(spec.adc_address, adc)
+        self.wipers = {
+            "azimuth": lambda: self._wiper_v(self.azimuth),
+            "elevation": lambda: self._wiper_v(self.elevation),
+        }
         azimuth, elevation = spec.azimuth, spec.elevation
         pins = RelayPins(azimuth.plus_pin, azimuth.minus_pin, elevation.plus_pin, elevation.minus_pin, spec.master_pin)
         self._wire_relays(pins, active_low=spec.relays_active_low)
@@ -90,7 +82,6 @@ class SimRelayPotRotor(RelayedRotor):
 
     def _fault_table(self) -> dict[str, SimFault]:
         table = {
-            "adc-gone": self._gone(self._spec.adc_address),
             "bus-hung": SimFault(self.bus.hang, self.bus.release),
         }
         for name, axis in (("azimuth", self.azimuth), ("elevation", self.elevation)):

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 
 from firmware_sim.buses.gpio import SimGpio
-from firmware_sim.buses.i2c import SimI2CBus
-from firmware_sim.chips.ads1115 import Ads1115
+from firmware_sim.buses.i2c import I2CChip, SimI2CBus
+from firmware_sim.buses.spi import SimSpidev
 from firmware_sim.chips.as5600 import As5600, MagnetFault
 from firmware_sim.chips.bno055 import Bno055
 from firmware_sim.chips.hd44780 import Hd44780
@@ -44,6 +44,9 @@ class SimRotor(Fallible):
         self._lock = threading.RLock()
         self.gpio = SimGpio(clock)
         self.bus = SimI2CBus(sleep)
+        self.spidev = SimSpidev()
+        self.wipers: dict[str, Callable[[], float]] = {}
+        """The volts at the wiper of each axis that has a pot, for the inputs of a converter."""
         self.lcd: Hd44780 | None = None
         self.panel: SimPanel | None = None
 
@@ -81,15 +84,17 @@ class SimRotor(Fallible):
 
         self.gpio.on_edges.append(pins_changed)
 
-    def wire_pots(self, address: int, pots: Mapping[str, tuple[int, PotSpec]], supply_v: float) -> None:
-        """Put pots on the shafts, for a kind that has none: by axis, the converter's input and the pot."""
-        adc = Ads1115(self._clock, vdd_v=max(3.3, supply_v))
-        for name, (channel, spec) in pots.items():
+    def wire_pots(self, pots: Mapping[str, PotSpec], supply_v: float) -> None:
+        """Pots on the shafts of a rotor that brings none."""
+        for name, spec in pots.items():
             pot = SimPot(spec, supply_v)
-            adc.inputs[channel] = lambda name=name, pot=pot: pot.volts(self._shaft_deg(name))  # type: ignore[misc]
+            self.wipers[name] = lambda name=name, pot=pot: pot.volts(self._shaft_deg(name))  # type: ignore[misc]
             self.faults[f"{name}-pot-open"] = self._fault_of(pot, "fault", PotFault.OPEN, PotFault.NONE)
-        self.bus.attach(address, adc)
-        self.faults["adc-gone"] = self._gone(address)
+
+    def wire_i2c(self, name: str, address: int, chip: I2CChip) -> None:
+        """A chip on the bus; its fault is `NAME-gone`."""
+        self.bus.attach(address, chip)
+        self.faults[f"{name}-gone"] = self._gone(address)
 
     def wire_as5600(self, name: str, address: int) -> None:
         """Put a magnet on the shaft of axis `name`, over an AS5600 at that address."""

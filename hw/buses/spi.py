@@ -1,6 +1,6 @@
-"""Frames to chips on SPI, mode 0, most significant bit first: by the kernel's driver, or bit by bit on GPIO lines.
+"""Frames to and from chips on SPI, mode 0, most significant bit first: by the kernel's driver, or on GPIO lines.
 
-Knows clocks and selects. Does not know any chip; nothing is read back. The only importer of spidev.
+Knows clocks and selects. Knows no chip. The only importer of spidev.
 """
 
 from __future__ import annotations
@@ -11,9 +11,10 @@ from typing import Any, Protocol
 
 from hw.ports import HardwareError, OutputLines
 
-SCK, SI = "sck", "si"
+SCK, SI, SO = "sck", "si", "so"
+"""Clock, data to the chip, data from the chip."""
 SPEED_HZ = 100_000
-"""Slow on purpose: the wires to a control box are long, and a frame has 16 bits."""
+"""Slow on purpose: the wires to a control box are long, and a frame has 16 or 24 bits."""
 
 
 class SpiBus(Protocol):
@@ -22,26 +23,52 @@ class SpiBus(Protocol):
     def send(self, chip: str, frame: bytes) -> None:
         """Select the chip, clock the frame in, let the chip go. Raises HardwareError when the lines cannot be set."""
 
+    def exchange(self, chip: str, frame: bytes) -> bytes:
+        """The same, and returns what the chip clocked out meanwhile: as many bytes. Raises HardwareError."""
+
+
+class AnswerLine(Protocol):
+    """The data line from the chips: an input with a pull-up, which reads 1 while no chip drives it."""
+
+    def read(self) -> dict[str, bool]:
+        """`SO`: True while the line is at ground, which is a 0. Raises HardwareError."""
+
 
 class LineSpi:
-    """SPI on any GPIO lines. `selects` are requested as active low; `wires` are `SCK` and `SI`, active high."""
+    """SPI on any GPIO lines. `selects` are requested as active low; `wires` are `SCK` and `SI`, active high.
 
-    def __init__(self, selects: OutputLines, wires: OutputLines) -> None:
+    `answer`: the line `SO`; None: no chip here has an output.
+    """
+
+    def __init__(self, selects: OutputLines, wires: OutputLines, answer: AnswerLine | None = None) -> None:
         self._selects = selects
         self._wires = wires
+        self._answer = answer
         self._lock = threading.Lock()
 
     def send(self, chip: str, frame: bytes) -> None:
+        self._clock(chip, frame, None)
+
+    def exchange(self, chip: str, frame: bytes) -> bytes:
+        if self._answer is None:
+            raise HardwareError(f"SPI: {chip} cannot answer: no line is wired to its output")
+        return self._clock(chip, frame, self._answer)
+
+    def _clock(self, chip: str, frame: bytes, answer: AnswerLine | None) -> bytes:
+        received = 0
         with self._lock:
             self._selects.set({chip: True})
             try:
                 for octet in frame:
                     for bit in range(7, -1, -1):
                         self._wires.set({SCK: False, SI: bool(octet >> bit & 1)})
+                        # The chip has put its bit out with the falling edge, and keeps it over the rising one.
+                        received = received << 1 | (answer is not None and not answer.read()[SO])
                         self._wires.set({SCK: True})
                 self._wires.set({SCK: False})
             finally:
                 self._selects.set({chip: False})
+        return received.to_bytes(len(frame), "big")
 
 
 class KernelSpi:
@@ -55,9 +82,12 @@ class KernelSpi:
         self._devices = {chip: _opened(api, bus, select) for chip, select in selects.items()}
 
     def send(self, chip: str, frame: bytes) -> None:
+        self.exchange(chip, frame)
+
+    def exchange(self, chip: str, frame: bytes) -> bytes:
         with self._lock:
             try:
-                self._devices[chip].xfer2(list(frame))
+                return bytes(self._devices[chip].xfer2(list(frame)))
             except OSError as fault:
                 raise HardwareError(f"SPI: cannot send to {chip}: {fault.strerror or fault}") from fault
 

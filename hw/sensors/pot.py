@@ -1,15 +1,14 @@
 """A potentiometer as an angle sensor: the share of its supply that stands at the wiper.
 
-Knows one input of a converter, and the supply as a number or as another input (ratiometric: drift cancels). Knows
-nothing of degrees.
+Knows one input of a converter, and the supply as a number or as another input (ratiometric: drift cancels). Knows no
+converter by its name, and nothing of degrees.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
-from hw.chips.ads1115 import Ads1115
-from hw.ports import AngleSource, HardwareError
+from hw.ports import AnalogInputs, AngleSource, HardwareError
 
 REFERENCE_EVERY_S = 1.0
 """A supply drifts slowly; reading it with every cycle would double the time on the bus."""
@@ -19,7 +18,7 @@ LEAST_REFERENCE_V = 0.5
 class Reference:
     """The pots' supply voltage, measured on an input of its own now and then."""
 
-    def __init__(self, adc: Ads1115, channel: int, clock: Callable[[], float]) -> None:
+    def __init__(self, adc: AnalogInputs, channel: int, clock: Callable[[], float]) -> None:
         self._adc = adc
         self._channel = channel
         self._clock = clock
@@ -27,6 +26,7 @@ class Reference:
         self._volts = 0.0
 
     def volts(self) -> float:
+        """The supply, at most REFERENCE_EVERY_S old. Raises HardwareError where it is missing or cannot be read."""
         now_s = self._clock()
         if self._read_s is None or now_s - self._read_s >= REFERENCE_EVERY_S:
             volts = self._adc.volts(self._channel)
@@ -37,13 +37,16 @@ class Reference:
 
 
 class PotSensor:
+    """`supply`: volts across the pot, or the input at which they are measured."""
+
     source = AngleSource.MEASURED
 
-    def __init__(self, adc: Ads1115, channel: int, supply: Reference | float) -> None:
+    def __init__(self, adc: AnalogInputs, channel: int, supply: Reference | float) -> None:
         self._adc = adc
         self._channel = channel
         self._supply = supply
 
     def read(self) -> float:
+        """The share of the supply at the wiper, 0 to 1. Raises HardwareError."""
         supply_v = self._supply.volts() if isinstance(self._supply, Reference) else self._supply
         return self._adc.volts(self._channel) / supply_v

@@ -1,21 +1,26 @@
-"""The Pi's lines and buses, real or simulated, opened when they are asked for and let go of together.
+"""The lines and buses of the Pi that the program runs on, or of the simulated one.
 
 Part of the composition root. Knows which package stands behind a line. Knows nothing of what hangs on it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import ExitStack
 from typing import Any
 
 from firmware_sim.rotors.rotor import SimRotor
-from hw.buses.gpio import PI_HEADER_LABEL, GpioContact, GpioOutputs, find_chip, real_gpiod
+from hw.buses.gpio import real_gpiod
 from hw.buses.i2c import SmbusI2C, open_bus
+from hw.buses.spi import real_spidev
+from rotator.assembly.buses import Buses
 
 
-class Board:
-    """`opened` closes everything in the end. `chip`: its path, where the file says it. Raises HardwareError."""
+class Board(Buses):
+    """`world`: the simulated rotor with its Pi; None: the real one. `opened` closes everything in the end.
+
+    `chip`: the path of the GPIO chip, where the file says it. Raises HardwareError.
+    """
 
     def __init__(
         self,
@@ -26,35 +31,15 @@ class Board:
         *,
         chip: str | None = None,
     ) -> None:
-        self.world = world
-        self.clock = clock
-        self.sleep = sleep
-        self.opened = opened
-        self.gpio: Any = world.gpio if world else real_gpiod()
-        self._chip = chip
-        self._buses: dict[int, SmbusI2C] = {}
-
-    def chip(self) -> str:
-        """The path of the chip with the header's lines: what the file says, or found by its label."""
-        if self._chip is None:
-            self._chip = find_chip(self.gpio, PI_HEADER_LABEL, self.world.gpio.paths() if self.world else None)
-        return self._chip
-
-    def outputs(self, consumer: str, pins: Mapping[str, int], *, active_low: bool = False) -> GpioOutputs:
-        outputs = GpioOutputs(self.gpio, self.chip(), pins, consumer=consumer, active_low=active_low)
-        self.opened.callback(outputs.close)
-        return outputs
-
-    def contact(self, consumer: str, pin: int, *, active_low: bool, pull: bool, debounce_s: float) -> GpioContact:
-        contact = GpioContact(
-            self.gpio, self.chip(), pin, consumer=consumer, active_low=active_low, pull=pull, debounce_s=debounce_s
+        gpiod: Any = world.gpio if world else real_gpiod()
+        super().__init__(
+            opened,
+            gpio=lambda: gpiod,
+            paths=world.gpio.paths() if world else None,
+            open_bus=(lambda _number: SmbusI2C(world.bus, "simulated bus")) if world else open_bus,
+            spidev=(lambda: world.spidev) if world else real_spidev,
+            clock=clock,
+            sleep=sleep,
+            chip=chip,
         )
-        self.opened.callback(contact.close)
-        return contact
-
-    def bus(self, number: int) -> SmbusI2C:
-        if number not in self._buses:
-            bus = SmbusI2C(self.world.bus, "simulated bus") if self.world else open_bus(number)
-            self.opened.callback(bus.close)
-            self._buses[number] = bus
-        return self._buses[number]
+        self.world = world

@@ -1,6 +1,6 @@
 """What a calibration needs of the configured rotor: its traits, its compass, a controller for an axis not yet set up.
 
-Part of the composition root. The only file that knows how kinds of rotors differ during a calibration. Does not know
+Part of the composition root. How kinds of rotor differ during a calibration is in `rotator.config.kinds`. Does not know
 the questions that the operator is asked.
 """
 
@@ -9,9 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from hw.chips.bno055 import Bno055
 from hw.ports import Axis, Compass, HardwareError
 from rotator.assembly.board import Board
+from rotator.assembly.sensors import compass_chip
 from rotator.assembly.settings import build_controller, build_offsets
 from rotator.config.model import Config
 from rotator.control.controller import Controller
@@ -47,8 +47,8 @@ def calibration_traits(config: Config, axis: Axis) -> CalibrationTraits:
         shift_deg=build_offsets(config).of(axis),
         homes=config.counts(axis),
         settle_s=0.0 if config.rotor.switched else SETTLE_S,
-        first_press=_first_press(config, axis),
-        reversal=_reversal(config, axis),
+        first_press=config.kind.first_move(axis),
+        reversal=config.kind.reversal(axis),
     )
 
 
@@ -64,7 +64,7 @@ def open_compass(config: Config, board: Board) -> Compass:
         raise HardwareError(
             'the file has no compass: fit a BNO055 to the boom and write [compass] kind = "bno055" (docs/sensors.md)'
         )
-    return Bno055(board.bus(table.bus), board.clock, board.sleep, address=table.address, mounting=table.mounting)
+    return compass_chip(table, board.bus(table.bus), board.clock, board.sleep)
 
 
 def compass_path(config: Config) -> Path | None:
@@ -73,17 +73,9 @@ def compass_path(config: Config) -> Path | None:
 
 
 def _reach_deg(config: Config, axis: Axis) -> tuple[float, float]:
-    low_deg, high_deg = SCALES_DEG[axis]
-    match config.rotor.type:
-        case "servo":
-            points = getattr(config.servo, axis.value).pulses_us
-        case "digipot":
-            points = getattr(config.digipot, axis.value).steps
-        case "relay-pulse" if config.counts(axis):
-            return getattr(config.pulses, axis.value).home_deg, high_deg
-        case _:
-            return low_deg, high_deg
-    return min(angle for angle, _ in points), max(angle for angle, _ in points)
+    low_deg, high_deg = config.reach_deg(axis)
+    lowest_deg, highest_deg = SCALES_DEG[axis]
+    return lowest_deg if low_deg is None else low_deg, highest_deg if high_deg is None else high_deg
 
 
 def _without_limits(config: Config, axis: Axis) -> Config:
@@ -93,33 +85,3 @@ def _without_limits(config: Config, axis: Axis) -> Config:
     low_deg, high_deg = _reach_deg(config, axis)
     table = config.axis(axis).model_copy(update={"min_deg": low_deg, "max_deg": high_deg})
     return config.model_copy(update={axis.value: table})
-
-
-def _first_press(config: Config, axis: Axis) -> str:
-    match config.rotor.type:
-        case "servo":
-            start_deg = getattr(config.servo, axis.value).start_deg
-            return (
-                f"With its first pulse, that of the first press, the servo runs to {start_deg:g}°, as fast as it can: "
-                "keep clear. When it stands, press again."
-            )
-        case "digipot":
-            start_deg = getattr(config.digipot, axis.value).start_deg
-            return (
-                f"The box assumes that it stands at {start_deg:g}° (start_deg). If it does not, its first move goes "
-                "there."
-            )
-        case _:
-            return ""
-
-
-def _reversal(config: Config, axis: Axis) -> str:
-    match config.rotor.type:
-        case "moteus":
-            return f"change the sign of moteus.{axis.value}.rev_per_turn"
-        case "servo":
-            return f"swap the pulse widths in servo.{axis.value}.pulses_us"
-        case "digipot":
-            return f"exchange PA0 and PB0 of the {axis.value}'s chip, or let digipot.{axis.value}.steps fall"
-        case _:
-            return ""

@@ -1,6 +1,6 @@
 """A front panel and limit switches, from their tables of the file to drivers: their share of the composition root.
 
-Knows what is wired where. Decides nothing: what a switch means is the panel's, what a limit forbids the axis's.
+Knows what is wired where. Decides nothing: the panel knows what a switch means, the axis what a limit forbids.
 """
 
 from __future__ import annotations
@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from hw.buses.gpio import GpioInputs
 from hw.chips.ads1115 import Ads1115
 from hw.chips.pca9685 import Pca9685
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
@@ -28,11 +27,10 @@ METER_HZ = 1000.0
 
 
 def limit_switches(config: Config, board: Board) -> Ends:
-    """What the limit switches forbid; those that cannot be read forbid all they could."""
+    """The directions that the limit switches block; a switch that cannot be read blocks its direction."""
     if not config.limits.switches:
         return no_switches
-    inputs = GpioInputs(board.gpio, board.chip(), config.limits.switches, consumer="rotator-limits")
-    board.opened.callback(inputs.close)
+    inputs = board.inputs("rotator-limits", config.limits.switches)
     switches = LimitSwitches(inputs, config.limits.switches)
 
     def ends(axis: Axis) -> frozenset[Direction]:
@@ -47,10 +45,7 @@ def limit_switches(config: Config, board: Board) -> Ends:
 def panel_parts(config: Config, board: Board) -> PanelParts:
     """The panel's own chips and lines. Raises HardwareError where a line cannot be taken."""
     table = config.panel
-    switches = None
-    if table.switches:
-        switches = GpioInputs(board.gpio, board.chip(), table.switches, consumer="rotator-panel")
-        board.opened.callback(switches.close)
+    switches = board.inputs("rotator-panel", table.switches) if table.switches else None
     outputs = None
     if table.uses_outputs:
         bus = board.bus(table.outputs_bus)
@@ -70,7 +65,7 @@ def _inputs(config: Config, board: Board) -> dict[str, AngleSensor]:
     table = config.panel
     if not table.uses_adc:
         return {}
-    # A converter of the panel's own: two threads on one would read each other's channel.
+    # The panel has a converter of its own: two threads on one would read each other's channel.
     adc = Ads1115(board.bus(table.adc_bus), table.adc_address, board.sleep)
     supply = table.supply_v if table.reference is None else Reference(adc, table.reference, board.clock)
     return {name: PotSensor(adc, channel, supply) for name, channel in table.inputs.items()}

@@ -1,4 +1,4 @@
-"""From a configuration to what decides: mount, calibrations, controller, and what earlier runs have learnt.
+"""From a configuration to the controller: mount, calibrations, and what earlier runs have learnt.
 
 Part of the composition root. Knows which key of the file is which setting. Knows no hardware.
 """
@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from hw.ports import AngleSource, Axis
-from rotator.assembly.simulation import SIM_CALIBRATION_RAW
+from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
@@ -45,7 +45,7 @@ def build_mount(config: Config) -> Mount:
 
 
 def build_learnt(config: Config) -> LearntFile:
-    """The file of what the motors taught; figures learnt under another description of the motor do not count."""
+    """The file with the learnt motors; figures learnt under another description of the motor do not count."""
 
     def begun(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
         said: dict[str, object] = {"hardware": config.rotor.hardware}
@@ -93,9 +93,9 @@ def build_controller(
                 calibration,
                 undone,
                 source(config, which),
-                near_deg(config, which),
-                getattr(config.moteus, which.value).accel_limit_dps2 if config.rotor.type == "moteus" else None,
-                confirmable=config.rotor.type == "moteus",
+                NEAR_DEG + config.kind.slack_deg(which),
+                config.kind.accel_dps2(which),
+                confirmable=config.kind.confirmable,
             )
         known = (learnt or {}).get(which)
         return SwitchedSettings(
@@ -111,7 +111,7 @@ def build_controller(
             rest_s=table.rest_s,
             master=config.relays.master is not None,
             learnt=known and (motor(known[0]), motor(known[1])),
-            homing=homing(config, which, shift) if config.counts(which) else None,
+            homing=homing(config, which, shift),
         )
 
     return Controller(
@@ -132,14 +132,14 @@ EVERYTHING = (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK)
 
 
 def missing(table: AxisTable, *, calibrated: bool) -> tuple[Missing, ...]:
-    """What a person has still to do before an axis of real hardware may be aimed."""
+    """What an axis of real hardware lacks before it may be aimed."""
     said = table.model_fields_set
     done = (calibrated, {"min_deg", "max_deg"} <= said, table.direction_checked)
     return tuple(name for name, is_done in zip(EVERYTHING, done, strict=True) if not is_done)
 
 
 def own_points(config: Config, axis: Axis) -> Points | None:
-    """The axis's calibration on the rotor's own scale; None: nobody has made one, and it needs one."""
+    """The calibration of the axis on the rotor's own scale; None: it needs one, and the file has none."""
     table = config.axis(axis)
     if config.in_degrees(axis):
         return (table.min_deg, table.min_deg), (table.max_deg, table.max_deg)
@@ -152,28 +152,18 @@ def own_points(config: Config, axis: Axis) -> Points | None:
 
 
 def source(config: Config, axis: Axis) -> AngleSource:
-    """How the axis's angle is known."""
-    if config.counts(axis):
-        return AngleSource.COUNTED
-    own = config.axis(axis).sensor.kind == "own"
-    return AngleSource.MODELLED if own and config.rotor.type in ("servo", "digipot") else AngleSource.MEASURED
+    """How the angle of the axis is known."""
+    return config.angle(axis).source
 
 
-def near_deg(config: Config, axis: Axis) -> float:
-    """How far from its place a motor that goes there by itself may come to rest."""
-    if config.rotor.type != "digipot":
-        return NEAR_DEG
-    table = getattr(config.digipot, axis.value)
-    (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
-    return float(NEAR_DEG + table.dead_band_deg + abs((high_deg - low_deg) / (high_step - low_step)))
-
-
-def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings:
-    """How to find the end stop of an axis that counts."""
-    table, cam = config.axis(axis), getattr(config.pulses, axis.value)
+def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | None:
+    """How to find the end stop of an axis that counts; None: it does not count."""
+    table, stop = config.axis(axis), config.end_stop(axis)
+    if stop is None:
+        return None
     return HomingSettings(
-        period_s=cam.spacing_deg / table.speed_dps,
+        period_s=stop.spacing_deg / table.speed_dps,
         travel_s=(table.max_deg - table.min_deg) / table.speed_dps,
-        coast_s=cam.coast_s,
-        home_deg=cam.home_deg + shift.of(axis),
+        coast_s=stop.coast_s,
+        home_deg=stop.home_deg + shift.of(axis),
     )

@@ -1,7 +1,7 @@
 """The hardware half of the composition root: from a configuration to drivers, on real chips or simulated ones.
 
-Knows what every kind of rotor needs, and the order in which it is closed. The rotor's own drivers are put together in
-`rotator.assembly.rotors`. Decides nothing.
+Knows what every station opens, and in which order it is closed. The drivers of the rotor are put together in
+`rotator.assembly.kinds`. Decides nothing.
 """
 
 from __future__ import annotations
@@ -13,44 +13,44 @@ from pathlib import Path
 from firmware_sim.rotors.rotor import SimRotor
 from hw.buses.gpio import GpioOutputs
 from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780
-from hw.drives.digipot import ENABLE
 from hw.ports import CharacterDisplay
 from hw.safety.heartbeat import Heartbeat
 from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel import Sentinel
 from rotator.assembly.board import Board
+from rotator.assembly.kinds import KINDS
 from rotator.assembly.panel import panel_parts
 from rotator.assembly.rotors import Assembly
-from rotator.assembly.simulation import Plan
+from rotator.assembly.simulation import SimulatedStation
 from rotator.config.model import Config
 from rotator.panel.thread import PanelParts
 from rotator.rotors.port import AddAlarm, Rotor
 
 
 def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:
-    """Every line that must be off for the motors to stand still; None: there is none.
+    """Every line that stops the motors when it is off; None: this kind of rotor has none.
 
-    `chip` tells the path of the chip they are on, and is asked only where there are any.
+    `chip` finds the path of the GPIO chip, and is called only where there is such a line. Raises HardwareError.
     """
-    if config.rotor.switched:
-        return RelayLines(chip(), config.relays.outputs, config.relays.active == "low")
-    if config.rotor.type == "digipot" and config.digipot.enable is not None:
-        return RelayLines(chip(), {ENABLE: config.digipot.enable}, active_low=False)
-    return None
+    lines = [line for line in config.kind.off_lines() if line.stops]
+    if not lines:
+        return None
+    active_low = any(line.off_high for line in lines if line.switches)
+    return RelayLines(chip(), {line.name: line.pin for line in lines}, active_low)
 
 
 class Station:
     """The hardware, real or simulated, behind its drivers. Raises HardwareError where it is missing.
 
-    `add_alarm`: the simulated clock's, when time is simulated; the rotor has begun then. In real time the engine starts
-    it. `counts`: the file in which counted axes are kept; None: they begin where the simulated rotor is.
+    `add_alarm`: that of the simulated clock, where time is simulated; the rotor has begun then. In real time the
+    caller starts the rotor. `counts`: the file that keeps counted axes; None: they begin where the simulated rotor is.
     """
 
     rotor: Rotor
     display: CharacterDisplay | None
     heartbeat: Heartbeat | None
     sentinel: Sentinel | None
-    """None in a simulation, and where no line must be switched off for the motors to stand."""
+    """None in a simulation, and where no line stops the motors."""
     lines: RelayLines | None
     panel: PanelParts | None
 
@@ -67,25 +67,26 @@ class Station:
         self._config = config
         self._sleep = sleep
         self.world: SimRotor | None = None
-        plan = Plan(config, clock, sleep if config.sim.bus_takes_time else None, start_deg)
+        simulated = SimulatedStation(config, clock, sleep if config.sim.bus_takes_time else None, start_deg)
         if config.rotor.hardware == "sim":
-            self.world = plan.build()
+            self.world = simulated.build()
         self.sentinel = None
-        # If something further on is missing, what has been opened is closed again, in the opposite order.
+        # If a later part is missing, the parts opened so far are closed again, in the opposite order.
         with ExitStack() as opened:
             self._board = Board(self.world, opened, clock, sleep, chip=config.relays.chip)
             self.lines = off_lines(config, self._board.chip)
             outputs = self._open_lines(opened, self.lines) if self.lines else None
             beats = config.rotor.switched and config.relays.heartbeat is not None
             self.heartbeat = Heartbeat(outputs) if outputs and beats else None
-            self.rotor = Assembly(
+            parts = Assembly(
                 config,
                 self._board,
                 self.sentinel,
-                start_deg=plan.start_deg,
+                start_deg=simulated.start_deg,
                 counts=counts,
                 in_step=add_alarm is not None,
-            ).build(outputs)
+            )
+            self.rotor = KINDS[config.rotor.type].build(parts, outputs)
             self.panel = panel_parts(config, self._board) if config.panel.fitted else None
             self.display = self._open_display()
             opened.callback(self._end_motion)
@@ -94,7 +95,7 @@ class Station:
             self.rotor.begin(add_alarm)
 
     def beat(self) -> None:
-        """The step went well: the motors may keep their supply. Raises HardwareError."""
+        """After a good step of the control loop: the motors keep their supply. Raises HardwareError."""
         if self.heartbeat:
             self.heartbeat.beat()
 
@@ -133,8 +134,8 @@ class Station:
         table = self._config.lcd
         match table.kind:
             case "gpio":
-                pins = table.model_dump(include={"rs", "e", "d4", "d5", "d6", "d7"})
-                return Hd44780(GpioPort(self._board.outputs("rotator-lcd", pins), self._sleep), self._sleep)
+                lines = self._board.outputs("rotator-lcd", table.lines)
+                return Hd44780(GpioPort(lines, self._sleep), self._sleep)
             case "pcf8574":
                 board = table.backpack
                 port = BackpackPort(

@@ -1,6 +1,6 @@
-"""`rotator doctor`: look at everything, say what was found.
+"""`rotator doctor`: check everything, and print the findings.
 
-Knows which file is meant, output and exit codes. What there is to look at is `rotator.doctor`'s.
+Knows the default file, the output and the exit codes. The checks are in `rotator.doctor`.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""`rotator setup`: shows what would change on this Pi, asks, does it, and says what is left to do.
+"""`rotator setup`: shows what would change on this Pi, asks, changes it, and says what is left to do.
 
-Knows the conversation with the person. What has to change is the plan's; how files are written is the tree's.
+Knows the dialogue with the user. What has to change is in `rotator.setup`; how files are written, in its `tree`.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import click
 
 from rotator.config.load import load
 from rotator.setup import gadget, pins, tree, usb_serial
-from rotator.setup.plan import Plan, SetupError, diff
+from rotator.setup.plan import ChangeSet, SetupError, diff
 
 SETTINGS = Path("etc/rotator/rotator.toml")
 INSTALLED = Path("opt/rotator/current/bin/rotator")
@@ -65,7 +65,7 @@ def lower_gadget(root: Path) -> None:
 
 
 def identity(serial: str, usb_id: str) -> gadget.Identity:
-    """`1d6b:0104` taken apart. Raises SetupError."""
+    """The identity from `1d6b:0104`: vendor and product. Raises SetupError."""
     parts = re.fullmatch(r"([0-9a-fA-F]{4}):([0-9a-fA-F]{4})", usb_id)
     if not parts:
         raise SetupError(f'--usb-id {usb_id}: must be vendor and product in hexadecimal, such as "1d6b:0104"')
@@ -73,19 +73,19 @@ def identity(serial: str, usb_id: str) -> gadget.Identity:
 
 
 def _serial_number(root: Path) -> str:
-    """The Pi's own; elsewhere one that stays as long as the system is installed."""
+    """The serial number of the Pi; elsewhere one that stays as long as the system is installed."""
     for path in SERIALS:
         with suppress(OSError):
             return (root / path).read_text().rstrip("\0\n")
     with suppress(OSError):
-        # The machine's id itself is not for the world to see: see machine-id(5).
+        # The machine id itself must not be published: see machine-id(5).
         machine = (root / "etc/machine-id").read_bytes().strip()
         return hashlib.sha256(b"gs232-rotator usb" + machine).hexdigest()[:16]
     return "0"
 
 
 def _command(root: Path) -> str:
-    """How systemd starts this program: as installed; where it is not, and this is its machine, as it was started."""
+    """How systemd starts this program: as installed, else as it was started now."""
     if (root / INSTALLED).exists() or root.resolve() != Path("/"):
         return f"/{INSTALLED}"
     started = Path(sys.argv[0]).absolute()
@@ -106,7 +106,7 @@ def _refuse_overlay(command_line: str) -> None:
         )
 
 
-def _propose(plan: Plan, *, yes: bool, today: Callable[[], date] = date.today) -> None:
+def _propose(plan: ChangeSet, *, yes: bool, today: Callable[[], date] = date.today) -> None:
     for note in plan.notes:
         click.echo(note)
     if not plan.changes:

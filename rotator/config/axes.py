@@ -1,6 +1,6 @@
 """The tables of the two axes: their range, their motor, their sensor.
 
-Knows the file's words for an axis. Knows no hardware.
+Knows the words of the file for an axis. Knows no hardware.
 """
 
 from __future__ import annotations
@@ -31,15 +31,15 @@ class AxisTable(Table):
     highest_reading: float = Field(0.98, ge=0, le=1.1)
     """A reading above this means the same; end resistors keep every valid angle between the two."""
     sensor: SensorTable = SensorTable()
-    """What tells where the axis stands."""
+    """The sensor of the axis's angle."""
     direction_checked: bool = False
-    """A person has seen that CW turns clockwise and UP up."""
+    """Set it when you have seen that CW turns clockwise and UP up."""
     offset_deg: float = Field(0.0, ge=-180, le=180)
     """Added to the rotor's own scale: where the antenna points when the scale says 0."""
     longest_run_s: float = Field(300.0, ge=0, le=86_400)
-    """How long the motor may run in one go before it has to rest; running and resting add up. 0: any time."""
+    """How long the motor may run before it has to rest; running and resting add up. 0: without limit."""
     rest_s: float = Field(300.0, gt=0, le=86_400)
-    """How long it takes to cool after that; it may run again when half of this has passed."""
+    """How long it takes to cool after that; it may run again after half of this time."""
 
     @model_validator(mode="after")
     def _make_sense(self) -> AxisTable:

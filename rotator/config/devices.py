@@ -1,6 +1,6 @@
-"""The tables of what is wired to the Pi whatever the rotor: relays, the pots' converter, the display.
+"""The tables of the relays and of the display.
 
-Knows the file's words for pins and addresses. Knows no driver.
+Knows the words of the file for pins and addresses. Knows no driver.
 """
 
 from __future__ import annotations
@@ -9,7 +9,9 @@ from typing import Literal
 
 from pydantic import Field
 
-from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus, Table
+from hw.ports import Axis
+from rotator.config.i2c import I2CChip
+from rotator.config.table import Gpio, I2CAddress, I2CBus, Table
 
 
 class Relays(Table):
@@ -36,6 +38,12 @@ class Relays(Table):
     one_at_a_time: bool = False
     """Never run both motors at once, for a small transformer: the second waits for the first."""
 
+    def turning(self, axis: Axis) -> tuple[int, int]:
+        """The GPIOs of the two relays of an axis: clockwise or up, then the other way."""
+        if axis is Axis.AZIMUTH:
+            return self.azimuth_cw, self.azimuth_ccw
+        return self.elevation_up, self.elevation_down
+
     @property
     def contacts(self) -> dict[str, int]:
         """The GPIO of each line that closes a contact, by its key."""
@@ -46,23 +54,6 @@ class Relays(Table):
     def outputs(self) -> dict[str, int]:
         """The contacts' lines, and the heartbeat's."""
         return self.contacts | ({} if self.heartbeat is None else {"heartbeat": self.heartbeat})
-
-
-class Adc(Table):
-    bus: I2CBus = 1
-    """The N of /dev/i2c-N; the header's bus is 1."""
-    address: I2CAddress = 0x48
-    """The ADS1115's: 0x48 with its ADDR pin at GND, 0x49 at its supply, 0x4a at SDA, 0x4b at SCL."""
-    azimuth_channel: Channel = 0
-    """The input (A0 to A3) with the azimuth wiper."""
-    elevation_channel: Channel = 1
-    """The input with the elevation wiper."""
-    reference_channel: Channel | None = None
-    """Where the pots' supply is wired to, if it is: readings then no longer depend on it."""
-    supply_v: float = Field(3.3, gt=0.5, le=5.5)
-    """The pots' supply where it is not measured."""
-    rate_sps: Literal[128, 250, 475, 860] = 860
-    """Conversions a second: slower is quieter, but every cycle waits for two of them."""
 
 
 class Lcd(Table):
@@ -86,3 +77,14 @@ class Lcd(Table):
     """Six lines: D6."""
     d7: Gpio = 13
     """Six lines: D7."""
+
+    @property
+    def lines(self) -> dict[str, int]:
+        """The six GPIOs of a display without a backpack, by the names of its pins; empty where it has another kind."""
+        if self.kind != "gpio":
+            return {}
+        return {"rs": self.rs, "e": self.e, "d4": self.d4, "d5": self.d5, "d6": self.d6, "d7": self.d7}
+
+    def chips(self) -> list[I2CChip]:
+        """The chip of its backpack, where it has one."""
+        return [I2CChip(self.bus, self.address, "lcd.address", "PCF8574")] if self.kind == "pcf8574" else []

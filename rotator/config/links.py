@@ -1,4 +1,4 @@
-"""The `[[link]]` tables of the configuration file: which protocol is spoken where, and by whom it may be.
+"""The `[[link]]` tables of the configuration file: which protocol at which place, and which machines may connect.
 
 Knows the words of one link. Does not know how a link is made, nor the other links.
 """
@@ -20,64 +20,64 @@ ProtocolName = Literal[
 ]  # fmt: skip
 
 FOLLOW: Final = "rotctld-follow"
-"""The one protocol in which the box asks."""
+"""The one protocol in which the box is the client."""
 USUAL_BAUD = 9600
 LAST_PORT = 65_535
 _BAUDS: dict[ProtocolName, int] = {"rot1prog": 1200, "rot2prog": 600, "dcu1": 4800}
-"""What the makers' own boxes are fixed to, and so the programs that look for them."""
+"""The fixed speeds of the makers' own boxes, which programs expect."""
 _PLACES: dict[str, tuple[ProtocolName, ...]] = {
     "connect": (FOLLOW,),
     "udp": ("pstrotator", "n1mm", "macdoppler"),
     "file": ("wsjtx",),
 }
-"""Places that are for some protocols only, and those for no others."""
+"""Places for some protocols only; these protocols have no other place."""
 _MANY_PROTOCOLS_PLACES = ("pty", "serial", "tcp")
 _ONLY_ORDERS: tuple[ProtocolName, ...] = (FOLLOW, "macdoppler", "wsjtx")
 
 
 class Link(Table):
     protocol: ProtocolName
-    """What the program at the other end speaks."""
+    """The protocol of the program at the other end."""
     name: str | None = Field(None, min_length=1, max_length=24)
-    """What the log and the display call it; left out, its protocol."""
+    """Its name in the log and on the display; left out, its protocol."""
     pty: str | None = Field(None, min_length=1)
     """A symlink made to a pseudo-terminal, for programs on the same machine."""
     serial: str | None = Field(None, min_length=1)
-    """A serial port, or any URL that pyserial opens; waited for while it is missing."""
+    """A serial port, or any URL that pyserial opens; the box waits for it while it is missing."""
     tcp: str | None = None
     """A listening socket, "host:port"."""
     connect: str | None = None
-    """rotctld-follow: the other program's rotctld, "host:port"; asked where it points, again and again."""
+    """rotctld-follow: the other program's rotctld, "host:port"; the box asks it for its position again and again."""
     poll_s: float = Field(0.1, ge=0.02, le=10)
-    """rotctld-follow: how often it is asked."""
+    """rotctld-follow: the time between two questions."""
     udp: str | None = None
     """pstrotator, n1mm, macdoppler: where datagrams are received, "host:port"; 0.0.0.0 for broadcasts too."""
     file: str | None = Field(None, min_length=1)
-    """wsjtx: its file azel.dat; waited for while it is missing."""
+    """wsjtx: its file azel.dat; the box waits for it while it is missing."""
     body: Literal["Moon", "Sun", "Source"] = "Moon"
-    """wsjtx: what is followed."""
+    """wsjtx: the body to follow."""
     rotor_name: str | None = Field(None, min_length=1, max_length=40)
-    """n1mm: obey what is for the rotor of this name, capitals as in N1MM; left out, whatever comes."""
+    """n1mm: obey the orders for the rotor of this name, capitals as in N1MM; left out, every order."""
     status_to: str | None = None
     """n1mm: the PC that shows where the antenna points, "address:13010"; 255.255.255.255 for all. Needs rotor_name."""
     baud: int | None = Field(None, ge=50, le=4_000_000)
     """Serial ports only; always 8N1. Left out, 9600; rot1prog 1200, rot2prog 600, dcu1 4800."""
     ack: Literal["none", "cr"] = "none"
-    """GS-232: what follows a command that asks nothing; old Hamlib (3.x) wants the CR."""
+    """GS-232: the reply to a command that asks nothing; old Hamlib (3.x) needs the CR."""
     may_calibrate: bool = False
     """GS-232: O, F, O2 and F2 take the present reading for an end of the range."""
     easycomm_answer: Literal["named", "pstrotator"] = "named"
-    """EasyComm: AZ EL is answered AZ235.0 EL25.0, or +235.0 25.0 as PstRotator is said to want it."""
+    """EasyComm: the reply to AZ EL is AZ235.0 EL25.0, or +235.0 25.0, which PstRotator is reported to need."""
     pulses_per_degree: Literal[1, 2, 4, 10] | None = None
-    """Rot2Prog and MD-01: how finely orders come. Left out, rot2prog 2, md01 10."""
+    """Rot2Prog and MD-01: the resolution of orders. Left out, rot2prog 2, md01 10."""
     read_only: bool = False
-    """Questions are answered and orders refused, a stop too."""
+    """The box answers questions and refuses orders, a stop too."""
     allow: list[str] | None = None
     """Network links: the machines that may connect, as addresses and networks; left out, all that reach the address."""
     most_clients: int = Field(128, ge=1, le=1000)
-    """TCP: how many may be connected at a time."""
+    """TCP: the greatest number of connections at a time."""
     most_per_s: int = Field(100, ge=1, le=10_000)
-    """Orders a second from one connection that act at once; of those beyond, the newest counts. Stops always act."""
+    """Orders a second from one connection that act at once; of those beyond, only the newest acts. Stops always act."""
 
     @model_validator(mode="after")
     def _one_place(self) -> Link:
@@ -173,7 +173,7 @@ _THIS_MACHINE = frozenset(("localhost", "127.0.0.1", "::1", "0.0.0.0", "::"))
 
 
 def is_same_place(server: str, client: str) -> bool:
-    """Whether whoever connects to `client` may reach what listens at `server` on this machine; both "host:port"."""
+    """Whether a connection to `client` may reach the server at `server` on this machine; both "host:port"."""
     (listens, server_port), (goes_to, client_port) = address(server), address(client)
     if server_port != client_port:
         return False

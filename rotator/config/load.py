@@ -1,6 +1,6 @@
-"""Reads the configuration file, or says everything that is wrong with it at once.
+"""Reads the configuration file; lists everything that is wrong with it at once.
 
-Knows TOML and how to tell a person what to change. Knows none of the keys: those are the model's.
+Knows TOML and how to word a fault. Knows no key: those are in the model.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def load(path: Path | None) -> Config:
 
 
 def shipped(name: str = SIMULATED) -> str:
-    """The text of a shipped configuration, a start for one's own. Raises ConfigError, with what there is."""
+    """The text of a shipped configuration, as a start. Raises ConfigError, which lists those that there are."""
     if name == SIMULATED:
         return files("rotator.config").joinpath("simulated.toml").read_text(encoding="utf-8")
     if name not in profiles():
@@ -97,7 +97,7 @@ def parse(text: str, name: str) -> Config:
 
 
 def _mend(values: dict[str, Any], place: list[int | str]) -> None:
-    """Put something harmless where the fault was."""
+    """Replace the faulty value by a harmless one, to find further faults."""
     parent: Any = values
     *way, last = place
     for part in way:

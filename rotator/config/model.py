@@ -1,7 +1,7 @@
 """What the configuration file may say: every key, its default, its bounds. The only place where defaults live.
 
-Knows the file's tables, and which of them are in use together; the bigger ones have files of their own beside this.
-Knows no file, no hardware and nothing of what the program makes of the values.
+Knows the tables, and what does not go together; the bigger tables have files of their own beside this, and the kinds of
+rotor in `kinds/`. Knows no file on a disk, no hardware, and no use of the values.
 """
 
 from __future__ import annotations
@@ -10,14 +10,24 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from hw.ports import Axis
+from hw.ports import AngleSource, Axis
+from rotator.config.adc import Adc
+from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable, Azimuth, Elevation
-from rotator.config.devices import Adc, Lcd, Relays
+from rotator.config.devices import Lcd, Relays
+from rotator.config.i2c import I2CChip
+from rotator.config.kinds.digipot import Digipot, DigipotKind
+from rotator.config.kinds.kind import EndStop, Kind
+from rotator.config.kinds.moteus import Moteus, MoteusKind
+from rotator.config.kinds.relay_pot import RelayPot
+from rotator.config.kinds.relay_pulse import Pulses, RelayPulse
+from rotator.config.kinds.servo import Servo, ServoKind
 from rotator.config.links import Link, is_same_place
 from rotator.config.panel import LimitsTable, PanelTable
-from rotator.config.rotors import Digipot, Moteus, Pulses, Rotor, Servo, with_usual
+from rotator.config.rotors import Rotor, with_usual
 from rotator.config.sensors import CompassTable
 from rotator.config.sim import Sim
+from rotator.config.spi import SpiUse, spi_lines
 from rotator.config.table import Point, Table
 
 
@@ -57,7 +67,7 @@ class MountTable(Table):
 
 class StateTable(Table):
     path: str = Field("run/state.json", min_length=1)
-    """Where the box keeps what it has learnt of its motors; on a Pi `/var/lib/rotator/state.json` is the place."""
+    """The file in which the box keeps what it has learnt of its motors; on a Pi `/var/lib/rotator/state.json`."""
 
 
 class MonitorTable(Table):
@@ -73,7 +83,7 @@ class Control(Table):
 
 class Config(Table):
     rotor: Rotor = Rotor()
-    """What turns and how it is reached."""
+    """The kind of rotor, real or simulated."""
     azimuth: Azimuth = Azimuth()
     """The azimuth axis, in degrees on the rotor's own scale."""
     elevation: Elevation = Elevation()
@@ -83,9 +93,9 @@ class Config(Table):
     control: Control = Control()
     """The control loop."""
     state: StateTable = StateTable()
-    """What the box remembers from one run to the next."""
+    """The memory of the box from one run to the next."""
     monitor: MonitorTable = MonitorTable()
-    """Watching what goes over the links."""
+    """The monitor of the bytes on the links."""
     pulses: Pulses = Pulses()
     """Rotor type relay-pulse: contacts that are counted, as on the Alliance U-100."""
     moteus: Moteus = Moteus()
@@ -99,7 +109,7 @@ class Config(Table):
     relays: Relays = Relays()
     """The motor relays. Numbers are GPIO (BCM), not pins of the header."""
     adc: Adc = Adc()
-    """The ADS1115 that reads the pots."""
+    """The converter that reads the pots."""
     panel: PanelTable = PanelTable()
     """A front panel. What is left out is not fitted."""
     limits: LimitsTable = LimitsTable()
@@ -120,84 +130,78 @@ class Config(Table):
     @model_validator(mode="after")
     def _fits_together(self) -> Config:
         faults = [*self._pins_twice(), *self._chips_twice(), *self._places_twice(), *self._follows_itself()]
-        if (
-            self.uses_adc
-            and len({self.adc.azimuth_channel, self.adc.elevation_channel, self.adc.reference_channel}) < 3
-        ):
-            faults.append("adc: azimuth_channel, elevation_channel and reference_channel must differ")
-        faults += self._out_of_reach()
+        faults += self.adc.faults() if self.uses_adc else []
+        faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
         if self.azimuth.sensor.kind == "mpu6050":
             faults.append('azimuth.sensor.kind = "mpu6050": gravity tells no azimuth; it is for the elevation')
-        if self.rotor.type == "relay-pulse" and self.relays.dead_time_s < self.longest_coast_s:
-            faults.append(
-                f"relays.dead_time_s = {self.relays.dead_time_s:g} is shorter than pulses coast_s "
-                f"({self.longest_coast_s:g}): a motor that still coasts would be counted the wrong way"
-            )
         if faults:
             raise ValueError("; ".join(faults))
         return self
 
+    @property
+    def kind(self) -> Kind:
+        """The kind of rotor that the file names, with its tables."""
+        match self.rotor.type:
+            case "relay-pot":
+                return RelayPot(self.relays)
+            case "relay-pulse":
+                return RelayPulse(self.relays, self.pulses)
+            case "moteus":
+                return MoteusKind(self.moteus)
+            case "servo":
+                return ServoKind(self.servo)
+            case "digipot":
+                return DigipotKind(self.digipot)
+
     def axis(self, axis: Axis) -> AxisTable:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
 
+    def angle(self, axis: Axis) -> Angle:
+        """How the angle of this axis is known: the only place that says."""
+        return self.axis(axis).sensor.angle or self.kind.own
+
     def has_pot(self, axis: Axis) -> bool:
-        """Whether a pot on the ADC tells where this axis stands."""
-        kind = self.axis(axis).sensor.kind
-        return kind == "pot" or (kind == "own" and self.rotor.type == "relay-pot")
+        """Whether a pot on the converter tells where this axis stands."""
+        return self.angle(axis).pot
 
     def counts(self, axis: Axis) -> bool:
-        """Whether this axis is where its contact's count says."""
-        return self.rotor.type == "relay-pulse" and self.axis(axis).sensor.kind == "own"
+        """Whether this axis is where the count of its contact says."""
+        return self.angle(axis).source is AngleSource.COUNTED
 
     def in_degrees(self, axis: Axis) -> bool:
-        """Whether the axis's readings are degrees on the rotor's own scale, and need no calibration."""
-        sensor = self.axis(axis).sensor
-        return sensor.in_degrees or (sensor.kind == "own" and self.rotor.type != "relay-pot")
+        """Whether the readings of this axis are degrees on the rotor's own scale, and need no calibration."""
+        return self.angle(axis).in_degrees
+
+    def end_stop(self, axis: Axis) -> EndStop | None:
+        """Where homing of this axis ends; None: it does not count, and is not homed."""
+        return self.kind.end_stop(axis) if self.counts(axis) else None
+
+    def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
+        """Where its limits can be, on the rotor's own scale; None: the rotor's tables set no end."""
+        stop = self.end_stop(axis)
+        return (stop.home_deg, None) if stop else self.kind.reach_deg(axis)
 
     @property
     def uses_adc(self) -> bool:
         return any(self.has_pot(axis) for axis in Axis)
 
-    @property
-    def longest_coast_s(self) -> float:
-        return max(self.pulses.azimuth.coast_s, self.pulses.elevation.coast_s)
+    def spi_uses(self) -> list[SpiUse]:
+        """Every use of SPI."""
+        return self.kind.spi_uses() + (self.adc.spi_uses() if self.uses_adc else [])
 
     def pins(self) -> list[tuple[int, str]]:
         """Every GPIO in use, with the key that names it."""
-        used = [(pin, f"relays.{key}") for key, pin in self.relays.outputs.items()] if self.rotor.switched else []
-        match self.rotor.type:
-            case "relay-pulse":
-                used += [(getattr(self.pulses, each.value).contact, f"pulses.{each.value}.contact") for each in Axis]
-            case "servo" if self.servo.enable is not None:
-                used.append((self.servo.enable, "servo.enable"))
-            case "digipot":
-                digipot = self.digipot
-                used += [(getattr(digipot, each.value).select, f"digipot.{each.value}.select") for each in Axis]
-                used += [(digipot.sck, "digipot.sck"), (digipot.si, "digipot.si")]
-                used += [] if digipot.enable is None else [(digipot.enable, "digipot.enable")]
+        used = [*spi_lines(self.spi_uses()), *self.kind.pins()]
         used += [(pin, f"panel.{key}") for key, pin in self.panel.switches.items()]
         used += [(pin, f"limits.{key}") for key, pin in self.limits.switches.items()]
-        if self.lcd.kind == "gpio":
-            used += [(getattr(self.lcd, key), f"lcd.{key}") for key in ("rs", "e", "d4", "d5", "d6", "d7")]
+        used += [(pin, f"lcd.{key}") for key, pin in self.lcd.lines.items()]
         return used
 
-    def chips(self) -> list[tuple[int, int, str]]:
-        """Every I2C chip in use: bus, address, and the key that names it."""
-        used = [(self.adc.bus, self.adc.address, "adc.address")] if self.uses_adc else []
-        used += [
-            (*chip, f"{axis.value}.sensor.address") for axis in Axis if (chip := self.axis(axis).sensor.i2c) is not None
-        ]
-        if self.rotor.type == "servo":
-            used.append((self.servo.bus, self.servo.address, "servo.address"))
-        if self.panel.uses_adc:
-            used.append((self.panel.adc_bus, self.panel.adc_address, "panel.adc_address"))
-        if self.panel.uses_outputs:
-            used.append((self.panel.outputs_bus, self.panel.outputs_address, "panel.outputs_address"))
-        if self.compass.kind != "none":
-            used.append((self.compass.bus, self.compass.address, "compass.address"))
-        if self.lcd.kind == "pcf8574":
-            used.append((self.lcd.bus, self.lcd.address, "lcd.address"))
-        return used
+    def chips(self) -> list[I2CChip]:
+        """Every I2C chip in use."""
+        used = self.adc.chips() if self.uses_adc else []
+        used += [chip for axis in Axis for chip in self.axis(axis).sensor.chips(f"{axis.value}.sensor.address")]
+        return used + self.kind.chips() + self.panel.chips() + self.compass.chips() + self.lcd.chips()
 
     def _pins_twice(self) -> list[str]:
         users: dict[int, list[str]] = {}
@@ -207,40 +211,13 @@ class Config(Table):
 
     def _chips_twice(self) -> list[str]:
         users: dict[tuple[int, int], list[str]] = {}
-        for bus, address, key in self.chips():
-            users.setdefault((bus, address), []).append(key)
+        for chip in self.chips():
+            users.setdefault((chip.bus, chip.address), []).append(chip.key)
         return [
             f"{' and '.join(sorted(keys, reverse=True))} are both 0x{address:02x} on bus {bus}"
             for (bus, address), keys in users.items()
             if len(keys) > 1
         ]
-
-    def _out_of_reach(self) -> list[str]:
-        """Limits that the rotor's own table of calibration does not reach."""
-        faults: list[str] = []
-        for axis in Axis:
-            limits = self.axis(axis)
-            match self.rotor.type:
-                case "servo":
-                    key, table = f"servo.{axis.value}", getattr(self.servo, axis.value)
-                    points, name = table.pulses_us, "pulses_us"
-                case "digipot":
-                    key, table = f"digipot.{axis.value}", getattr(self.digipot, axis.value)
-                    points, name = table.steps, "steps"
-                case _:
-                    continue
-            if not limits.min_deg <= table.start_deg <= limits.max_deg:
-                faults.append(
-                    f"{key}.start_deg = {table.start_deg:g} is outside {axis.value}'s range, "
-                    f"{limits.min_deg:g} to {limits.max_deg:g}"
-                )
-            low_deg, high_deg = min(angle for angle, _ in points), max(angle for angle, _ in points)
-            if not low_deg <= limits.min_deg < limits.max_deg <= high_deg:
-                faults.append(
-                    f"{axis.value}: min_deg {limits.min_deg:g} to max_deg {limits.max_deg:g} goes beyond {key}.{name}, "
-                    f"which reaches from {low_deg:g} to {high_deg:g}"
-                )
-        return faults
 
     def _places_twice(self) -> list[str]:
         users: dict[tuple[str, str | None, str | None], int] = {}

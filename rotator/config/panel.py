@@ -1,6 +1,6 @@
 """The tables of a front panel, and of limit switches on the rotor: what is fitted, and where it is wired to.
 
-Knows the file's words for pins, inputs and outputs. Knows no driver. Whatever is left out is not fitted.
+Knows the words of the file for pins, inputs and outputs. Knows no driver. A part that is left out is not fitted.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
+from rotator.config.i2c import I2CChip
 from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus, Table
 
 Output = Annotated[int, Field(ge=0, le=15)]
@@ -27,7 +28,7 @@ class PanelTable(Table):
     adc_bus: I2CBus = 1
     """The N of /dev/i2c-N with the ADS1115 that reads the knobs and the jog switches."""
     adc_address: I2CAddress = 0x49
-    """That ADS1115's: 0x49 with its ADDR pin at its supply."""
+    """The address of that ADS1115: 0x49 with its ADDR pin at its supply."""
     azimuth_knob: Channel | None = None
     """The input (A0 to A3) with the wiper of the azimuth knob; the knobs need the mode switch."""
     elevation_knob: Channel | None = None
@@ -53,7 +54,7 @@ class PanelTable(Table):
     outputs_bus: I2CBus = 1
     """The N of /dev/i2c-N with the PCA9685 that drives meters and lamps; the servos need one of their own."""
     outputs_address: I2CAddress = 0x41
-    """That PCA9685's: 0x41 with its bridge A0 closed."""
+    """The address of that PCA9685: 0x41 with its bridge A0 closed."""
     azimuth_meter: Output | None = None
     """The output (0 to 15) with the azimuth meter, over its trimmer."""
     elevation_meter: Output | None = None
@@ -63,11 +64,11 @@ class PanelTable(Table):
     lamp_manual: Output | None = None
     """The output with the lamp of MANUAL."""
     lamp_park: Output | None = None
-    """PARK."""
+    """The output with the lamp of PARK."""
     lamp_auto: Output | None = None
-    """AUTO."""
+    """The output with the lamp of AUTO."""
     lamp_jog: Output | None = None
-    """JOG."""
+    """The output with the lamp of JOG."""
     lamp_data: Output | None = None
     """Lit while programs send something."""
     lamp_motor: Output | None = None
@@ -92,7 +93,7 @@ class PanelTable(Table):
             faults.append(f"without the mode switch (mode_msb, mode_lsb) {' and '.join(orphans)} would do nothing")
         if self.reference is not None and not self.inputs:
             faults.append("reference: neither a knob nor jog is fitted")
-        # Pins and addresses that are used twice are for the whole file to see.
+        # Pins and addresses that are used twice are found by the model of the whole file.
         faults += [*self._twice("input", INPUTS), *self._twice("output", (*METERS, *LAMPS))]
         if faults:
             raise ValueError("; ".join(faults))
@@ -115,7 +116,7 @@ class PanelTable(Table):
 
     @property
     def lamps(self) -> dict[str, int]:
-        """The output of each lamp, by what it says."""
+        """The output of each lamp, by its name."""
         return {key.removeprefix("lamp_"): output for key, output in self._fitted(LAMPS).items()}
 
     @property
@@ -129,6 +130,15 @@ class PanelTable(Table):
     @property
     def uses_outputs(self) -> bool:
         return bool(self.meters or self.lamps)
+
+    def chips(self) -> list[I2CChip]:
+        """Its own converter and its output board, those that are fitted."""
+        used = []
+        if self.uses_adc:
+            used.append(I2CChip(self.adc_bus, self.adc_address, "panel.adc_address", "ADS1115"))
+        if self.uses_outputs:
+            used.append(I2CChip(self.outputs_bus, self.outputs_address, "panel.outputs_address", "PCA9685"))
+        return used
 
     @property
     def fitted(self) -> bool:

@@ -131,7 +131,7 @@ def _allowed(kind: Any, limits: list[Any], field: FieldInfo) -> str:
 
 def _described(what: str, field: FieldInfo) -> str:
     if not field.description:
-        raise ValueError(f"{what} says nothing of itself: write a docstring below it")
+        raise ValueError(f"{what} has no description: write a docstring below it")
     return " ".join(field.description.split())
 
 

@@ -57,6 +57,6 @@ def _rows(points: Points) -> Array:
 
 
 def _short(value: float, digits: int) -> float | int:
-    """450 rather than 450.0, as a person would write it."""
+    """450 rather than 450.0, as in a file written by hand."""
     value = round(value, digits)
     return int(value) if value == int(value) else value

@@ -1,6 +1,6 @@
-"""The tables of what tells where an axis stands, and of the compass that tells where north is.
+"""The tables of the angle sensors, and of the compass that finds north.
 
-Knows the file's words for them. Knows no chip.
+Knows the words of the file for them. Knows no chip.
 """
 
 from __future__ import annotations
@@ -9,6 +9,9 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
+from hw.ports import AngleSource
+from rotator.config.angle import Angle
+from rotator.config.i2c import I2CChip
 from rotator.config.table import I2CAddress, I2CBus, Table
 
 Arrow = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
@@ -16,8 +19,8 @@ Arrow = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
 
 class SensorTable(Table):
     kind: Literal["own", "pot", "as5600", "mpu6050"] = "own"
-    """What tells the angle: `own` is what the rotor brings (a pot where there are relays, the count, the controller,
-    or a model); else a pot on the ADC, a magnet over an AS5600, or gravity by an MPU6050 on the boom (elevation)."""
+    """The sensor: `own` is that of the kind of rotor (a pot where there are relays, the count, the controller, or a
+    model); else a pot on the converter, a magnet over an AS5600, or gravity by an MPU6050 on the boom (elevation)."""
     bus: I2CBus = 1
     """AS5600, MPU6050: the N of /dev/i2c-N; the header's bus is 1."""
     address: I2CAddress | None = None
@@ -32,9 +35,17 @@ class SensorTable(Table):
     """MPU6050: how many readings are averaged, within 0.3 s."""
 
     @property
-    def in_degrees(self) -> bool:
-        """Whether its readings are degrees already, on the rotor's own scale."""
-        return self.kind == "mpu6050"
+    def angle(self) -> Angle | None:
+        """How its angle is known; None: as the kind of rotor says."""
+        match self.kind:
+            case "own":
+                return None
+            case "pot":
+                return Angle(AngleSource.MEASURED, in_degrees=False, pot=True)
+            case "as5600":
+                return Angle(AngleSource.MEASURED, in_degrees=False)
+            case "mpu6050":
+                return Angle(AngleSource.MEASURED, by="told by gravity")
 
     @property
     def i2c(self) -> tuple[int, int] | None:
@@ -43,6 +54,10 @@ class SensorTable(Table):
         if self.kind not in usual:
             return None
         return self.bus, usual[self.kind] if self.address is None else self.address
+
+    def chips(self, key: str) -> list[I2CChip]:
+        """Its chip, where it has one of its own; `key` names its address in the file."""
+        return [I2CChip(*self.i2c, key, self.kind.upper())] if self.i2c else []
 
     @model_validator(mode="after")
     def _stands(self) -> SensorTable:
@@ -63,3 +78,7 @@ class CompassTable(Table):
     """How the board lies, by the data sheet's names; P1: flat, chip up."""
     offset_deg: float = Field(0.0, ge=-180, le=180)
     """Where the boom points, clockwise, as seen from the compass's own forward."""
+
+    def chips(self) -> list[I2CChip]:
+        """Its chip, where there is one."""
+        return [I2CChip(self.bus, self.address, "compass.address", "BNO055")] if self.kind == "bno055" else []

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from rotator.config.table import Table
+from rotator.config.table import PerAxis, Table
 
 
 class SimAxisTable(Table):
@@ -32,7 +32,7 @@ class SimElevation(SimAxisTable):
     """The motor's full speed."""
 
 
-class Sim(Table):
+class Sim(PerAxis, Table):
     azimuth: SimAxisTable = SimAxisTable()
     """The simulated azimuth motor and pot."""
     elevation: SimElevation = SimElevation()

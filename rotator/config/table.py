@@ -1,13 +1,15 @@
 """What every table of the configuration file has in common.
 
-Knows how strict the file is, and the kinds of value that several tables use. Knows no key.
+Knows how strictly the file is checked, and the types of value that several tables use. Knows no key.
 """
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Protocol, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
+
+from hw.ports import Axis
 
 Gpio = Annotated[int, Field(ge=0, le=57)]
 I2CAddress = Annotated[int, Field(ge=0x08, le=0x77)]
@@ -22,3 +24,23 @@ class Table(BaseModel):
     model_config = ConfigDict(
         extra="forbid", frozen=True, allow_inf_nan=False, strict=True, use_attribute_docstrings=True
     )
+
+
+T_co = TypeVar("T_co", covariant=True)
+
+
+class HasAxes(Protocol[T_co]):
+    """A table with one table for each axis."""
+
+    @property
+    def azimuth(self) -> T_co: ...
+
+    @property
+    def elevation(self) -> T_co: ...
+
+
+class PerAxis:
+    """For a table with the fields `azimuth` and `elevation`: the one of an axis, with its type."""
+
+    def of(self: HasAxes[T_co], axis: Axis) -> T_co:
+        return self.azimuth if axis is Axis.AZIMUTH else self.elevation

@@ -1,1 +1,1 @@
-"""`rotator doctor`: looks at the whole box, from the supply to the pots, and says what to do about what is wrong."""
+"""`rotator doctor`: checks the whole box, from the supply to the pots, and advises what to do about each fault."""

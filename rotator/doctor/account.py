@@ -1,4 +1,4 @@
-"""The checks of what the program may touch: its user's groups, and the folder in which it keeps what it learns.
+"""The checks of the program's rights: the groups of its user, and the folder of its state file.
 
 Knows which group owns which device on Debian and Raspberry Pi OS. Changes neither group nor folder.
 """
@@ -30,7 +30,7 @@ def groups(machine: Machine, config: Config) -> Iterator[Finding]:
             yield fine("root needs none")
         return
     person = _membership(machine, machine.user, needed)
-    # Where the service runs the box, the person needs the groups for `rotator calibrate` only.
+    # Where the service runs the box, the user needs the groups for `rotator calibrate` only.
     yield person if person.ok or unit is None else warn(person.found, person.advice)
 
 
@@ -40,8 +40,8 @@ def _needed(config: Config) -> set[str]:
     needs = {
         "gpio": on_a_pi and bool(config.pins()),
         "i2c": on_a_pi and bool(config.chips()),
-        "spi": on_a_pi and config.rotor.type == "digipot" and config.digipot.spi == "kernel",
-        "dialout": serial or (on_a_pi and config.rotor.type == "moteus" and not config.moteus.can),
+        "spi": on_a_pi and any(use.kernel for use in config.spi_uses()),
+        "dialout": serial or (on_a_pi and config.kind.serial_port() is not None),
     }
     return {group for group, needed in needs.items() if needed}
 

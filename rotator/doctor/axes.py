@@ -1,6 +1,6 @@
-"""The checks of the configuration: does it load, and is there all that an axis needs before it may be aimed.
+"""The checks of the configuration: whether it loads, and whether each axis is commissioned.
 
-Knows what a person has to do once. Knows no hardware.
+Knows the words for what an axis lacks. Knows no hardware.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from hw.ports import Axis
+from rotator.assembly.settings import missing, own_points
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, wrong
@@ -37,34 +38,14 @@ def axes(config: Config) -> Iterator[Finding]:
 
 
 def _set_up(config: Config, axis: Axis) -> Finding:
-    name, table, told = axis.value, config.axis(axis), told_by(config, axis)
-    lacks = []
-    if not told and table.calibration is None:
-        lacks.append("calibration")
-    if not {"min_deg", "max_deg"} <= table.model_fields_set:
-        lacks.append("limits")
-    if not table.direction_checked:
-        lacks.append("direction check")
+    name, table, angle = axis.value, config.axis(axis), config.angle(axis)
+    lacks = missing(table, calibrated=own_points(config, axis) is not None)
     if lacks:
-        keys = [f"{name}.{key}" for key in ("min_deg", "max_deg", *(() if told else ("calibration",)))]
+        keys = [f"{name}.{key}" for key in ("min_deg", "max_deg", *(() if angle.in_degrees else ("calibration",)))]
         return wrong(
-            f"{name} is not set up, and obeys short presses only: it lacks {', '.join(lacks)}",
+            f"{name} is not set up, and obeys short presses only: it lacks {', '.join(each.text for each in lacks)}",
             f"rotator calibrate {name} --config FILE leads you through it, or write {', '.join(keys)} and "
             f"{name}.direction_checked yourself.",
         )
-    return fine(f"{name}: {table.min_deg:g}° to {table.max_deg:g}°, {told or 'calibrated'}, direction checked")
-
-
-def told_by(config: Config, axis: Axis) -> str:
-    """How the axis's angle comes, where it comes in degrees; empty: by a calibration."""
-    if not config.in_degrees(axis):
-        return ""
-    if config.axis(axis).sensor.kind != "own":
-        return "told by gravity"
-    match config.rotor.type:
-        case "relay-pulse":
-            return "counted"
-        case "moteus":
-            return "told by its controller"
-        case _:
-            return "modelled"
+    known = angle.by or "calibrated"
+    return fine(f"{name}: {table.min_deg:g}° to {table.max_deg:g}°, {known}, direction checked")

@@ -1,23 +1,24 @@
-"""The checks of what the Pi does with lines that must be off when nobody holds them: at its start, and after a crash.
+"""The checks of lines that must be off while no program drives them: at the start of the Pi, and after a crash.
 
-Knows what config.txt means for relays and enable lines, the pins' pulls, and the kernel's habit of leaving outputs as
-they were. Writes nothing: `rotator setup pins` does.
+Knows what config.txt means for relays and enable lines, the pulls of the pins, and that a Raspberry Pi's kernel leaves
+an output as it was when its program dies. Writes nothing: `rotator setup pins` does.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rotator.config.kinds.kind import OffLine
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
 from rotator.doctor.wires import gpios
 from rotator.setup.boot_config import Setting, parameters, pins, settings
 from rotator.setup.pi import known
-from rotator.setup.pins import PULLED_UP, OffLine, closing, off_lines
+from rotator.setup.pins import PULLED_UP, closing, off_lines
 
 CONFIG_TXT = ("/boot/firmware/config.txt", "/boot/config.txt")
-"""Where it is since Debian 12, and where it was before."""
+"""Its place since Debian 12, and its place before."""
 SETUP = "sudo rotator setup pins, then reboot."
 
 
@@ -55,7 +56,7 @@ def boot_pins(machine: Machine, config: Config) -> Iterator[Finding]:
         yield skipped(_why_not(config))
         return
     levels = driven_at_boot(machine)
-    # A heartbeat that stands still is off, at either level.
+    # A heartbeat is off when it stands still, at either level.
     lines = {pin: line for pin, line in off_lines(config).items() if line.key != "relays.heartbeat"}
     driven_on = {pin: line for pin, line in lines.items() if levels.get(pin) is _on(line)}
     not_driven = {pin: line for pin, line in lines.items() if pin not in levels}
@@ -75,12 +76,12 @@ def boot_pins(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def _on(line: OffLine) -> bool:
-    """Whether it is on at the high level."""
-    return line.off == "dl"
+    """The level at which it is on: True is high."""
+    return not line.off_high
 
 
 def in_effect(machine: Machine) -> list[Setting]:
-    """What config.txt sets on this board."""
+    """The settings of config.txt that hold on this board."""
     text = next((text for path in CONFIG_TXT if (text := machine.text(path)) is not None), "")
     return [setting for setting in settings(text) if setting.may_hold_on(known(machine.model))]
 

@@ -1,7 +1,7 @@
-"""The checks of the I2C bus: the adapter, the devices on it, and what the pots read.
+"""The checks of the I2C bus, of the devices on it, and of the pots.
 
-Knows which addresses such devices have, and what a reading outside the window means. While the box is running it reads
-no pot: starting a conversion would spoil one of the box's own.
+Knows what a reading outside the window means. While the box is running it reads no pot: a conversion started here would
+spoil one of the box's own.
 """
 
 from __future__ import annotations
@@ -10,22 +10,18 @@ from collections.abc import Iterator
 from statistics import fmean
 
 from hw.ports import Axis, HardwareError
+from rotator.assembly.adc import Converter
+from rotator.assembly.chips import Bus
 from rotator.config.axes import AxisTable
+from rotator.config.i2c import ADDRESSES, I2CChip
 from rotator.config.model import Config
-from rotator.doctor.chips import Bus, Chips
 from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import Machine
 from rotator.doctor.wires import running
 
-CONVERTERS = range(0x48, 0x4C)
-OUTPUT_BOARDS = range(0x40, 0x48)
-BACKPACKS = (*range(0x20, 0x28), *range(0x38, 0x40))
-"""The PCF8574 and the PCF8574A."""
-SENSORS = {"as5600": (0x36, 0x40), "mpu6050": (0x68, 0x69)}
-COMPASSES = (0x28, 0x29)
 SAMPLES = 20
 UNSTEADY = 0.02
-"""Of the supply, from the least to the most of the samples: an antenna at rest, or turning, gives far less."""
+"""Share of the supply between the least and the greatest sample. An antenna at rest, or turning, gives far less."""
 AT_RAIL = 0.01
 
 WIRING = "Check its power, SDA and SCL, and that the two are not swapped."
@@ -36,7 +32,7 @@ def has_chips(config: Config) -> bool:
 
 
 def i2c_bus(machine: Machine, config: Config) -> Iterator[Finding]:
-    for number in sorted({bus for bus, _, _ in config.chips()}):
+    for number in sorted({chip.bus for chip in config.chips()}):
         try:
             with machine.chips.bus(number):
                 yield fine(f"/dev/i2c-{number}")
@@ -48,13 +44,13 @@ def i2c_bus(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def i2c_devices(machine: Machine, config: Config) -> Iterator[Finding]:
-    for number, address, key in config.chips():
-        taken = {there for on, there, _ in config.chips() if on == number}
+    for chip in config.chips():
+        taken = {other.address for other in config.chips() if other.bus == chip.bus}
         try:
-            with machine.chips.bus(number) as bus:
-                yield _device(bus, key, address, set(usual_addresses(config, key)) - taken)
+            with machine.chips.bus(chip.bus) as bus:
+                yield _device(bus, chip, set(ADDRESSES.get(chip.part, ())) - taken)
         except HardwareError:
-            yield skipped(f"{chip_name(key)}: the bus cannot be opened")
+            yield skipped(f"{chip_name(chip.key)}: the bus cannot be opened")
 
 
 def chip_name(key: str) -> str:
@@ -62,21 +58,8 @@ def chip_name(key: str) -> str:
     return key.removesuffix("address").rstrip("._")
 
 
-def usual_addresses(config: Config, key: str) -> tuple[int, ...]:
-    """Those that such a chip can be given."""
-    match key.partition(".")[0]:
-        case "azimuth" | "elevation" as axis:
-            return SENSORS[config.axis(Axis(axis)).sensor.kind]
-        case "lcd":
-            return BACKPACKS
-        case "compass":
-            return COMPASSES
-        case _:
-            return tuple(CONVERTERS if "adc" in key else OUTPUT_BOARDS)
-
-
-def _device(bus: Bus, key: str, address: int, elsewhere: set[int]) -> Finding:
-    name = chip_name(key)
+def _device(bus: Bus, chip: I2CChip, elsewhere: set[int]) -> Finding:
+    name, address, key = chip_name(chip.key), chip.address, chip.key
     try:
         if bus.answers(address):
             return fine(f"{name}: 0x{address:02x} answers")
@@ -98,43 +81,44 @@ def pots(machine: Machine, config: Config) -> Iterator[Finding]:
         yield left_alone
         return
     try:
-        with machine.chips.bus(config.adc.bus) as bus:
-            if bus.answers(config.adc.address):
-                yield from _readings(machine.chips, bus, config)
-            else:
+        with machine.chips.converter(config) as converter:
+            if converter.answers():
+                yield from _readings(converter, config)
+            elif config.adc.chips():  # the check of the I2C devices explains it
                 yield skipped("the converter does not answer")
+            else:
+                yield wrong("the converter does not answer", config.adc.suspicion)
     except HardwareError:
         yield skipped("the bus cannot be asked")
 
 
-def _readings(chips: Chips, bus: Bus, config: Config) -> Iterator[Finding]:
+def _readings(converter: Converter, config: Config) -> Iterator[Finding]:
     adc = config.adc
-    converter = chips.converter(bus, config)
-    channels = {Axis.AZIMUTH: adc.azimuth_channel, Axis.ELEVATION: adc.elevation_channel}
-    pots = {axis: channel for axis, channel in channels.items() if config.has_pot(axis)}
+    pots = {axis: adc.channel(axis) for axis in Axis if config.has_pot(axis)}
     try:
-        volts = {channel: [converter.volts(channel) for _ in range(SAMPLES)] for channel in pots.values()}
+        volts = {channel: [converter.inputs.volts(channel) for _ in range(SAMPLES)] for channel in pots.values()}
     except HardwareError as fault:
-        yield wrong(str(fault), "A sick chip, or not an ADS1115 at adc.address.")
+        yield wrong(str(fault), adc.suspicion)
         return
     try:
-        supply_v = chips.supply_v(converter, config)
+        supply_v = converter.supply_v()
     except HardwareError as fault:
-        yield wrong(str(fault), f"Wire the pots' supply to A{adc.reference_channel}, or remove adc.reference_channel.")
+        supply = "" if adc.reference_channel is None else adc.input_name(adc.reference_channel)
+        yield wrong(str(fault), f"Wire the pots' supply to {supply}, or remove adc.reference_channel.")
         return
     for axis, channel in pots.items():
-        yield _reading(axis.value, config.axis(axis), channel, supply_v, volts[channel])
+        yield _reading(axis.value, config.axis(axis), adc.input_name(channel), supply_v, volts[channel])
 
 
-def _reading(axis: str, table: AxisTable, channel: int, supply_v: float, volts: list[float]) -> Finding:
+def _reading(axis: str, table: AxisTable, pin: str, supply_v: float, volts: list[float]) -> Finding:
     readings = [sample_v / supply_v for sample_v in volts]
     least, most, mean = min(readings), max(readings), fmean(readings)
     if most - least > UNSTEADY:
         return wrong(
-            f"{axis}: unsteady, {least:.3f} to {most:.3f} on A{channel}",
+            f"{axis}: unsteady, {least:.3f} to {most:.3f} on {pin}",
             "A loose wire or plug, an input that is not wired, or RF: see pot jumps in docs/troubleshooting.md.",
         )
-    found = f"{axis}: {mean:.3f} of the supply, {fmean(volts):.2f} V on A{channel}"
+    found = f"{axis}: {mean:.3f} of the supply, {fmean(volts):.2f} V on {pin}"
     if table.lowest_reading <= mean <= table.highest_reading:
         return fine(found)
     outside = f"{found}, outside {table.lowest_reading:g} to {table.highest_reading:g}"

@@ -1,6 +1,7 @@
-"""Every check, in the order in which it is told, and the examination that makes them.
+"""Every check, in the order of the report, and the examination that makes them.
 
-Knows that no check may keep another one from its look. The looks themselves are in the files beside this one.
+A check that fails by a mistake of the program does not stop the others. The checks themselves are in the files beside
+this one.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from rotator.assembly.chips import simulated_chips
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.doctor import (
@@ -27,7 +29,6 @@ from rotator.doctor import (
     switches,
     wires,
 )
-from rotator.doctor.chips import simulated_chips
 from rotator.doctor.finding import Check, Finding, skipped, wrong
 from rotator.doctor.machine import Machine
 
@@ -60,7 +61,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
         wires.gpio_chip, on_chips=True, concerns=wires.has_lines,
     ),
     Check(
-        "GPIO lines", "nobody but the box holds a line that it uses, outputs and inputs",
+        "GPIO lines", "no other program holds a line of the box, outputs and inputs",
         wires.gpio_lines, on_chips=True, concerns=wires.has_lines,
     ),
     Check("I2C bus", "it is there, and yours to open", bus.i2c_bus, on_chips=True, concerns=bus.has_chips),
@@ -85,7 +86,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
         moteus.controllers, on_chips=True, concerns=moteus.is_moteus,
     ),
     Check(
-        "SPI", "the kernel's, where digital pots hang on it: the package spidev, and both devices",
+        "SPI", "the kernel's, where chips hang on it: the package spidev, and their devices",
         outputs.spi, on_chips=True, concerns=outputs.uses_spi,
     ),
     Check(
@@ -107,12 +108,12 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
     Check("groups", "gpio, i2c, spi, dialout: those needed, of you and of the service's user", account.groups),
     Check("state folder", "it can be written to, and the card is not full", account.state_folder),
 )  # fmt: skip
-"""A check of something that the configuration has not is left out."""
+"""A check is left out where the configuration has nothing of its kind."""
 
 
 @dataclass(frozen=True, slots=True)
 class Examination:
-    """What was found, check by check, in order; a check may have several findings."""
+    """The findings, by the name of the check, in order; a check may have several."""
 
     findings: tuple[tuple[str, Finding], ...]
     usable: bool
@@ -159,5 +160,5 @@ def _of_station(
 def _safely(look: Callable[..., Iterator[Finding]], *what: Any) -> Iterator[Finding]:
     try:
         yield from look(*what)
-    except Exception as fault:  # whatever it is, the other checks are still wanted
+    except Exception as fault:  # one broken check must not hide the others
         yield wrong(f"the check itself failed: {type(fault).__name__}: {fault}", "A mistake of ours: please tell us.")

@@ -1,6 +1,6 @@
-"""The check of the file in which axes that count pulses are kept.
+"""The check of the file that keeps the counts of axes with an index contact.
 
-Knows what such an axis needs before it may be aimed. Writes nothing.
+Knows what such an axis lacks before it may be aimed. Writes nothing.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def keeps_counts(config: Config) -> bool:
 def counts(machine: Machine, config: Config) -> Iterator[Finding]:
     path = Path(config.state.path).with_name(FILE_NAME)
     counting = [axis for axis in Axis if config.counts(axis)]
-    cams = {axis: getattr(config.pulses, axis.value).model_dump(exclude={"contact"}) for axis in counting}
+    cams = config.pulses.cams(counting)
     text = machine.text(path)
     if text is None and machine.at(path).exists():
         yield wrong(f"{path} cannot be read", f"sudo rotator doctor can; or sudo chown {machine.user} {path}")
@@ -42,7 +42,7 @@ def counts(machine: Machine, config: Config) -> Iterator[Finding]:
 
 def _kept(axis: str, place: Place, *, is_running: bool) -> Finding:
     if is_running and place.standing is not Standing.NEVER:
-        return skipped(f"{axis}: the box is running and counts; its terminal, or rotator where, tells")
+        return skipped(f"{axis}: the box is running and counts; see its terminal, or rotator where")
     match place.standing:
         case Standing.KNOWN:
             return fine(f"{axis}: {place.angle_deg:.1f}° on the rotor's scale, when the box ended")

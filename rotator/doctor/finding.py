@@ -1,6 +1,6 @@
-"""What a check says, and what a check is.
+"""A check, and its findings.
 
-Knows the form. Knows nothing of what there is to look at.
+Knows their form. Knows nothing of the box.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ P = ParamSpec("P")
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """`ok` None: not looked at, or nothing to look at here. `advice` beside a True makes it a warning."""
+    """`ok` None: not checked, or nothing here to check. True with an `advice` is a warning."""
 
     ok: bool | None
     found: str
@@ -46,12 +46,12 @@ def wrong(found: str, advice: str) -> Finding:
 
 
 def skipped(found: str, advice: str = "") -> Finding:
-    """`advice`: where a person has to look, because the program cannot."""
+    """`advice`: where the user has to look, because the program cannot."""
     return Finding(None, found, advice)
 
 
 def refused(about: str, fault: HardwareError) -> Finding:
-    """What a driver says is wrong; after its semicolon it says what to do."""
+    """The error of a driver as a finding; the text after its semicolon is the advice."""
     problem, _, cure = str(fault).partition("; ")
     return wrong(f"{about}: {problem}", f"{cure[:1].upper()}{cure[1:]}." if cure else "See docs/troubleshooting.md.")
 
@@ -62,12 +62,12 @@ def always(_config: Any) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Check(Generic[P]):
-    """One thing to look at: its name, a sentence of what it looks at, and the look itself."""
+    """One check: its name, what it looks at in a sentence, and the function that looks."""
 
     name: str
     looks_at: str
     look: Callable[P, Iterator[Finding]]
     on_chips: bool = False
-    """It looks at chips, which a simulated station has as well."""
+    """It looks at chips. A simulated station has them too."""
     concerns: Callable[[Any], bool] = always
-    """Whether the configuration that it is given has anything of the kind; the check is left out where it has not."""
+    """Whether the configuration has anything of this kind; else the check is left out."""

@@ -1,6 +1,6 @@
-"""The checks of the computer's health: power, heat, time, the watchdog, the service.
+"""The checks of the computer: power, heat, time, the watchdog, the service.
 
-Knows where a Raspberry Pi and systemd tell of them. Knows nothing of the configuration.
+Knows where a Raspberry Pi and systemd report them. Knows nothing of the configuration.
 """
 
 from __future__ import annotations
@@ -10,12 +10,12 @@ from collections.abc import Iterator
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
 
-# What `vcgencmd get_throttled` tells (Raspberry Pi documentation): now, and 16 bits higher, ever since the start.
+# The bits of `vcgencmd get_throttled` (Raspberry Pi documentation): now, and 16 bits higher, since the start.
 THROTTLED = {0: "under-voltage", 1: "clock capped", 2: "throttled", 3: "too hot"}
 UNDER_VOLTAGE = 1 << 0
 SINCE_START = 16
 HOT_C = 80.0
-"""Where a Pi begins to slow itself down."""
+"""From this temperature on a Pi slows itself down."""
 
 SUPPLY = "Use the Pi's own power supply and a short, thick cable, and feed relays and display from another one."
 
@@ -29,7 +29,7 @@ def power(machine: Machine) -> Iterator[Finding]:
             if machine.text(path.with_name("name")) == "rpi_volt"
         ]
         if not alarms:
-            yield skipped("nothing here tells of the supply")
+            yield skipped("this computer does not report its supply")
         elif "1" in alarms:
             yield wrong("under-voltage now", SUPPLY)
         else:
@@ -62,7 +62,7 @@ def _throttled(machine: Machine) -> int | None:
 def temperature(machine: Machine) -> Iterator[Finding]:
     said = machine.text("/sys/class/thermal/thermal_zone0/temp")
     if said is None or not said.lstrip("-").isdigit():
-        yield skipped("nothing here tells it")
+        yield skipped("this computer does not report it")
         return
     celsius = int(said) / 1000
     if celsius >= HOT_C:
@@ -78,7 +78,7 @@ def clock(machine: Machine) -> Iterator[Finding]:
     elif (tracking := machine.says("chronyc", "-n", "tracking")) and "Not synchronised" not in tracking:
         yield fine("set by chrony")
     elif said is None and tracking is None:
-        yield skipped("nothing here tells who sets it")
+        yield skipped("this computer does not report what sets it")
     else:
         yield warn(
             "not set by the network",
@@ -99,7 +99,7 @@ def watchdog(machine: Machine) -> Iterator[Finding]:
         yield fine(f"restarts a frozen computer after {timeout_s} s" if timeout_s else "restarts a frozen computer")
     else:
         yield warn(
-            "nobody feeds it: a frozen computer stays frozen",
+            "no program feeds it: a frozen computer stays frozen",
             "Write [Manager] and RuntimeWatchdogSec=15 into /etc/systemd/system.conf.d/50-rotator-watchdog.conf, "
             "and reboot.",
         )

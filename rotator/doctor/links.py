@@ -1,6 +1,6 @@
 """The checks of the links: serial ports, pseudo-terminals, TCP and UDP ports, before a program at the other end fails.
 
-Knows what the box needs of each, and who may have taken it. Sends nothing, and accepts nobody.
+Knows what the box needs of each, and which programs often hold it. Sends nothing, and accepts no connection.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
 
 LISTENING = {socket.SOCK_STREAM: ("tcp", "0A"), socket.SOCK_DGRAM: ("udp", "07")}
-"""The table in /proc/net of each kind of socket, and the state there of those that wait for somebody."""
+"""The table in /proc/net of each kind of socket, and the state of a socket that listens."""
 PORTS = ("/dev/ttyS0", "/dev/ttyAMA*", "/dev/ttyGS*", "/dev/ttyACM*", "/dev/ttyUSB*")
-"""Those that a Pi has and gets."""
+"""The serial ports of a Pi, and of adapters plugged into it."""
 
 ANY_ADDRESS = "Use an address of this machine, or 0.0.0.0 for all of them."
 Place = tuple[Any, ...]
-"""A row of what `socket.getaddrinfo` answers."""
+"""One answer of `socket.getaddrinfo`."""
 
 
 def serial_ports(machine: Machine, config: Config) -> Iterator[Finding]:
@@ -110,7 +110,7 @@ def _port(machine: Machine, name: str, kind: socket.SocketKind) -> Finding:
         case [errno.EADDRINUSE, *_]:
             owner = _listener(machine, port, kind)
             if owner is None:
-                return warn(f"{name} is taken, perhaps by the running box", "sudo rotator doctor says by whom.")
+                return warn(f"{name} is taken, perhaps by the running box", "sudo rotator doctor names the program.")
             if not _is_ours(owner):
                 return wrong(f"{name} is taken by {' '.join(owner)}", "Stop that program, or take another port.")
             state = "the running box"
@@ -121,13 +121,13 @@ def _port(machine: Machine, name: str, kind: socket.SocketKind) -> Finding:
     if all(_is_loopback(place) for place in places):
         return fine(f"{name}: {state}")
     return warn(
-        f"{name}: {state}, and open to the network: whoever reaches it can turn the antenna",
+        f"{name}: {state}, and open to the network: every machine on it can turn the antenna",
         f"127.0.0.1:{port} keeps it to programs on this machine; a firewall keeps strangers out.",
     )
 
 
 def _refusal(place: Place) -> int | None:
-    """The error number with which an address refuses a listener; None when it takes one."""
+    """The error number with which a port refuses a listener; None: it is free."""
     family, kind, protocol, _, where = place
     try:
         with socket.socket(family, kind, protocol) as probe:
@@ -147,7 +147,7 @@ def _is_ours(command: list[str]) -> bool:
 
 
 def _listener(machine: Machine, port: int, kind: socket.SocketKind) -> list[str] | None:
-    """The command line of whoever listens on the port; None where that is not ours to know."""
+    """The command line of the program that listens on the port; None where this user may not know it."""
     sockets = set()
     table_name, listening = LISTENING[kind]
     for table in (f"/proc/net/{table_name}", f"/proc/net/{table_name}6"):

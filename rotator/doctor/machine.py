@@ -1,6 +1,6 @@
-"""The computer that is looked at: its files, its programs, its user.
+"""The computer that the doctor checks: its files, its programs, its user.
 
-Knows where to look and how to ask. Knows nothing of what the answers mean. Nothing here writes.
+Knows how to read and ask. Knows nothing of what the answers mean. Writes nothing.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from rotator.doctor.chips import Chips, real_chips
+from rotator.assembly.chips import Chips, real_chips
 
 PATIENCE_S = 5.0
-"""A program that has not answered by then is taken for one that does not answer."""
+"""A program that takes longer counts as one that does not answer."""
 SERVICE_USER = "rotator"
 SERVICE_FOLDERS = (Path("/run/rotator"), Path("/var/lib/rotator"))
 """The service manager makes these for the service whenever it starts."""
@@ -36,11 +36,11 @@ class Machine:
     pointer_bits: int
     """Of that Python: 32 or 64."""
     kernel: tuple[str, str]
-    """Release and machine, as `uname` tells them."""
+    """Release and machine, as `uname` has them."""
     user: str
-    """The person: behind sudo, the one who called it."""
+    """The user; behind sudo, the one who called it."""
     free_bytes: Callable[[Path], int]
-    """What is left on the disk with that file."""
+    """Free bytes on the disk with that file."""
     chips: Chips
 
     def at(self, path: str | Path) -> Path:
@@ -49,7 +49,7 @@ class Machine:
         return self.root / path.relative_to("/") if path.is_absolute() else path
 
     def text(self, path: str | Path) -> str | None:
-        """What a file says, without the white space and NUL around it; None where it cannot be read."""
+        """The text of a file, without the white space and NUL around it; None where it cannot be read."""
         try:
             return self.at(path).read_text(encoding="utf-8", errors="replace").strip(" \t\r\n\0")
         except OSError:
@@ -60,7 +60,7 @@ class Machine:
         return [Path("/", path.relative_to(self.root)) for path in sorted(self.root.glob(pattern.removeprefix("/")))]
 
     def says(self, program: str, *arguments: str) -> str | None:
-        """What a program prints; None where it is missing, fails or hangs."""
+        """The output of a program; None where it is missing, fails or hangs."""
         path = shutil.which(program, path=self.programs)
         if path is None:
             return None
@@ -84,9 +84,8 @@ class Machine:
         return {row[7] for row in rows if len(row) == 8}
 
     def holder(self, opened: set[str]) -> list[str] | None:
-        """The command line of a program that has one of these open, by what its descriptors lead to.
-
-        None where there is none, or that is not ours to know.
+        """The command line of a program that has one of these files open; None where there is none, or where this user
+        may not know it.
         """
         for descriptor in self.glob("/proc/[0-9]*/fd/*"):
             try:
@@ -99,7 +98,7 @@ class Machine:
 
     @property
     def model(self) -> str:
-        """What the board calls itself, such as `Raspberry Pi 4 Model B Rev 1.4`; empty on a PC."""
+        """The name of the board, such as `Raspberry Pi 4 Model B Rev 1.4`; empty on a PC."""
         return self.text("/proc/device-tree/model") or ""
 
     @property

@@ -1,7 +1,7 @@
-"""The check of the moteus controllers: the library, the adapter, and what both controllers say of themselves.
+"""The check of the moteus controllers: the library, the adapter, and the state of both controllers.
 
-Knows what an answer means to somebody who has yet to switch the motors on. Sends no order but to answer. While the box
-is running it does not ask: two programs at one adapter take each other's answers.
+Knows what their answers mean for a user. Sends queries and no order. While the box is running it does not ask: two
+programs at one adapter take each other's answers.
 """
 
 from __future__ import annotations
@@ -10,15 +10,15 @@ from collections.abc import Iterator
 from pathlib import PurePath
 
 from hw.ports import Axis, HardwareError
+from rotator.assembly.chips import Heard
 from rotator.config.model import Config
-from rotator.doctor.chips import Heard
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.links import serial_port
 from rotator.doctor.machine import Machine
 from rotator.doctor.wires import running
 
 LEAST_V = 10.0
-"""Of a moteus r4.11, and of the smaller ones."""
+"""The least supply of a moteus r4.11, and of the smaller ones."""
 CAN_FD_MTU = "72"
 UP = 1
 """The bit of an interface's flags in /sys/class/net."""
@@ -52,7 +52,7 @@ def controllers(machine: Machine, config: Config) -> Iterator[Finding]:
         yield wrong(str(fault), LIBRARY)
         return
     for axis in Axis:
-        yield _controller(axis.value, getattr(config.moteus, axis.value).id, heard[axis])
+        yield _controller(axis.value, config.moteus.of(axis).id, heard[axis])
     if config.rotor.hardware == "pi":
         yield skipped(
             "servo.timeout_mode, servopos.position_min and position_max cannot be asked for from here",

@@ -1,6 +1,6 @@
-"""The checks of chips that are told and tell nothing: a PCA9685 of servos or panel, digital pots on the kernel's SPI.
+"""The checks of a PCA9685 of servos or panel, and of the kernel's SPI.
 
-Knows what such a chip looks like before and after the box has started. Tells none of them anything.
+Knows the registers of a PCA9685 before and after the box has started. Writes to no chip.
 """
 
 from __future__ import annotations
@@ -8,26 +8,24 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
-from hw.ports import Axis, HardwareError
+from hw.ports import HardwareError
+from rotator.assembly.chips import OutputBoard
+from rotator.config.i2c import I2CChip
 from rotator.config.model import Config
+from rotator.config.spi import KERNEL_SELECTS, SpiUse
 from rotator.doctor.bus import chip_name
-from rotator.doctor.chips import OutputBoard
 from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import Machine
 from rotator.doctor.wires import box_is_running
 
-BOARDS = ("servo.address", "panel.outputs_address")
-SELECTS = {8: 0, 7: 1}
-"""The selects of the kernel's SPI, by GPIO: CE0 and CE1."""
-
 SPIDEV = (
     "Installed by install.sh: sudo ./install.sh puts it in, now that the file asks for it (it needs gcc and "
-    "python3-dev). Else pip install 'spidev>=3.6' in the program's venv; or digipot.spi = \"lines\"."
+    "python3-dev). Else pip install 'spidev>=3.6' in the program's venv;"
 )
 
 
-def boards(config: Config) -> list[tuple[int, int, str]]:
-    return [chip for chip in config.chips() if chip[2] in BOARDS]
+def boards(config: Config) -> list[I2CChip]:
+    return [chip for chip in config.chips() if chip.part == "PCA9685"]
 
 
 def has_boards(config: Config) -> bool:
@@ -39,14 +37,14 @@ def output_boards(machine: Machine, config: Config) -> Iterator[Finding]:
         is_running: bool | None = box_is_running(machine, config)
     except HardwareError:
         is_running = None
-    for number, address, key in boards(config):
-        name = f"{chip_name(key)}: 0x{address:02x}"
+    for chip in boards(config):
+        name = f"{chip_name(chip.key)}: 0x{chip.address:02x}"
         try:
-            with machine.chips.bus(number) as bus:
-                if not bus.answers(address):
+            with machine.chips.bus(chip.bus) as bus:
+                if not bus.answers(chip.address):
                     yield skipped(f"{name} does not answer")
                     continue
-                yield _board(name, machine.chips.output_board(bus, address), is_running=is_running)
+                yield _board(name, machine.chips.output_board(bus, chip.address), is_running=is_running)
         except HardwareError:
             yield skipped(f"{name}: the bus cannot be asked")
 
@@ -60,7 +58,7 @@ def _board(name: str, board: OutputBoard, *, is_running: bool | None) -> Finding
     if board.waits_for_a_clock:
         return wrong(
             f"{name} waits for a clock from outside, and makes no pulse",
-            "Some program has told it to; only switching its 3.3 V off and on ends that.",
+            "A program has set it so; only switching its 3.3 V off and on ends that.",
         )
     if is_running and board.asleep:
         return wrong(
@@ -74,25 +72,30 @@ def _board(name: str, board: OutputBoard, *, is_running: bool | None) -> Finding
 
 
 def uses_spi(config: Config) -> bool:
-    return config.rotor.type == "digipot" and config.digipot.spi == "kernel"
+    return any(use.kernel for use in config.spi_uses())
 
 
 def spi(machine: Machine, config: Config) -> Iterator[Finding]:
+    uses = [use for use in config.spi_uses() if use.kernel]
     try:
         machine.chips.spidev()
     except HardwareError as fault:
-        yield wrong(str(fault), SPIDEV)
-    if config.rotor.hardware == "sim":
-        yield fine("both digital pots")
-        return
-    for axis in Axis:
-        yield _device(machine, f"digipot.{axis.value}.select", getattr(config.digipot, axis.value).select)
+        yield wrong(str(fault), f'{SPIDEV} or {uses[0].table}.spi = "lines".')
+    for use in uses:
+        if config.rotor.hardware == "sim":
+            yield fine(use.chips)
+            continue
+        for key, pin in use.selects.items():
+            yield _device(machine, use, key, pin)
 
 
-def _device(machine: Machine, key: str, pin: int) -> Finding:
-    if pin not in SELECTS:
-        return wrong(f"{key} = {pin} is no select of the kernel's SPI", f'{key} = 8 or 7; or digipot.spi = "lines".')
-    name = f"/dev/spidev0.{SELECTS[pin]}"
+def _device(machine: Machine, use: SpiUse, key: str, pin: int) -> Finding:
+    if pin not in KERNEL_SELECTS:
+        return wrong(
+            f"{use.table}.{key} = {pin} is no select of the kernel's SPI",
+            f'{use.table}.{key} = 8 or 7; or {use.table}.spi = "lines".',
+        )
+    name = f"/dev/spidev0.{KERNEL_SELECTS[pin]}"
     path = machine.at(name)
     if not path.exists():
         return wrong(f"{name} is not there", "sudo rotator setup pins switches it on (dtparam=spi=on); then reboot.")

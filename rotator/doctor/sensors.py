@@ -1,6 +1,6 @@
 """The checks of the sensors that are chips of their own: magnet, gravity, compass.
 
-Knows what each must read to be believed. Knows no register: those are the drivers'.
+Knows which readings are plausible. Knows no register: those are in the drivers.
 """
 
 from __future__ import annotations
@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hw.ports import Axis, HardwareError
+from rotator.assembly.chips import Bus, Chips
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
-from rotator.doctor.chips import Bus, Chips
 from rotator.doctor.finding import Finding, fine, refused, skipped, warn, wrong
 from rotator.doctor.machine import Machine
 from rotator.doctor.wires import running
@@ -40,7 +40,7 @@ def sensors(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def _at(chips: Chips, number: int, address: int, name: str) -> Finding | None:
-    """Why it cannot be read, which the check of the I2C devices explains; None: it can."""
+    """Why it cannot be read; the check of the I2C devices explains it. None: it can be read."""
     try:
         with chips.bus(number) as bus:
             return None if bus.answers(address) else skipped(f"{name} does not answer")
@@ -52,7 +52,7 @@ def _angle(chips: Chips, number: int, address: int, config: Config, axis: Axis) 
     table = config.axis(axis)
     with chips.bus(number) as bus:
         try:
-            read = chips.sensor(bus, address, config, axis).read()
+            read = chips.sensor(bus, config, axis).read()
         except HardwareError as fault:
             return refused(axis.value, fault)
     if table.sensor.kind == "mpu6050":

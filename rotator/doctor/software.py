@@ -1,4 +1,4 @@
-"""The checks of what the program stands on: Python, its packages, the kernel.
+"""The checks of Python, its packages and the kernel.
 
 Knows which versions will do. Knows nothing of the configuration.
 """
@@ -15,9 +15,9 @@ from rotator.doctor.machine import Machine
 
 OLDEST_PYTHON, TOO_NEW_PYTHON = (3, 11), (3, 14)
 OLDEST_KERNEL = (5, 10)
-"""GPIO lines are taken through the second version of its interface, which came with Linux 5.10."""
+"""The second version of the GPIO interface came with Linux 5.10."""
 PACKAGES = {"gpiod": (2, 1), "smbus2": (0, 4, 2), "pyserial": (3, 5)}
-"""What the hardware is reached through, and the oldest version that will do."""
+"""The packages that reach the hardware, and the oldest version of each that will do."""
 
 
 def python(machine: Machine) -> Iterator[Finding]:

@@ -1,6 +1,6 @@
-"""The check of the switches that a person or the rotor throws: stop button, mode switch, limit switches.
+"""The check of the stop button, the mode switch and the limit switches.
 
-Knows which of them must be closed before anything may move. Takes their lines for a moment, where nobody has them.
+Knows which of them must be closed before a motor may run. Takes their lines for a moment, while no program has them.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from rotator.doctor.wires import running
 
 POSITIONS = (
     "MANUAL: the knobs move the antenna, programs do not",
-    "PARK: nobody moves the antenna",
+    "PARK: the antenna stays where it is",
     "AUTO: programs move the antenna",
     "JOG: the jog switches move the antenna, programs do not",
 )

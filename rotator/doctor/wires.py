@@ -1,6 +1,6 @@
 """The checks of the GPIO lines: is the chip there, and is each line free.
 
-Knows what every line is for, and how a box that is running is told. Takes no line, so it may look while one is.
+Knows the key of every line, and the signs of a running box. Takes no line, so it may look while the box is running.
 """
 
 from __future__ import annotations
@@ -14,15 +14,14 @@ from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import SERVICE_FOLDERS, Machine
 
 OURS = "rotator-"
-"""What the names begin with under which our programs hold their lines."""
+"""The names under which our programs hold their lines begin so."""
 MONITOR = "monitor"
 """The socket of a running box, in systemd's folder or beside the state file."""
 
 
 def lines(config: Config) -> dict[int, str]:
     """The GPIOs that the box takes, with their keys: not those of the kernel's own SPI."""
-    is_spi = config.rotor.type == "digipot" and config.digipot.spi == "kernel"
-    kernels = ("digipot.azimuth.select", "digipot.elevation.select", "digipot.sck", "digipot.si") if is_spi else ()
+    kernels = {key for use in config.spi_uses() if use.kernel for _, key in use.lines}
     return {pin: key for pin, key in config.pins() if key not in kernels}
 
 
@@ -60,9 +59,9 @@ def gpio_lines(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def box_is_running(machine: Machine, config: Config) -> bool:
-    """Whether a program of ours has this station: its socket is there, or it holds a line.
+    """Whether a program of ours runs this station: its socket is there, or it holds a line.
 
-    Raises HardwareError where that cannot be told. The chips of a simulated rotor are each program's own.
+    Raises HardwareError where that cannot be found out. Each program has simulated chips of its own.
     """
     if config.rotor.hardware == "sim":
         return False
@@ -74,10 +73,10 @@ def box_is_running(machine: Machine, config: Config) -> bool:
 
 
 def running(machine: Machine, config: Config) -> Finding | None:
-    """Why a chip is better left alone now; None: it may be read."""
+    """Why the chips must not be read now; None: they may be."""
     try:
         if box_is_running(machine, config):
-            return skipped("the box is running and reads them itself; its terminal, or rotator where, tells")
+            return skipped("the box is running and reads them itself; see its terminal, or rotator where")
     except HardwareError:
         return skipped("not read: the box may be running, and the GPIO chip cannot be asked")
     return None

@@ -1,6 +1,6 @@
 """Control boxes with a digital pot in place of the knob, as the control loop sees them.
 
-Knows that a pot on the rotor, where one is read, tells the drive's model where the rotor really is.
+Knows that a sensor on the rotor, where one is read, corrects the model of the drive.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from rotator.control.axis.calibration_table import Calibration
 
 
 class FollowedBox:
-    """The rotor's own pot, or another sensor, on an axis whose drive has only a model.
+    """A pot of the rotor, or another sensor, on an axis whose drive has only a model.
 
     `calibration`: from its readings to the rotor's own scale.
     """

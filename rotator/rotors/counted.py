@@ -1,7 +1,7 @@
 """Motors on relays, each with a contact that is counted: rotors of the Alliance U-100 kind.
 
-Knows when a count is kept, when it is lost, and that a motor starts only once the file says so. The counting itself is
-`hw.sensors.pulses`.
+Knows when a count is kept, when it is lost, and that a motor starts only after the file marks its axis as moving. The
+counting itself is in `hw.sensors.pulses`.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from rotator.rotors.relays import RelayRotor
 from rotator.store import counts
 
 KEEP_EVERY_S = 0.5
-"""How often a resting axis is told to the file, which knows when that is worth a write."""
+"""How often the place of a resting axis goes to the file, which decides when that is worth a write."""
 
 
 class CountedAxis:
-    """A counter that two threads use, one to read and one to place; as a sensor it tells degrees.
+    """A counter as a sensor that reads degrees. Two threads use it: one reads, one places.
 
     `master`: an output switches the motors' supply.
     """
@@ -51,12 +51,12 @@ class CountedAxis:
         self._lock = threading.Lock()
         self._scale = 0
         self._doubt = ""
-        """Why what was kept is not believed; the counter's own trouble comes on top."""
+        """Why the kept count is not believed; the trouble of the counter comes beside it."""
         self._told_s = 0.0
         self._lost = False
 
     def begin(self, kept: counts.Place) -> None:
-        """What is known from the last run."""
+        """Start from the count that the last run kept."""
         match kept.standing:
             case counts.Standing.KNOWN:
                 self._place(kept.angle_deg)
@@ -92,7 +92,10 @@ class CountedAxis:
         return self._counts_writer is None or self._counts_writer.may_start(self._axis)
 
     def place(self, angle_deg: float) -> None:
-        """It stands there, on the rotor's own scale, says its end stop or a person. Raises HardwareError."""
+        """The axis stands at this angle of the rotor's own scale: at its end stop, or confirmed by a user.
+
+        Raises HardwareError.
+        """
         with self._lock:
             self._place(angle_deg)
             if self._counts_writer and not self._counter.trouble:
@@ -129,7 +132,7 @@ class CountedAxis:
 
 
 class CountedRotor(RelayRotor):
-    """`axes`: those that count; another may have a sensor that knows its angle."""
+    """`axes`: those that count; another axis may have a sensor."""
 
     def __init__(
         self,

@@ -1,7 +1,7 @@
 """Two moteus controllers as the control loop sees them.
 
-Knows what they say is wrong, when nobody knows where an axis points, and what only a person may tell them. How they are
-talked to is `hw.moteus.bus`, or in simulated time `hw.moteus.library`.
+Knows their faults, that an axis may have lost its position, and that the operator then confirms it. The way to them is
+`hw.moteus.bus`, or in simulated time `hw.moteus.wire`.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Motors that go to an angle by themselves: servos, and control boxes that follow a digital pot.
 
-Knows that a drive's angles are on the rotor's own scale. What the drive makes of them is its own business.
+Knows that the angles of a drive are on the rotor's own scale. Knows no drive.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from rotator.rotors.common import Ends, GuardedRotor, no_switches
 
 
 def steered(drive: PositionedDrive, shift: Offsets, axis: Axis, command: Command) -> Direction:
-    """Tell the drive, on the rotor's own scale. Returns that no relay is closed. Raises HardwareError."""
+    """Pass the command to the drive, on the rotor's own scale. Returns OFF: it has no relays. Raises HardwareError."""
     if isinstance(command, Steer):
         drive.aim(axis, command.angle_deg - shift.of(axis), command.rate_dps, command.until_s)
     else:
@@ -26,7 +26,7 @@ def steered(drive: PositionedDrive, shift: Offsets, axis: Axis, command: Command
 
 
 class GuardedDrive(PositionedDrive, Expiring, Protocol):
-    """A positioned drive that a guard looks after."""
+    """A positioned drive whose commands a guard lets expire."""
 
 
 class PositionedRotor(GuardedRotor):

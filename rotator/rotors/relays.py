@@ -1,6 +1,6 @@
-"""Motors on relays, with a sensor for each angle: pots on an ADC, or whatever the file names.
+"""Motors on relays, with a sensor for each angle: pots on a converter, or the sensor that the file names.
 
-Knows that the bank is told directions. What the bank does not let anybody do is its own business.
+Knows that a bank of relays takes directions. What the bank refuses is in `hw.drives.relays`.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Two hobby servos as the control loop sees them.
 
-Knows what their board says is wrong. A servo itself says nothing.
+Knows the faults of their board. A servo itself reports nothing.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""A marked block of our own lines in somebody else's file: put in, brought up to date, taken out without a trace.
+"""A marked block of our lines in a file of the system: put in, brought up to date, taken out without a trace.
 
-Knows lines and marks. Knows nothing of what the lines mean. A file without a line feed at its end gets the block
-without one too: so it can be told at the end that the line feed before the block is ours.
+Knows lines and marks. Knows nothing of what the lines mean. Where a file has no line feed at its end, the block has
+none either: the line feed before the block is then known to be ours, and goes with it.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from rotator.setup.plan import SetupError, lines
 @dataclass(frozen=True, slots=True)
 class Block:
     name: str
-    """Stands in the marks, and says where the block comes from."""
+    """Stands in the marks: the command that wrote the block."""
     ours: re.Pattern[str]
-    """What a line of ours looks like. Anything else inside the marks is a person's, and stays."""
+    """The pattern of our lines. Other lines inside the marks were added by the user, and stay."""
     last: bool = False
     """At the end of the file rather than at its top."""
 
@@ -73,7 +73,7 @@ class Block:
         return "".join(kept)
 
     def strangers(self, text: str) -> list[str]:
-        """What a person has written inside the marks."""
+        """The lines that the user has added inside the marks."""
         inside = False
         found = []
         for line in map(str.strip, lines(text)):

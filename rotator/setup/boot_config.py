@@ -1,7 +1,7 @@
 """Reads config.txt, the file a Raspberry Pi's firmware reads before there is a kernel.
 
 Knows sections, settings, device tree parameters and GPIO lines, as on the config.txt pages of Raspberry Pi's
-documentation. Knows nothing of what the box wants there.
+documentation. Knows nothing of the lines that the box needs.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class Setting:
     key: str
     value: str
     filters: tuple[str, ...]
-    """The sections that all have to be true: one model at most, and conditions of other kinds."""
+    """The sections that all have to hold: one model at most, and conditions of other kinds."""
 
     def __str__(self) -> str:
         section = "".join(f"[{each}]" for each in self.filters)
@@ -38,7 +38,7 @@ class Setting:
 
     @property
     def words(self) -> list[str]:
-        """What stands between the commas, blanks around it taken off."""
+        """The words between the commas, without the blanks around them."""
         return [word.strip() for word in self.value.split(",")]
 
 
@@ -56,7 +56,7 @@ def settings(text: str) -> list[Setting]:
 
 
 def _narrowed(filters: tuple[str, ...], section: str) -> tuple[str, ...]:
-    """[all] ends every filter, a model takes the place of another model, anything else comes on top."""
+    """The filters after a section: [all] ends every filter, a model replaces a model, others are added."""
     if section == "all":
         return ()
     if section in MODEL_FILTERS:
@@ -65,7 +65,7 @@ def _narrowed(filters: tuple[str, ...], section: str) -> tuple[str, ...]:
 
 
 def parameters(found: list[Setting], *names: str) -> Iterator[tuple[Setting, bool]]:
-    """Each time one of these switches stands in a `dtparam`, and whether it is switched on there."""
+    """Each `dtparam` with one of these switches, and whether it is switched on there."""
     for setting in found:
         if setting.key == "dtparam":
             for word in setting.words:
@@ -82,7 +82,7 @@ def overlays(found: list[Setting], name: str) -> Iterator[tuple[Setting, dict[st
 
 
 def pins(found: list[Setting]) -> Iterator[tuple[Setting, frozenset[int], frozenset[str]]]:
-    """Each line `gpio=4,5-7=op,dl`: the pins and what they are told."""
+    """Each line `gpio=4,5-7=op,dl`: the setting, its pins and its words."""
     for setting in found:
         if setting.key == "gpio":
             numbers, _, told = setting.value.partition("=")

@@ -2,7 +2,7 @@
 
 Knows the layout of configfs/usb_gadget (Documentation/usb/gadget_configfs.rst in the kernel's source). Class 02 and
 subclass 02 on the device make Windows 10 and 11 take their own usbser.sys, without an INF file. The serial number
-makes Windows give the same COM number again, at whichever socket.
+makes Windows give the same COM number again, at any socket of the PC.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ LINUX_FOUNDATION, COMPOSITE = 0x1D6B, 0x0104
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """Who the device says it is."""
+    """The identity that the device shows to the PC."""
 
     serial: str
     vendor: int = LINUX_FOUNDATION
@@ -61,7 +61,7 @@ def up(configfs: Path, controllers: Path, identity: Identity, rmdir: Callable[[P
     if not names:
         raise SetupError(
             "no USB device controller: run `sudo rotator setup usb-serial`, reboot, and try again; "
-            "`dmesg | grep dwc2` tells more"
+            "see `dmesg | grep dwc2`"
         )
     controller = names[0]
     gadget = configfs / "usb_gadget" / NAME
@@ -82,7 +82,7 @@ def up(configfs: Path, controllers: Path, identity: Identity, rmdir: Callable[[P
 
 
 def down(configfs: Path, rmdir: Callable[[Path], None] = os.rmdir) -> None:
-    """Untie the device and take it apart, however much of it there is. Raises SetupError."""
+    """Untie the device and take it apart, also one that is half built. Raises SetupError."""
     gadget = configfs / "usb_gadget" / NAME
     if not gadget.is_dir():
         return

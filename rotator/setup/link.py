@@ -1,6 +1,6 @@
 """The link to the PC in rotator.toml, for the port the Pi then has: added where there is none, taken out again.
 
-Knows the lines of that link. A person who has changed them keeps them.
+Knows the lines of that link. Lines that the user has changed stay.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _BY_HAND = 'add a [[link]] with protocol = "gs232b" and serial = "/dev/ttyGS0" t
 
 
 def added(text: str | None) -> tuple[str | None, str]:
-    """The file's text with a link on the port, and what a person has to do where it cannot be added."""
+    """The text of the file with a link on the port, and a note for the user where it cannot be added."""
     if text is None:
         return None, f"there is no such file; {_BY_HAND}"
     try:
@@ -33,7 +33,7 @@ def added(text: str | None) -> tuple[str | None, str]:
 
 
 def taken_out(text: str | None) -> tuple[str | None, str]:
-    """The text without the link, and a remark where it stays because a person has changed it."""
+    """The text without the link, and a note where it stays because the user has changed it."""
     if text is None:
         return None, ""
     if BLOCK.strangers(text):

@@ -28,13 +28,13 @@ CARRIER_PORT = "the carrier board's USB device socket"
 @dataclass(frozen=True, slots=True)
 class Pi:
     model: str
-    """As the Pi calls itself."""
+    """Its full name, with the revision."""
     filters: frozenset[str]
-    """The sections of config.txt that speak of it."""
+    """The sections of config.txt that hold for it."""
     socket: str | None
-    """Where it can be a USB device; None where it cannot."""
+    """The socket at which it can be a USB device; None: it has none."""
     power: str = ""
-    """What to mind when that socket goes to a PC."""
+    """How to power it while that socket goes to a PC."""
 
 
 _MODELS: tuple[tuple[str, str, str | None, str], ...] = (
@@ -58,13 +58,13 @@ _MODELS: tuple[tuple[str, str, str | None, str], ...] = (
     ("Compute Module 0", "pi0 pi0w pi02 cm0", CARRIER_PORT, CARRIER),
     ("Compute Module", "pi1 cm1", CARRIER_PORT, CARRIER),
 )
-"""The longer of two names that begin alike comes first."""
+"""Of two names that begin alike, the longer comes first."""
 
 MODEL_FILTERS = frozenset(" ".join(filters for _, filters, _, _ in _MODELS).split())
 
 
 def known(model: str) -> Pi | None:
-    """The Pi of this name, whatever its revision; None for a board that is not known here."""
+    """The Pi of this name, of any revision; None for an unknown board."""
     name = model.rstrip("\0").strip()
     for prefix, filters, socket, power in _MODELS:
         if name.startswith(f"Raspberry Pi {prefix}"):

@@ -1,22 +1,22 @@
-"""The lines that must be off from power-on to the program's first second: what config.txt has to say of them.
+"""The lines of config.txt that keep relays and enable lines off from power-on until the program drives them.
 
-Relays, the supply of control boxes, the enable input of a servo board. Knows the pins of the 40-pin header, their pulls
-and their other trades. Touches no file.
+Knows the pins of the 40-pin header, their pulls and their other uses. Which lines there are, the kind of rotor knows.
+Touches no file.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
+from rotator.config.kinds.kind import OffLine
 from rotator.config.model import Config
+from rotator.config.spi import SpiUse
 from rotator.setup import boot_config
 from rotator.setup.blocks import Block
 from rotator.setup.boot_config import Setting
 from rotator.setup.pi import Pi
-from rotator.setup.plan import Change, Files, Plan, SetupError, changes
+from rotator.setup.plan import Change, ChangeSet, Files, SetupError, changes
 
 STRICT, I2C, SPI = "dtparam=strict_gpiod", "dtparam=i2c_arm=on", "dtparam=spi=on"
 BLOCK = Block(
@@ -29,48 +29,27 @@ _I2C_DEV = "# /dev/i2c-1 for the box's chips. Removed by `rotator setup pins --u
 
 HEADER_BUS = 1
 I2C_NAMES = ("i2c_arm", "i2c", "i2c1")
-"""One switch, three names."""
+"""Three names of one switch."""
 PULLED_UP = range(9)
 """GPIO 0 to 8 have a pull-up while the Pi starts, 9 to 27 a pull-down (BCM2835 ARM Peripherals, GPIO pull table)."""
 
 
-@dataclass(frozen=True, slots=True)
-class OffLine:
-    """An output at which something happens while nobody drives it as it should be."""
-
-    key: str
-    off: Literal["dl", "dh"]
-    """Its level while nothing runs, low or high, in config.txt's words."""
-    switches: bool = True
-    """On, it closes a contact; else it does nothing by itself (the heartbeat), or has a resistor of its own (OE)."""
-
-
 def off_lines(config: Config) -> dict[int, OffLine]:
     """Each line that has to be off while the Pi starts, by its GPIO."""
-    lines: dict[int, OffLine] = {}
-    if config.rotor.switched:
-        off: Literal["dl", "dh"] = "dl" if config.relays.active == "high" else "dh"
-        lines |= {pin: OffLine(f"relays.{key}", off) for key, pin in config.relays.contacts.items()}
-        if config.relays.heartbeat is not None:
-            lines[config.relays.heartbeat] = OffLine("relays.heartbeat", "dl", switches=False)
-    if config.rotor.type == "digipot" and config.digipot.enable is not None:
-        lines[config.digipot.enable] = OffLine("digipot.enable", "dl")
-    if config.rotor.type == "servo" and config.servo.enable is not None:
-        lines[config.servo.enable] = OffLine("servo.enable", "dh", switches=False)
-    return lines
+    return {line.pin: line for line in config.kind.off_lines()}
 
 
 def off_levels(config: Config) -> dict[int, str]:
-    """Each line and the level at which nothing runs: `dl` low, `dh` high."""
-    return {pin: line.off for pin, line in off_lines(config).items()}
+    """The off level of each line, in the words of config.txt: `dl` low, `dh` high."""
+    return {pin: "dh" if line.off_high else "dl" for pin, line in off_lines(config).items()}
 
 
 def closing(config: Config) -> dict[int, OffLine]:
-    """Those that close a contact, and must open again when the program dies."""
+    """Those that close a contact, which must open again when the program dies."""
     return {pin: line for pin, line in off_lines(config).items() if line.switches}
 
 
-def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) -> Plan:
+def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) -> ChangeSet:
     """Raises SetupError where a pin cannot be a relay's, or where another line of config.txt contradicts."""
     _refuse(config)
     before = str(files[boot] or "")
@@ -79,7 +58,7 @@ def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) ->
     wanted = _missing(config, others)
     i2c_dev = _I2C_DEV if _uses_header_i2c(config) else None
     module = root / I2C_MODULE
-    return Plan(
+    return ChangeSet(
         changes(
             Change(boot, before, BLOCK.into(before, ["[all]", *wanted] if wanted else []), copied=True),
             Change(module, files[module], i2c_dev),
@@ -88,21 +67,21 @@ def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) ->
     )
 
 
-def undone(files: Files, root: Path, boot: Path) -> Plan:
-    """Takes out what `plan` puts in, and nothing else."""
+def undone(files: Files, root: Path, boot: Path) -> ChangeSet:
+    """Takes out the lines that `plan` puts in, and no others."""
     before = str(files[boot] or "")
     module = root / I2C_MODULE
-    return Plan(
+    return ChangeSet(
         changes(Change(boot, before, BLOCK.without(before), copied=True), Change(module, files[module], None)),
     )
 
 
 def _uses_header_i2c(config: Config) -> bool:
-    return any(bus == HEADER_BUS for bus, _, _ in config.chips())
+    return any(chip.bus == HEADER_BUS for chip in config.chips())
 
 
-def _uses_spi(config: Config) -> bool:
-    return config.rotor.type == "digipot" and config.digipot.spi == "kernel"
+def _kernel_spi(config: Config) -> list[SpiUse]:
+    return [use for use in config.spi_uses() if use.kernel]
 
 
 def _refuse(config: Config) -> None:
@@ -124,8 +103,7 @@ def _keep_off_the_buses(config: Config, others: list[Setting]) -> None:
     trades: list[tuple[range, str, Setting | None]] = []
     if _uses_header_i2c(config):
         trades.append((range(2, 4), "the I2C bus of the box's own chips", None))
-    if _uses_spi(config):
-        trades.append((range(7, 12), "the SPI bus of the digital pots", None))
+    trades += [(range(7, 12), f"the SPI bus of the {use.chips}", None) for use in _kernel_spi(config)]
     for pins, bus, names in (
         (range(2, 4), "the I2C bus", I2C_NAMES),
         (range(7, 12), "the SPI bus", ("spi",)),
@@ -148,7 +126,7 @@ def _keep_off_the_buses(config: Config, others: list[Setting]) -> None:
 
 
 def _missing(config: Config, others: list[Setting]) -> list[str]:
-    """The lines that are not in force yet. Raises SetupError for one that says the opposite, for it comes later."""
+    """The lines that config.txt lacks. Raises SetupError where it has the opposite, because the later line wins."""
     levels = off_levels(config)
     done: set[int] = set()
     for setting, pins, told in boot_config.pins(others):
@@ -166,7 +144,7 @@ def _missing(config: Config, others: list[Setting]) -> list[str]:
         switches[STRICT] = ("strict_gpiod",)
     if _uses_header_i2c(config):
         switches[I2C] = I2C_NAMES
-    if _uses_spi(config):
+    if _kernel_spi(config):
         switches[SPI] = ("spi",)
     for line, names in switches.items():
         found = list(boot_config.parameters(others, *names))
@@ -183,14 +161,17 @@ def _contradicts(setting: Setting, needed: str) -> SetupError:
 
 
 def _pulls(config: Config) -> list[str]:
-    """A sentence on the relays whose pin is pulled towards on whenever nobody drives it."""
+    """A warning for the relays whose pin is pulled to their on level while no program drives it."""
     lines = closing(config)
     notes = []
-    for off, way, good in (("dl", "up", "12, 13, 16, 17, 22 to 27"), ("dh", "down", "4, 5, 6, and 7, 8 without SPI")):
-        wrong = [pin for pin, line in lines.items() if line.off == off and (pin in PULLED_UP) == (off == "dl")]
+    for off_high, way, good in (
+        (False, "up", "12, 13, 16, 17, 22 to 27"),
+        (True, "down", "4, 5, 6, and 7, 8 without SPI"),
+    ):
+        wrong = [pin for pin, line in lines.items() if line.off_high is off_high and (pin in PULLED_UP) is not off_high]
         if wrong:
             pins = ", ".join(map(str, wrong))
-            level = "high" if off == "dl" else "low"
+            level = "low" if off_high else "high"
             notes.append(
                 f"WARNING: GPIO {pins}: pulled {way} at power-on and after the program's death, which switches the "
                 f"relay ON (on at {level}). Take pins from {good}, or fit 10 kΩ from each relay input to its off level."

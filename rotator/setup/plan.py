@@ -1,6 +1,6 @@
-"""What a set-up is before it is done: the files it would change, and what a person should know of it.
+"""A set-up before it is carried out: the changes of files, and notes for the user.
 
-Knows how to show a change. Touches no file and knows nothing of what is in them.
+Knows how to show a change. Touches no file, and knows nothing of what their lines mean.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from pathlib import Path
 
 
 class SetupError(Exception):
-    """It cannot be done; the text says in a sentence what a person has to do first."""
+    """The set-up cannot be done; the text says what the user has to do first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class Link:
 
 
 Content = str | Link | None
-"""What stands at a path: text (bytes that are no UTF-8 as surrogates), a link, or nothing."""
+"""The content at a path: text (bytes that are no UTF-8 as surrogates), a link, or None where there is no file."""
 
 Files = Mapping[Path, Content]
 
@@ -35,19 +35,19 @@ class Change:
     before: Content
     after: Content
     copied: bool = False
-    """The file is a person's own: a copy of it is kept."""
+    """The file belongs to the user or to the system: a copy of it is kept."""
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class ChangeSet:
     changes: tuple[Change, ...]
-    """Only those that change something."""
+    """Only changes between different contents."""
     notes: tuple[str, ...] = ()
-    """Sentences a person should read before agreeing."""
+    """Sentences that the user should read before agreeing."""
 
 
 def changes(*wanted: Change) -> tuple[Change, ...]:
-    """Those that change something."""
+    """Those of them that have different contents before and after."""
     return tuple(change for change in wanted if change.before != change.after)
 
 

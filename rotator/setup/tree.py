@@ -1,4 +1,4 @@
-"""The Pi's files: finds and reads what a set-up looks at, and carries a plan out, all of it or nothing.
+"""The files of the Pi: finds and reads those of a set-up, and writes its changes, all of them or none.
 
 Knows files, below `/` or below any other folder. Knows nothing of what is in them.
 """
@@ -13,7 +13,7 @@ from datetime import date
 from pathlib import Path
 
 from rotator.setup.pi import Pi, known
-from rotator.setup.plan import Change, Content, Link, Plan, SetupError
+from rotator.setup.plan import Change, ChangeSet, Content, Link, SetupError
 from rotator.store.whole import NEW, write_whole
 
 OVERLAYS = ("overlayroot=tmpfs", "boot=overlay")
@@ -35,7 +35,7 @@ def pi(root: Path) -> Pi | None:
 
 
 def read(*paths: Path) -> dict[Path, Content]:
-    """What stands at each path. Raises SetupError."""
+    """The content at each path. Raises SetupError."""
     return {path: _content(path) for path in paths}
 
 
@@ -46,7 +46,7 @@ def matching(root: Path, patterns: Iterable[str]) -> list[Path]:
 
 def _content(path: Path) -> Content:
     try:
-        # A person's file may be a link to it; below system/ a link is how a unit is switched on.
+        # The user's file may be a link to it; below system/ a link is how a unit is switched on.
         if path.is_symlink() and path.parent.name.endswith(".wants"):
             return Link(os.readlink(path))
         return path.read_bytes().decode("utf-8", "surrogateescape")
@@ -56,8 +56,8 @@ def _content(path: Path) -> Content:
         raise SetupError(_sentence(path, fault)) from fault
 
 
-def hindrance(plan: Plan) -> str | None:
-    """Why the plan could not be carried out, before anything is tried."""
+def hindrance(plan: ChangeSet) -> str | None:
+    """Why the changes could not be made; asked before any is tried. None: they can."""
     for change in plan.changes:
         folder = next(each for each in change.path.resolve().parents if each.is_dir())
         if os.statvfs(folder).f_flag & os.ST_RDONLY:
@@ -67,8 +67,8 @@ def hindrance(plan: Plan) -> str | None:
     return None
 
 
-def carry_out(plan: Plan, today: date) -> list[Path]:
-    """Do it all, and return the copies made of a person's files. Raises SetupError; then all is as it was."""
+def carry_out(plan: ChangeSet, today: date) -> list[Path]:
+    """Make every change. Returns the copies of the files as they were. Raises SetupError: then nothing is changed."""
     done: list[Change] = []
     copies: list[Path] = []
     for change in plan.changes:

@@ -1,7 +1,7 @@
-"""What makes a Pi a COM port: the USB controller told to be a device, and a unit that builds that device at each start.
+"""A Pi as a COM port: its USB controller as a device, and a unit that builds that device at each start.
 
-Knows config.txt's overlay, the unit and what else may claim the same controller. How the device is built is the
-gadget's; no file is touched here.
+Knows config.txt's overlay, the unit, and the other users of the same controller. How the device is built is in
+`gadget`. Touches no file.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from pathlib import Path
 from rotator.setup import boot_config, link
 from rotator.setup.blocks import Block
 from rotator.setup.pi import Pi
-from rotator.setup.plan import Change, Content, Files, Link, Plan, SetupError, changes
+from rotator.setup.plan import Change, ChangeSet, Content, Files, Link, SetupError, changes
 
 OVERLAY = "dtoverlay=dwc2,dr_mode=peripheral"
 BLOCK = Block("rotator setup usb-serial", re.compile(r"\[all\]|" + re.escape(OVERLAY)))
@@ -43,7 +43,7 @@ The page docs/usb-serial.md has the details."""
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """Where the files are that this set-up looks at."""
+    """The paths of the files that this set-up reads."""
 
     root: Path
     boot_config: Path
@@ -80,8 +80,8 @@ WantedBy=multi-user.target
 """
 
 
-def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: str) -> Plan:
-    """Raises SetupError where the Pi cannot, or where something else has the port."""
+def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: str) -> ChangeSet:
+    """Raises SetupError where this Pi cannot be a USB device, or where another program has the port."""
     if pi is None:
         raise SetupError("this is no Raspberry Pi that is known here: only one can be made a COM port this way")
     if pi.socket is None:
@@ -103,11 +103,11 @@ def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: s
     ]
     if remark:
         notes.append(f"{places.settings}: {remark}")
-    return Plan(wanted, tuple(notes))
+    return ChangeSet(wanted, tuple(notes))
 
 
-def undone(files: Files, places: Places) -> Plan:
-    """Takes out what `plan` puts in, and nothing else."""
+def undone(files: Files, places: Places) -> ChangeSet:
+    """Takes out the lines that `plan` puts in, and no others."""
     before = _text(files, places.boot_config)
     text = _text(files, places.settings) if files[places.settings] is not None else None
     settings, remark = link.taken_out(text)
@@ -116,11 +116,11 @@ def undone(files: Files, places: Places) -> Plan:
         *(Change(places.root / path, files[places.root / path], None) for path in (WANTED, UNIT, *GETTYS)),
         Change(places.settings, files[places.settings], settings, copied=True),
     )
-    return Plan(wanted, (f"{places.settings}: {remark}",) if remark else ())
+    return ChangeSet(wanted, (f"{places.settings}: {remark}",) if remark else ())
 
 
 def boot_text(text: str, pi: Pi) -> str:
-    """config.txt with the controller as a device. Raises SetupError where a line of somebody else's says otherwise."""
+    """config.txt with the controller as a device. Raises SetupError where another line of it says otherwise."""
     others = [each for each in boot_config.settings(BLOCK.without(text)) if each.may_hold_on(pi)]
     for setting in others:
         if setting.key == "otg_mode" and setting.value not in boot_config.NO:
@@ -145,7 +145,7 @@ def _says_host(setting: boot_config.Setting) -> SetupError:
 
 
 def _rival(files: Files, places: Places) -> str | None:
-    """Whoever else builds a USB device at each start: there is one controller, and it takes one."""
+    """Other units that build a USB device at each start: the one controller takes only one."""
     if files.get(places.root / RPI_USB_GADGET) is not None:
         return (
             "Raspberry Pi's own USB gadget (Ethernet) has the port, and there is only one: "

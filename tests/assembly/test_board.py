@@ -13,7 +13,8 @@ from firmware_sim.rotors.rotor import SimRotor
 from hw.buses.gpio import LinesBusyError
 from hw.ports import HardwareError
 from rotator.assembly.board import Board
-from rotator.assembly.simulation import Plan
+from rotator.assembly.simulation import SimulatedStation
+from rotator.config.adc import Adc
 from rotator.config.model import Config
 
 PINS = {"one": 17, "two": 27}
@@ -22,7 +23,7 @@ PINS = {"one": 17, "two": 27}
 @pytest.fixture
 def world() -> SimRotor:
     clock = SimClock()
-    return Plan(Config(), clock, None, (0.0, 0.0)).build()
+    return SimulatedStation(Config(), clock, None, (0.0, 0.0)).build()
 
 
 @pytest.fixture
@@ -85,3 +86,17 @@ def test_everything_goes_in_the_opposite_order(world: SimRotor) -> None:
         lines.set({"one": True})
     with pytest.raises(HardwareError):
         board.bus(1).write(0x48, b"\x00")
+
+
+@pytest.mark.parametrize(("pin", "works"), [(8, True), (7, True), (26, False)])
+def test_the_kernels_spi_has_two_selects(pin: int, works: bool) -> None:
+    adc = Adc.model_validate({"kind": "mcp3208", "spi": "kernel", "select": pin})
+    config = Config(adc=adc)
+    rotor = SimulatedStation(config, SimClock(), None, (0.0, 0.0)).build()
+    with ExitStack() as opened:
+        board = Board(rotor, opened, time.monotonic, time.sleep)
+        if works:
+            assert len(board.spi(*adc.spi_uses()).exchange("select", b"\x06\x00\x00")) == 3
+        else:
+            with pytest.raises(HardwareError, match=r"adc\.select = 26 is no select of the kernel's SPI: take 8 or 7"):
+                board.spi(*adc.spi_uses())

@@ -168,3 +168,13 @@ def test_a_fault_stops_its_axis_and_says_so(start: Start, config: Path) -> None:
     assert "limit" in box.until(r"FAULT azimuth: [^\n]*see docs/troubleshooting\.md#[^\n]*\n")
     assert box.stop() == 0
     assert "FAULT azimuth" in box.errors
+
+
+@pytest.mark.parametrize("more", ["", 'spi = "kernel"\n'], ids=["lines", "kernel"])
+def test_a_simulated_mcp3208_reads_the_pots(start: Start, config: Path, send: Send, more: str) -> None:
+    config.write_text(config.read_text() + f'[adc]\nkind = "mcp3208"\n{more}')
+    box = start("run", "--config", config)
+    box.until("elevation 0°\n")
+    send(b"W060 010\r")
+    box.until(r"azimuth (5|6)\d°[^A-Z\n]*elevation (9|1\d)°[^A-Z\n]*\n")
+    assert box.stop() == 0

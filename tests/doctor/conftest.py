@@ -14,11 +14,11 @@ from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
+from rotator.assembly.chips import Chips, ask_in_step
 from rotator.assembly.simulation import simulated_rotor
 from rotator.config.load import parse
 from rotator.config.model import Config
 from rotator.doctor.checks import OF_THE_MACHINE, OF_THE_STATION
-from rotator.doctor.chips import Chips, ask_in_step
 from rotator.doctor.finding import Finding
 from rotator.doctor.machine import Machine
 
@@ -112,7 +112,7 @@ class Pi:
             clock,
             clock.sleep,
             lambda config: ask_in_step(config, cast(Any, world).transport(), clock),
-            lambda: None,
+            lambda: world.spidev,
         )
         self.machine = replace(self.machine, chips=chips)
 

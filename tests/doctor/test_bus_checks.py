@@ -151,3 +151,33 @@ def test_where_nobody_can_tell_whether_the_box_runs_no_pot_is_read(pi: Pi) -> No
     pi.change(chips=replace(pi.machine.chips, gpio=Forbidden))
     assert pi.only("pots").mark == "–"
     assert converter.written == []
+
+
+# --- an MCP3208 in place of the ADS1115
+
+
+MCP3208 = '[adc]\nkind = "mcp3208"\n'
+
+
+@pytest.mark.parametrize("more", ["", 'spi = "kernel"\n'], ids=["lines", "kernel"])
+def test_pots_on_an_mcp3208(pi: Pi, more: str) -> None:
+    pi.station(MCP3208 + more)
+    azimuth, elevation = pi.found("pots")
+    assert (azimuth.mark, azimuth.found) == ("✓", "azimuth: 0.230 of the supply, 0.76 V on CH0")
+    assert elevation.found.startswith("elevation: 0.275 of the supply")
+    assert not any(chip.key == "adc.address" for chip in pi.config.chips())
+    assert pi.looks_at("SPI") is bool(more)
+
+
+def test_an_mcp3208_that_is_not_there(pi: Pi) -> None:
+    pi.station(MCP3208)
+    pi.world.inject("adc-gone")
+    finding = pi.only("pots")
+    assert (finding.ok, finding.found) == (False, "the converter does not answer")
+    assert "DOUT" in finding.advice
+
+
+def test_after_the_look_its_lines_are_free_again(pi: Pi) -> None:
+    pi.station(MCP3208)
+    pi.found("pots")
+    assert all("free" in finding.found for finding in pi.found("GPIO lines"))

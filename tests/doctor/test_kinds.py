@@ -102,7 +102,7 @@ def test_an_axis_that_needs_no_calibration(pi: Pi, kind: str, how: str) -> None:
 
 
 def counts_file(pi: Pi) -> CountsFile:
-    cams = {axis: getattr(pi.config.pulses, axis.value).model_dump(exclude={"contact"}) for axis in Axis}
+    cams = pi.config.pulses.cams(Axis)
     return CountsFile(pi.machine.at("/var/lib/rotator/counts.json"), cams)
 
 

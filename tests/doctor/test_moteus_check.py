@@ -11,8 +11,8 @@ import pytest
 
 from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
 from hw.ports import Axis, HardwareError
+from rotator.assembly.chips import Heard, ask_controllers
 from rotator.config.load import parse
-from rotator.doctor.chips import Heard, ask_controllers
 from tests.doctor.conftest import Pi, runs
 
 

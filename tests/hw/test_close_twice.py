@@ -14,7 +14,8 @@ import pytest
 import hw
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.buses.i2c import SimI2CBus
-from firmware_sim.chips.mcp41010 import Mcp41010, SimSpidev
+from firmware_sim.buses.spi import SimSpidev
+from firmware_sim.chips.mcp41010 import Mcp41010
 from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioContact, GpioInputs, GpioOutputs
 from hw.buses.i2c import SmbusI2C

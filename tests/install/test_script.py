@@ -59,6 +59,7 @@ def extras(config: Path, source: Path = PROJECT, profile: str = "simulated") -> 
         ('[rotor]\ntype = "digipot"\nhardware = "pi"\n[digipot]\nspi = "kernel"\n', "spidev"),
         ('[rotor]\ntype = "digipot"\nhardware = "sim"\n[digipot]\nspi = "kernel"\n', ""),
         ('[rotor]\ntype = "digipot"\nhardware = "pi"\n', ""),
+        ('[rotor]\ntype = "relay-pot"\nhardware = "pi"\n[adc]\nspi = "kernel"\n', "spidev"),
         ("rotor = 1\n", ""),
         ("this is no TOML", ""),
     ],

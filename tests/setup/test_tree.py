@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.setup.plan import Change, Link, Plan, SetupError
+from rotator.setup.plan import Change, ChangeSet, Link, SetupError
 from rotator.setup.tree import carry_out
 from tests.setup.conftest import Card
 
@@ -25,7 +25,7 @@ def test_new_changed_removed_and_linked(tmp_path: Path) -> None:
     old.write_text("before")
     gone.parent.mkdir()
     gone.write_text("ours")
-    plan = Plan(
+    plan = ChangeSet(
         (
             Change(old, "before", "after", copied=True),
             Change(gone, "ours", None),
@@ -44,7 +44,7 @@ def test_one_that_fails_takes_the_others_back(tmp_path: Path) -> None:
     old, wall = tmp_path / "old", tmp_path / "wall"
     old.write_text("before")
     wall.write_text("a file, where a folder should be")
-    plan = Plan(
+    plan = ChangeSet(
         (
             Change(tmp_path / "new", None, "text"),
             Change(old, "before", "after", copied=True),

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 import pytest
 
 from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.buses.spi import SimSpidev
 from firmware_sim.chips.mcp41010 import Mcp41010 as SimChip
-from firmware_sim.chips.mcp41010 import SimSpidev
 from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioOutputs
 from hw.buses.spi import SCK, SI, KernelSpi, LineSpi, SpiBus, real_spidev

@@ -18,7 +18,8 @@ from pathlib import Path
 from typing import Self
 
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
-from rotator.assembly.simulation import SIM_CALIBRATION_RAW, simulated_rotor
+from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
+from rotator.assembly.simulation import simulated_rotor
 from rotator.config.load import parse
 from tests.kernel.bench.edges import EdgeRecorder
 from tests.kernel.bench.gpio import GpioChip, persisting

@@ -1,40 +1,36 @@
-"""The chips that are looked at, real or simulated: the doctor's share of the composition root.
+"""The chips that the doctor looks at, real or simulated: its share of the composition root.
 
-Knows which driver reads what. Takes no line but inputs that are free. Writes to no chip but those that must be told to
-measure (converter, gravity sensor, compass), and sends no motor anywhere.
+Knows which driver reads what. Takes only inputs, and the SPI lines of the converter, and only while they are free.
+Writes only to the chips that need an order to measure (converter, gravity sensor, compass). Moves no motor.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from typing import Any
 
 from hw.buses.gpio import GpioInputs, find_chip, holders, real_gpiod
 from hw.buses.i2c import SmbusI2C, open_bus
 from hw.buses.spi import real_spidev
-from hw.chips.ads1115 import Ads1115
-from hw.chips.as5600 import As5600
 from hw.chips.bno055 import Bno055
-from hw.chips.mpu6050 import Mounting, Mpu6050
 from hw.chips.pca9685 import MODE1, PRE_SCALE, SLEEP
-from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.faults import LIMITS, explain
-from hw.moteus.library import CanChannel, SerialPort
-from hw.moteus.orders import Mode, MoteusSpec
+from hw.moteus.orders import Mode
 from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, HardwareError
-from hw.sensors.pot import Reference
+from rotator.assembly.adc import Converter, open_adc
+from rotator.assembly.buses import Buses
+from rotator.assembly.kinds.moteus import moteus_bus, moteus_drive
+from rotator.assembly.sensors import compass_chip, sensor_chip
 from rotator.assembly.simulation import simulated_rotor
 from rotator.config.model import Config
 
 Bus = SmbusI2C
 
-WIDEST_RANGE_V = 6.144
-"""Not the box's own: a pot that hangs on too high a supply is to be seen as it is."""
 LEAST_PRESCALE = 3
 EXTERNAL_CLOCK = 1 << 6
 """A bit of a PCA9685's MODE1 that only its supply clears (NXP PCA9685, section 7.3.1)."""
@@ -42,7 +38,7 @@ EXTERNAL_CLOCK = 1 << 6
 
 @dataclass(frozen=True, slots=True)
 class OutputBoard:
-    """What a PCA9685 says of itself, in MODE1 and PRE_SCALE."""
+    """The registers MODE1 and PRE_SCALE of a PCA9685."""
 
     mode: int
     prescale: int
@@ -62,40 +58,32 @@ class OutputBoard:
 
 @dataclass(frozen=True, slots=True)
 class Heard:
-    """What a moteus says of itself when it is asked and told nothing."""
+    """What a moteus answers to a query without an order."""
 
     silent: str = ""
-    """Why nothing came; empty: it answered."""
+    """Why there is no answer; empty: it answered."""
     volts: float = 0.0
     temperature_c: float = 0.0
     fault: str = ""
     """What stopped it; empty: nothing."""
     remedy: str = ""
     limit: str = ""
-    """What holds it back; empty: nothing."""
+    """What limits it; empty: nothing."""
     angle_deg: float | None = None
-    """On the rotor's own scale; None: it does not know where the antenna points."""
+    """On the rotor's own scale; None: the controller does not know where the antenna points."""
 
 
 PATIENCE_S = 1.5
-"""Controllers answer within milliseconds; an adapter that has just been plugged in takes its time."""
+"""Controllers answer within milliseconds; an adapter needs longer after it has been plugged in."""
 LOOK_S = 0.02
 BOOTED_S = 2.0
-"""So long ago a simulated station was switched on: a compass takes nearly a second."""
-
-
-def moteus_drive(config: Config, clock: Callable[[], float]) -> MoteusDrive:
-    def spec(axis: Axis) -> MoteusSpec:
-        table = getattr(config.moteus, axis.value)
-        return MoteusSpec(table.id, table.rev_per_turn, table.zero_rev, geared=table.geared)
-
-    return MoteusDrive(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), clock)
+"""How long a simulated station has had power: a compass takes nearly a second to boot."""
 
 
 def ask_controllers(config: Config) -> dict[Axis, Heard]:
     """Over the adapter, in real time. Raises HardwareError where the library is missing."""
-    drive, table = moteus_drive(config, time.monotonic), config.moteus
-    bus = MoteusBus(drive, CanChannel(table.can) if table.can else SerialPort(table.port))
+    drive = moteus_drive(config.moteus, time.monotonic)
+    bus = moteus_bus(config.moteus, drive)
     bus.start()
     try:
         until_s = time.monotonic() + PATIENCE_S
@@ -108,7 +96,7 @@ def ask_controllers(config: Config) -> dict[Axis, Heard]:
 
 def ask_in_step(config: Config, transport: Any, clock: Callable[[], float]) -> dict[Axis, Heard]:
     """On a transport that answers at once. Raises HardwareError where the library is missing."""
-    drive = moteus_drive(config, clock)
+    drive = moteus_drive(config.moteus, clock)
     MoteusInStep(drive, transport).serve(clock())
     return {axis: heard(drive, axis) for axis in Axis}
 
@@ -134,26 +122,26 @@ def heard(drive: MoteusDrive, axis: Axis) -> Heard:
 
 @dataclass(frozen=True, slots=True)
 class Chips:
-    """`clock` and `sleep` are the seconds of the converter's conversions."""
+    """The ways to the chips. `clock` and `sleep` are for the conversions of the chips."""
 
     gpio: Callable[[], Any]
-    """The gpiod package, or anything of its shape. Raises HardwareError where it is missing or the wrong one."""
+    """The gpiod package, or an object of its shape. Raises HardwareError where it is missing or the wrong one."""
     paths: list[str] | None
-    """The GPIO chips there are; None: whatever stands in /dev."""
+    """The paths of the GPIO chips; None: those in /dev."""
     open_bus: Callable[[int], SmbusI2C]
     clock: Callable[[], float]
     sleep: Callable[[float], None]
     moteus: Callable[[Config], Mapping[Axis, Heard]] = ask_controllers
     """Asks both controllers how they are. Raises HardwareError where the package is missing."""
     spidev: Callable[[], Any] = real_spidev
-    """The spidev package, or anything of its shape. Raises HardwareError where it is missing."""
+    """The spidev package, or an object of its shape. Raises HardwareError where it is missing."""
 
     def header(self, config: Config) -> str:
         """The path of the chip with the relays. Raises HardwareError."""
         return config.relays.chip or find_chip(self.gpio(), paths=self.paths)
 
     def holders(self, config: Config, pins: Iterable[int]) -> dict[int, str]:
-        """Who holds which of these lines; those that are free are left out. Raises HardwareError."""
+        """The program that holds each of these lines; free lines are left out. Raises HardwareError."""
         return holders(self.gpio(), self.header(config), pins)
 
     def closed(self, config: Config, switches: Mapping[str, int]) -> dict[str, bool]:
@@ -173,25 +161,30 @@ class Chips:
         finally:
             bus.close()
 
-    def converter(self, bus: SmbusI2C, config: Config) -> Ads1115:
-        return Ads1115(bus, config.adc.address, self.sleep, rate_sps=config.adc.rate_sps, full_scale_v=WIDEST_RANGE_V)
+    @contextmanager
+    def converter(self, config: Config) -> Iterator[Converter]:
+        """The converter of the pots, with its widest range. Raises HardwareError where its bus cannot be opened."""
+        with ExitStack() as opened:
+            buses = Buses(
+                opened,
+                gpio=self.gpio,
+                paths=self.paths,
+                open_bus=self.open_bus,
+                spidev=self.spidev,
+                clock=self.clock,
+                sleep=self.sleep,
+                chip=config.relays.chip,
+            )
+            yield open_adc(config.adc, buses, widest=True)
 
-    def supply_v(self, converter: Ads1115, config: Config) -> float:
-        """The pots' supply, measured where it is wired to the converter. Raises HardwareError."""
-        channel = config.adc.reference_channel
-        return config.adc.supply_v if channel is None else Reference(converter, channel, self.clock).volts()
-
-    def sensor(self, bus: SmbusI2C, address: int, config: Config, axis: Axis) -> AngleSensor:
-        """The axis's own sensor chip."""
-        table = config.axis(axis).sensor
-        if table.kind == "as5600":
-            return As5600(bus, address, zero_turn=table.zero_turn)
-        mounting = Mounting(table.forward, table.up)
-        return Mpu6050(bus, self.clock, self.sleep, address=address, mounting=mounting, averaged=table.averaged)
+    def sensor(self, bus: SmbusI2C, config: Config, axis: Axis) -> AngleSensor:
+        """The sensor chip of this axis, which has one."""
+        sensor = sensor_chip(config.axis(axis).sensor, lambda _number: bus, self.clock, self.sleep)
+        assert sensor is not None
+        return sensor
 
     def compass(self, bus: SmbusI2C, config: Config) -> Bno055:
-        table = config.compass
-        return Bno055(bus, self.clock, self.sleep, address=table.address, mounting=table.mounting)
+        return compass_chip(config.compass, bus, self.clock, self.sleep)
 
     def output_board(self, bus: SmbusI2C, address: int) -> OutputBoard:
         """Reads, and writes nothing. Raises HardwareError."""
@@ -204,7 +197,7 @@ def real_chips() -> Chips:
 
 
 def simulated_chips(config: Config) -> Chips:
-    """Those of a station that was never switched on."""
+    """Those of a simulated station on which no program has run yet."""
 
     def world() -> Any:
         since_s = 0.0
@@ -224,5 +217,5 @@ def simulated_chips(config: Config) -> Chips:
         time.monotonic,
         time.sleep,
         lambda config: ask_in_step(config, world().transport(), time.monotonic),
-        lambda: None,
+        lambda: world().spidev,
     )

@@ -1,0 +1,84 @@
+"""Simulated SPI: the kernel's controller in the shape of the module `spidev`, and a chip on four GPIO lines.
+
+Knows clocks and selects, in modes 0 and 3 (CPOL and CPHA alike). Knows no chip.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Mapping, Sequence
+from typing import Protocol
+
+from firmware_sim.buses.gpio import SimGpio
+
+
+class SpiChip(Protocol):
+    """A chip as its pins show it."""
+
+    @property
+    def so(self) -> bool | None:
+        """The level of its data output; None: it does not drive the line."""
+
+    def pins(self, *, cs: bool, sck: bool, si: bool) -> None:
+        """The levels from now on; `cs` low selects it."""
+
+
+def wire_spi(gpio: SimGpio, chip: SpiChip, *, select: int, sck: int, si: int, so: int) -> None:
+    """Hang the chip on lines that a program moves bit by bit."""
+    watched = {select, sck, si}
+
+    def lines_changed(_now_s: float, changes: Mapping[int, bool]) -> None:
+        if watched & changes.keys():
+            chip.pins(cs=gpio.level(select), sck=gpio.level(sck), si=gpio.level(si))
+            gpio.drive_input(so, chip.so)
+
+    gpio.on_edges.append(lines_changed)
+
+
+class SimSpidev:
+    """Stands where the module `spidev` stands. `chips` are at /dev/spidevBUS.SELECT by those two numbers."""
+
+    def __init__(self, chips: Mapping[tuple[int, int], SpiChip] | None = None) -> None:
+        self.chips: dict[tuple[int, int], SpiChip] = dict(chips or {})
+
+    def SpiDev(self) -> SimSpiDevice:  # noqa: N802 - spidev's own name
+        return SimSpiDevice(self.chips)
+
+
+class SimSpiDevice:
+    """As `spidev.SpiDev`, in modes 0 and 3, the ones that our chips take."""
+
+    def __init__(self, chips: Mapping[tuple[int, int], SpiChip]) -> None:
+        self.mode = 0
+        self.max_speed_hz = 500_000
+        self._chips = chips
+        self._chip: SpiChip | None = None
+
+    def open(self, bus: int, device: int) -> None:
+        if (bus, device) not in self._chips:
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
+        self._chip = self._chips[bus, device]
+
+    def xfer2(self, values: Sequence[int]) -> list[int]:
+        """Select, clock every byte both ways, let go. The chip's output is sampled where the clock rises."""
+        if self._chip is None:
+            raise OSError(errno.EBADF, os.strerror(errno.EBADF))
+        chip, rest, si = self._chip, self.mode == 3, False
+        answer = []
+        chip.pins(cs=True, sck=rest, si=si)
+        chip.pins(cs=False, sck=rest, si=si)
+        for value in values:
+            octet = 0
+            for bit in range(7, -1, -1):
+                si = bool(value >> bit & 1)
+                chip.pins(cs=False, sck=False, si=si)
+                octet = octet << 1 | bool(chip.so)
+                chip.pins(cs=False, sck=True, si=si)
+            answer.append(octet)
+        chip.pins(cs=False, sck=rest, si=si)
+        chip.pins(cs=True, sck=rest, si=si)
+        return answer
+
+    def close(self) -> None:
+        self._chip = None

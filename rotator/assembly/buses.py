@@ -1,0 +1,101 @@
+"""Lines and buses, opened when a part asks for them and closed together.
+
+Part of the composition root. Knows which driver stands behind a line, an I2C bus and an SPI bus. Knows nothing of what
+hangs on them, nor whether they are real: that is in the interfaces that it is given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from typing import Any
+
+from hw.buses.gpio import PI_HEADER_LABEL, GpioContact, GpioInputs, GpioOutputs, find_chip
+from hw.buses.i2c import SmbusI2C
+from hw.buses.spi import SO, KernelSpi, LineSpi, SpiBus
+from hw.ports import HardwareError
+from rotator.config.spi import KERNEL_SELECTS, SpiUse
+
+
+class Buses:
+    """`opened` closes everything in the end. `chip`: the path of the GPIO chip, where the file says it.
+
+    `gpio` and `spidev` return the packages gpiod and spidev, or objects of their shape; `paths` lists the GPIO chips,
+    None: those in /dev. Raises HardwareError.
+    """
+
+    def __init__(
+        self,
+        opened: ExitStack,
+        *,
+        gpio: Callable[[], Any],
+        paths: list[str] | None,
+        open_bus: Callable[[int], SmbusI2C],
+        spidev: Callable[[], Any],
+        clock: Callable[[], float],
+        sleep: Callable[[float], None],
+        chip: str | None = None,
+    ) -> None:
+        self.opened = opened
+        self._gpio = gpio
+        self.clock = clock
+        self.sleep = sleep
+        self._paths = paths
+        self._open_bus = open_bus
+        self._spidev = spidev
+        self._chip = chip
+        self._buses: dict[int, SmbusI2C] = {}
+
+    @property
+    def gpio(self) -> Any:
+        """The package gpiod, or an object of its shape."""
+        return self._gpio()
+
+    def chip(self) -> str:
+        """The path of the chip with the lines of the header: what the file says, or found by its label."""
+        if self._chip is None:
+            self._chip = find_chip(self.gpio, PI_HEADER_LABEL, self._paths)
+        return self._chip
+
+    def outputs(self, consumer: str, pins: Mapping[str, int], *, active_low: bool = False) -> GpioOutputs:
+        outputs = GpioOutputs(self.gpio, self.chip(), pins, consumer=consumer, active_low=active_low)
+        self.opened.callback(outputs.close)
+        return outputs
+
+    def inputs(self, consumer: str, pins: Mapping[str, int]) -> GpioInputs:
+        """Contacts to ground, each held high by the Pi's own resistor while it is open."""
+        inputs = GpioInputs(self.gpio, self.chip(), pins, consumer=consumer)
+        self.opened.callback(inputs.close)
+        return inputs
+
+    def contact(self, consumer: str, pin: int, *, active_low: bool, pull: bool, debounce_s: float) -> GpioContact:
+        contact = GpioContact(
+            self.gpio, self.chip(), pin, consumer=consumer, active_low=active_low, pull=pull, debounce_s=debounce_s
+        )
+        self.opened.callback(contact.close)
+        return contact
+
+    def bus(self, number: int) -> SmbusI2C:
+        if number not in self._buses:
+            bus = self._open_bus(number)
+            self.opened.callback(bus.close)
+            self._buses[number] = bus
+        return self._buses[number]
+
+    def spi(self, use: SpiUse) -> SpiBus:
+        """The bus with these chips; a driver calls each by the key of its select line."""
+        if use.kernel:
+            return self._kernel_spi(use)
+        consumer = f"rotator-spi-{use.table}"
+        selects = self.outputs(f"{consumer}-select", use.selects, active_low=True)
+        wires = {name: pin for name, pin in use.wires.items() if name != SO}
+        answer = self.inputs(f"{consumer}-so", {SO: use.wires[SO]}) if SO in use.wires else None
+        return LineSpi(selects, self.outputs(consumer, wires), answer)
+
+    def _kernel_spi(self, use: SpiUse) -> KernelSpi:
+        for key, pin in use.selects.items():
+            if pin not in KERNEL_SELECTS:
+                raise HardwareError(f"SPI: {use.table}.{key} = {pin} is no select of the kernel's SPI: take 8 or 7")
+        spi = KernelSpi(self._spidev(), 0, {key: KERNEL_SELECTS[pin] for key, pin in use.selects.items()})
+        self.opened.callback(spi.close)
+        return spi

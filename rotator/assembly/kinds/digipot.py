@@ -1,0 +1,59 @@
+"""Control boxes with an MCP41010 in place of each knob, put together.
+
+Part of the composition root. Decides nothing.
+"""
+
+from __future__ import annotations
+
+from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
+from hw.chips.mcp41010 import STEPS, Mcp41010
+from hw.drives.control_box import BoxSpec
+from hw.drives.digipot import DigipotDrive
+from hw.drives.positioned import DriveAngle
+from hw.ports import AngleSensor, Axis, OutputLines
+from rotator.assembly.rotors import Assembly
+from rotator.assembly.settings import own_points
+from rotator.assembly.simulated_axes import SimulatedAxes
+from rotator.control.axis.calibration_table import Calibration
+from rotator.rotors.boxes import FollowedBox
+from rotator.rotors.positioned import PositionedRotor
+
+
+def build(parts: Assembly, lines: OutputLines | None) -> PositionedRotor:
+    config = parts.config
+    (use,) = config.kind.spi_uses()
+    spi = parts.board.spi(use)
+
+    def box(axis: Axis) -> tuple[Mcp41010, BoxSpec]:
+        table, speed_dps = config.digipot.of(axis), config.axis(axis).speed_dps
+        start_deg = parts.first_deg(axis, table.start_deg)
+        spec = BoxSpec(tuple(table.steps), start_deg, speed_dps, table.dead_band_deg)
+        return Mcp41010(spi, f"{axis.value}.select"), spec
+
+    drive = DigipotDrive(box(Axis.AZIMUTH), box(Axis.ELEVATION), parts.board.clock, enable=lines)
+    sensors: dict[Axis, AngleSensor] = {}
+    for axis, sensor in parts.sensors({axis: drive.sensor(axis) for axis in Axis}).items():
+        points = None if isinstance(sensor, DriveAngle) else own_points(config, axis)
+        sensors[axis] = FollowedBox(drive, axis, sensor, Calibration(points)) if points else sensor
+    return PositionedRotor(drive, sensors, parts.shift, parts.ends)
+
+
+def simulate(axes: SimulatedAxes) -> SimDigipotRotor:
+    tables = axes.config.digipot
+
+    def spec(axis: Axis) -> DigipotAxisSpec:
+        table = tables.of(axis)
+        (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
+        # The box compares with the end of its own pot, where the chip would be at its last step.
+        full_deg = low_deg + (high_deg - low_deg) * (STEPS - low_step) / (high_step - low_step)
+        return DigipotAxisSpec(table.select, axes.start_deg(axis), axes.motor(axis), full_deg, table.dead_band_deg)
+
+    return SimDigipotRotor(
+        spec(Axis.AZIMUTH),
+        spec(Axis.ELEVATION),
+        axes.clock,
+        axes.bus_sleep,
+        sck_pin=tables.sck,
+        si_pin=tables.si,
+        enable_pin=tables.enable,
+    )

@@ -1,0 +1,88 @@
+"""Motors on relays, each with a contact that is counted, put together.
+
+Part of the composition root. Decides nothing.
+"""
+
+from __future__ import annotations
+
+from firmware_sim.parts.contact import ContactSpec
+from firmware_sim.rotors.relay_pulse import RelayPulseAxisSpec, SimRelayPulseRotor
+from hw.ports import Axis, OutputLines
+from hw.sensors.cam import Cam
+from hw.sensors.pulses import PulseCounter, TappedLines
+from rotator.assembly.kinds.relay_pot import relay_bank
+from rotator.assembly.rotors import Assembly
+from rotator.assembly.simulated_axes import SimulatedAxes
+from rotator.rotors.counted import CountedAxis, CountedRotor
+from rotator.rotors.counts_writer import CountsWriter, at_once
+from rotator.store.counts import CountsFile, Place, Standing
+
+SIM_BOUNCE_S = 0.005
+
+
+def build(parts: Assembly, lines: OutputLines | None) -> CountedRotor:
+    assert lines is not None, "a relay rotor has relays"
+    config, clock = parts.config, parts.board.clock
+    tapped = TappedLines(lines, clock)
+    counting = [axis for axis in Axis if config.counts(axis)]
+    counts_writer: CountsWriter | None = None
+    if parts.counts and counting:
+        cams = config.pulses.cams(counting)
+        counts_writer = CountsWriter(CountsFile(parts.counts, cams), at_once if parts.in_step else None)
+    kept = counts_writer.load() if counts_writer else {}
+    axes: dict[Axis, CountedAxis] = {}
+    for axis in counting:
+        counter = _counter(parts, axis, tapped)
+        axes[axis] = CountedAxis(axis, counter, counts_writer, clock, master=config.relays.master is not None)
+        axes[axis].begin(kept.get(axis, Place(Standing.KNOWN, parts.start_deg(axis))))
+    return CountedRotor(
+        relay_bank(parts, tapped),
+        parts.sensors(axes),
+        axes,
+        parts.shift,
+        ends=parts.ends,
+        counts_writer=counts_writer,
+    )
+
+
+def _counter(parts: Assembly, axis: Axis, tapped: TappedLines) -> PulseCounter:
+    limits, pulses = parts.config.axis(axis), parts.config.pulses
+    table = pulses.of(axis)
+    contact = parts.board.contact(
+        f"rotator-{axis.value}",
+        table.contact,
+        active_low=pulses.active == "low",
+        pull=pulses.pull,
+        debounce_s=pulses.debounce_s,
+    )
+    cam = Cam(
+        table.spacing_deg,
+        table.closed_deg,
+        table.closes_at_deg,
+        limits.speed_dps,
+        table.coast_s,
+        table.play_deg,
+        low_deg=table.home_deg,
+        high_deg=limits.max_deg,
+    )
+    return PulseCounter(axis, contact, tapped, cam, parts.board.clock, debounce_s=pulses.debounce_s)
+
+
+def simulate(axes: SimulatedAxes) -> SimRelayPulseRotor:
+    relays, pulses = axes.config.relays, axes.config.pulses
+
+    def spec(axis: Axis) -> RelayPulseAxisSpec:
+        table = pulses.of(axis)
+        cam = ContactSpec(table.spacing_deg, table.closed_deg, table.closes_at_deg, table.play_deg, SIM_BOUNCE_S)
+        motor = axes.motor(axis, stop_low_deg=table.home_deg)
+        return RelayPulseAxisSpec(*relays.turning(axis), table.contact, motor, cam, axes.start_deg(axis))
+
+    return SimRelayPulseRotor(
+        spec(Axis.AZIMUTH),
+        spec(Axis.ELEVATION),
+        axes.clock,
+        axes.bus_sleep,
+        relays_active_low=relays.active == "low",
+        contacts_active_low=pulses.active == "low",
+        master_pin=relays.master,
+    )

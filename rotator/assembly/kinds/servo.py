@@ -1,0 +1,58 @@
+"""Two hobby servos on a PCA9685, put together.
+
+Part of the composition root. Decides nothing.
+"""
+
+from __future__ import annotations
+
+from firmware_sim.parts.servo import SimServoSpec
+from firmware_sim.rotors.servo import ServoAxisSpec, SimServoRotor
+from hw.chips.pca9685 import Pca9685
+from hw.drives.servo import ENABLE, ServoDrive
+from hw.drives.servo_axis import ServoSpec
+from hw.ports import Axis, OutputLines
+from rotator.assembly.rotors import Assembly
+from rotator.assembly.simulated_axes import SimulatedAxes
+from rotator.rotors.servos import ServoRotor
+
+
+def build(parts: Assembly, lines: OutputLines | None) -> ServoRotor:
+    tables, board = parts.config.servo, parts.board
+
+    def spec(axis: Axis) -> ServoSpec:
+        table = tables.of(axis)
+        return ServoSpec(table.channel, tuple(table.pulses_us), table.start_deg, table.slew_dps)
+
+    enable = None
+    if tables.enable is not None:
+        enable = board.outputs("rotator-servo", {ENABLE: tables.enable}, active_low=True)
+    drive = ServoDrive(
+        Pca9685(board.bus(tables.bus), tables.address, board.sleep, osc_hz=tables.osc_hz),
+        spec(Axis.AZIMUTH),
+        spec(Axis.ELEVATION),
+        board.clock,
+        enable=enable,
+        idle_off_s=tables.idle_off_s or None,
+    )
+    sensors = parts.sensors({axis: drive.sensor(axis) for axis in Axis})
+    return ServoRotor(drive, sensors, parts.shift, parts.ends)
+
+
+def simulate(axes: SimulatedAxes) -> SimServoRotor:
+    tables = axes.config.servo
+
+    def spec(axis: Axis) -> ServoAxisSpec:
+        table = tables.of(axis)
+        (low_deg, low_us), (high_deg, high_us) = min(table.pulses_us), max(table.pulses_us)
+        servo = SimServoSpec(low_us, high_us, low_deg, high_deg - low_deg, axes.sim(axis).speed_dps)
+        return ServoAxisSpec(table.channel, axes.start_deg(axis), servo)
+
+    return SimServoRotor(
+        spec(Axis.AZIMUTH),
+        spec(Axis.ELEVATION),
+        axes.clock,
+        axes.bus_sleep,
+        address=tables.address,
+        enable_pin=tables.enable,
+        osc_hz=tables.osc_hz,
+    )

@@ -1,0 +1,68 @@
+"""The simulated axes that a file describes: motors, pots, and where they stand at first.
+
+Part of the composition root. Knows which key of the file is which property of a simulated part. Knows no driver, and
+no kind of rotor: those are in `rotator.assembly.kinds`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from firmware_sim.parts.motor import MotorSpec
+from firmware_sim.parts.pot import PotSpec
+from hw.ports import Axis
+from rotator.config.axes import AxisTable
+from rotator.config.model import Config
+from rotator.config.sim import SimAxisTable
+
+SIM_CALIBRATION_RAW = (0.05, 0.95)
+"""Where the simulated pot's wiper stands at the ends of the range: end resistors keep it off the rails."""
+STOP_BEYOND_DEG = 2.0
+"""The end stops stand a little beyond the range, as on a G-5500."""
+
+
+@dataclass(frozen=True, slots=True)
+class SimulatedAxes:
+    """`clock` tells the time, `bus_sleep` lets it pass on the buses (None: transfers take none).
+
+    `first_deg`: azimuth and elevation where the file does not say where the rotor stands at first.
+    """
+
+    config: Config
+    clock: Callable[[], float]
+    bus_sleep: Callable[[float], None] | None
+    first_deg: tuple[float, float]
+
+    def start_deg(self, axis: Axis) -> float:
+        """Where the axis stands at first, on the rotor's own scale."""
+        table, said = self.config.axis(axis), self.sim(axis).start_deg
+        first_deg = self.first_deg[0 if axis is Axis.AZIMUTH else 1]
+        return min(max(first_deg if said is None else said, table.min_deg), table.max_deg)
+
+    def sim(self, axis: Axis) -> SimAxisTable:
+        return self.config.sim.of(axis)
+
+    def motor(self, axis: Axis, stop_low_deg: float | None = None) -> MotorSpec:
+        return motor_spec(self.config.axis(axis), self.sim(axis), stop_low_deg)
+
+    def pot(self, axis: Axis) -> PotSpec:
+        table, sim = self.config.axis(axis), self.sim(axis)
+        return PotSpec(
+            table.min_deg,
+            table.max_deg,
+            *SIM_CALIBRATION_RAW,
+            noise_deg=sim.pot_noise_deg,
+            bow_deg=sim.pot_bow_deg,
+        )
+
+
+def motor_spec(table: AxisTable, sim: SimAxisTable, stop_low_deg: float | None = None) -> MotorSpec:
+    return MotorSpec(
+        speed_dps=sim.speed_dps,
+        lag_s=sim.lag_s,
+        relay_delay_s=sim.relay_delay_s,
+        backlash_deg=sim.backlash_deg,
+        stop_low_deg=table.min_deg - STOP_BEYOND_DEG if stop_low_deg is None else stop_low_deg,
+        stop_high_deg=table.max_deg + STOP_BEYOND_DEG,
+    )

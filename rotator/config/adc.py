@@ -1,0 +1,92 @@
+"""The table of the converter that reads the pots.
+
+Knows the words of the file for its inputs and its bus, and what each kind of converter has. Knows no driver.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from hw.ports import Axis
+from rotator.config.i2c import I2CChip
+from rotator.config.spi import SpiUse
+from rotator.config.table import Gpio, I2CAddress, I2CBus, Table
+
+Input = Annotated[int, Field(ge=0, le=7)]
+INPUTS = {"ads1115": 4, "mcp3208": 8}
+
+
+class Adc(Table):
+    kind: Literal["ads1115", "mcp3208"] = "ads1115"
+    """An ADS1115 (16 bits, 4 inputs, I2C) or an MCP3208 (12 bits, 8 inputs, SPI)."""
+    bus: I2CBus = 1
+    """ADS1115: the N of /dev/i2c-N; the header's bus is 1."""
+    address: I2CAddress = 0x48
+    """ADS1115: 0x48 with its ADDR pin at GND, 0x49 at its supply, 0x4a at SDA, 0x4b at SCL."""
+    spi: Literal["lines", "kernel"] = "lines"
+    """MCP3208: any GPIO lines, or the Pi's SPI controller (dtparam=spi=on, and the Python package spidev)."""
+    select: Gpio = 8
+    """MCP3208: its CS; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
+    sck: Gpio = 11
+    """MCP3208: its CLK."""
+    si: Gpio = 10
+    """MCP3208: its DIN."""
+    so: Gpio = 9
+    """MCP3208: its DOUT."""
+    azimuth_channel: Input = 0
+    """The input with the azimuth wiper: A0 to A3, or CH0 to CH7."""
+    elevation_channel: Input = 1
+    """The input with the elevation wiper."""
+    reference_channel: Input | None = None
+    """ADS1115: where the pots' supply is wired to, if it is: readings then no longer depend on it."""
+    supply_v: float = Field(3.3, gt=0.5, le=5.5)
+    """The pots' supply where it is not measured; the MCP3208's VREF is wired to it."""
+    rate_sps: Literal[128, 250, 475, 860] = 860
+    """ADS1115: conversions a second: slower is quieter, but every cycle waits for two of them."""
+
+    def channel(self, axis: Axis) -> int:
+        """The input with the wiper of this axis."""
+        return self.azimuth_channel if axis is Axis.AZIMUTH else self.elevation_channel
+
+    def input_name(self, channel: int) -> str:
+        """The name of an input on the converter: `A0`, `CH0`."""
+        return f"{'A' if self.kind == 'ads1115' else 'CH'}{channel}"
+
+    @property
+    def suspicion(self) -> str:
+        """What may be wrong with a converter that gives no reading, for a person."""
+        if self.kind == "ads1115":
+            return "A sick chip, or not an ADS1115 at adc.address."
+        return "Its VDD and VREF on 3.3 V; CLK, DIN, DOUT and CS on adc.sck, si, so and select; an MCP3208?"
+
+    def faults(self) -> list[str]:
+        """What contradicts itself in the table, where it is in use."""
+        channels = {
+            "azimuth_channel": self.azimuth_channel,
+            "elevation_channel": self.elevation_channel,
+            "reference_channel": self.reference_channel,
+        }
+        last = INPUTS[self.kind] - 1
+        faults = [
+            f"adc.{key} = {channel}: an {self.kind.upper()} has the inputs 0 to {last}"
+            for key, channel in channels.items()
+            if channel is not None and channel > last
+        ]
+        if len(set(channels.values())) < len(channels):
+            faults.append("adc: azimuth_channel, elevation_channel and reference_channel must differ")
+        if self.kind == "mcp3208" and self.reference_channel is not None:
+            faults.append("adc.reference_channel: an MCP3208 measures against its VREF; wire that to the pots' supply")
+        return faults
+
+    def chips(self) -> list[I2CChip]:
+        """The converter, where it is on an I2C bus."""
+        return [I2CChip(self.bus, self.address, "adc.address", "ADS1115")] if self.kind == "ads1115" else []
+
+    def spi_uses(self) -> list[SpiUse]:
+        """The converter, where it is on SPI."""
+        if self.kind != "mcp3208":
+            return []
+        wires = {"sck": self.sck, "si": self.si, "so": self.so}
+        return [SpiUse("adc", "converter", {"select": self.select}, wires, kernel=self.spi == "kernel")]

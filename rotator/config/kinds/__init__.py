@@ -1,0 +1,23 @@
+"""The kinds of rotor, one file each: this table names them, and `Config.kind` makes the one that a file asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+from rotator.config.kinds.digipot import DigipotKind
+from rotator.config.kinds.kind import Kind
+from rotator.config.kinds.moteus import MoteusKind
+from rotator.config.kinds.relay_pot import RelayPot
+from rotator.config.kinds.relay_pulse import RelayPulse
+from rotator.config.kinds.servo import ServoKind
+
+KindName = Literal["relay-pot", "relay-pulse", "moteus", "servo", "digipot"]
+
+KINDS: Mapping[KindName, type[Kind]] = {
+    "relay-pot": RelayPot,
+    "relay-pulse": RelayPulse,
+    "moteus": MoteusKind,
+    "servo": ServoKind,
+    "digipot": DigipotKind,
+}

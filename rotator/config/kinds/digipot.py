@@ -1,0 +1,102 @@
+"""`rotor.type = "digipot"`: control boxes that follow a knob, with an MCP41010 in place of each knob.
+
+Knows its table [digipot], and what that means for the rest of the program. Knows no driver.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from pydantic import Field
+
+from hw.ports import AngleSource, Axis
+from rotator.config.angle import Angle
+from rotator.config.axes import AxisTable
+from rotator.config.kinds.kind import Kind, OffLine, Usual
+from rotator.config.kinds.points import out_of_reach, reach_deg
+from rotator.config.spi import SpiUse
+from rotator.config.table import Gpio, PerAxis, Point, Table
+
+
+class DigipotAxisTable(Table):
+    select: Gpio = 8
+    """The chip's select line; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
+    steps: list[Point] = Field(default=[(0.0, 0.0), (360.0, 256.0)], min_length=2)
+    """Points [degrees, the chip's step there, 0 to 256]."""
+    start_deg: float = Field(0.0, ge=-360, le=720)
+    """Where the rotor is taken to stand when the program starts, if no pot measures it."""
+    dead_band_deg: float = Field(2.0, ge=0, le=20)
+    """How far off the box lets it be before it turns the motor."""
+
+
+class DigipotElevation(DigipotAxisTable):
+    select: Gpio = 7
+    """The chip's select line; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
+    steps: list[Point] = Field(default=[(0.0, 0.0), (90.0, 64.0)], min_length=2)
+    """Points [degrees, the chip's step there, 0 to 256]."""
+
+
+class Digipot(PerAxis, Table):
+    spi: Literal["lines", "kernel"] = "lines"
+    """Any GPIO lines, or the Pi's SPI controller (dtparam=spi=on, and the Python package spidev)."""
+    sck: Gpio = 11
+    """The clock."""
+    si: Gpio = 10
+    """The data."""
+    enable: Gpio | None = None
+    """The relay that feeds the boxes: without it they turn to the middle at power-on, where the chips start."""
+    azimuth: DigipotAxisTable = DigipotAxisTable()
+    """The azimuth box."""
+    elevation: DigipotElevation = DigipotElevation()
+    """The elevation box."""
+
+
+@dataclass(frozen=True, slots=True)
+class DigipotKind(Kind):
+    digipot: Digipot
+
+    own = Angle(AngleSource.MODELLED, by="modelled")
+    usual: ClassVar[Usual] = {
+        "azimuth": {"max_deg": 360.0},
+        "elevation": {"max_deg": 90.0, "speed_dps": 6.0},
+        "sim.elevation": {"speed_dps": 6.0},
+    }
+    holds = "the control boxes go on to where their chips point; a relay in their supply would end that"
+
+    def pins(self) -> list[tuple[int, str]]:
+        return [(line.pin, line.key) for line in self.off_lines()]
+
+    def spi_uses(self) -> list[SpiUse]:
+        table = self.digipot
+        selects = {f"{axis.value}.select": table.of(axis).select for axis in Axis}
+        wires = {"sck": table.sck, "si": table.si}
+        return [SpiUse("digipot", "digital pots", selects, wires, kernel=table.spi == "kernel")]
+
+    def off_lines(self) -> tuple[OffLine, ...]:
+        enable = self.digipot.enable
+        return () if enable is None else (OffLine("box_enable", "digipot.enable", enable),)
+
+    def faults(self, axes: Mapping[Axis, AxisTable]) -> list[str]:
+        tables = {axis: self.digipot.of(axis) for axis in Axis}
+        points = {axis: table.steps for axis, table in tables.items()}
+        return out_of_reach(axes, "digipot", "steps", points, tables)
+
+    def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
+        return reach_deg(self.digipot.of(axis).steps)
+
+    def slack_deg(self, axis: Axis) -> float:
+        """The box's dead band, and one step of the chip."""
+        table = self.digipot.of(axis)
+        (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
+        return table.dead_band_deg + abs((high_deg - low_deg) / (high_step - low_step))
+
+    def first_move(self, axis: Axis) -> str:
+        start_deg = self.digipot.of(axis).start_deg
+        return (
+            f"The box assumes that it stands at {start_deg:g}° (start_deg). If it does not, its first move goes there."
+        )
+
+    def reversal(self, axis: Axis) -> str:
+        return f"exchange PA0 and PB0 of the {axis.value}'s chip, or let digipot.{axis.value}.steps fall"

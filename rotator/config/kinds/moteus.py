@@ -1,0 +1,83 @@
+"""`rotor.type = "moteus"`: two moteus controllers on CAN-FD.
+
+Knows its table [moteus], and what that means for the rest of the program. Knows no driver.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from pydantic import Field, model_validator
+
+from hw.ports import AngleSource, Axis
+from rotator.config.angle import Angle
+from rotator.config.kinds.kind import Kind, Usual
+from rotator.config.table import PerAxis, Table
+
+
+class MoteusAxisTable(Table):
+    id: int = Field(1, ge=1, le=126)
+    """The controller's CAN id."""
+    rev_per_turn: float = 1.0
+    """Revolutions of the controller's scale for 360° of the antenna; below 0 where it runs the other way."""
+    zero_rev: float = 0.0
+    """The controller's position, in revolutions, where the rotor's scale is at 0°."""
+    velocity_limit_dps: float = Field(30.0, gt=0, le=360)
+    """Its greatest speed, always sent."""
+    accel_limit_dps2: float = Field(20.0, gt=0, le=1000)
+    """Its greatest acceleration, always sent."""
+    max_torque_nm: float | None = Field(None, gt=0)
+    """Its greatest torque; left out, the controller's own setting."""
+    geared: bool = True
+    """Its only encoder sits before a gear: after power-on it does not know where the antenna points, and nothing moves
+    until a person confirms it."""
+
+    @model_validator(mode="after")
+    def _turns(self) -> MoteusAxisTable:
+        if self.rev_per_turn == 0:
+            raise ValueError("rev_per_turn must not be 0")
+        return self
+
+
+class MoteusElevation(MoteusAxisTable):
+    id: int = Field(2, ge=1, le=126)
+    """The controller's CAN id."""
+
+
+class Moteus(PerAxis, Table):
+    port: str = Field("/dev/fdcanusb", min_length=1)
+    """The adapter's serial port."""
+    can: str | None = Field(None, min_length=1)
+    """In place of `port`: a CAN-FD interface of the kernel, can0 say."""
+    azimuth: MoteusAxisTable = MoteusAxisTable()
+    """The azimuth controller."""
+    elevation: MoteusElevation = MoteusElevation()
+    """The elevation controller."""
+
+    @model_validator(mode="after")
+    def _differ(self) -> Moteus:
+        if self.azimuth.id == self.elevation.id:
+            raise ValueError(f"azimuth and elevation both have id {self.azimuth.id}: give one another with tview")
+        return self
+
+
+@dataclass(frozen=True, slots=True)
+class MoteusKind(Kind):
+    moteus: Moteus
+
+    confirmable = True
+    own = Angle(AngleSource.MEASURED, by="told by its controller")
+    usual: ClassVar[Usual] = {
+        axis: {"speed_dps": 30.0} for axis in ("azimuth", "elevation", "sim.azimuth", "sim.elevation")
+    }
+    holds = "the controllers stop and hold by their own watchdog, half a second after the program's last word"
+
+    def serial_port(self) -> str | None:
+        return None if self.moteus.can else self.moteus.port
+
+    def accel_dps2(self, axis: Axis) -> float | None:
+        return self.moteus.of(axis).accel_limit_dps2
+
+    def reversal(self, axis: Axis) -> str:
+        return f"change the sign of moteus.{axis.value}.rev_per_turn"

@@ -1,0 +1,100 @@
+"""`rotor.type = "relay-pulse"`: motors on relays, each with a contact that is counted. The Alliance U-100 is one.
+
+Knows its table [pulses], and what that and [relays] mean for the rest of the program. Knows no driver.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from pydantic import Field, model_validator
+
+from hw.ports import AngleSource, Axis
+from rotator.config.angle import Angle
+from rotator.config.axes import AxisTable
+from rotator.config.devices import Relays
+from rotator.config.kinds.kind import EndStop, Kind, OffLine, Usual
+from rotator.config.kinds.relay_pot import relay_lines
+from rotator.config.table import Gpio, PerAxis, Table
+
+
+class PulseAxisTable(Table):
+    contact: Gpio = 16
+    """The input with the cam's contact."""
+    spacing_deg: float = Field(5.0, gt=0, le=30)
+    """From one closure to the next: 5 on a modified Alliance U-100, else 6 or 10."""
+    closed_deg: float = Field(1.0, gt=0, le=30)
+    """The part of the spacing in which the contact is closed."""
+    closes_at_deg: float = Field(0.0, ge=-360, le=720)
+    """An angle at which the contact closes when turning clockwise or up."""
+    coast_s: float = Field(0.5, gt=0, le=5)
+    """How long after its relay has opened the motor stands for certain."""
+    play_deg: float = Field(0.0, ge=0, le=10)
+    """The play: after a reversal the contact changes this much later."""
+    home_deg: float = Field(0.0, ge=-360, le=720)
+    """The angle of the low end stop, where homing ends."""
+
+    @model_validator(mode="after")
+    def _opens(self) -> PulseAxisTable:
+        if self.closed_deg >= self.spacing_deg:
+            raise ValueError(f"closed_deg ({self.closed_deg:g}) must be below spacing_deg ({self.spacing_deg:g})")
+        return self
+
+
+class PulseElevation(PulseAxisTable):
+    contact: Gpio = 20
+    """The input with the cam's contact."""
+
+
+class Pulses(PerAxis, Table):
+    active: Literal["low", "high"] = "low"
+    """The level of a closed contact; low for an opto-isolator to ground."""
+    pull: bool = True
+    """The Pi's own resistor holds the line at the open contact's level."""
+    debounce_s: float = Field(0.02, ge=0, le=0.3)
+    """A change of the contact counts when it has stayed for so long."""
+    azimuth: PulseAxisTable = PulseAxisTable()
+    """The azimuth axis's cam."""
+    elevation: PulseElevation = PulseElevation()
+    """The elevation axis's cam."""
+
+    def cams(self, axes: Iterable[Axis]) -> dict[Axis, dict[str, float]]:
+        """What a kept count of these axes depends on: a count under another cam is worth nothing."""
+        return {axis: self.of(axis).model_dump(exclude={"contact"}) for axis in axes}
+
+
+@dataclass(frozen=True, slots=True)
+class RelayPulse(Kind):
+    relays: Relays
+    pulses: Pulses
+
+    switched = True
+    own = Angle(AngleSource.COUNTED, by="counted")
+    usual: ClassVar[Usual] = {
+        "azimuth": {"coast_s": 0.1},
+        "elevation": {"speed_dps": 6.0, "coast_s": 0.1},
+        "sim.azimuth": {"lag_s": 0.1},
+        "sim.elevation": {"speed_dps": 6.0, "lag_s": 0.1},
+    }
+
+    def pins(self) -> list[tuple[int, str]]:
+        outputs = [(pin, f"relays.{key}") for key, pin in self.relays.outputs.items()]
+        return outputs + [(self.pulses.of(axis).contact, f"pulses.{axis.value}.contact") for axis in Axis]
+
+    def off_lines(self) -> tuple[OffLine, ...]:
+        return relay_lines(self.relays)
+
+    def faults(self, axes: Mapping[Axis, AxisTable]) -> list[str]:
+        longest_coast_s = max(self.pulses.of(axis).coast_s for axis in Axis)
+        if self.relays.dead_time_s >= longest_coast_s:
+            return []
+        return [
+            f"relays.dead_time_s = {self.relays.dead_time_s:g} is shorter than pulses coast_s "
+            f"({longest_coast_s:g}): a motor that still coasts would be counted the wrong way"
+        ]
+
+    def end_stop(self, axis: Axis) -> EndStop | None:
+        cam = self.pulses.of(axis)
+        return EndStop(cam.spacing_deg, cam.coast_s, cam.home_deg)

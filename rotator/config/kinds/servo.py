@@ -1,0 +1,96 @@
+"""`rotor.type = "servo"`: two hobby servos on a PCA9685.
+
+Knows its table [servo], and what that means for the rest of the program. Knows no driver.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+from pydantic import Field
+
+from hw.ports import AngleSource, Axis
+from rotator.config.angle import Angle
+from rotator.config.axes import AxisTable
+from rotator.config.i2c import I2CChip
+from rotator.config.kinds.kind import Kind, OffLine, Usual
+from rotator.config.kinds.points import out_of_reach, reach_deg
+from rotator.config.table import Gpio, I2CAddress, I2CBus, PerAxis, Point, Table
+
+
+class ServoAxisTable(Table):
+    channel: int = Field(0, ge=0, le=15)
+    """The board's output."""
+    pulses_us: list[Point] = Field(default=[(0.0, 500.0), (180.0, 2500.0)], min_length=2)
+    """Points [degrees, pulse width in microseconds]; beyond its ends the servo is never sent."""
+    start_deg: float = Field(0.0, ge=-360, le=720)
+    """Where the first pulse sends it, at the servo's own speed: put it where the antenna was left."""
+    slew_dps: float = Field(60.0, gt=0, le=720)
+    """How fast the ordered angle moves; no more than the servo can."""
+
+
+class ServoElevation(ServoAxisTable):
+    channel: int = Field(1, ge=0, le=15)
+    """The board's output."""
+
+
+class Servo(PerAxis, Table):
+    bus: I2CBus = 1
+    """The N of /dev/i2c-N; the header's bus is 1."""
+    address: I2CAddress = 0x40
+    """The address of the PCA9685."""
+    osc_hz: float = Field(25e6, ge=20e6, le=30e6)
+    """The true frequency of its oscillator; on many boards 26 to 27 million. It scales every pulse."""
+    enable: Gpio | None = None
+    """The line at the board's OE input, with a pull-up beside it: no pulse before the program makes one."""
+    idle_off_s: float = Field(0.0, ge=0, le=86_400)
+    """A servo that has not moved for so long gets no more pulses, and is limp. 0: it holds for good."""
+    azimuth: ServoAxisTable = ServoAxisTable()
+    """The azimuth servo."""
+    elevation: ServoElevation = ServoElevation()
+    """The elevation servo."""
+
+
+@dataclass(frozen=True, slots=True)
+class ServoKind(Kind):
+    servo: Servo
+
+    own = Angle(AngleSource.MODELLED, by="modelled")
+    usual: ClassVar[Usual] = {
+        "azimuth": {"max_deg": 180.0, "speed_dps": 60.0},
+        "elevation": {"speed_dps": 60.0},
+        "sim.azimuth": {"speed_dps": 60.0},
+        "sim.elevation": {"speed_dps": 60.0},
+    }
+    holds = "the board goes on with its last pulses, and the servos hold"
+
+    def pins(self) -> list[tuple[int, str]]:
+        return [(line.pin, line.key) for line in self.off_lines()]
+
+    def chips(self) -> list[I2CChip]:
+        return [I2CChip(self.servo.bus, self.servo.address, "servo.address", "PCA9685")]
+
+    def off_lines(self) -> tuple[OffLine, ...]:
+        if self.servo.enable is None:
+            return ()
+        # OE is active low. When the program dies it stays on: the servos hold the antenna.
+        return (OffLine("enable", "servo.enable", self.servo.enable, off_high=True, switches=False, stops=False),)
+
+    def faults(self, axes: Mapping[Axis, AxisTable]) -> list[str]:
+        tables = {axis: self.servo.of(axis) for axis in Axis}
+        points = {axis: table.pulses_us for axis, table in tables.items()}
+        return out_of_reach(axes, "servo", "pulses_us", points, tables)
+
+    def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
+        return reach_deg(self.servo.of(axis).pulses_us)
+
+    def first_move(self, axis: Axis) -> str:
+        return (
+            f"With its first pulse, that of the first press, the servo runs to {self.servo.of(axis).start_deg:g}°, "
+            "as fast as it can: keep clear. When it stands, press again."
+        )
+
+    def reversal(self, axis: Axis) -> str:
+        return f"swap the pulse widths in servo.{axis.value}.pulses_us"

@@ -1,0 +1,84 @@
+"""An MCP3208 reads the pots: the whole box points by it, on any GPIO lines and on the kernel's SPI."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from rotator.assembly.settings import build_controller
+from rotator.assembly.station import Station
+from rotator.config.load import ConfigError, parse
+from rotator.orders import Aim, Source
+from rotator.runtime.loop import ControlLoop
+
+STEP_S = 0.05
+LINES = '[adc]\nkind = "mcp3208"\nazimuth_channel = 6\nelevation_channel = 7\n'
+KERNEL = LINES + 'spi = "kernel"\n'
+
+
+class Box:
+    def __init__(self, text: str) -> None:
+        config = parse(text, "box")
+        self.clock = SimClock()
+        self.station = Station(config, self.clock, self.clock.sleep, (40.0, 20.0), add_alarm=self.clock.add_alarm)
+        self.world: Any = self.station.world
+        self.loop = ControlLoop(build_controller(config), self.station.rotor, self.clock, STEP_S)
+        self.wait(2.0)
+
+    def wait(self, seconds: float) -> None:
+        for _ in range(round(seconds / STEP_S)):
+            self.clock.sleep(STEP_S)
+            self.loop.cycle()
+
+
+@pytest.mark.parametrize("text", [LINES, KERNEL], ids=["lines", "kernel"])
+def test_it_points_where_it_is_sent(text: str) -> None:
+    box = Box(text)
+    box.loop.post(Source("test"), Aim(80.0, 45.0))
+    box.wait(15.0)
+    assert box.world.antenna() == pytest.approx((80.0, 45.0), abs=2.0)
+    status = box.loop.status
+    assert status.azimuth.fault is None
+    assert status.azimuth.raw == pytest.approx(0.05 + 0.9 * 80.0 / 450.0, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("text", "name"), [(LINES, "sensor silent"), (KERNEL, "pot open or shorted")], ids=["lines", "kernel"]
+)
+def test_a_converter_that_goes_stops_the_motors(text: str, name: str) -> None:
+    box = Box(text)
+    box.loop.post(Source("test"), Aim(200.0, 90.0))
+    box.wait(2.0)
+    assert box.world.drives() == (1, 1)
+    box.world.inject("adc-gone")
+    box.wait(1.0)
+    assert box.world.drives() == (0, 0)
+    for axis in (box.loop.status.azimuth, box.loop.status.elevation):
+        assert axis.fault is not None
+        assert axis.fault.name == name
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (LINES.replace("7", "8"), "adc.elevation_channel = 8: must be"),
+        ("[adc]\nazimuth_channel = 5\n", "adc.azimuth_channel = 5: an ADS1115 has the inputs 0 to 3"),
+        (LINES + "reference_channel = 2\n", "adc.reference_channel: an MCP3208 measures against its VREF"),
+        (LINES + "so = 22\n", "GPIO 22 is used by adc.so and relays.azimuth_cw"),
+        (LINES + "select = 11\n", "GPIO 11 is used by adc.select and adc.sck"),
+    ],
+)
+def test_a_table_that_cannot_be(text: str, said: str) -> None:
+    with pytest.raises(ConfigError) as refused:
+        parse(text, "box")
+    assert [fault.startswith(said) for fault in refused.value.faults] == [True], refused.value.faults
+
+
+def test_beside_digital_pots_it_shares_the_kernels_wires() -> None:
+    digipot = '[rotor]\ntype = "digipot"\n[azimuth.sensor]\nkind = "pot"\n[digipot]\nspi = "kernel"\n'
+    config = parse(digipot + 'elevation.select = 26\n[adc]\nkind = "mcp3208"\nspi = "kernel"\nselect = 7\n', "box")
+    assert [pin for pin, _ in config.pins()].count(11) == 1
+    with pytest.raises(ConfigError, match=r"GPIO 8 is used by digipot.azimuth.select and adc.select"):
+        parse(digipot + '[adc]\nkind = "mcp3208"\nspi = "kernel"\n', "box")
