@@ -99,6 +99,9 @@ def test_what_the_page_names_exists() -> None:
     named = set(re.findall(r"`([A-Z]\w+\.\w+)`", PAGE))
     assert len(named) > 15
     assert named <= members()
+    files = set(re.findall(r"`([a-z_]+(?:/[a-z0-9_]+)*\.py)`", PAGE))
+    assert len(files) > 8
+    assert [name for name in files if not ((ROOT / name).exists() or (ROOT / "rotator" / name).exists())] == []
 
 
 def test_the_page_names_every_thread_of_the_box() -> None:
