@@ -10,7 +10,7 @@ import math
 from collections import deque
 from enum import Enum
 
-from hw.moteus.faults import LIMITS, explain
+from hw.moteus.faults import LIMITS, Limit, explain
 from hw.moteus.orders import WATCHDOG_S, Answer, Home, Look, Mode, MoteusSpec, Move, Order, SetOutput, Stop
 from hw.ports import Axis, HardwareError
 
@@ -137,8 +137,8 @@ class MoteusAxis:
         return home == Home.OUTPUT or (home == Home.ROTOR and not self.spec.geared)
 
     @property
-    def limited_by(self) -> str | None:
-        """What limits a controller without a fault, in words; None: nothing does."""
+    def limited_by(self) -> Limit | None:
+        """What limits a controller without a fault; None: nothing does."""
         return LIMITS.get(self.answer.fault) if self.answer else None
 
     def angle_deg(self, now_s: float) -> float:

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from hw.drives.positioned import DriveAngle
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.moteus.axis import MoteusAxis, Wish
+from hw.moteus.faults import Limit
 from hw.moteus.orders import Answer, MoteusSpec, Order
 from hw.ports import AngleSource, Axis, HardwareError
 
@@ -100,7 +101,7 @@ class MoteusDrive:
         with self._lock:
             return {name: axis.fault for name, axis in self._axes.items() if axis.fault}
 
-    def limits(self) -> dict[Axis, str]:
+    def limits(self) -> dict[Axis, Limit]:
         """What limits a controller without a fault, its position bounds for example."""
         with self._lock:
             return {name: axis.limited_by for name, axis in self._axes.items() if axis.limited_by}

@@ -16,6 +16,14 @@ class Fault:
     remedy: str
 
 
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """What holds a controller back: its name, and a text of 13 characters at most for a small display."""
+
+    name: str
+    short: str
+
+
 FAULTS: dict[int, Fault] = {
     32: Fault("calibration fault", "calibrate the motor with moteus_tool --calibrate"),
     33: Fault("gate driver fault", "the supply drooped, or a motor wire is shorted: check both"),
@@ -39,17 +47,17 @@ FAULTS: dict[int, Fault] = {
 }
 """Faults: the controller takes the torque away until it gets a stop."""
 
-LIMITS: dict[int, str] = {
-    96: "its velocity limit",
-    97: "its power limit",
-    98: "the supply voltage",
-    99: "its current limit",
-    100: "its own temperature",
-    101: "the motor's temperature",
-    102: "its torque limit",
-    103: "its position bounds (servopos.position_min, position_max)",
-    104: "braking that feeds the supply",
-    105: "field weakening",
+LIMITS: dict[int, Limit] = {
+    96: Limit("its velocity limit", "SPEED LIMIT"),
+    97: Limit("its power limit", "POWER LIMIT"),
+    98: Limit("the supply voltage", "SUPPLY VOLTS"),
+    99: Limit("its current limit", "CURRENT LIMIT"),
+    100: Limit("its own temperature", "DRIVER WARM"),
+    101: Limit("the motor's temperature", "MOTOR WARM"),
+    102: Limit("its torque limit", "TORQUE LIMIT"),
+    103: Limit("its position bounds (servopos.position_min, position_max)", "SERVOPOS"),
+    104: Limit("braking that feeds the supply", "BRAKING"),
+    105: Limit("field weakening", "FIELD WEAK"),
 }
 """No faults: the controller runs, and something limits it."""
 

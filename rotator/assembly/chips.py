@@ -115,7 +115,7 @@ def heard(drive: MoteusDrive, axis: Axis) -> Heard:
         temperature_c=answer.temperature_c,
         fault=f"{stopped.name} ({answer.fault})" if stopped else "",
         remedy=stopped.remedy if stopped else "",
-        limit=LIMITS.get(answer.fault, ""),
+        limit=LIMITS[answer.fault].name if answer.fault in LIMITS else "",
         angle_deg=angle_deg,
     )
 

@@ -37,8 +37,8 @@ def build_mount(config: Config) -> Mount:
     return Mount(
         azimuth=Range(azimuth.min_deg + shift.azimuth_deg, azimuth.max_deg + shift.azimuth_deg),
         elevation=Range(elevation.min_deg + shift.elevation_deg, elevation.max_deg + shift.elevation_deg),
-        park_azimuth_deg=config.mount.park_azimuth_deg,
-        park_elevation_deg=config.mount.park_elevation_deg,
+        park_azimuth_deg=config.mount.park_azimuth_deg + shift.azimuth_deg,
+        park_elevation_deg=config.mount.park_elevation_deg + shift.elevation_deg,
         flip=config.mount.flip == "over-top",
         horizon=tuple(config.mount.horizon),
     )
@@ -47,18 +47,18 @@ def build_mount(config: Config) -> Mount:
 def build_learnt(config: Config) -> LearntFile:
     """The file with the learnt motors; figures learnt under another description of the motor do not count."""
 
-    def begun(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
-        said: dict[str, object] = {"hardware": config.rotor.hardware}
-        said |= {"speed_dps": table.speed_dps, "coast_s": table.coast_s}
+    def described(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
+        motor: dict[str, object] = {"hardware": config.rotor.hardware}
+        motor |= {"speed_dps": table.speed_dps, "coast_s": table.coast_s}
         if config.rotor.hardware == "sim":
-            said["sim"] = sim.model_dump(include={"speed_dps", "lag_s", "relay_delay_s"})
-        return said
+            motor["sim"] = sim.model_dump(include={"speed_dps", "lag_s", "relay_delay_s"})
+        return motor
 
     return LearntFile(
         Path(config.state.path),
         {
-            Axis.AZIMUTH: begun(config.azimuth, config.sim.azimuth),
-            Axis.ELEVATION: begun(config.elevation, config.sim.elevation),
+            Axis.AZIMUTH: described(config.azimuth, config.sim.azimuth),
+            Axis.ELEVATION: described(config.elevation, config.sim.elevation),
         },
     )
 
@@ -66,65 +66,68 @@ def build_learnt(config: Config) -> LearntFile:
 def build_controller(
     config: Config, learnt: Mapping[Axis, Motors] | None = None, commissioning: Axis | None = None
 ) -> Controller:
-    """`learnt`: what earlier runs know of the motors. `commissioning`: an axis to be taken for one never set up."""
-    simulated = config.rotor.hardware == "sim"
-    mount = build_mount(config)
-    shift = build_offsets(config)
-
-    def motor(found: LearntMotor) -> Motor:
-        return Motor(found.speed_dps, found.coast_deg)
-
-    def axis(which: Axis, limits: Range) -> AxisSettings:
-        table = config.axis(which)
-        in_degrees = config.in_degrees(which)
-        points = None if which is commissioning and not in_degrees else own_points(config, which)
-        calibration = None if points is None else Calibration(shift.reported(which, points))
-        share = Window(table.lowest_reading, table.highest_reading, pot=config.has_pot(which))
-        undone = () if simulated else missing(table, calibrated=points is not None)
-        if which is commissioning:
-            undone = EVERYTHING
-        if not config.rotor.switched:
-            return PositionedSettings(
-                which,
-                limits,
-                table.tolerance_deg,
-                table.speed_dps,
-                ANYTHING if in_degrees else share,
-                calibration,
-                undone,
-                source(config, which),
-                NEAR_DEG + config.kind.slack_deg(which),
-                config.kind.accel_dps2(which),
-                confirmable=config.kind.confirmable,
-            )
-        known = (learnt or {}).get(which)
-        return SwitchedSettings(
-            axis=which,
-            limits=limits,
-            tolerance_deg=table.tolerance_deg,
-            motor=Motor(table.speed_dps, table.speed_dps * table.coast_s),
-            window=ANYTHING if in_degrees else share,
-            calibration=calibration,
-            missing=undone,
-            source=source(config, which),
-            longest_run_s=table.longest_run_s,
-            rest_s=table.rest_s,
-            master=config.relays.master is not None,
-            learnt=known and (motor(known[0]), motor(known[1])),
-            homing=homing(config, which, shift),
-        )
-
+    """`learnt`: the motors as earlier runs learnt them. `commissioning`: an axis to be treated as never set up."""
+    mount, known = build_mount(config), learnt or {}
+    azimuth, elevation = (
+        axis_settings(config, axis, limits, known.get(axis), commissioning=axis is commissioning)
+        for axis, limits in ((Axis.AZIMUTH, mount.azimuth), (Axis.ELEVATION, mount.elevation))
+    )
     return Controller(
         Settings(
-            azimuth=axis(Axis.AZIMUTH, mount.azimuth),
-            elevation=axis(Axis.ELEVATION, mount.elevation),
+            azimuth=azimuth,
+            elevation=elevation,
             mount=mount,
             period_s=1 / config.control.rate_hz,
-            simulated=simulated,
+            simulated=config.rotor.hardware == "sim",
             park_after_s=config.mount.park_after_s,
             mode=Mode.PARK if config.panel.has_mode_switch else Mode.AUTO,
         )
     )
+
+
+def axis_settings(
+    config: Config, axis: Axis, limits: Range, learnt: Motors | None, *, commissioning: bool
+) -> AxisSettings:
+    """`limits` on the axis's own scale, shifted by its offset. `commissioning`: as if it had never been set up."""
+    table, shift = config.axis(axis), build_offsets(config)
+    in_degrees = config.in_degrees(axis)
+    points = None if commissioning and not in_degrees else own_points(config, axis)
+    calibration = None if points is None else Calibration(shift.reported(axis, points))
+    window = Window(table.lowest_reading, table.highest_reading, pot=config.has_pot(axis))
+    lacks = () if config.rotor.hardware == "sim" else missing(table, calibrated=points is not None)
+    if not config.rotor.switched:
+        return PositionedSettings(
+            axis=axis,
+            limits=limits,
+            tolerance_deg=table.tolerance_deg,
+            speed_dps=table.speed_dps,
+            window=ANYTHING if in_degrees else window,
+            calibration=calibration,
+            missing=EVERYTHING if commissioning else lacks,
+            source=source(config, axis),
+            near_deg=NEAR_DEG + config.kind.slack_deg(axis),
+            accel_dps2=config.kind.accel_dps2(axis),
+            confirmable=config.kind.confirmable,
+        )
+    return SwitchedSettings(
+        axis=axis,
+        limits=limits,
+        tolerance_deg=table.tolerance_deg,
+        motor=Motor(table.speed_dps, table.speed_dps * table.coast_s),
+        window=ANYTHING if in_degrees else window,
+        calibration=calibration,
+        missing=EVERYTHING if commissioning else lacks,
+        source=source(config, axis),
+        longest_run_s=table.longest_run_s,
+        rest_s=table.rest_s,
+        master=config.relays.master is not None,
+        learnt=learnt and (_motor(learnt[0]), _motor(learnt[1])),
+        homing=homing(config, axis, shift),
+    )
+
+
+def _motor(learnt: LearntMotor) -> Motor:
+    return Motor(learnt.speed_dps, learnt.coast_deg)
 
 
 EVERYTHING = (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK)
@@ -133,8 +136,8 @@ EVERYTHING = (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK)
 
 def missing(table: AxisTable, *, calibrated: bool) -> tuple[Missing, ...]:
     """What an axis of real hardware lacks before it may be aimed."""
-    said = table.model_fields_set
-    done = (calibrated, {"min_deg", "max_deg"} <= said, table.direction_checked)
+    written = table.model_fields_set
+    done = (calibrated, {"min_deg", "max_deg"} <= written, table.direction_checked)
     return tuple(name for name, is_done in zip(EVERYTHING, done, strict=True) if not is_done)
 
 

@@ -21,20 +21,6 @@ from rotator.rotors.common import Ends, PlainRotor, no_switches
 from rotator.rotors.port import AddAlarm
 from rotator.rotors.positioned import steered
 
-LCD_LIMITS = {
-    "its velocity limit": "SPEED LIMIT",
-    "its power limit": "POWER LIMIT",
-    "the supply voltage": "SUPPLY VOLTS",
-    "its current limit": "CURRENT LIMIT",
-    "its own temperature": "DRIVER WARM",
-    "the motor's temperature": "MOTOR WARM",
-    "its torque limit": "TORQUE LIMIT",
-    "its position bounds (servopos.position_min, position_max)": "SERVOPOS",
-    "braking that feeds the supply": "BRAKING",
-    "field weakening": "FIELD WEAK",
-}
-"""The texts for the LCD, by the driver's own words."""
-
 
 class MoteusRotor(PlainRotor):
     """`serve`: the bus, in real time, or what stands in for it in simulated time."""
@@ -54,10 +40,11 @@ class MoteusRotor(PlainRotor):
         self._ends = ends
 
     def condition(self, axis: Axis) -> Condition:
+        limit = self._drive.limits().get(axis)
         return Condition(
             fault=self._fault(axis),
             latched=axis in self._drive.faults(),
-            notice=_held_back(self._drive.limits().get(axis, "")),
+            notice=Notice(limit.name, limit.short) if limit else None,
             ends=self._ends(axis),
         )
 
@@ -103,8 +90,3 @@ class MoteusRotor(PlainRotor):
                 return Fault(FaultKind.CONTROLLER_SILENT, axis, str(reason))
             return Fault(FaultKind.POSITION_UNKNOWN, axis, str(reason), passing=True)
         return None
-
-
-def _held_back(limit: str) -> Notice | None:
-    """What holds the controller back, as `hw.moteus.faults.LIMITS` words it; None: nothing."""
-    return Notice(limit, LCD_LIMITS.get(limit, "")) if limit else None

@@ -68,3 +68,13 @@ def test_in_a_storm_it_stays_parked_until_a_person_releases_it() -> None:
     station.say(CONSOLE, Release(), 1.0)
     station.say(LINK, Aim(200, 30), 60.0)
     assert station.at(200, 30)
+
+
+def test_the_park_position_is_on_the_rotors_own_scale() -> None:
+    """A mount askew by 20°: parked, the rotor's own scale shows the position of the file, whatever north is."""
+    clock = SimClock()
+    config = parse(CONFIGURATION + "[azimuth]\noffset_deg = 20\n", "test")
+    plant = BoxPlant(config, clock, (180.0, 10.0), "gs232")
+    plant.post(CONSOLE, Park())
+    plant.run_until(clock() + 60.0)
+    assert plant.world.shafts() == pytest.approx(PARKED, abs=1.5)

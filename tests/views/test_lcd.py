@@ -14,7 +14,6 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.switched import BLIND
 from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.rotors.moteus import LCD_LIMITS
 from rotator.status import AxisStatus, Status
 from rotator.views.lcd import rows
 
@@ -160,7 +159,7 @@ def motor_hot() -> Notice:
 NOTICES = [
     motor_hot(),
     Notice("turning with no relay on: a hand may be on the control box's switch", "TURNS BY SELF"),
-    *(Notice(limit, LCD_LIMITS[limit]) for limit in LIMITS.values()),
+    *(Notice(limit.name, limit.short) for limit in LIMITS.values()),
 ]
 
 

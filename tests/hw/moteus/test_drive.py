@@ -245,7 +245,7 @@ def test_a_controller_held_back_by_its_bounds_says_so_and_is_not_at_fault() -> N
     bench.world.inject("azimuth-factory-bounds")
     bench.follow(AZ, 20.0, 3.0)
     assert bench.antenna(AZ) == pytest.approx(3.6, abs=1e-3)
-    assert "position bounds" in bench.drive.limits()[AZ]
+    assert "position bounds" in bench.drive.limits()[AZ].name
     assert bench.drive.faults() == {}
 
 
