@@ -27,7 +27,7 @@ tests: $(VENV)/.dev
 # Every kind of rotor: one contract, every fault by name, finding north; then twelve real passes on each.
 test-rotors: $(VENV)/.dev
 	$(BIN)/pytest -n 3 --dist worksteal tests/rotors tests/calibrating/test_north.py tests/cli/test_calibrate_north.py
-	$(BIN)/pytest tests/flights
+	$(BIN)/pytest -n 2 --dist loadfile tests/flights
 
 # install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in ~/.cache/gs232-rotator.
 test-install: $(VENV)/.dev

@@ -12,17 +12,13 @@ from pathlib import Path
 import pytest
 
 from benchmarks.faults import DRILLS, MASTER, Drill, Mast, strike, table
-from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
-from rotator.config.load import parse
 from rotator.orders import Aim, Jog, Order, Release, Stop
-from rotator.rehearsal.flight import BoxPlant, fly
-from rotator.rehearsal.passes import Pass, read_pass
+from tests.scenario.false_alarms import NOISY, reported_in_flight, reported_in_moves
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
 ROOT = Path(__file__).parents[2]
-NOISY = "[sim.azimuth]\npot_noise_deg = 0.4\n[sim.elevation]\npot_noise_deg = 0.4\n"
 NOISY_TOO = [drill for drill in DRILLS if drill.sim not in ("motor-slow", "wind-turns", "")]
 EACH_AXIS = pytest.mark.parametrize("axis", list(Axis), ids=lambda axis: axis.value)
 ACKNOWLEDGED = pytest.mark.parametrize("order", [Stop(), Release()], ids=["S", "release"])
@@ -207,54 +203,14 @@ def test_a_hot_motor_rests_and_goes_on() -> None:
     mast.close()
 
 
-# --- nothing is wrong, and nothing is said
-
-
-def noted(mast: Mast, seconds: float, seen: set[str]) -> None:
-    for _ in range(round(seconds / 0.5)):
-        mast.run(0.5)
-        seen |= {notice.text for axis in Axis for notice in mast.status.axis(axis).notices}
-        seen |= {fault.name for fault in mast.status.faults}
+# --- nothing is wrong, and nothing is said: the rest of these is in tests/flights
 
 
 @pytest.mark.parametrize("noise_deg", [0.1, 0.4])
-@pytest.mark.parametrize(
-    ("said_dps", "real_dps", "lag_s"),
-    [(6, 6, 0.15), (6, 6, 0.0), (6, 6, 0.3), (6, 3, 0.15), (6, 12, 0.15), (0.5, 0.5, 0.15), (60, 60, 0.15)],
-)
-def test_moves_jogs_and_reversals(said_dps: float, real_dps: float, lag_s: float, noise_deg: float) -> None:
-    axis = f"speed_dps = {said_dps}\nlongest_run_s = 0\n"
-    sim = f"speed_dps = {real_dps}\nlag_s = {lag_s}\npot_noise_deg = {noise_deg}\n"
-    mast = Mast(f"[azimuth]\n{axis}[elevation]\n{axis}[sim.azimuth]\n{sim}[sim.elevation]\n{sim}")
-    seen: set[str] = set()
-    noted(mast, 1.0, seen)
-    for azimuth_deg, elevation_deg in ((60, 30), (20, 10), (90, 60), (45, 45), (450, 180), (0, 0)):
-        mast.order(Aim(azimuth_deg, elevation_deg))
-        noted(mast, (450 if azimuth_deg % 450 == 0 else 70) / real_dps + 5.0, seen)
-    for way in (PLUS, MINUS, PLUS, MINUS):
-        mast.order(Jog(AZ, way))
-        mast.order(Jog(EL, way))
-        noted(mast, 1.5, seen)
-    for way in (PLUS, MINUS):
-        mast.order(Jog(AZ, way))
-        mast.order(Jog(EL, way))
-        noted(mast, min(460.0 / real_dps + 5.0, 200.0), seen)
-    assert seen == set()
-    mast.close()
+@pytest.mark.parametrize("motor", [(6, 6, 0.15), (6, 12, 0.15)], ids=str)
+def test_moves_jogs_and_reversals(motor: tuple[float, float, float], noise_deg: float) -> None:
+    assert reported_in_moves(*motor, noise_deg) == set()
 
 
-@pytest.mark.parametrize("name", ["north-2-so-50", "overhead-2-rs-44", "low-1-iss"])
-def test_passes_with_four_times_the_noise(name: str) -> None:
-    config = parse(NOISY, "a noisy station")
-    seen: set[str] = set()
-    flown_by: list[BoxPlant] = []
-
-    def make(clock: SimClock, flown: Pass) -> BoxPlant:
-        plant = BoxPlant(config, clock, (flown.rows[0][1], 0.0), "gs232")
-        clock.every(1.0, lambda _: seen.update(n.text for axis in Axis for n in plant.status.axis(axis).notices))
-        flown_by.append(plant)
-        return plant
-
-    fly(read_pass(ROOT / "tests" / "passes" / f"{name}.csv"), make)
-    assert flown_by[0].status.faults == ()
-    assert seen == set()
+def test_a_pass_with_four_times_the_noise() -> None:
+    assert reported_in_flight("low-1-iss") == set()
