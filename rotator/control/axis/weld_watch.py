@@ -1,7 +1,8 @@
 """Whether an axis stands when no relay drives it: a welded relay, or a hand on the control box's switch.
 
 Knows the motion as observed, and which relay is suspected of being welded. Decides nothing: it returns a fault, and the
-axis stops. The opposite relay never meets a welded one: only cutting the supply ends such a run.
+axis stops. While a relay is suspected, an order for the opposite direction meets a fault: only cutting the supply ends
+such a run.
 """
 
 from __future__ import annotations

@@ -2,10 +2,10 @@
 
 Knows directions ordered and when. A satellite flies past in nearly a straight line, and a straight line in space,
 projected onto the plane that touches the sky at the target (gnomonic), is x(s) = (a + b s) / (1 + g s) for both
-coordinates with one g: five numbers, fitted to the last minute's orders by least squares. The fit
-gives the direction now to 0.2 degrees and in 40 seconds to 1.2 (real passes, whole degrees). Orders with decimals need
-less averaging: a few seconds are enough, and the older part of the line, which the earth's rotation bends a little, is
-left out. Knows nothing of axes, motors or tolerances.
+coordinates with one g: five numbers, fitted to the last minute's orders by least squares. The fit gives the direction
+now to 0.2 degrees and in 40 seconds to 1.2 (real passes, whole degrees). Orders with decimals need less averaging: a
+few seconds are enough, and the older part of the line, which the earth's rotation bends a little, is left out. Knows
+nothing of axes, motors or tolerances.
 """
 
 from __future__ import annotations
