@@ -1,7 +1,7 @@
 """A serial port, or any URL that pyserial opens. It may be unplugged and plugged in again at any time.
 
-Knows how to open it, how to notice that it is gone, and how to wait for it. Ignores DTR and RTS. Apart from `hw`, the
-only importer of pyserial.
+Knows how to open it, how to notice that it is gone, and how to wait for it. Ignores DTR and RTS. The only
+importer of pyserial.
 """
 
 from __future__ import annotations
