@@ -113,9 +113,9 @@ def main() -> None:
         chosen = [flight for flight in flights if flight.tolerance_deg == tolerance]
         name = "emulated sketch" if tolerance is None else f"box at {tolerance:g}°"
         if tolerance is None:
-            # It knows no overlap: where a pass crosses north it turns right round, and no mean says anything.
+            # The sketch knows no overlap: where a pass crosses north it turns right round, and a mean would hide that.
             chosen = [flight for flight in chosen if not flight.pass_name.startswith("north")]
-            name += ", not north"
+            name += ", nine passes"
         print(means_line(name, chosen))
         series[name] = (mean([f.starts for f in chosen]), mean([f.summary.rms_deg for f in chosen]))
     noisy = "[sim.azimuth]\npot_noise_deg = 0.4\n[sim.elevation]\npot_noise_deg = 0.4\n"
