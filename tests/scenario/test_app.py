@@ -22,7 +22,7 @@ from rotator.config.model import Config
 from rotator.links.wire import LinkError
 from rotator.runtime.display import DISPLAY_THREAD
 from rotator.runtime.engine import CONTROL_THREAD
-from rotator.runtime.loop import SENSORS_THREAD
+from rotator.runtime.sensor_thread import SENSORS_THREAD
 
 PATIENCE_S = 60.0
 OFF = (0, 0)

@@ -30,7 +30,7 @@ from rotator.panel.thread import PANEL_THREADS, PanelOutputs
 from rotator.rotors.relays import RelayRotor
 from rotator.runtime.display import DISPLAY_THREAD
 from rotator.runtime.engine import CONTROL_THREAD
-from rotator.runtime.loop import SENSORS_THREAD
+from rotator.runtime.sensor_thread import SENSORS_THREAD
 from rotator.store.counts import FILE_NAME
 from tests.rotors.rig import KINDS, Kind, configured
 

@@ -1,0 +1,59 @@
+"""What the control loop logs: each event once when it begins, and once when it ends.
+
+Knows devices by name, and statuses. Does not know how a device is reached.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterable
+
+from hw.ports import Axis
+from rotator.faults import Notice
+from rotator.runtime.log_limit import LogLimit
+from rotator.status import Status
+
+log = logging.getLogger(__name__)
+
+
+class Journal:
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._failures: dict[str, str] = {}
+        self._noticed: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
+        self._movers = LogLimit(clock)
+
+    def note(self, device: str, failure: str) -> None:
+        """What a device fails with now; empty: it works."""
+        if failure == self._failures.get(device, ""):
+            return
+        self._failures[device] = failure
+        if failure:
+            log.error("%s: %s", device, failure)
+        else:
+            log.warning("%s: answers again", device)
+
+    def any_fails(self, devices: Iterable[str]) -> bool:
+        """Whether one of these devices failed when it was last used."""
+        return any(self._failures.get(device) for device in devices)
+
+    def changed(self, before: Status, now: Status) -> None:
+        """Log what is new in a status."""
+        for fault in now.faults:
+            if fault not in before.faults:
+                log.log(logging.WARNING if fault.passing else logging.ERROR, "FAULT %s", fault)
+        mover = now.controlled_by
+        if mover and mover != before.controlled_by and (text := self._movers.admit(f"{mover} moves the antenna")):
+            log.info("%s", text)
+        if before.faults and not now.faults:
+            passed = all(fault.passing for fault in before.faults)
+            log.warning("no fault any more" if passed else "faults acknowledged")
+        self._notices(now)
+        if now.latched != before.latched:
+            log.warning(f"stopped by {now.latched} until released" if now.latched else "released")
+
+    def _notices(self, now: Status) -> None:
+        for axis in Axis:
+            for notice in now.axis(axis).notices:
+                if notice not in self._noticed[axis]:
+                    log.warning("%s: %s", axis.value, notice)
+            self._noticed[axis] = now.axis(axis).notices

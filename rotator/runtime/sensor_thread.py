@@ -1,0 +1,87 @@
+"""Reads the rotor's sensors in a thread of their own, so that a slow or hanging bus delays no order.
+
+Knows when to read. Does not know what a reading means: the axis judges it, its age too.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+from hw.ports import AngleSensor, Axis, HardwareError
+from rotator.control.axis.sensing import Reading
+from rotator.rotors.port import Rotor
+from rotator.runtime.journal import Journal
+
+SENSORS_THREAD = "sensors"
+"""The name of the thread."""
+JOIN_S = 1.0
+"""How long the end waits for the thread, in seconds."""
+
+
+class SensorThread:
+    """`on_round`: called when every sensor has been read once more, and when the thread has failed."""
+
+    def __init__(
+        self,
+        rotor: Rotor,
+        clock: Callable[[], float],
+        period_s: float,
+        journal: Journal,
+        on_round: Callable[[], None],
+    ) -> None:
+        self.failure: Exception | None = None
+        """The bug that ended the thread; None: it reads."""
+        self._rotor = rotor
+        self._clock = clock
+        self._period_s = period_s
+        self._journal = journal
+        self._on_round = on_round
+        self._readings: dict[Axis, Reading] = {}
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._keep_reading, name=SENSORS_THREAD, daemon=True)
+
+    @property
+    def readings(self) -> dict[Axis, Reading]:
+        """The latest reading of each axis; none before its first."""
+        return dict(self._readings)
+
+    def read_all(self) -> None:
+        """Read every sensor once: by the thread, or by hand in simulated time."""
+        for axis, sensor in self._rotor.sensors.items():
+            self._readings[axis] = self._read(axis, sensor)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Let the thread end. May be called twice, and from any thread."""
+        self._stop.set()
+
+    def join(self) -> None:
+        """A bus that hangs holds the thread. It is left behind: it reads only, and cannot move anything."""
+        if self._thread.is_alive():
+            self._thread.join(timeout=JOIN_S)
+
+    def _keep_reading(self) -> None:
+        try:
+            due_s = self._clock()
+            while not self._stop.is_set():
+                self.read_all()
+                self._on_round()
+                # When it has fallen behind, it goes on from now: a burst of readings would not help.
+                due_s = max(due_s + self._period_s, self._clock())
+                self._stop.wait(due_s - self._clock())
+        except Exception as failure:
+            # The control thread raises it, and so stops the motors.
+            self.failure = failure
+            self._on_round()
+
+    def _read(self, axis: Axis, sensor: AngleSensor) -> Reading:
+        try:
+            raw = sensor.read()
+        except HardwareError as fault:
+            self._journal.note(axis.value, str(fault))
+            return Reading(self._clock(), None, str(fault), self._rotor.condition(axis))
+        self._journal.note(axis.value, "")
+        return Reading(self._clock(), raw, condition=self._rotor.condition(axis))
