@@ -143,7 +143,7 @@ what_went_wrong() { # LOG
     elif grep -qE '(gcc|cc|cargo)[^ ]* failed|Python\.h|command .*(gcc|cc|cargo).* not found' "$1"; then
         echo "a package has to be compiled on this machine: sudo apt install gcc python3-dev, and again"
     elif [ -n "$missing" ] && [ -n "$fetch" ]; then
-        echo "nobody offers a ready-made $missing for $arch: such a machine needs the network to install"
+        echo "there is no ready-made $missing for $arch: such a machine needs the network to install"
     elif [ -n "$missing" ] && [ -n "$wheels" ]; then
         echo "$wheels lacks $missing for this Python and machine: fetch with --arch $(dpkg --print-architecture)"
     else

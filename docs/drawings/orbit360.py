@@ -85,6 +85,6 @@ def draw(config: Config) -> Sheet:
         (30, 1000),
         "The chips hang on 5 V, for the knobs' divider gives 4.5 V, and no pin of theirs may be above their supply.",
         "Chips, boxes and Pi have one ground. The relay cuts both boxes' supply, on its low-voltage side, until both",
-        "chips have been told where the rotor stands. 100 nF from VDD to VSS right at each chip, and from 14 to 7.",
+        "chips have got their step. 100 nF from VDD to VSS right at each chip, and from 14 to 7.",
     )
     return sheet
