@@ -83,3 +83,18 @@ def test_where_it_cannot_be_written_it_is_logged_and_tried_again(path: Path, cap
     path.parent.unlink()
     file.save(FULL_SCALES)
     assert KnobsFile(path).load() == FULL_SCALES
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ('{"format": "rotator knobs 1"}', "the key full_scales is missing"),
+        ("{}", "its format is not 'rotator knobs 1'"),
+        (shares("x"), "the azimuth knob's full scale is 'x'; it must be a number from 0.1 to 1.1"),
+    ],
+)
+def test_the_log_has_the_reason(path: Path, text: str, reason: str, caplog: pytest.LogCaptureFixture) -> None:
+    path.parent.mkdir()
+    path.write_text(text)
+    KnobsFile(path).load()
+    assert reason in caplog.text
