@@ -1,6 +1,6 @@
 """A table of points with straight lines between them: from a reading to an angle, from an angle to a pulse width.
 
-Knows numbers only: no unit, no device and no axis. Pure, so that code that decides may import it too.
+Knows numbers only: no unit, no device and no axis. It is pure, so that the control code may import it too.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from itertools import pairwise
 class PiecewiseLinear:
     """Points (x, y): x strictly rising, y strictly rising or strictly falling, so that the table works both ways.
 
-    `x_name` and `y_name` are what the two numbers are called in an error. Raises ValueError for fewer than two points,
+    `x_name` and `y_name` name the two numbers in an error. Raises ValueError for fewer than two points,
     or an order of points that is not monotonic.
     """
 

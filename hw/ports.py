@@ -52,7 +52,7 @@ class SwitchedDrive(Protocol):
     """Two motors that are only on or off, in two directions each: relays. The angle comes from an `AngleSensor`."""
 
     def drive(self, axis: Axis, direction: Direction, until_s: float) -> Direction:
-        """Run `axis` in that direction until `until_s` at the latest; OFF stops it now. Returns what is on now.
+        """Run `axis` in this direction until `until_s` at the latest; OFF stops it now. Returns the direction now on.
 
         The drive itself enforces three rules, so that no caller can bypass them. Opposite directions are never on
         together. A reversal waits for its dead time: meanwhile OFF is returned, and the caller asks again. Each command
@@ -98,7 +98,7 @@ class PositionedDrive(Protocol):
 
 
 class LeaseWatch(Protocol):
-    """A watch outside the program. It opens the relays when the program no longer renews its leases."""
+    """A watch in another process. It opens the relays when the program no longer renews its leases."""
 
     def renew(self) -> None:
         """A relay is about to close, or stays closed. Raises HardwareError without a watch: then no relay may close."""
@@ -168,7 +168,7 @@ class Attitude:
 
 
 class CompassCalibration(NamedTuple):
-    """How well a compass has found its own errors, each part 0 (not at all) to 3."""
+    """How far a compass has found its own errors: each part from 0 (not at all) to 3 (fully)."""
 
     system: int = 0
     gyroscope: int = 0
@@ -195,7 +195,7 @@ class Compass(Protocol):
     def calibration(self) -> CompassCalibration: ...
 
     def offsets(self) -> bytes:
-        """The corrections that the compass has found, to be kept while it has no power."""
+        """The corrections that the compass has found. Store them: the compass loses them without power."""
 
     def restore(self, offsets: bytes) -> None:
         """Give back what `offsets` returned. Raises ValueError where the length is wrong."""

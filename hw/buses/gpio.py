@@ -17,7 +17,7 @@ from typing import Any
 from hw.ports import ContactChange, HardwareError
 
 PI_HEADER_LABEL = r"pinctrl-(bcm2835|bcm2711|rp1)"
-"""The label of the chip with the 40-pin header. Its number is no use: on the Pi 5 alone it changed twice."""
+"""The label of the chip with the 40-pin header. The chip's number is no key: on the Pi 5 it changed twice."""
 
 EVENTS_KEPT = 1024
 """How many changes the kernel records, its maximum: 20 s of a contact that chatters 50 times a second."""
@@ -61,7 +61,7 @@ def find_chip(api: Any, label: str = PI_HEADER_LABEL, paths: list[str] | None = 
 
 def holders(api: Any, path: str, offsets: Iterable[int]) -> dict[int, str]:
     """The names of the programs that hold these lines; free lines are left out. Takes no line. Raises HardwareError."""
-    with _in_words(path), api.Chip(path) as chip:
+    with _explained(path), api.Chip(path) as chip:
         lines = [chip.get_line_info(offset) for offset in offsets]
     return {line.offset: line.consumer or "the kernel" for line in lines if line.used}
 
@@ -80,7 +80,7 @@ class _HeldLines:
 
     @contextmanager
     def _to(self, doing: str) -> Iterator[None]:
-        """The body does that with the lines; its errors become HardwareError."""
+        """Turn an OSError of the body into a HardwareError. `doing`: the body's task in words, for its text."""
         if self._closed:
             raise HardwareError(f"GPIO: cannot {doing}: the lines have been released")
         try:
@@ -114,7 +114,7 @@ class GpioOutputs(_HeldLines):
 
 
 class GpioInputs(_HeldLines):
-    """Named switches to ground on one chip, through `api`; the Pi's own resistors pull the lines of open ones high.
+    """Named switches to ground on one chip, through `api`. The Pi's own resistors pull the line of an open switch high.
 
     `offsets`: the GPIO number of each name. Raises HardwareError.
     """
@@ -196,13 +196,13 @@ def _taken(
 ) -> Any:
     """A gpiod request for these lines. Raises HardwareError, with their names."""
     pins = ", ".join(f"{name} on GPIO{offset}" for name, offset in offsets.items())
-    with _in_words(path, f"cannot take {pins}: "):
+    with _explained(path, f"cannot take {pins}: "):
         return api.request_lines(path, consumer=consumer, config=config, event_buffer_size=event_buffer_size)
 
 
 @contextmanager
-def _in_words(path: str, doing: str = "") -> Iterator[None]:
-    """Turn an error of gpiod into a HardwareError that says what to do."""
+def _explained(path: str, doing: str = "") -> Iterator[None]:
+    """Turn an error of gpiod into a HardwareError with what to do. `doing`: the failed task, ending in a colon."""
     try:
         yield
     except PermissionError as fault:

@@ -1,6 +1,6 @@
-"""An I2C adapter through smbus2, with errors that say what to check.
+"""An I2C adapter through smbus2; its errors say what to check.
 
-Knows Linux's error numbers. Knows no chip. The only importer of smbus2.
+Knows Linux's error numbers. Does not know which chip is at an address. The only importer of smbus2.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def _explain(fault: OSError) -> str:
         case errno.ETIMEDOUT:
             return "the bus hangs; something holds SDA or SCL low"
         case errno.EIO:
-            # The Pi's own controller reports this for a clock held low too long, an adapter on USB for a pulled plug.
+            # The Pi's own controller reports this for a clock held low too long, a USB adapter for a pulled plug.
             return f"{fault.strerror}; something holds SDA or SCL low, or the adapter has gone"
         case _:
             return fault.strerror or str(fault)

@@ -1,6 +1,6 @@
 """Frames to and from chips on SPI, mode 0, most significant bit first: by the kernel's driver, or on GPIO lines.
 
-Knows clocks and selects. Knows no chip. The only importer of spidev.
+Knows clock, data and select lines. Does not know what a frame means. The only importer of spidev.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ class SpiBus(Protocol):
     """An SPI adapter as drivers use it; the chips are called by the names of their select lines."""
 
     def send(self, chip: str, frame: bytes) -> None:
-        """Select the chip, clock the frame in, let the chip go. Raises HardwareError when the lines cannot be set."""
+        """Select the chip, clock the frame in, deselect the chip. Raises HardwareError when the lines cannot be set."""
 
     def exchange(self, chip: str, frame: bytes) -> bytes:
-        """The same, and returns what the chip clocked out meanwhile: as many bytes. Raises HardwareError."""
+        """Send the frame, and return as many bytes that the chip sent meanwhile. Raises HardwareError."""
 
 
 class AnswerLine(Protocol):
@@ -62,7 +62,7 @@ class LineSpi:
                 for octet in frame:
                     for bit in range(7, -1, -1):
                         self._wires.set({SCK: False, SI: bool(octet >> bit & 1)})
-                        # The chip has put its bit out with the falling edge, and keeps it over the rising one.
+                        # The chip sets its bit at the falling edge of the clock, and holds it over the rising edge.
                         received = received << 1 | (answer is not None and not answer.read()[SO])
                         self._wires.set({SCK: True})
                 self._wires.set({SCK: False})
@@ -72,7 +72,7 @@ class LineSpi:
 
 
 class KernelSpi:
-    """SPI on the Pi's controller, through `api`: the spidev package, or of its shape.
+    """SPI on the Pi's controller, through `api`: the spidev package, or an object of its shape.
 
     `selects` gives each chip the number of its select: /dev/spidevBUS.SELECT. Raises HardwareError.
     """

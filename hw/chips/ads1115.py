@@ -49,11 +49,11 @@ class Ads1115:
         self._full_scale_v = full_scale_v
         self._conversion_s = _OSCILLATOR_TOLERANCE / rate_sps + _WAKE_UP_S
         self._quiet = False
-        """The last conversion was started here and has ended."""
+        """No conversion runs: this driver started the last one, and it has ended."""
         self._settings = FULL_SCALE_V[full_scale_v] << 9 | SINGLE_SHOT | RATE_SPS[rate_sps] << 5 | COMPARATOR_OFF
 
     def volts(self, channel: int) -> float:
-        """The voltage of input 0 to 3 against ground. Raises HardwareError: no answer, or the conversion never ends."""
+        """The voltage of input 0 to 3 against ground. Raises HardwareError: no answer, or an endless conversion."""
         if not self._quiet:
             self._quieten()
         self._quiet = False

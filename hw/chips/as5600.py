@@ -1,8 +1,8 @@
 """The AS5600 and AS5600L: the angle of a magnet above the chip, as a share of one turn.
 
 Knows the chip's registers and its magnet flags (ams AS5600, "Register Description"). Does not know gears: when the
-magnet turns more than once over the axis's range, the reading repeats. Writes register addresses only, so that it can
-never burn a chip's settings by accident.
+magnet turns more than once over the axis's range, the reading repeats. The driver writes register
+addresses only, so that it can never burn a chip's settings by accident.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ ADDRESS_L = 0x40
 
 STATUS = 0x0B
 RAW_ANGLE = 0x0C
-"""Not ANGLE at 0x0E: settings burned into the chip change that one's range."""
+"""The driver does not read ANGLE at 0x0E, because settings burned into the chip change the range of that register."""
 
 MAGNET_DETECTED = 1 << 5
 MAGNET_WEAK = 1 << 4

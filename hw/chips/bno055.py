@@ -1,7 +1,7 @@
 """The BNO055: heading and tilt of the boom from the earth's magnetic field and gravity, computed inside the chip.
 
-Knows the chip's registers (Bosch BST-BNO055-DS000), its modes and their times, and how to find the right answer where
-the Raspberry Pi's I2C controller garbles some of them. Does not know true north, nor the rotor. A compass near motors
+Knows the chip's registers (Bosch BST-BNO055-DS000), its modes and their times, and how to find the right answer when
+the Raspberry Pi's I2C controller garbles some answers. Does not know true north, nor the rotor. A compass near motors
 and steel is good as a reference, averaged while the antenna stands; it is no sensor to steer by.
 """
 
@@ -40,7 +40,7 @@ INTO_FUSION_S = 0.11
 """7 ms for the change of mode, then the time until the first angles are ready."""
 
 AGREEING = 4
-"""So many equal answers in a row count as right. With one byte in 100 garbled, that is wrong once in 10⁸ times."""
+"""So many equal answers in a row count as right. With one byte in 100 garbled, a result is wrong once in 10⁸."""
 READS = 80
 """How often a register is read before the driver gives up."""
 ALIKE_DEG = 2.0
@@ -49,7 +49,7 @@ TRIES = 3
 
 
 class Bno055:
-    """One chip. Each call raises HardwareError when the chip does not answer, or its answers differ; the next call
+    """One chip. Each call raises HardwareError when the chip does not answer, or its answers differ. The next call
     tries again. A missing chip takes a second to report, because it might still be starting.
 
     Raises ValueError for an unknown `mounting`.
@@ -118,11 +118,11 @@ class Bno055:
     # --- modes
 
     def _run(self) -> None:
-        """Make sure that the chip computes angles: one that lost its supply for a moment is in CONFIG mode."""
+        """Make sure that the chip computes angles: after a dip of its supply it is in CONFIG mode."""
         try:
             status, mode = self._same(STATUS, 1)[0], self._same(MODE, 1)[0]
         except HardwareError:
-            status, mode = 0, CONFIG_MODE  # perhaps it is starting: `_start` waits for that
+            status, mode = 0, CONFIG_MODE  # the chip may be starting: `_start` waits for it
         if (status, mode) != (FUSION_RUNS, NDOF):
             self._start()
 
@@ -152,11 +152,13 @@ class Bno055:
                 if self._clock() >= until_s:
                     raise
                 self._sleep(BOOT_STEP_S)
-        if page == 1:  # another program has set up the raw sensors there
+        if page == 1:  # another program has used the registers of page 1
             self._write(PAGE, 0)
         identity = self._same(IDENTITY, 1)[0]
         if identity != CHIP_IDENTITY:
-            raise self._error(f"its identity is 0x{identity:02x}, a BNO055's is 0xa0; another chip has this address")
+            raise self._error(
+                f"the chip's identity is 0x{identity:02x}, a BNO055 has 0xa0; another chip is at this address"
+            )
 
     def _enter(self, mode: int) -> None:
         self._write(MODE, mode)
@@ -164,7 +166,7 @@ class Bno055:
         if (now := self._same(MODE, 1)[0]) != mode:
             raise self._error(f"it stays in mode 0x{now:02x}; switch its power off and on")
 
-    # --- answers that can be believed
+    # --- answers that agree
 
     def _angles(self) -> Attitude | None:
         heading, roll, pitch = (part / STEPS_PER_DEG for part in struct.unpack("<hhh", self._read(EULER, 6)))

@@ -1,7 +1,8 @@
-"""HD44780 character displays, on six lines or behind a PCF8574 backpack.
+"""HD44780 character displays, on six GPIO lines or behind a PCF8574 backpack.
 
-Knows the controller's instructions and times (Hitachi ADE-207-272, table 6) and both ways to its pins. Does not
-know what the text means. RW is tied to ground on the usual boards, so the driver never reads the busy flag: it waits.
+Knows the controller's instructions and times (Hitachi ADE-207-272, table 6) and both connections to its pins. Does not
+know what the text means. RW is tied to ground on the usual boards, so the driver waits in place of reading the busy
+flag.
 """
 
 from __future__ import annotations
@@ -25,11 +26,11 @@ CLEAR_S = 0.002
 INSTRUCTION_S = 50e-6
 
 ROM_A00 = {"°": 0xDF, "→": 0x7E, "←": 0x7F}
-"""Characters that the usual character ROM has at another place than ASCII."""
+"""The codes of these characters in the usual character ROM, A00."""
 
 
 class NibblePort(Protocol):
-    """The way to the display's pins."""
+    """The connection to the display's pins."""
 
     def send(self, register_select: bool, nibbles: Sequence[int]) -> None:
         """Clock each nibble into D4 to D7, and wait for the time of an instruction after each pair.
@@ -63,9 +64,9 @@ BACKPACKS: dict[str, dict[str, int]] = {
     "lcdxio": {"rs": 4, "rw": 5, "e": 6, "bl": 7, "d4": 0, "d5": 1, "d6": 2, "d7": 3},
     "swapped": {"rs": 2, "rw": 1, "e": 0, "bl": 3, "d4": 4, "d5": 5, "d6": 6, "d7": 7},
 }
-"""Which bit of the PCF8574 goes to which pin. Nearly every board is a `ywrobot`."""
+"""For each kind of board: the bit of the PCF8574 for each pin. Nearly every board is a `ywrobot`."""
 BACKLIGHT_ACTIVE_LOW = frozenset({"lcm1602", "mjkdz", "lcdxio"})
-"""Boards whose light is on while its bit is 0."""
+"""Boards with a backlight that is on while its bit is 0."""
 
 
 class BackpackPort:

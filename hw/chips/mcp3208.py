@@ -1,7 +1,8 @@
 """The MCP3208, an eight-input 12-bit converter on SPI: single readings in volts.
 
-Knows the frame of the chip (Microchip DS21298E, sections 5.0 and 6.1). A reading is a share of the voltage at its VREF
-pin: wired to the supply of the pots, it does not depend on that supply. Knows nothing of what is at its inputs.
+Knows the frame of the chip (Microchip DS21298E, sections 5.0 and 6.1). A reading is a share of the voltage at the VREF
+pin: with VREF on the supply of the pots, the reading does not depend on that supply. Does not know what its inputs are
+wired to.
 """
 
 from __future__ import annotations
@@ -14,21 +15,21 @@ from hw.ports import HardwareError
 CHANNELS = 8
 STEPS = 4096
 START_SINGLE_ENDED = 0b11 << 9
-"""The start bit and SGL/DIFF, behind five leading zeros: the twelve bits of the answer then end with the third byte."""
+"""The start bit and SGL/DIFF, after five leading zeros: the twelve bits of the answer then end with the third byte."""
 CHANNEL_SHIFT = 6
 NULL_BIT = 1 << 12
 """Low before the first bit of a conversion; a data line that no chip drives is pulled high."""
 
 SLOWEST_FRAME_S = 0.01
-"""The sample leaks away while it is clocked out. The chip keeps it for 1.2 ms at 85 °C (section 6.2); leakage halves
-with every 10 K or so, so this will do for a chip at up to 50 °C."""
+"""The longest time for one frame, in seconds: the sampled voltage leaks away meanwhile. The chip keeps it for 1.2 ms at
+85 °C (section 6.2). Leakage halves with about every 10 K, so 10 ms is short enough for a chip at up to 50 °C."""
 TRIES = 3
 
 
 class Mcp3208:
     """One chip; `chip` is the name of its select line.
 
-    `clock`: seconds, where the program clocks the frame bit by bit and may be interrupted; None: hardware clocks it.
+    `clock`: seconds, where the program clocks the frame bit by bit and may be interrupted; None where hardware does.
     """
 
     def __init__(self, bus: SpiBus, chip: str, vref_v: float, clock: Callable[[], float] | None = None) -> None:
@@ -45,11 +46,11 @@ class Mcp3208:
         return (answer & (STEPS - 1)) * self._vref_v / STEPS
 
     def answers(self) -> bool:
-        """Whether a chip is there. The kernel's SPI may read a line that no chip drives as 0. Raises HardwareError."""
+        """Whether a chip answers. The kernel's SPI may read 0 from a line without a chip. Raises HardwareError."""
         return not self._frame(0) & NULL_BIT
 
     def _steady(self, channel: int) -> int:
-        """A frame that was clocked without a pause. Raises HardwareError."""
+        """The answer of a frame that was clocked fast enough. Raises HardwareError."""
         if self._clock is None:
             return self._frame(channel)
         for _ in range(TRIES):

@@ -22,7 +22,7 @@ class Mcp41010:
         self._chip = chip
 
     def write(self, step: int) -> None:
-        """Put the wiper on a step, 0 to 255: step/256 of the way from B to A. Ends a shutdown.
+        """Put the wiper on a step, 0 to 255: step/256 of the resistance from B to A. Ends a shutdown.
 
         Raises ValueError for another step, HardwareError when the lines cannot be set.
         """
@@ -31,5 +31,5 @@ class Mcp41010:
         self._bus.send(self._chip, bytes([_WRITE, step]))
 
     def shut_down(self) -> None:
-        """Open A, and join the wiper with B. Raises HardwareError."""
+        """Disconnect terminal A, and connect the wiper with B. Raises HardwareError."""
         self._bus.send(self._chip, bytes([_SHUT_DOWN, 0]))

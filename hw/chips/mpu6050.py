@@ -1,7 +1,7 @@
 """The MPU6050 on the boom: elevation from the direction of gravity.
 
 Knows the chip's registers (InvenSense RM-MPU-6000A) and how the board is mounted. The chip cannot separate gravity from
-an acceleration, so a reading far from 1 g is not used. Knows no rotor, and does not use the gyroscopes.
+an acceleration, so a reading far from 1 g is not used. Does not use the gyroscopes, and does not know the rotor.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ SETTLING_S = 0.05
 
 SHAKEN_G = 0.15
 """A reading further from 1 g than this is shaken by the motor or the wind, and not used."""
-LASTS_S = 0.3
-"""A reading is averaged with those before it that are no older than this; they also stand in for a shaken one."""
+AVERAGED_OVER_S = 0.3
+"""A result is the average of the good readings of so many seconds. While the board shakes, these are older readings."""
 LEAST_IN_PLANE_G = 0.5
 """With less gravity than this in the plane in which the boom turns, the board lies on its side."""
 
@@ -43,7 +43,9 @@ _AXES = {"x": 0, "y": 1, "z": 2}
 
 @dataclass(frozen=True, slots=True)
 class Mounting:
-    """Which arrow on the board points along the boom, and which one up while the boom is level: `+x`, `-z`, ...
+    """The arrow on the board that points along the boom, and the arrow that points up while the boom is level.
+
+    An arrow is an axis with its sign: `+x`, `-z`, ...
 
     Raises ValueError for an unknown arrow, or two arrows of one axis.
     """
@@ -71,8 +73,8 @@ def _along(arrow: str, board_g: tuple[float, float, float]) -> float:
 
 
 class Mpu6050:
-    """One chip as a `hw.ports.AngleSensor`. `clock` gives seconds; `sleep` waits while the chip wakes up. `averaged`:
-    how many readings are averaged at most.
+    """One chip as a `hw.ports.AngleSensor`. `clock` gives seconds; `sleep` waits while the chip wakes up.
+    `averaged`: the largest number of readings in an average.
     """
 
     source = AngleSource.MEASURED
@@ -93,11 +95,11 @@ class Mpu6050:
         self._address = address
         self._mounting = mounting or Mounting()
         self._taken: deque[tuple[float, float, float]] = deque(maxlen=averaged)
-        """When each reading was taken, and gravity along the boom and across it."""
+        """For each reading: its moment in seconds, then gravity along the boom and across it in g."""
         self._awake = False
 
     def read(self) -> float:
-        """Elevation in degrees, -90 to 270: a boom that goes over the top reaches 180 without a jump.
+        """Elevation in degrees, -90 to 270, so that a boom which goes over the top reaches 180 without a jump.
 
         Raises HardwareError when the chip does not answer, is another chip, or has been shaken for too long.
         """
@@ -107,13 +109,13 @@ class Mpu6050:
             self._awake = False
             raise
         now_s = self._clock()
-        while self._taken and now_s - self._taken[0][0] > LASTS_S:
+        while self._taken and now_s - self._taken[0][0] > AVERAGED_OVER_S:
             self._taken.popleft()
         force_g = math.hypot(*board_g)
         if abs(force_g - 1.0) <= SHAKEN_G:
             self._taken.append((now_s, *self._in_plane(board_g)))
         else:
-            self._awake = False  # after a dip of its supply the chip sleeps and reads 0 g; waking it is always safe
+            self._awake = False  # perhaps its supply dipped: the chip then sleeps and reads 0 g
             if not self._taken:
                 raise self._error(
                     f"it feels {force_g:.2f} g where gravity is 1 g; wait until the antenna stands still, "
@@ -137,7 +139,9 @@ class Mpu6050:
     def _wake(self) -> None:
         identity, power = (self._bus.write_read(self._address, bytes([at]), 1)[0] for at in (WHO_AM_I, POWER))
         if identity != IDENTITY:
-            raise self._error(f"WHO_AM_I says 0x{identity:02x}, an MPU6050 says 0x68; another chip has this address")
+            raise self._error(
+                f"the chip's identity is 0x{identity:02x}, an MPU6050 has 0x68; another chip is at this address"
+            )
         for register, value in ((POWER, AWAKE), (CONFIG, LOW_PASS_10_HZ), (ACCEL_CONFIG, RANGE_2_G)):
             self._bus.write(self._address, bytes([register, value]))
         if power != AWAKE:

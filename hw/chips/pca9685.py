@@ -1,7 +1,7 @@
-"""The PCA9685, sixteen 12-bit pulse outputs on I2C: pulse widths for servos, shares of full for panel meters.
+"""The PCA9685, sixteen 12-bit pulse outputs on I2C: pulse widths for servos, duty cycles for panel meters.
 
 Knows the chip's registers (NXP PCA9685 rev. 4, section 7.3). Does not know what its outputs are wired to. The chip has
-no watchdog: its outputs go on after the program has ended.
+no watchdog: its pulses go on after the program has ended.
 """
 
 from __future__ import annotations
@@ -20,21 +20,23 @@ SLEEP = 1 << 4
 AUTO_INCREMENT = 1 << 5
 RESTART = 1 << 7
 TOTEM_POLE = 1 << 2
-"""The bits around it are zero: outputs are not inverted, and change together at the STOP of a write."""
+"""All other bits of MODE2 are zero: outputs are not inverted, and change together at the STOP of a write."""
 
 CHANNELS = 16
 TICKS = 4096
 FULL = 1 << 4
-"""In ON_H: always on. In OFF_H: always off; this one wins."""
+"""In ON_H: always on. In OFF_H: always off. With both set, the output is off."""
 
 _LEAST_PRESCALE, _GREATEST_PRESCALE = 3, 255
 _OSCILLATOR_START_S = 1e-3
-"""Twice what the datasheet asks for (section 7.3.1)."""
+"""Twice the start time in the datasheet (section 7.3.1)."""
 
 
 class Pca9685:
     """One chip. `frequency_hz`: pulses a second. `osc_hz`: the real frequency of its oscillator, on many boards 26 to
-    27 MHz. `sleep` waits for the oscillator. Raises HardwareError for a frequency outside 24 to 1526 Hz.
+    27 MHz. `sleep` waits for the oscillator.
+
+    Raises HardwareError for a frequency that the chip cannot make: outside 24 to 1526 Hz with 25 MHz.
     """
 
     def __init__(
@@ -51,9 +53,10 @@ class Pca9685:
         self._sleep = sleep
         self._prescale = round(osc_hz / (TICKS * frequency_hz)) - 1
         if not _LEAST_PRESCALE <= self._prescale <= _GREATEST_PRESCALE:
-            raise HardwareError(f"{self}: it cannot make {frequency_hz:g} Hz, only 24 to 1526 Hz")
+            low_hz, high_hz = (osc_hz / (TICKS * (end + 1)) for end in (_GREATEST_PRESCALE, _LEAST_PRESCALE))
+            raise HardwareError(f"{self}: it cannot make {frequency_hz:g} Hz, only {low_hz:.0f} to {high_hz:.0f} Hz")
         self.tick_us = (self._prescale + 1) / osc_hz * 1e6
-        """The smallest step of a pulse's width."""
+        """The smallest step of a pulse's width, in microseconds."""
 
     def __str__(self) -> str:
         return f"PCA9685 at 0x{self._address:02x}"
@@ -68,20 +71,22 @@ class Pca9685:
         self._sleep(_OSCILLATOR_START_S)
 
     def check(self) -> None:
-        """Raises HardwareError when the chip is not as `start` left it: a supply that dips resets it, outputs off."""
+        """Raises HardwareError when a dip of the supply has reset the chip: all outputs are then off."""
         mode = self._read(MODE1) & ~RESTART
         if mode != AUTO_INCREMENT or self._read(PRE_SCALE) != self._prescale:
             raise HardwareError(f"{self}: it has been reset, its outputs are off; check its 3.3 V supply")
 
     def pulse(self, channel: int, width_us: float) -> None:
-        """A pulse of this width in each period. Raises HardwareError: no answer, or longer than the period."""
+        """A pulse of this width in each period. Raises HardwareError: no answer, or an impossible width."""
         ticks = round(width_us / self.tick_us)
         if not 0 < ticks < TICKS:
-            raise HardwareError(f"{self}: a pulse of {width_us:g} µs does not fit into its period")
+            raise HardwareError(
+                f"{self}: the pulse must be longer than 0 and shorter than the period; {width_us:g} µs was asked"
+            )
         self._set(channel, 0, ticks)
 
     def duty(self, channel: int, share: float) -> None:
-        """On for this share of the time; below 0 counts as 0, above 1 as 1. Raises HardwareError."""
+        """On for this share of each period; below 0 counts as 0, above 1 as 1. Raises HardwareError."""
         ticks = round(share * TICKS)
         if ticks <= 0:
             self.off(channel)

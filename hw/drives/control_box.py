@@ -1,8 +1,8 @@
 """One control box that follows a knob, with a digital potentiometer in place of the knob: one axis.
 
 Knows the chip's steps, and a model of the box: it turns at one speed, and stays still while the error is within its
-dead band. Knows no lease, no thread and no other axis. Does not know where the rotor stands: neither the chip nor the
-box can be read, so the angle here is the model's.
+dead band. Does not know the rotor's real angle: the chip and the box cannot be read, so the angle here is the
+model's. Knows no lease, no thread and no other axis.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ class ControlBox:
         if self.scale.values[0] < 0 or self.scale.values[1] > STEPS:
             raise HardwareError(f"{name}: the calibration table has steps outside 0 to {STEPS}")
         self.angle_deg = spec.start_deg
-        """Where the model stands."""
+        """The model's angle, in degrees on the rotor's own scale."""
         self.until_s: float | None = None
         """When the present command expires; None: there is no command."""
         self._chip = chip
         self._spec = spec
         self._step: int | None = None
-        """The step the chip was last given; None: the chip may be at any step."""
+        """The last step sent to the chip; None: the chip may be at any step."""
         self._now_s = now_s
 
     @property
@@ -55,18 +55,18 @@ class ControlBox:
         if not powered or self._step is None:
             return
         error_deg = self.scale.angle_deg(self._step) - self.angle_deg
-        way_deg = min(max(0.0, abs(error_deg) - self._spec.dead_band_deg), self._spec.speed_dps * past_s)
-        self.angle_deg += way_deg if error_deg > 0 else -way_deg
+        turned_deg = min(max(0.0, abs(error_deg) - self._spec.dead_band_deg), self._spec.speed_dps * past_s)
+        self.angle_deg += turned_deg if error_deg > 0 else -turned_deg
 
     def order(self, angle_deg: float) -> None:
         """Send the nearest step, unless the chip has it. Raises HardwareError: outside the table, or the bus fails."""
         step = min(round(self.scale.value(angle_deg)), STEPS - 1)
         if step != self._step:
             self._chip.write(step)
-            self._step = step  # after the write: one that failed is sent again
+            self._step = step  # after the write, so that a failed step is sent again
 
     def order_here(self) -> None:
-        """Send the step of the model's own angle, which the chip may have forgotten without its supply."""
+        """Send the step of the model's angle, also if it was the last one: without supply the chip forgets its step."""
         self._step = None
         self.order(self.scale.within(self.angle_deg))
 

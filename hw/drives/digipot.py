@@ -1,7 +1,7 @@
 """A rotor of two control boxes that follow a knob, each knob replaced by a digital potentiometer: a positioned drive.
 
 Knows leases, the boxes' supply, and when a chip needs its step again. Does not know how one box behaves: that is
-`hw.drives.control_box`. The angle is modelled; `found` corrects it where the rotor's own pot is measured.
+`hw.drives.control_box`. The angle is modelled; `found` corrects the model where the rotor's own pot is measured.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 
 ENABLE = "box_enable"
-"""The relay that feeds the boxes. A chip starts in the middle: a box that is fed from power-on turns there."""
+"""The relay of the boxes' supply. A chip starts in the middle: a box with supply from power-on turns there."""
 
 REFRESH_S = 1.0
-"""How often the steps are sent again: a chip whose supply dips loses its step, and cannot report that."""
+"""Seconds until the steps are sent again: a dip of its supply erases a chip's step without a report."""
 
 
 class DigipotDrive:
     """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock.
 
-    `enable`: the line `ENABLE`, where that relay is wired; it closes when both chips have a step. Raises HardwareError
-    for a wrong table of steps.
+    `enable`: the line `ENABLE`, where that relay is wired. The relay closes when both chips have a step.
+    Raises HardwareError for a wrong table of steps.
     """
 
     angle_source = AngleSource.MODELLED
@@ -113,7 +113,7 @@ class DigipotDrive:
             if left_s > 0:
                 self._changed.wait(left_s)
 
-    # --- how it is
+    # --- state
 
     def sensor(self, axis: Axis) -> DriveAngle:
         return DriveAngle(self, axis)
@@ -141,7 +141,7 @@ class DigipotDrive:
         return now_s
 
     def _feed(self, now_s: float) -> None:
-        """Switch the boxes' supply on, after both chips have the step of where they stand."""
+        """Switch the boxes' supply on, after each chip has the step of its box's angle."""
         if self._powered:
             return
         for box in self._boxes.values():
@@ -152,7 +152,7 @@ class DigipotDrive:
         self._refresh_s = now_s + REFRESH_S
 
     def _each(self, boxes: Iterable[ControlBox], act: Callable[[ControlBox], None]) -> None:
-        """Do it to every box, also after one has failed. Raises the first HardwareError."""
+        """Call `act` for every box, also after a failure. Raises the first HardwareError."""
         failures: list[HardwareError] = []
         for box in boxes:
             try:

@@ -1,6 +1,6 @@
-"""What drives that go to an angle by themselves share: the angle of one of their axes as a sensor.
+"""The angle of one axis of a drive as an angle sensor, for drives that measure or model the angle themselves.
 
-Knows no motor and no chip. Does not know how the angle is found: the drive knows that, and names the source.
+Knows no motor and no chip. Does not know how the angle is found: the drive does, and names the source.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from hw.ports import AngleSource, Axis
 
 
 class AngleDrive(Protocol):
-    """A drive that knows where its axes stand."""
+    """A drive that knows the angles of its axes."""
 
     angle_source: AngleSource
 

@@ -15,7 +15,7 @@ from hw.ports import Axis, Direction, HardwareError, LeaseWatch, OutputLines
 LONGEST_LEASE_S = 0.5
 """No command lives longer, even if the caller asks for more: when the caller dies, the motor stops within 0.5 s."""
 MASTER_LINGER_S = 10.0
-"""How long the motor supply stays on after the last motor stopped: its relay need not switch at every correction."""
+"""How long the motors' supply stays on after the last motor stopped, so that its relay switches less often."""
 
 MASTER = "master"
 RELAYS: dict[tuple[Axis, Direction], str] = {
@@ -31,9 +31,9 @@ class _Motor:
     on: Direction = Direction.OFF
     until_s: float = 0.0
     last: Direction = Direction.OFF
-    """The direction it last ran in."""
+    """The direction of the last run."""
     stopped_s: float = float("-inf")
-    """When it was last switched off; a reversal waits for the dead time from this moment."""
+    """When the motor was last switched off. A reversal waits for the dead time from this moment."""
 
 
 class RelayBank:
@@ -106,14 +106,14 @@ class RelayBank:
             self._plan()
 
     def due_s(self) -> float | None:
-        """The moment `enforce` has something to do; None: nothing is on."""
+        """The next moment at which `enforce` has something to do; None: nothing is on."""
         with self._lock:
             return self._due_s
 
     def enforce(self, now_s: float) -> None:
         """Open every relay whose command has expired. The guard's only task.
 
-        If one line cannot be switched, the others are switched all the same, and the master is opened. Raises the first
+        If one line cannot be switched, the bank still switches the others, and opens the master. Raises the first
         HardwareError after that.
         """
         failures: list[HardwareError] = []
@@ -154,7 +154,7 @@ class RelayBank:
         motor = self._motors[axis]
         if motor.on not in (Direction.OFF, direction):
             self._open(axis, now_s)
-        # The watch learns of the lease before the relay closes, so that no closed relay is ever unwatched.
+        # The watch learns of the lease before the relay closes: a closed relay is always watched.
         if motor.on is Direction.OFF and self._may_start(motor, direction, now_s):
             self._renew()
             self._close(axis, direction, now_s)
@@ -200,7 +200,7 @@ class RelayBank:
         return all(motor.on is Direction.OFF for motor in self._motors.values())
 
     def _plan(self) -> None:
-        """Set the next moment for `enforce`, and wake the guard if it is sooner than before, or gone."""
+        """Set the next moment for `enforce`. Wake the guard if that moment is sooner than before, or there is none."""
         moments = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
         if self._watch and self._renewed and not moments:
             self._watch.rest()

@@ -1,7 +1,7 @@
-"""The calibration table of one axis of a drive: from an angle to the number the device is given, and back.
+"""The calibration table of one axis of a drive: from an angle to the number for the device, and back.
 
-Knows the table's range, and refuses an angle outside it. Does not know the device, nor what its number means: a pulse
-width in microseconds, or a wiper's step.
+Knows the table's range, and refuses an angle outside it. Does not know whether the number is a pulse width in
+microseconds or the step of a wiper.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class CommandScale:
         return min(ends), max(ends)
 
     def check(self, angle_deg: float) -> None:
-        """Raises HardwareError outside the table: the rotor was never tried there, and may meet its stop."""
+        """Raises HardwareError outside the table: the rotor was not calibrated there, and may meet its stop."""
         if not self.low_deg - _ROUNDING_DEG <= angle_deg <= self.high_deg + _ROUNDING_DEG:
             raise HardwareError(
                 f"{self._name}: {angle_deg:.1f}° is outside its calibration table, "

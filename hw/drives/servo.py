@@ -20,10 +20,10 @@ from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 ENABLE = "servo_enable"
 """The line at the board's OE input; OE is active low, so this output is requested as active low."""
 
-LOOK_S = 1.0
-"""How often a board with pulses on it is checked for a reset."""
+CHECK_S = 1.0
+"""Seconds between two checks of a board with pulses for a reset."""
 RETRY_S = 0.5
-"""How long after a failure the board is set up again."""
+"""Seconds after a failure until the board is set up again."""
 
 
 class ServoDrive:
@@ -60,7 +60,7 @@ class ServoDrive:
         self._wire = threading.Lock()
         """Held while the bus is in use. `off` and `hold` do not take it, so that a stop never waits for the bus."""
         self._started = False
-        self._look_s = clock()
+        self._check_s = clock()
         self._failure: str | None = None
 
     # --- hw.ports.PositionedDrive
@@ -115,9 +115,9 @@ class ServoDrive:
             try:
                 if not self._started:
                     self._start()
-                elif now_s >= self._look_s:
+                elif now_s >= self._check_s:
                     self._chip.check()
-                    self._look_s = now_s + LOOK_S
+                    self._check_s = now_s + CHECK_S
                 for axis in self._axes.values():
                     self._step(axis, now_s)
             except HardwareError as fault:
@@ -132,7 +132,7 @@ class ServoDrive:
             if left_s > 0:
                 self._changed.wait(left_s)
 
-    # --- how it is
+    # --- state
 
     def sensor(self, axis: Axis) -> DriveAngle:
         return DriveAngle(self, axis)
@@ -145,12 +145,12 @@ class ServoDrive:
             return self._axes[axis].angle_deg
 
     def position_known(self, axis: Axis) -> bool:
-        """Whether the jump of the first pulse is over: the servo has had time for its whole travel."""
+        """Whether the jump of the first pulse is over: there was time for the servo's whole travel."""
         with self._changed:
             return self._axes[axis].settled_s <= self._clock()
 
     def faults(self) -> dict[Axis, str]:
-        """Why the axes cannot move, one sentence each; empty again when the board answers."""
+        """Why the axes cannot move, one sentence for each; empty when the board answers."""
         with self._changed:
             return dict.fromkeys(self._axes, self._failure) if self._failure else {}
 
@@ -162,7 +162,7 @@ class ServoDrive:
         self._chip.start()
         with self._changed:
             self._started, self._failure = True, None
-            self._look_s = self._clock() + LOOK_S
+            self._check_s = self._clock() + CHECK_S
 
     def _step(self, axis: ServoAxis, now_s: float) -> None:
         with self._changed:
@@ -200,21 +200,21 @@ class ServoDrive:
     def _fail(self, failure: str, now_s: float) -> None:
         with self._changed:
             self._failure, self._started = failure, False
-            self._look_s = now_s + RETRY_S
+            self._check_s = now_s + RETRY_S
             for axis in self._axes.values():
                 axis.hold()
                 axis.sleep(lost=True)
         if self._enable:
-            with suppress(HardwareError):  # the board's own failure is the one to report
+            with suppress(HardwareError):  # report the failure of the board, not this one
                 self._enable.set({ENABLE: False})
 
     def _due_s(self) -> float | None:
         if self._wire.locked():  # `enforce` is running; in a simulation, time may pass on the bus meanwhile
             return None
         if not self._started:
-            return self._look_s
+            return self._check_s
         moments = [axis.due_s() for axis in self._axes.values() if axis.under_way]
         for axis in self._axes.values():
             if axis.pulsing:
-                moments += [self._look_s, self._idle_s(axis)]
+                moments += [self._check_s, self._idle_s(axis)]
         return min(moments, default=None)

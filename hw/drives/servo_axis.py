@@ -1,7 +1,7 @@
-"""One hobby servo: which pulse it gets next, and the angle it is assumed to stand at.
+"""One hobby servo: its next pulse, and the angle at which the model assumes it.
 
 Knows how fast the ordered angle may move. Knows no chip, no thread and no other axis. A servo reports nothing, so the
-angle is a model: the servo is assumed to be faster than the pulses ask it to be.
+angle is a model, which assumes that the servo can follow its pulses.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class ServoSpec:
     channel: int
     pulses_us: tuple[tuple[float, float], ...] = ((0.0, 500.0), (180.0, 2500.0))
     start_deg: float = 0.0
-    """Where the first pulse sends it, at the servo's own speed: no pulse can make that jump slower."""
+    """The angle of the first pulse. The servo jumps to it at its own speed, which no pulse can slow down."""
     slew_dps: float = 40.0
     """How fast the ordered angle moves; it must be less than the servo's own speed."""
 
@@ -49,7 +49,7 @@ class ServoAxis:
         self.angle_deg = spec.start_deg
         self.pulsing = False
         self.settled_s = float("inf")
-        """When the jump of the first pulse is over, even over the whole travel; infinite: it had no pulse yet."""
+        """When the jump of the first pulse is over, even over the whole travel; infinite before the first pulse."""
         self.moved_s = float("-inf")
         """When the pulse last changed."""
         self._course: _Course | None = None
@@ -69,14 +69,14 @@ class ServoAxis:
             self._course = None
 
     def wake(self, now_s: float) -> None:
-        """Its pulse goes out from now on. After `sleep(lost=True)` the servo jumps to it from an unknown angle."""
+        """The chip sends pulses from now on. After `sleep(lost=True)` the servo jumps from an unknown angle."""
         self.pulsing, self.moved_s = True, now_s
         if self._lost:
             travel_deg = self.scale.high_deg - self.scale.low_deg
             self.settled_s = now_s + travel_deg / self.spec.slew_dps
 
     def sleep(self, *, lost: bool) -> None:
-        """No pulse goes out from now on. `lost`: the servo is limp, and wind may turn it."""
+        """The chip sends no pulse from now on. `lost`: the servo is limp, and wind may turn it."""
         self.pulsing = False
         if lost:
             self.settled_s = float("inf")
@@ -119,6 +119,6 @@ class ServoAxis:
 
     @property
     def _arrived(self) -> bool:
-        """It is ordered to stay at one angle, and the pulse is there."""
+        """The command is to stay at one angle, and the pulse of that angle has been sent."""
         course = self._course
         return course is not None and not self._lost and course.rate_dps == 0 and course.angle_deg == self.angle_deg

@@ -1,4 +1,4 @@
-"""One moteus controller: which order it gets next, and what its answers mean.
+"""One moteus controller: the next order to it, and the meaning of its answers.
 
 Knows its faults, its watchdog and its home states, and how often it needs an order. Knows no CAN bus, no serial port,
 no library, no thread and no clock: moments are arguments, in seconds.
@@ -11,17 +11,17 @@ from collections import deque
 from enum import Enum
 
 from hw.moteus.faults import LIMITS, Limit, explain
-from hw.moteus.orders import WATCHDOG_S, Answer, Home, Look, Mode, MoteusSpec, Move, Order, SetOutput, Stop
+from hw.moteus.orders import WATCHDOG_S, Answer, Home, Mode, MoteusSpec, Move, Order, Query, SetOutput, Stop
 from hw.ports import Axis, HardwareError
 
 MOVING_EVERY_S = 0.02
-"""How often a moving axis gets an order."""
+"""Seconds between two orders to a moving axis."""
 PARKED_EVERY_S = 0.08
-"""How often an axis at rest gets an order: well within the controller's watchdog."""
+"""Seconds between two orders to an axis at rest: much shorter than the controller's watchdog time."""
 STALE_S = 0.3
-"""An answer older than this is not used."""
+"""An answer older than so many seconds is not used."""
 ERRAND_S = 2.0
-"""An operator's request is dropped when it cannot be delivered to the controller within this time."""
+"""An operator's request is dropped when it cannot be delivered to the controller within so many seconds."""
 
 
 class Wish(Enum):
@@ -41,32 +41,32 @@ class MoteusAxis:
     def __init__(self, axis: Axis, spec: MoteusSpec) -> None:
         self.spec = spec
         self.fault: str | None = None
-        """What stopped this axis, in a sentence; `acknowledge` makes it usable again."""
+        """What stopped this axis, in a sentence. None: no fault, or the operator has acknowledged it."""
         self.answer: Answer | None = None
         """The latest answer."""
         self.heard_s = -math.inf
-        """When it came."""
+        """When the latest answer came."""
         self.until_s = -math.inf
         """When the present aim expires."""
         self.wish = Wish.NOTHING
         self._name = f"{axis.value}: moteus {spec.can_id}"
-        self._aim = (0.0, 0.0, 0.0)  # angle, rate, when
+        self._aim = (0.0, 0.0, 0.0)  # angle_deg, rate_dps, and the moment of the command
         self._errands: deque[Stop | SetOutput] = deque()
         self._errands_until_s = math.inf
         self._engaged = False
-        """This program has given it torque."""
-        self._told_to_hold = False
-        """The latest order that it answered was to hold."""
+        """This program has ordered the controller to move or to hold, so it has torque."""
+        self._ordered_to_hold = False
+        """The latest order with an answer was to hold."""
         self._missed = True
         """The latest order was not answered."""
         self._next_s = -math.inf
 
-    # --- what is wanted
+    # --- what the program wants
 
     def aim(self, angle_deg: float, rate_dps: float, until_s: float, now_s: float) -> None:
         """Be at `angle_deg` at `now_s` and move on at `rate_dps`, until `until_s`.
 
-        Raises HardwareError: no finite number, a fault, a position that is not known, or no answer.
+        Raises HardwareError: no finite number, a fault, an unknown position, or no answer.
         """
         if not (math.isfinite(angle_deg) and math.isfinite(rate_dps)):
             raise HardwareError(f"{self._name}: {angle_deg}° at {rate_dps}°/s is nowhere to aim at")
@@ -78,7 +78,7 @@ class MoteusAxis:
         self._want(Wish.AIM)
 
     def hold(self) -> None:
-        """Decelerate and hold. An axis without torque, never aimed or released by the operator, gets none by this."""
+        """Decelerate and hold. An axis without torque, never aimed or released by the operator, stays without."""
         if self.wish is Wish.AIM:
             self._want(Wish.HOLD)
 
@@ -94,14 +94,14 @@ class MoteusAxis:
         self._send_first(now_s + ERRAND_S, Stop())
 
     def confirm(self, angle_deg: float, exactly: bool, now_s: float) -> None:
-        """The operator or a sensor has found it at `angle_deg`: `exactly`, or at the nearest angle that its encoder
-        agrees with. Raises HardwareError: no answer, or no finite angle.
+        """The operator or a sensor has found the axis at `angle_deg`: `exactly`, or at the nearest angle that agrees
+        with the encoder. Raises HardwareError: no answer, or no finite angle.
         """
         self._must_answer(now_s)
         if not math.isfinite(angle_deg):
             raise HardwareError(f"{self._name}: {angle_deg}° is no angle")
         self.hold()
-        # Without torque meanwhile: a controller that holds would turn the motor by as much as its scale shifts.
+        # First take the torque away: a controller that holds would turn the motor by as much as its scale shifts.
         self._send_first(now_s + ERRAND_S, Stop(), SetOutput(self.spec.revolutions(angle_deg), exactly))
 
     def _want(self, wish: Wish) -> None:
@@ -117,7 +117,7 @@ class MoteusAxis:
 
     @property
     def busy(self) -> bool:
-        """A request of the operator is still to be delivered."""
+        """A request of the operator has not been carried out yet."""
         return bool(self._errands)
 
     @property
@@ -126,10 +126,10 @@ class MoteusAxis:
 
     @property
     def at_rest(self) -> bool:
-        """The bus may be closed: every request is delivered, and the axis holds or has no torque."""
+        """The bus may be closed: every request is carried out, and the axis holds or has no torque."""
         if self.fault or self.wish in (Wish.NOTHING, Wish.LET_GO):
             return not self._errands
-        return self._told_to_hold and not self.moving
+        return self._ordered_to_hold and not self.moving
 
     @property
     def position_known(self) -> bool:
@@ -138,11 +138,11 @@ class MoteusAxis:
 
     @property
     def limited_by(self) -> Limit | None:
-        """What limits a controller without a fault; None: nothing does."""
+        """What limits a controller without a fault; None: no limit is active."""
         return LIMITS.get(self.answer.fault) if self.answer else None
 
     def angle_deg(self, now_s: float) -> float:
-        """Where it stands, in degrees of the rotor's own scale. Raises HardwareError."""
+        """The angle in degrees on the rotor's own scale. Raises HardwareError: no answer, or an unknown position."""
         answer = self._must_answer(now_s)
         if not self.position_known:
             raise HardwareError(
@@ -158,7 +158,7 @@ class MoteusAxis:
             raise HardwareError(f"{self._name} does not answer: check its supply, the CAN wires and its id")
         return self.answer
 
-    # --- the wire
+    # --- orders and answers
 
     def due_s(self) -> float:
         return self._next_s
@@ -170,13 +170,13 @@ class MoteusAxis:
         self._next_s = now_s + (MOVING_EVERY_S if self.wish is Wish.AIM or self.moving or self.busy else PARKED_EVERY_S)
         if now_s > self._errands_until_s:
             self._errands.clear()
-        # A controller that was silent may have lost its supply, and its position with it: look before it may move.
+        # A silent controller may have lost its supply, and its position with it: ask for its state before it may move.
         if self._missed or self.answer is None:
-            return Look()
+            return Query()
         if self._errands:
             return self._errands[0]
         if self.fault or self.wish not in (Wish.AIM, Wish.HOLD):
-            return Look()
+            return Query()
         if not self._engaged and self.answer.mode == Mode.TIMEOUT:  # from an earlier run of the program
             self._send_first(math.inf, Stop())
             return Stop()
@@ -197,7 +197,7 @@ class MoteusAxis:
     def heard(self, order: Order, answer: Answer, now_s: float) -> None:
         """The answer to `order`."""
         self.answer, self.heard_s, self._missed = answer, now_s, False
-        self._told_to_hold = isinstance(order, Move) and math.isnan(order.position_rev)
+        self._ordered_to_hold = isinstance(order, Move) and math.isnan(order.position_rev)
         if self._errands:
             self._run_errand(order, answer)
             return
@@ -208,7 +208,7 @@ class MoteusAxis:
 
     def _run_errand(self, order: Order, answer: Answer) -> None:
         match self._errands[0]:
-            case Stop():  # the answer may be older than the order: done when the mode shows it
+            case Stop():  # the answer may be older than the order, so the mode shows whether the order is done
                 done = order == Stop() and answer.mode == Mode.STOPPED
                 self._engaged = self._engaged and not done
             case SetOutput():

@@ -1,8 +1,8 @@
 """The thread that talks to the moteus controllers, and connects again after a fault of the cable or the library.
 
 Knows three faults of the library. A closed connection leaves its port registered: each connection gets its own event
-loop. Some calls wait for ever: all have a time limit. An unplugged port raises again and again in a callback: the first
-such error ends the connection. Does not decide what is sent: `hw.moteus.drive` does.
+loop. Some calls never return: all have a time limit. An unplugged port raises again and again in a callback: the first
+such error ends the connection. Does not decide which order is sent: `hw.moteus.drive` does.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ log = logging.getLogger(__name__)
 MOTEUS_THREAD = "moteus"
 """The name of the thread."""
 EXCHANGE_S = 0.15
-"""How long one request and its answer may take."""
+"""The longest time for one request and its answer, in seconds."""
 SILENCE_S = 2.0
-"""After so long without any answer the connection is opened again."""
+"""After so many seconds without any answer the connection is opened again."""
 BACK_OFF_S = (0.1, 2.0)
-"""The shortest and the longest pause before the next attempt to connect."""
+"""The shortest and the longest pause before the next attempt to connect, in seconds."""
 COMING_TO_REST_S = 2.0
-"""How long the motors may take to stop when the program ends."""
+"""The longest time, in seconds, for the motors to stop when the program ends."""
 
 
 class MoteusBus:
@@ -44,9 +44,9 @@ class MoteusBus:
         self._port = port
         self._closing = threading.Event()
         self._lock = threading.Lock()
-        self._bell: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
+        self._waker: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
         self._thread = threading.Thread(target=self._run, name=MOTEUS_THREAD, daemon=True)
-        drive.on_news = self._ring
+        drive.on_news = self._wake
 
     def start(self) -> None:
         self._drive.lost(f"moteus: {self._port}: not connected yet")
@@ -59,15 +59,15 @@ class MoteusBus:
         """
         self._drive.off()
         self._closing.set()
-        self._ring()
+        self._wake()
         if self._thread.is_alive():
             self._thread.join(timeout=COMING_TO_REST_S + 1.0)
 
-    def _ring(self) -> None:
+    def _wake(self) -> None:
         """Wake the thread: there is something to send. From any thread."""
-        with self._lock, contextlib.suppress(RuntimeError):  # the loop may have just ended
-            if self._bell:
-                self._bell[0].call_soon_threadsafe(self._bell[1].set)
+        with self._lock, contextlib.suppress(RuntimeError):  # the event loop may have just ended
+            if self._waker:
+                self._waker[0].call_soon_threadsafe(self._waker[1].set)
 
     def _run(self) -> None:
         wait_s = BACK_OFF_S[0]
@@ -85,7 +85,7 @@ class MoteusBus:
             self._closing.wait(wait_s)
 
     async def _connection(self) -> bool:
-        """Talk until the line fails (raises), no controller answers for long, or `close` is called.
+        """Exchange orders and answers until the line fails (raises), all controllers are silent, or `close` is called.
 
         Returns whether any controller answered.
         """
@@ -102,14 +102,14 @@ class MoteusBus:
         loop.set_exception_handler(fail)
         transport = self._port(self._moteus)
         with self._lock:
-            self._bell = (loop, news)
+            self._waker = (loop, news)
         try:
             return await self._talk(Wire(self._moteus, transport, self._drive), news)
         except asyncio.CancelledError:
             raise failures[0] if failures else OSError("the connection was cut") from None
         finally:
             with self._lock:
-                self._bell = None
+                self._waker = None
             transport.close()
 
     async def _talk(self, wire: Wire, news: asyncio.Event) -> bool:

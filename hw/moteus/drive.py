@@ -1,7 +1,7 @@
 """A rotor of two moteus controllers, as the program sees it: a positioned drive and two angle sensors.
 
-Knows leases, and that several threads use the drive while one thread serves the controllers. Knows neither the library
-nor the wire: `hw.moteus.bus` sends the orders and brings the answers.
+Knows leases, and that several threads use the drive while one thread serves the controllers. Does not know the library
+nor the CAN bus: `hw.moteus.bus` sends the orders and passes on the answers.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class MoteusDrive:
         }
         self._offline: str | None = None
         self.on_news: Callable[[], None] = lambda: None
-        """Called when an order is to be sent at once; the bus sets it."""
+        """The drive calls this when an order must be sent at once. The bus sets it."""
 
     # --- hw.ports.PositionedDrive
 
@@ -51,7 +51,7 @@ class MoteusDrive:
         self.on_news()
 
     def hold(self, axis: Axis) -> None:
-        """Decelerate, and hold where it comes to rest. A controller that cannot be reached does so by its watchdog."""
+        """Decelerate, and hold at the angle of rest. An unreachable controller does so by its watchdog."""
         with self._lock:
             self._axes[axis].hold()
         self.on_news()
@@ -92,17 +92,17 @@ class MoteusDrive:
             return self._axes[axis].angle_deg(self._clock())
 
     def position_known(self, axis: Axis) -> bool:
-        """False: switched on with its only encoder before a gear. `confirm` makes the position known."""
+        """False after power-on where the only encoder is before a gear. `confirm` makes the position known."""
         with self._lock:
             return self._axes[axis].position_known
 
     def faults(self) -> dict[Axis, str]:
-        """What stopped an axis, in a sentence. A fault stays until `acknowledge`."""
+        """For each stopped axis: what stopped it, in a sentence. A fault stays until `acknowledge`."""
         with self._lock:
             return {name: axis.fault for name, axis in self._axes.items() if axis.fault}
 
     def limits(self) -> dict[Axis, Limit]:
-        """What limits a controller without a fault, its position bounds for example."""
+        """For each limited axis: what limits its controller without a fault, the position bounds for example."""
         with self._lock:
             return {name: axis.limited_by for name, axis in self._axes.items() if axis.limited_by}
 
@@ -121,9 +121,9 @@ class MoteusDrive:
         self.on_news()
 
     def confirm(self, axis: Axis, angle_deg: float, *, exactly: bool = False) -> None:
-        """The axis stands at this angle: `exactly`, or at the nearest one that the rotor's encoder agrees with.
+        """The axis stands at this angle: `exactly`, or at the nearest angle that agrees with the rotor's encoder.
 
-        `position_known` becomes True when the controller has taken it over. The motor has no torque for a moment.
+        `position_known` becomes True when the controller has the angle. For a moment the motor has no torque.
         Raises HardwareError: no answer, or no finite angle.
         """
         with self._lock:

@@ -1,6 +1,6 @@
-"""The numbers in a moteus's fault register: what each means, and what the user does about it.
+"""The numbers in a moteus's fault register: the meaning of each, and the remedy for the user.
 
-Knows the firmware's codes (mjbots, "moteus reference", fault codes). Knows no controller.
+Knows the firmware's codes (mjbots, "moteus reference", fault codes). Does not know when a controller reports one.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ class Fault:
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """What holds a controller back: its name, and a text of 13 characters at most for a small display."""
+    """What limits a running controller: its name, and a text of 13 characters at most for the LCD."""
 
     name: str
     short: str
@@ -59,7 +59,7 @@ LIMITS: dict[int, Limit] = {
     104: Limit("braking that feeds the supply", "BRAKING"),
     105: Limit("field weakening", "FIELD WEAK"),
 }
-"""No faults: the controller runs, and something limits it."""
+"""These are not faults: the controller runs, and something limits it."""
 
 
 def explain(code: int) -> Fault:

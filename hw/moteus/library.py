@@ -1,6 +1,6 @@
 """mjbots' Python library: how it is loaded, and how its transports are opened. The only importer of moteus.
 
-Knows adapters and channels. Does not know orders or answers: those are in `hw.moteus.wire`.
+Knows adapters and channels. Does not know orders and answers: `hw.moteus.wire` does.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Any
 from hw.ports import HardwareError
 
 LINE_S = 0.05
-"""How long the adapter may take for a line. The library's own limit is longer than the other axis's watchdog."""
+"""The adapter's time limit for one line, in seconds. The library's default is longer than the other axis's watchdog."""
 
 
 def library() -> Any:

@@ -1,6 +1,6 @@
 """Orders to a moteus controller and its answers, as values; and how degrees become its revolutions.
 
-Knows units and modes (mjbots, "moteus reference"). Does not know when an order is sent, nor how it travels.
+Knows units and modes (mjbots, "moteus reference"). Does not know when an order is sent, nor by which library.
 """
 
 from __future__ import annotations
@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 WATCHDOG_S = 0.5
-"""The controller decelerates and stops by itself after so long without an order."""
+"""After so many seconds without an order the controller decelerates and stops by itself."""
 
 
 class Mode(IntEnum):
-    """The values of its mode register that matter here."""
+    """The values of the controller's mode register that this driver uses."""
 
     STOPPED = 0
     FAULT = 1
@@ -38,13 +38,13 @@ class MoteusSpec:
     rev_per_turn: float = 1.0
     """Revolutions of the controller for 360° of the antenna; below 0 it runs the other way."""
     zero_rev: float = 0.0
-    """What the controller shows where the rotor's scale says 0°."""
+    """The controller's position at 0° of the rotor's own scale."""
     velocity_limit_dps: float = 30.0
     accel_limit_dps2: float = 20.0
     max_torque_nm: float = math.nan
     """NaN: as configured in the controller."""
     geared: bool = True
-    """Its only encoder is before a gear: at power-on it does not know which turn of the rotor it is in."""
+    """The only encoder is before a gear: at power-on the controller does not know in which turn of the gear it is."""
 
     def revolutions(self, angle_deg: float) -> float:
         """The controller's position at that angle."""
@@ -55,12 +55,12 @@ class MoteusSpec:
         return (position_rev - self.zero_rev) / self.rev_per_turn * 360
 
     def span_rev(self, degrees: float) -> float:
-        """A distance, a speed or an acceleration, without its sign."""
+        """A distance, a speed or an acceleration of the antenna in the controller's unit, without its sign."""
         return abs(degrees / 360 * self.rev_per_turn)
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Query:
     """Ask for an answer only. This does not restart the watchdog."""
 
 
@@ -71,7 +71,7 @@ class Stop:
 
 @dataclass(frozen=True, slots=True)
 class SetOutput:
-    """Take `position_rev` for the present position: `exactly`, or the nearest that agrees with the rotor's encoder."""
+    """Call the present position `position_rev`: `exactly`, or the nearest value that agrees with the encoder."""
 
     position_rev: float
     exactly: bool
@@ -85,7 +85,7 @@ class Move:
     velocity_rev_s: float
 
 
-Order = Look | Stop | SetOutput | Move
+Order = Query | Stop | SetOutput | Move
 
 
 @dataclass(frozen=True, slots=True)

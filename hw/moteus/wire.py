@@ -1,7 +1,7 @@
-"""Orders to the two controllers over one transport, and their answers: what mjbots' library is called with.
+"""Orders to the two controllers as calls of mjbots' library, and the library's replies as answers.
 
 Knows which call of the library carries which order, and which registers make an answer. Does not know how a transport
-is opened, and sets no time limit: the caller passes one in.
+is opened. The caller sets the time limits.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Any
 
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import library
-from hw.moteus.orders import WATCHDOG_S, Answer, Look, MoteusSpec, Move, Order, SetOutput, Stop
+from hw.moteus.orders import WATCHDOG_S, Answer, MoteusSpec, Move, Order, Query, SetOutput, Stop
 from hw.ports import Axis
 
 Patience = Callable[[Awaitable[Any]], Awaitable[Any]]
@@ -57,7 +57,7 @@ class Wire:
 
     def _command(self, controller: Any, spec: MoteusSpec, order: Order) -> Any:
         match order:
-            case Look():
+            case Query():
                 return controller.make_query()
             case Stop():
                 return controller.make_stop(query=True)
@@ -67,7 +67,7 @@ class Wire:
                 return controller.make_set_output_nearest(position=position_rev, query=True)
             case Move(position_rev, velocity_rev_s):
                 return controller.make_position(
-                    position=position_rev,  # always given: without it the firmware takes 0
+                    position=position_rev,  # always sent: without it the firmware takes 0
                     velocity=velocity_rev_s,
                     maximum_torque=spec.max_torque_nm,
                     watchdog_timeout=WATCHDOG_S,
@@ -93,7 +93,9 @@ class Wire:
 
 
 class MoteusInStep:
-    """Serves a drive in simulated time, on a transport that answers at once. Its two methods are a clock's alarm."""
+    """Serves a drive in simulated time, on a transport that answers at once. A simulated clock calls `serve`
+    at the moment `due_s`.
+    """
 
     def __init__(self, drive: MoteusDrive, transport: Any) -> None:
         self._drive = drive

@@ -1,1 +1,1 @@
-"""What opens the relays when the program cannot."""
+"""What switches the motors off when the program hangs or dies: guard, sentinel, heartbeat."""

@@ -1,7 +1,7 @@
-"""The guard: a thread that ends what has expired, a closed relay or a motor on its way.
+"""The guard: a thread that ends expired commands, so that a relay opens or a motor stops.
 
-Knows one drive. Does not know the sensors, the bus or the program that gives the commands, so none of them can hold a
-relay on by hanging.
+Knows one drive. Does not know the sensors or the program that gives the commands: when they hang, the guard still opens
+the relay.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ GUARD_THREAD = "guard"
 RETRY_S = 0.05
 """The pause before the next try after a failure, in seconds."""
 PATIENCE_S = 1.0
-"""The longest sleep, in seconds: then the guard looks again even if nothing has woken it."""
+"""The longest sleep, in seconds. After it the guard checks the drive even if nothing has woken the thread."""
 
 
 class Expiring(Protocol):
@@ -30,24 +30,26 @@ class Expiring(Protocol):
         """The safe state, from any thread. Raises HardwareError."""
 
     def due_s(self) -> float | None:
-        """The moment `enforce` has something to do; None: nothing does."""
+        """The next moment at which `enforce` has something to do; None: no command can expire."""
 
     def enforce(self, now_s: float) -> None:
-        """End what has expired. Raises HardwareError."""
+        """End each command that has expired. Raises HardwareError."""
 
     def wait_until_due(self, patience_s: float) -> None:
         """Sleep until `enforce` has something to do, or something changed, but no longer than `patience_s`."""
 
 
 class Guard:
-    """Guards one drive. `alarm`: what the operator must do at once where the drive cannot be switched off."""
+    """Guards one drive. `clock`: seconds, for the thread. `operator_must`: what the operator must do at once where the
+    drive cannot be switched off, for the log.
+    """
 
-    def __init__(self, drive: Expiring, clock: Callable[[], float], *, alarm: str = "") -> None:
+    def __init__(self, drive: Expiring, clock: Callable[[], float], *, operator_must: str = "") -> None:
         self._drive = drive
         self._clock = clock
-        self._alarm = alarm
+        self._operator_must = operator_must
         self._failures: set[str] = set()
-        """What has failed since the last success; each is in the log once."""
+        """The failures since the last success. Each is in the log once."""
         self._started = False
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._watch, name=GUARD_THREAD, daemon=True)
@@ -71,13 +73,13 @@ class Guard:
             raise HardwareError("the guard, which ends expired commands, has died")
 
     def enforce(self, now_s: float) -> None:
-        """End what has expired. Raises nothing: logs each failure once. The next call tries again."""
+        """End each command that has expired. Logs each failure once and raises none. The next call tries again."""
         try:
             self._drive.enforce(now_s)
         except Exception as failure:
             self._report(failure)
-            # A line that fails is the drive's to handle: it still opens the others. After a bug the drive may have
-            # handled nothing, so the guard switches everything off, which takes another way through the drive.
+            # When one line fails, the drive itself still opens the others. After a bug the drive may have opened none:
+            # the guard then calls `off`, which is other code of the drive.
             if not isinstance(failure, HardwareError):
                 self._switch_off()
         else:
@@ -90,15 +92,15 @@ class Guard:
             self._report(failure)
 
     def _report(self, failure: Exception) -> None:
-        """Log a failure with what to do, the first time only; a bug with its traceback."""
+        """Log a failure and what the operator must do, the first time only. A bug is logged with its traceback."""
         bug = None if isinstance(failure, HardwareError) else failure
         text = repr(bug) if bug else str(failure)
-        # The text of a bug may differ each time, 20 times a second.
+        # A bug is known by its type: its text may differ at each of 20 tries a second, and would fill the log.
         kind = type(bug).__name__ if bug else text
         if kind in self._failures:
             return
         self._failures.add(kind)
-        log.error("%s", f"{self._alarm}: {text}; trying again" if self._alarm else text, exc_info=bug)
+        log.error("%s", f"{self._operator_must}: {text}; trying again" if self._operator_must else text, exc_info=bug)
 
     def _watch(self) -> None:
         while not self._stopping.is_set():
@@ -106,7 +108,7 @@ class Guard:
                 self._drive.wait_until_due(PATIENCE_S)
                 now_s = self._clock()
             except Exception as failure:
-                # Without a moment to compare with, everything counts as expired.
+                # Without the time, every command counts as expired.
                 self._report(failure)
                 self._switch_off()
                 self._stopping.wait(RETRY_S)

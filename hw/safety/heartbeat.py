@@ -11,13 +11,13 @@ HEARTBEAT = "heartbeat"
 
 
 class Heartbeat:
-    """A line frozen at either level is no beat: the one-shot reacts to changes only (docs/wiring-heartbeat.md)."""
+    """Each beat changes the level, because the one-shot reacts to changes only (docs/wiring-heartbeat.md)."""
 
     def __init__(self, lines: OutputLines) -> None:
         self._lines = lines
         self._level = False
 
     def beat(self) -> None:
-        """Raises HardwareError when the line cannot be set."""
+        """Change the level. Raises HardwareError when the line cannot be set."""
         self._level = not self._level
         self._lines.set({HEARTBEAT: self._level})

@@ -1,7 +1,7 @@
-"""Switches relay lines off, for a program that has switched them on and cannot do it any more.
+"""Switches relay lines off in place of a program that has died or hangs.
 
-Knows the lines as numbers on a chip, so that a small process can do it at once. Does not know why: the sentinel, the
-service manager or the operator does.
+Knows the lines as numbers on a GPIO chip, so that a small process can switch them without the configuration. Does not
+know when to do that: the sentinel, the service manager or the operator does.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ class RelayLines:
     def from_json(cls, text: str) -> RelayLines:
         """Raises HardwareError for a text that `to_json` did not write."""
         try:
-            said = json.loads(text)
-            offsets = {str(name): int(offset) for name, offset in said["offsets"].items()}
-            return cls(str(said["chip"]), offsets, bool(said["active_low"]))
+            table = json.loads(text)
+            offsets = {str(name): int(offset) for name, offset in table["offsets"].items()}
+            return cls(str(table["chip"]), offsets, bool(table["active_low"]))
         except (ValueError, KeyError, TypeError, AttributeError) as fault:
             raise HardwareError(f"not a description of relay lines: {text[:60]!r}") from fault
 
@@ -43,13 +43,13 @@ class RelayLines:
 def switch_off(
     api: Any, lines: RelayLines, clock: Callable[[], float], sleep: Callable[[float], None], patience_s: float
 ) -> None:
-    """Take the lines with their off level, and give them back. `api`: the gpiod package, or an object of its shape.
+    """Take the lines at their off level, and release them. `api`: the gpiod package, or an object of its shape.
 
-    Waits up to `patience_s` for a program that still holds them. Raises HardwareError; LinesBusyError when it goes on
-    holding them.
+    Waits up to `patience_s` seconds for a program that still holds the lines. Raises HardwareError; LinesBusyError when
+    the program holds them for longer.
 
-    A Raspberry Pi's kernel leaves a line as it was set when it is given back. Other kernels make it an input, which is
-    off too where the pin's pull resistor means off.
+    A Raspberry Pi's kernel keeps the level of a released line. Other kernels make the line an input; the relay is then
+    off if the pin's pull resistor holds the off level.
     """
     give_up_s = clock() + patience_s
     while True:

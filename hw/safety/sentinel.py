@@ -1,6 +1,6 @@
-"""The program's side of the sentinel: starts the process, and tells it of every lease.
+"""The program's side of the sentinel: starts the process, and reports every lease of a relay to it.
 
-Knows the child process and its pipe. Does not know when a relay is on: the relay bank says so.
+Knows the child process and its pipe. Does not know when a relay is on: the relay bank calls `renew` and `rest`.
 """
 
 from __future__ import annotations
@@ -19,9 +19,12 @@ from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel_process import READY
 
 START_S = 20.0
+"""How long the process may take to start."""
 END_S = 6.0
+"""How long the process may take to end, before it is killed."""
 PIPE_BYTES = 4096
-"""So small that a sentinel which no longer reads fills it within minutes of motion: then `renew` raises."""
+"""The pipe's size. It is small: when the sentinel stops reading, the pipe is full after minutes of motion, and `renew`
+raises."""
 OOM_SCORE = 300
 """When memory runs out, the kernel must kill the program before its sentinel: the child keeps the lower score."""
 
@@ -51,9 +54,9 @@ class Sentinel:
         return self._process.pid
 
     def renew(self) -> None:
-        """A relay is on, or is about to close. Raises HardwareError when the sentinel cannot hear it."""
+        """A relay is on, or is about to close. Raises HardwareError when the sentinel has gone or does not read."""
         try:
-            self._say(b"+")
+            self._send(b"+")
         except OSError as fault:
             raise HardwareError(f"the sentinel (process {self.pid}) is gone or stuck: no relay may close") from fault
 
@@ -61,15 +64,18 @@ class Sentinel:
         """All relays are off."""
         # A failure does no harm here: the next renewal fails too, and raises.
         with suppress(OSError):
-            self._say(b"-")
+            self._send(b"-")
 
     def dismiss(self) -> None:
-        """All relays are off for good: the sentinel has nothing to do at the end."""
+        """All relays are off and stay off: the sentinel ends without switching the lines."""
         with suppress(OSError):
-            self._say(b".")
+            self._send(b".")
 
     def close(self) -> None:
-        """End it. May be called twice. If it was not dismissed, it switches the lines off: they must be free then."""
+        """End the process. May be called twice.
+
+        A sentinel that was not dismissed switches the lines off: release them before this call.
+        """
         assert self._process.stdout is not None
         self._pipe.close()
         try:
@@ -79,9 +85,9 @@ class Sentinel:
             self._process.wait()
         self._process.stdout.close()
 
-    def _say(self, command: bytes) -> None:
+    def _send(self, command: bytes) -> None:
         """Raises OSError."""
-        if self._pipe.closed:  # its number may belong to another file by now
+        if self._pipe.closed:  # the kernel may have given its number to another file
             raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
         os.write(self._pipe.fileno(), command)
 

@@ -3,8 +3,8 @@
 Knows the relay lines, the program's process and one pipe. On the pipe `+` means that a relay is on, `-` that all relays
 are off, and `.` that the program ends properly. The end of the pipe without `.` means that the program has died.
 
-It holds nothing that can hang, and it is loaded and locked in memory before the first relay may close. It is needed
-because a Raspberry Pi's kernel leaves outputs as they were when their owner dies.
+It uses no bus, disk or network that could make it hang, and it is loaded and locked in memory before the first relay
+may close. It is needed because a Raspberry Pi's kernel keeps the outputs of a dead program as they were.
 
     python -m hw.safety.sentinel_process watch JSON     started by the program; commands come on standard input
     python -m hw.safety.sentinel_process now FILE       for the service manager, after the program has ended
@@ -28,10 +28,10 @@ from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines, switch_off
 
 SILENCE_S = LONGEST_LEASE_S + 0.2
-"""A running program writes `+` or `-` again before its longest lease ends. After this long without, it hangs."""
+"""A running program writes `+` or `-` again before its longest lease ends. After so many silent seconds it hangs."""
 READY = b"ready\n"
 PATIENCE_S = 5.0
-"""The longest time, in seconds, for which the kernel may keep the lines of a dead process."""
+"""How long, in seconds, the sentinel waits for the kernel to free the lines of a dead process."""
 
 _MCL_CURRENT_AND_FUTURE = 3
 
@@ -39,35 +39,35 @@ _MCL_CURRENT_AND_FUTURE = 3
 def watch(commands: int, program: int, off: Callable[[], None]) -> None:
     """Read the pipe `commands` until the program (a pidfd) ends, dies, or falls silent with a relay on.
 
-    Calls `off` at the end, except after a farewell.
+    Calls `off` at the end, unless the program has ended properly.
     """
     try:
-        farewell = _read_until_end(commands, program)
+        ended_properly = _read_until_end(commands, program)
     except OSError:
-        # The pipe cannot be read, so the sentinel is blind: off is the safe side.
-        farewell = False
-    if not farewell:
+        # Without the pipe the sentinel cannot know whether a relay is on. Off is safe.
+        ended_properly = False
+    if not ended_properly:
         off()
 
 
 def _read_until_end(commands: int, program: int) -> bool:
-    """Whether the program said farewell."""
+    """Whether the program ended properly."""
     last_on_s: float | None = None
     while True:
         left_s = None if last_on_s is None else max(0.0, last_on_s + SILENCE_S - time.monotonic())
         ready, _, _ = select.select([commands], [], [], left_s)
         if not ready:
-            # Stopped, frozen or starved. The lines are free only when it is dead, and a dead program cannot switch them
-            # on again. It may have died meanwhile, with its end of the pipe still open in a child: then this fails.
+            # The program is stopped, frozen or starved. Its lines are free only when it is dead, and a dead program
+            # cannot switch them on again. If it died meanwhile, with the pipe still open in a child, the signal fails.
             with suppress(OSError):
                 signal.pidfd_send_signal(program, signal.SIGKILL)
             return False
-        said = os.read(commands, 4096)
-        if not said:
+        received = os.read(commands, 4096)
+        if not received:
             return False
-        if said.endswith(b"."):
+        if received.endswith(b"."):
             return True
-        last_on_s = time.monotonic() if said.endswith(b"+") else None
+        last_on_s = time.monotonic() if received.endswith(b"+") else None
 
 
 def main(arguments: list[str]) -> int:
@@ -88,7 +88,7 @@ def _watch(lines: RelayLines) -> int:
     program = os.pidfd_open(os.getppid())
     api = real_gpiod()
     with api.Chip(lines.chip):
-        pass  # found out now, not when it matters: the chip exists and this process may open it
+        pass  # a missing chip or permission must show before the first relay closes
     # Without the right to lock memory this fails, and the sentinel is only slower when memory has run out.
     ctypes.CDLL(None).mlockall(_MCL_CURRENT_AND_FUTURE)
     os.write(sys.stdout.fileno(), READY)

@@ -1,1 +1,1 @@
-"""Drivers of sensors: from chips and GPIO lines to an angle, a count or a switch. They drive no motor."""
+"""Drivers of sensors: from chips and GPIO lines to an angle, a count or a switch. They switch no motor."""

@@ -1,6 +1,6 @@
 """A cam on a rotor's shaft that closes a contact every few degrees: its geometry, and why counting it can be exact.
 
-Knows angles, widths and the motor's speed. Knows no moment in time, and does not count.
+Knows angles, widths and the motor's speed. Does not know when the contact changes, and does not count.
 
 The geometry. The cam divides the scale into zones, even ones closed, odd ones the gaps above them:
 
@@ -29,9 +29,9 @@ class Cam:
     spacing_deg: float
     """From one closure to the next."""
     closed_deg: float
-    """For how much of that the contact is closed."""
+    """The part of the spacing in which the contact is closed."""
     closes_at_deg: float
-    """An angle at which the contact closes when the shaft turns clockwise or up; any one of them."""
+    """Any one angle at which the contact closes when the shaft turns clockwise or up."""
     speed_dps: float
     coast_s: float = 0.5
     """How long the shaft turns on after its relay opened: five time constants of a motor that slows down."""
@@ -58,6 +58,6 @@ class Cam:
         return self.closes_at_deg + turns * self.spacing_deg + gap * self.closed_deg
 
     def zone_at(self, angle_deg: float) -> int:
-        """The zone of that angle; even zones are closed, odd ones open."""
+        """The zone of this angle. The contact is closed in even zones, open in odd ones."""
         zone = 2 * math.floor((angle_deg - self.closes_at_deg) / self.spacing_deg)
         return zone + (angle_deg >= self.begins_deg(zone + 1))

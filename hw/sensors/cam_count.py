@@ -1,8 +1,8 @@
 """An angle from a contact that shows neither direction nor place, by counting the zones of its cam (`hw.sensors.cam`).
 
 Knows the cam, and when the motor was fed and the contact changed. Knows no GPIO line and no clock: moments are
-arguments, in seconds. It reports in `trouble` when the count may be wrong; the count is then unreliable until the axis
-is placed again.
+arguments, in seconds. `trouble` says why the count may be wrong; the count is then unreliable until the axis is placed
+again.
 
 The rules come from what no rotor can do. It cannot cross a zone in less than half the time its speed allows: a change
 sooner than that undoes the one before (a bounce longer than the debounce, a trembling contact, a spark). A change much
@@ -49,33 +49,33 @@ class CamCount:
         self.cam = cam
         self.zone = 0
         self.trouble = ""
-        """Why the count may be wrong; empty: it is right."""
+        """Why the count may be wrong; empty while the count is right."""
         self.changes = 0
         """How many changes of the contact there were since the start."""
         self._shaft = ReckonedShaft(cam)
         self._crept = False
-        """At rest, it has crossed an edge without a relay on."""
+        """The shaft has crossed an edge at rest, without a relay on."""
         self._changed_s = -math.inf
         self._before: tuple[int, float] | None = None
         """Zone and angle before the last change, which the next change may undo."""
         self._last_step = 0
         self._undone = False
-        """The last change undid another; one that comes as soon undoes that."""
+        """The last change undid the one before it. The next change, if as soon, reverts that again."""
         self._run: tuple[tuple[int, float], ...] = ()
-        """The last three zones entered in this run, and when."""
+        """The last three zones of this run, each with the moment of its entry."""
         self._undriven: deque[tuple[float, bool]] = deque(maxlen=TURNING_CHANGES)
-        """When the contact changed at rest, and whether it closed."""
+        """For each change at rest: its moment, and whether the contact closed."""
 
-    # --- what is known
+    # --- state
 
     def angle_deg(self) -> float:
         """As of the last call: counted to the zone, reckoned by time within the zone, never beyond it."""
         return self._shaft.angle_deg
 
     def ahead_deg(self, driven: Iterable[tuple[float, Direction]], at_s: float) -> float:
-        """The angle at `at_s` if the motor is fed so until then (moment, direction) and the contact does not change.
+        """The angle at `at_s` if the contact does not change and the motor is fed by `driven`: moments and directions.
 
-        Changes nothing here.
+        Does not change the count.
         """
         shaft, zone_deg = copy.copy(self._shaft), self._zone_deg()
         for fed_s, direction in driven:
@@ -91,7 +91,7 @@ class CamCount:
 
     @property
     def turning(self) -> bool:
-        """It runs at its speed though no relay is on: a contact has welded, or another supply feeds the motor."""
+        """The motor runs at its speed with no relay on: a contact has welded, or another supply feeds the motor."""
         if not self.at_rest or len(self._undriven) < TURNING_CHANGES:
             return False
         # Wind that rocks an antenna about an edge of the contact changes it as often, but never at a motor's pace.
@@ -104,13 +104,13 @@ class CamCount:
 
     @property
     def at_rest(self) -> bool:
-        """No relay is on, and it has stopped coasting."""
+        """No relay is on, and the motor has stopped coasting."""
         return self._shaft.at_rest
 
     # --- events
 
     def place(self, at_s: float, angle_deg: float, *, closed: bool) -> bool:
-        """It stands at `angle_deg`. False: the contact's state contradicts that, and there is trouble.
+        """The shaft stands at `angle_deg`. False: the contact's state contradicts the angle, and `trouble` says so.
 
         A contact in the other state is accepted where one edge of the zone is much nearer than the other.
         """
@@ -130,12 +130,12 @@ class CamCount:
         return believed
 
     def advance(self, at_s: float) -> None:
-        """Nothing happened up to that moment."""
+        """No event happened up to this moment."""
         if self._shaft.advance(at_s, *self._zone_deg()) and self.quiet and not self._near_end():
             self._doubt("driven for three periods, and the contact did not change")
 
     def drive(self, at_s: float, direction: Direction) -> None:
-        """The motor is fed that way from that moment on."""
+        """The motor is fed in this direction from this moment on."""
         self.advance(at_s)
         if direction is self._shaft.fed:
             return
@@ -161,7 +161,7 @@ class CamCount:
             self._undo(at_s)
             return
         if soon:
-            self._crept = False  # turned back, or trembling
+            self._crept = False  # the shaft turned back, or the contact trembles
         else:
             self._check(direction)
         self._before, self._last_step, self._undone = (self.zone, self._shaft.angle_deg), direction, False
@@ -177,7 +177,7 @@ class CamCount:
         return low_deg, min(self.cam.begins_deg(self.zone + 1), self.cam.high_deg)
 
     def _direction(self) -> int:
-        """Which way it crosses the edge: 1 is plus, -1 minus."""
+        """The direction in which the shaft crosses the edge: 1 is plus, -1 minus."""
         if abs(self._shaft.speed_dps) >= SLOW * self.cam.speed_dps:
             return 1 if self._shaft.speed_dps > 0 else -1
         return 1 if self._to_edge_deg(1) < self._to_edge_deg(-1) else -1
@@ -240,5 +240,5 @@ class CamCount:
         return (end_deg - self._shaft.angle_deg) * self._shaft.fed <= self.cam.spacing_deg
 
     def _doubt(self, why: str) -> None:
-        """The first reason counts."""
+        """Note why the count may be wrong. The first reason stays."""
         self.trouble = self.trouble or why

@@ -1,7 +1,7 @@
-"""A potentiometer as an angle sensor: the share of its supply that stands at the wiper.
+"""A potentiometer as an angle sensor: the voltage at its wiper as a share of its supply.
 
-Knows one input of a converter, and the supply as a number or as another input (ratiometric: drift cancels). Knows no
-converter by its name, and nothing of degrees.
+Knows one input of a converter, and the supply as a number or as another input (ratiometric: drift cancels). Does not
+know which converter it is, nor degrees: the calibration makes them.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ from collections.abc import Callable
 from hw.ports import AnalogInputs, AngleSource, HardwareError
 
 REFERENCE_EVERY_S = 1.0
-"""A supply drifts slowly; reading it with every cycle would double the time on the bus."""
+"""Seconds between two readings of the supply. It drifts slowly; a reading in each cycle would double the bus time."""
 LEAST_REFERENCE_V = 0.5
 
 
 class Reference:
-    """The pots' supply voltage, measured on an input of its own now and then."""
+    """The pots' supply voltage, measured on another input of the converter every REFERENCE_EVERY_S."""
 
     def __init__(self, adc: AnalogInputs, channel: int, clock: Callable[[], float]) -> None:
         self._adc = adc

@@ -1,7 +1,7 @@
 """The angle of an axis by counting the closures of a cam contact: rotors of the Alliance U-100 kind.
 
 Knows two streams of events, changes of the motor relays and changes of the contact, and puts them in order of time.
-Does not know what they mean: `hw.sensors.cam_count` counts. Switches no relay by itself.
+Does not decide what they mean: `hw.sensors.cam_count` does. Only passes on the levels of the relays.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class TappedLines:
         self._lines.close()
 
     def heard(self, axis: Axis) -> list[_Driven]:
-        """What was switched on this axis since the last call. For one caller an axis."""
+        """The changes of this axis's relays since the last call. Each axis may have one caller only."""
         heard = self._heard[axis]
         return [heard.popleft() for _ in range(len(heard))]
 
@@ -125,17 +125,17 @@ class PulseCounter:
 
     @property
     def at_rest(self) -> bool:
-        """No relay is on, and it has stopped coasting."""
+        """No relay is on, and the motor has stopped coasting."""
         return self._count.at_rest and not self._waiting
 
     @property
     def zone(self) -> int:
-        """The number of the cam's zone it is in; see `hw.sensors.cam`."""
+        """The number of the cam's present zone; see `hw.sensors.cam`."""
         return self._count.zone
 
     @property
     def trouble(self) -> str:
-        """Why the count is unreliable until the axis is homed or placed; empty: it is right."""
+        """Why the count is unreliable until the axis is homed or placed; empty while the count is right."""
         return self._count.trouble
 
     @property
@@ -145,7 +145,7 @@ class PulseCounter:
 
     @property
     def turning(self) -> bool:
-        """It runs at its speed though no relay is on."""
+        """The motor runs at its speed though no relay is on."""
         return self._count.turning
 
     @property

@@ -1,7 +1,8 @@
-"""Where a shaft is between two edges of its cam contact, from how its motor was fed: dead reckoning.
+"""The angle of a shaft between two edges of its cam contact, by dead reckoning from the motor's supply.
 
-Knows the motor's speed in each direction, its lag, and how long it has been fed. Knows no contact and counts nothing:
-the caller gives the two edges between which the shaft must be. Knows no clock: moments are arguments, in seconds.
+Knows the motor's speed in each direction, its lag, and how long it has been fed. Does not know the contact, and counts
+nothing: the caller gives the two angles between which the shaft must be. Has no clock: moments are arguments, in
+seconds.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ from hw.ports import Direction
 from hw.sensors.cam import Cam
 
 STANDS_BELOW = 0.001
-"""Below this share of its full speed the shaft is taken to stand."""
+"""Below this share of its full speed the shaft counts as standing."""
 LEARN = 0.25
-"""The weight of a newly measured speed against what was known before."""
+"""The weight of a new measurement of the speed against the speed learnt before."""
 
 
 class ReckonedShaft:
@@ -28,9 +29,9 @@ class ReckonedShaft:
         self.fed = Direction.OFF
         """The direction in which the motor is fed."""
         self.fed_s = 0.0
-        """How long it has been fed that way since the last edge."""
+        """How many seconds the motor has been fed in this direction since the last edge."""
         self.held_deg = 0.0
-        """How far it should have turned beyond its two edges: the sign of a missed pulse, or of a held motor."""
+        """How far the shaft should have turned beyond its two edges: a missed pulse, or a held motor, shows here."""
         self._cam = cam
         self._off_s = -math.inf
         self._speeds_dps = dict.fromkeys((Direction.PLUS, Direction.MINUS), cam.speed_dps)
@@ -42,7 +43,7 @@ class ReckonedShaft:
 
     @property
     def fed_deg(self) -> float:
-        """How far it should have turned since the last edge."""
+        """How far the shaft should have turned since the last edge."""
         return self.fed_s * self._speeds_dps.get(self.fed, 0.0)
 
     @property
@@ -51,11 +52,11 @@ class ReckonedShaft:
         return self.fed is Direction.OFF and self.at_s - self._off_s >= self._cam.coast_s
 
     def place(self, at_s: float, angle_deg: float) -> None:
-        """It stands at that angle at that moment."""
+        """The shaft stands at this angle at this moment."""
         self.at_s, self.angle_deg, self.speed_dps, self.held_deg = at_s, angle_deg, 0.0, 0.0
 
     def feed(self, direction: Direction) -> None:
-        """The motor is fed that way from the present moment on."""
+        """The motor is fed in this direction from the present moment on."""
         if direction is self.fed:
             return
         if direction is Direction.OFF:
@@ -65,7 +66,7 @@ class ReckonedShaft:
         self.fed, self.fed_s = direction, 0.0
 
     def cross(self, edge_deg: float) -> None:
-        """It is at an edge of the contact now."""
+        """The shaft is at an edge of the contact now."""
         self.angle_deg, self.fed_s, self.held_deg = edge_deg, 0.0, 0.0
 
     def advance(self, at_s: float, low_deg: float, high_deg: float) -> bool:

@@ -1,7 +1,8 @@
 """Switches read together by name, and the directions that limit switches block.
 
-Knows names, and which way each limit switch blocks. Knows no GPIO line. Does not filter bounce: the caller reads often.
-A switch for safety is normally closed: a broken wire then reads as pressed, or as the limit reached.
+Knows the names, and the direction that each limit switch blocks. Does not know GPIO lines, and does not filter bounce:
+the caller reads often. A switch for safety is normally closed: a broken wire then reads as pressed, or as the limit
+reached.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ LIMITS = {
 
 
 class LimitSwitches:
-    """Normally closed switches at the ends of the travel. `fitted`: the names of those that are wired, of LIMITS."""
+    """Normally closed switches at the ends of the travel. `fitted`: the names of the wired switches, from LIMITS."""
 
     def __init__(self, inputs: SwitchInputs, fitted: Collection[str]) -> None:
         self._inputs = inputs
@@ -29,16 +30,16 @@ class LimitSwitches:
     def blocked(self) -> dict[Axis, frozenset[Direction]]:
         """The directions in which each axis must stop: its switch is open, or the wire to it is broken.
 
-        Raises HardwareError when the switches cannot be read: the caller then takes all of `guarded` for blocked.
+        Raises HardwareError when the switches cannot be read: the caller then takes all of `guarded` as blocked.
         """
         closed = self._inputs.read()
-        return self._ways([name for name in self._fitted if not closed[name]])
+        return self._directions([name for name in self._fitted if not closed[name]])
 
     def guarded(self) -> dict[Axis, frozenset[Direction]]:
         """The directions that have a switch."""
-        return self._ways(self._fitted)
+        return self._directions(self._fitted)
 
     @staticmethod
-    def _ways(names: Collection[str]) -> dict[Axis, frozenset[Direction]]:
-        ways = [LIMITS[name] for name in names]
-        return {axis: frozenset(way for where, way in ways if where is axis) for axis in Axis}
+    def _directions(names: Collection[str]) -> dict[Axis, frozenset[Direction]]:
+        blocked = [LIMITS[name] for name in names]
+        return {axis: frozenset(direction for on_axis, direction in blocked if on_axis is axis) for axis in Axis}

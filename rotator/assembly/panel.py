@@ -18,7 +18,7 @@ from rotator.config.model import Config
 from rotator.orders import Order
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
-from rotator.rotors.common import Ends, no_switches
+from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.status import Status
 from rotator.store.knobs import KnobsFile
 
@@ -26,7 +26,7 @@ METER_HZ = 1000.0
 """Fast enough for a needle to stand still."""
 
 
-def limit_switches(config: Config, board: Board) -> Ends:
+def limit_switches(config: Config, board: Board) -> BlockedDirections:
     """The directions that the limit switches block; a switch that cannot be read blocks its direction."""
     if not config.limits.switches:
         return no_switches

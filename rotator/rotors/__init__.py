@@ -1,1 +1,1 @@
-"""The kinds of rotor, each as the control loop sees one: a drive, its sensors, and what only it can say or do."""
+"""The kinds of rotor, as the control loop sees them: a drive, its sensors, and what only that kind can report or do."""

@@ -1,6 +1,6 @@
-"""Control boxes with a digital pot in place of the knob, as the control loop sees them.
+"""A sensor on a rotor with control boxes: each reading corrects the drive's model of the angle.
 
-Knows that a sensor on the rotor, where one is read, corrects the model of the drive.
+Knows the calibration from the sensor's readings to degrees. Does not know the boxes: `hw.drives.control_box` does.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from rotator.control.axis.calibration_table import Calibration
 
 
 class FollowedBox:
-    """A pot of the rotor, or another sensor, on an axis whose drive has only a model.
+    """The pot of the rotor, or another sensor, on an axis for which the drive has only a modelled angle.
 
-    `calibration`: from its readings to the rotor's own scale.
+    `calibration` turns the sensor's readings into degrees on the rotor's own scale.
     """
 
     def __init__(self, drive: DigipotDrive, axis: Axis, sensor: AngleSensor, calibration: Calibration) -> None:
@@ -24,6 +24,7 @@ class FollowedBox:
         self._calibration = calibration
 
     def read(self) -> float:
+        """The sensor's reading, in the sensor's own unit; the model takes over its angle. Raises HardwareError."""
         raw = self._sensor.read()
         self._drive.found(self._axis, self._calibration.degrees(raw))
         return raw

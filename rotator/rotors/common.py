@@ -1,7 +1,4 @@
-"""What all kinds of rotor share: where limit switches stand, and how a drive is guarded.
-
-Knows threads and alarms. Knows no kind of rotor.
-"""
+"""What several kinds of rotor share: default answers, and a drive with a guard. Does not know a kind."""
 
 from __future__ import annotations
 
@@ -14,16 +11,17 @@ from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Errand
 from rotator.rotors.port import AddAlarm
 
-Ends = Callable[[Axis], frozenset[Direction]]
-"""The ways in which the limit switches let an axis go no further."""
+BlockedDirections = Callable[[Axis], frozenset[Direction]]
+"""For an axis: the directions that an open limit switch blocks now."""
 
 
 def no_switches(_axis: Axis) -> frozenset[Direction]:
+    """A rotor without limit switches: no direction is blocked."""
     return frozenset()
 
 
 class PlainRotor:
-    """The answers of a kind without a switched supply, without counted contacts and without a guard."""
+    """Default answers: no switched supply, no index contact, nothing to check."""
 
     def closed_contacts(self) -> frozenset[Axis]:
         return frozenset()
@@ -39,21 +37,31 @@ class PlainRotor:
 
 
 class GuardedRotor(PlainRotor):
-    """A drive whose commands expire, and its guard: a thread, or the alarms of a simulated clock."""
+    """A drive whose commands expire, and the guard that ends them: a thread, or a call by the simulated clock.
+
+    `operator_must`: what the operator must do at once where the drive cannot be switched off, for the log.
+    """
 
     def __init__(
-        self, drive: Expiring, sensors: Mapping[Axis, AngleSensor], ends: Ends = no_switches, *, alarm: str = ""
+        self,
+        drive: Expiring,
+        sensors: Mapping[Axis, AngleSensor],
+        ends: BlockedDirections = no_switches,
+        *,
+        operator_must: str = "",
     ) -> None:
         self.sensors = sensors
         self._drive = drive
         self._ends = ends
-        self._guard = Guard(drive, time.monotonic, alarm=alarm)
+        # Only the guard's thread reads this clock, and the thread runs in real time only. A simulated clock passes its
+        # own time to `enforce`.
+        self._guard = Guard(drive, time.monotonic, operator_must=operator_must)
 
     def condition(self, axis: Axis) -> Condition:
         return Condition(ends=self._ends(axis))
 
     def run(self, errand: Errand) -> None:
-        """Nothing to do: a kind for which there is something overrides this."""
+        """Does nothing. A kind that takes errands overrides this."""
 
     def off(self) -> None:
         self._drive.off()

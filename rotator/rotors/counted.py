@@ -1,7 +1,7 @@
-"""Motors on relays, each with a contact that is counted: rotors of the Alliance U-100 kind.
+"""Motors on relays, with angles from counted contacts: rotors of the Alliance U-100 kind.
 
-Knows when a count is kept, when it is lost, and that a motor starts only after the file marks its axis as moving. The
-counting itself is in `hw.sensors.pulses`.
+Knows when a count is stored, when it is lost, and that a motor starts only after the file marks its axis as moving.
+Does not know how pulses are counted: `hw.sensors.pulses` does.
 """
 
 from __future__ import annotations
@@ -17,19 +17,20 @@ from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand, Place, Run
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import Fault, FaultKind
-from rotator.rotors.common import Ends, no_switches
+from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.relays import RelayRotor
 from rotator.store import counts
 
 KEEP_EVERY_S = 0.5
-"""How often the place of a resting axis goes to the file, which decides when that is worth a write."""
+"""Seconds between two reports of a resting axis to the counts file, which decides when to write."""
 
 
 class CountedAxis:
-    """A counter as a sensor that reads degrees. Two threads use it: one reads, one places.
+    """A pulse counter as an angle sensor, with the reason why its count may be wrong.
 
-    `master`: an output switches the motors' supply.
+    Two threads use it: the sensor thread reads, and the control thread places. `master`: a relay switches the motors'
+    supply.
     """
 
     source = AngleSource.COUNTED
@@ -51,12 +52,12 @@ class CountedAxis:
         self._lock = threading.Lock()
         self._scale = 0
         self._doubt = ""
-        """Why the kept count is not believed; the trouble of the counter comes beside it."""
-        self._told_s = 0.0
-        self._lost = False
+        """Why the stored count is not trusted. The counter's own reason is in its `trouble`."""
+        self._reported_s = 0.0
+        self._reported_lost = False
 
     def begin(self, kept: counts.Place) -> None:
-        """Start from the count that the last run kept."""
+        """Start from the count that the last run stored."""
         match kept.standing:
             case counts.Standing.KNOWN:
                 self._place(kept.angle_deg)
@@ -72,6 +73,7 @@ class CountedAxis:
             return angle_deg
 
     def condition(self, ends: frozenset[Direction]) -> Condition:
+        """`ends`: the directions that a limit switch blocks now."""
         with self._lock:
             why = self._doubt or self._counter.trouble
             return Condition(
@@ -84,11 +86,11 @@ class CountedAxis:
 
     @property
     def closed(self) -> bool:
-        """Whether its contact is closed now. Raises HardwareError."""
+        """Whether the contact is closed now. Raises HardwareError."""
         return self._counter.closed
 
     def may_start(self) -> bool:
-        """Whether its motor may be switched on now."""
+        """Whether the motor may be switched on now: its file is ready for a move."""
         return self._counts_writer is None or self._counts_writer.may_start(self._axis)
 
     def place(self, angle_deg: float) -> None:
@@ -103,13 +105,13 @@ class CountedAxis:
 
     def _place(self, angle_deg: float) -> None:
         self._counter.place(angle_deg)
-        self._doubt, self._lost = "", False
+        self._doubt, self._reported_lost = "", False
         self._scale += 1
 
     def _fault(self) -> Fault | None:
-        unkept = self._counts_writer.trouble(self._axis) if self._counts_writer else ""
-        if unkept:
-            return Fault(FaultKind.COUNT_NOT_KEPT, self._axis, f"it does not move: {unkept}", passing=True)
+        write_failure = self._counts_writer.trouble(self._axis) if self._counts_writer else ""
+        if write_failure:
+            return Fault(FaultKind.COUNT_NOT_KEPT, self._axis, f"it does not move: {write_failure}", passing=True)
         if self._counter.turning:
             measured = "its contact opens and closes as if its motor ran"
             return unstoppable(FaultKind.TURNS_BY_ITSELF, self._axis, measured, "", master=self._master)
@@ -121,18 +123,18 @@ class CountedAxis:
         if self._counts_writer is None or self._doubt:
             return
         if self._counter.trouble:
-            if not self._lost:
+            if not self._reported_lost:
                 self._counts_writer.lost(self._axis)
-            self._lost = True
+            self._reported_lost = True
             return
         now_s = self._clock()
-        if self._counter.at_rest and now_s - self._told_s >= KEEP_EVERY_S:
-            self._told_s = now_s
+        if self._counter.at_rest and now_s - self._reported_s >= KEEP_EVERY_S:
+            self._reported_s = now_s
             self._counts_writer.rests(now_s, self._axis, angle_deg)
 
 
 class CountedRotor(RelayRotor):
-    """`axes`: those that count; another axis may have a sensor."""
+    """`axes`: the axes that count pulses. Any other axis has only its sensor in `sensors`."""
 
     def __init__(
         self,
@@ -141,7 +143,7 @@ class CountedRotor(RelayRotor):
         axes: Mapping[Axis, CountedAxis],
         shift: Offsets,
         *,
-        ends: Ends = no_switches,
+        ends: BlockedDirections = no_switches,
         counts_writer: CountsWriter | None = None,
     ) -> None:
         super().__init__(bank, sensors, ends)
@@ -155,7 +157,7 @@ class CountedRotor(RelayRotor):
         return self._axes[axis].condition(self._ends(axis))
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        assert isinstance(command, Run), "relays know directions only"
+        assert isinstance(command, Run), "relays take directions only"
         starts = command.direction is not Direction.OFF and self.bank.driven()[axis] is Direction.OFF
         if starts and axis in self._axes and not self._axes[axis].may_start():
             return Direction.OFF

@@ -1,7 +1,7 @@
-"""Keeps the counts of a rotor's axes in their file, and never makes the control thread wait for a disk.
+"""Writes the counts of a rotor's axes to their file, in a thread of its own: a write may take a second.
 
-Knows that a motor may start only when the file says that its axis moves, and that a write may take a second. Only one
-thread touches the file.
+Knows that the control loop must not wait for a disk, and that a motor may start only when the file marks its axis as
+moving. Does not know the file's form, nor when an angle is worth a write: `rotator.store.counts` does.
 """
 
 from __future__ import annotations
@@ -15,28 +15,30 @@ from hw.ports import Axis
 from rotator.store.counts import CountsFile, Place
 
 COUNTS_THREAD = "counts"
-"""How the name of the writing thread begins."""
+"""The writing thread's name begins with this."""
 
 Later = Callable[[Callable[[], None]], object]
 """Runs a job soon, one job after the other."""
 
 
 def at_once(job: Callable[[], None]) -> None:
-    """Runs a job now: for simulated time, in which a disk takes none."""
+    """Runs a job now: for simulated time, where a write takes no time."""
     job()
 
 
 class Mark(Enum):
-    NONE = "the file does not say that it moves"
-    ASKED = "the file is being told"
-    SET = "the file says that it moves"
-    REFUSED = "the file cannot be written"
+    """Whether the file marks an axis as moving."""
+
+    NONE = "not marked"
+    ASKED = "the mark is being written"
+    SET = "marked as moving"
+    REFUSED = "the mark could not be written"
 
 
 class CountsWriter:
-    """`later` runs the writing jobs; None: a thread of the writer's own does, which `close` ends.
+    """`later` runs the writing jobs; None: the writer starts a thread for them, which `close` ends.
 
-    After `close` no motor may start, and what the other calls say is dropped: a sensor thread may outlive the rotor.
+    After `close` no motor may start, and the other calls do nothing: a sensor thread may run longer than the rotor.
     """
 
     def __init__(self, file: CountsFile, later: Later | None = None) -> None:
@@ -48,7 +50,7 @@ class CountsWriter:
         self._closed = False
 
     def load(self) -> dict[Axis, Place]:
-        """What the last run left. To be called before any other method."""
+        """The counts of the last run. Call this before any other method."""
         return self._file.load()
 
     def may_start(self, axis: Axis) -> bool:
@@ -61,23 +63,25 @@ class CountsWriter:
         return self._marks[axis] is Mark.SET
 
     def trouble(self, axis: Axis) -> str:
-        """Why the motor may not start; empty: it may, now or soon."""
+        """Why the motor may not start; empty when it may start now or soon."""
         return self._file.trouble if self._marks[axis] is Mark.REFUSED else ""
 
     def rests(self, now_s: float, axis: Axis, angle_deg: float) -> None:
-        """The axis stands at this angle on the rotor's own scale, and its count is sure."""
+        """The axis stands at this angle on the rotor's own scale, and its count is right."""
         self._marks[axis] = Mark.NONE
         self._later(lambda: self._file.rest(now_s, axis, angle_deg))
 
     def lost(self, axis: Axis) -> None:
+        """The count of the axis may be wrong."""
         self._later(lambda: self._file.lose(axis))
 
     def homed(self, axis: Axis, angle_deg: float) -> None:
+        """The axis was found at this angle on the rotor's own scale."""
         self._marks[axis] = Mark.NONE
         self._later(lambda: self._file.home(axis, angle_deg))
 
     def close(self) -> None:
-        """Write where each axis stands, and end the thread. May be called twice."""
+        """Write the angle of each axis that stands, and end the thread. May be called twice."""
         with self._closing:
             if not self._closed:
                 self._run_later(self._file.close)

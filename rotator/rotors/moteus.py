@@ -1,7 +1,7 @@
 """Two moteus controllers as the control loop sees them.
 
-Knows their faults, that an axis may have lost its position, and that the operator then confirms it. The way to them is
-`hw.moteus.bus`, or in simulated time `hw.moteus.wire`.
+Knows their faults, that a controller may have lost its position, and that the operator then confirms it. Does not know
+how an order reaches a controller: `hw.moteus.bus` does, and `hw.moteus.wire` in simulated time.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import Fault, FaultKind, Notice
 from rotator.orders import LetGo
-from rotator.rotors.common import Ends, PlainRotor, no_switches
+from rotator.rotors.common import BlockedDirections, PlainRotor, no_switches
 from rotator.rotors.port import AddAlarm
 from rotator.rotors.positioned import steered
 
 
 class MoteusRotor(PlainRotor):
-    """`serve`: the bus, in real time, or what stands in for it in simulated time."""
+    """`serve` carries the orders: a MoteusBus in real time, a MoteusInStep in simulated time."""
 
     def __init__(
         self,
@@ -31,7 +31,7 @@ class MoteusRotor(PlainRotor):
         serve: MoteusBus | MoteusInStep,
         sensors: Mapping[Axis, AngleSensor],
         shift: Offsets,
-        ends: Ends = no_switches,
+        ends: BlockedDirections = no_switches,
     ) -> None:
         self.sensors = sensors
         self._drive = drive
@@ -78,9 +78,9 @@ class MoteusRotor(PlainRotor):
             self._drive.off()
 
     def _fault(self, axis: Axis) -> Fault | None:
-        said = self._drive.faults().get(axis)
-        if said:
-            return Fault(FaultKind.CONTROLLER_FAULT, axis, said)
+        text = self._drive.faults().get(axis)
+        if text:
+            return Fault(FaultKind.CONTROLLER_FAULT, axis, text)
         try:
             self._drive.angle_deg(axis)
         except HardwareError as reason:

@@ -1,6 +1,6 @@
-"""What the control loop drives and reads, whichever kind of rotor it is.
+"""The interface between the control loop and a rotor, the same for every kind of rotor.
 
-Knows the shape that all of them have. Knows none of them: those are in `rotator.rotors`.
+Knows what the control loop may call and in which thread. Does not know a kind: the modules beside this one do.
 """
 
 from __future__ import annotations
@@ -13,44 +13,47 @@ from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand
 
 AddAlarm = Callable[[Callable[[], float | None], Callable[[float], None]], None]
-"""A simulated clock's: when something is due, and what is to be called then."""
+"""`add_alarm(due_s, ring)` of a simulated clock: it calls `ring(now_s)` when its time reaches `due_s()`."""
 
 
 class Rotor(Protocol):
-    """Only the control loop drives it. `off` may be called from any thread at any time."""
+    """Only the control loop gives commands. `off` may be called from any thread at any time."""
 
     sensors: Mapping[Axis, AngleSensor]
-    """Read in a thread of their own."""
+    """The angle sensor of each axis. The sensor thread reads them, not the control thread."""
 
     def condition(self, axis: Axis) -> Condition:
-        """How the axis is, beside its angle: asked for right after its sensor has been read, in the same thread."""
+        """The state of the axis beside its angle. The sensor thread calls this right after it has read the sensor."""
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        """Do that. Returns which way a relay is closed now; OFF where there are none. Raises HardwareError."""
+        """Carry out the command. Raises HardwareError.
+
+        Returns the direction whose relay is closed now; OFF for a rotor without relays.
+        """
 
     def run(self, errand: Errand) -> None:
-        """Something that is to be done once. Raises HardwareError."""
+        """Carry out an errand, which the controller gives once. Raises HardwareError."""
 
     def closed_contacts(self) -> frozenset[Axis]:
-        """The axes whose index contact is closed now, for a lamp; from any thread. Raises HardwareError."""
+        """The axes whose index contact is closed now, for a lamp. From any thread. Raises HardwareError."""
 
     def off(self) -> None:
-        """The safe state, from any thread: relays open; a motor that holds its place decelerates and holds."""
+        """The safe state, from any thread: relays open; a motor that holds its position decelerates and holds."""
 
     def cut(self) -> bool:
-        """Everything off and the motors' supply with it; False: nothing here can switch it. Raises HardwareError."""
+        """Switch off all motors and their supply. False: no relay switches the supply. Raises HardwareError."""
 
     def restore(self) -> None:
-        """The supply may come back."""
+        """Allow the motors' supply again. It comes on with the next motor that runs."""
 
     def start(self) -> None:
         """Begin in real time: start the guard and all other threads."""
 
     def begin(self, add_alarm: AddAlarm) -> None:
-        """In place of `start` on a simulated clock, where there are no threads."""
+        """Begin on a simulated clock, where there are no threads. Called in place of `start`."""
 
     def check(self) -> None:
-        """Raises HardwareError when the thread that ends expired commands has died: nothing may move without it."""
+        """Raises HardwareError when the guard's thread has died: nothing may move, as no command would expire."""
 
     def close(self) -> None:
         """Switch everything off and join the threads. May be called twice. Raises HardwareError if a line fails."""

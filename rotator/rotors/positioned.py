@@ -1,6 +1,7 @@
 """Motors that go to an angle by themselves: servos, and control boxes that follow a digital pot.
 
-Knows that the angles of a drive are on the rotor's own scale. Knows no drive.
+Knows that a drive takes angles on the rotor's own scale, and shifts the controller's angles to it. Does not know which
+drive it has.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from hw.safety.guard import Expiring
 from rotator.control.commands import Command, Errand, Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.orders import LetGo
-from rotator.rotors.common import Ends, GuardedRotor, no_switches
+from rotator.rotors.common import BlockedDirections, GuardedRotor, no_switches
 
 
 def steered(drive: PositionedDrive, shift: Offsets, axis: Axis, command: Command) -> Direction:
-    """Pass the command to the drive, on the rotor's own scale. Returns OFF: it has no relays. Raises HardwareError."""
+    """Pass the command to the drive, on the rotor's own scale. Returns OFF: no relay. Raises HardwareError."""
     if isinstance(command, Steer):
         drive.aim(axis, command.angle_deg - shift.of(axis), command.rate_dps, command.until_s)
     else:
@@ -26,12 +27,18 @@ def steered(drive: PositionedDrive, shift: Offsets, axis: Axis, command: Command
 
 
 class GuardedDrive(PositionedDrive, Expiring, Protocol):
-    """A positioned drive whose commands a guard lets expire."""
+    """A positioned drive with commands that a guard ends when they expire."""
 
 
 class PositionedRotor(GuardedRotor):
+    """`shift`: the offset of each axis, from the rotor's own scale to the controller's angles."""
+
     def __init__(
-        self, drive: GuardedDrive, sensors: Mapping[Axis, AngleSensor], shift: Offsets, ends: Ends = no_switches
+        self,
+        drive: GuardedDrive,
+        sensors: Mapping[Axis, AngleSensor],
+        shift: Offsets,
+        ends: BlockedDirections = no_switches,
     ) -> None:
         super().__init__(drive, sensors, ends)
         self._motors = drive

@@ -1,6 +1,6 @@
-"""Motors on relays, with a sensor for each angle: pots on a converter, or the sensor that the file names.
+"""Motors on relays, with a sensor for each angle: a pot on a converter, or another sensor from the configuration.
 
-Knows that a bank of relays takes directions. What the bank refuses is in `hw.drives.relays`.
+Knows that relays take a direction, not an angle. Does not know when a relay may close: `hw.drives.relays` does.
 """
 
 from __future__ import annotations
@@ -10,16 +10,20 @@ from collections.abc import Mapping
 from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, Axis, Direction
 from rotator.control.commands import Command, Run
-from rotator.rotors.common import Ends, GuardedRotor, no_switches
+from rotator.rotors.common import BlockedDirections, GuardedRotor, no_switches
 
 
 class RelayRotor(GuardedRotor):
-    def __init__(self, bank: RelayBank, sensors: Mapping[Axis, AngleSensor], ends: Ends = no_switches) -> None:
-        super().__init__(bank, sensors, ends, alarm="CUT THE MOTOR POWER")
+    """Two motors on a bank of relays. `sensors`: the angle sensor of each axis."""
+
+    def __init__(
+        self, bank: RelayBank, sensors: Mapping[Axis, AngleSensor], ends: BlockedDirections = no_switches
+    ) -> None:
+        super().__init__(bank, sensors, ends, operator_must="CUT THE MOTOR POWER")
         self.bank = bank
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        assert isinstance(command, Run), "relays know directions only"
+        assert isinstance(command, Run), "relays take directions only"
         return self.bank.drive(axis, command.direction, command.until_s)
 
     def cut(self) -> bool:

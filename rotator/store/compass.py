@@ -1,6 +1,6 @@
-"""The corrections that a compass has found for its own errors: the chip loses them without power.
+"""The file with the corrections that a compass has found for its own errors: the chip loses them without power.
 
-Knows the file's form. Does not know what the bytes mean.
+Knows the file's form, and how many bytes the corrections have. Does not know what the bytes mean.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ def encode(offsets: bytes) -> str:
 
 
 def decode(text: str) -> bytes:
-    """Raises ValueError where the text is not such a file."""
+    """The corrections in the text of a file. Raises ValueError where the text is damaged or another file's."""
     return json_file.decode(FORMAT, text, _parse)
 
 
@@ -32,12 +32,12 @@ def _content(offsets: bytes) -> dict[str, object]:
 def _parse(content: dict[str, Any]) -> bytes:
     offsets = bytes.fromhex(content["offsets"])
     if len(offsets) != OFFSETS_COUNT:
-        raise ValueError(f"it holds {len(offsets)} bytes, not {OFFSETS_COUNT}")
+        raise ValueError(f"the offsets are {len(offsets)} bytes, not {OFFSETS_COUNT}")
     return offsets
 
 
 class CompassFile:
-    """`load` the corrections, `save` new ones; neither raises."""
+    """`load` the corrections, `save` new ones. Failures go to the log, and nothing is raised."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -46,18 +46,18 @@ class CompassFile:
 
     @property
     def trouble(self) -> str:
-        """Why the file could not be written, as a sentence for the operator; empty: it was."""
+        """The reason of the last failed write, as a sentence for the operator; empty after a good write."""
         reason = self._file.trouble
         return f"{self.path}: what the compass learnt cannot be kept: {reason}" if reason else ""
 
     def load(self) -> bytes | None:
-        """The corrections; None where there is no file, or none that can be trusted."""
+        """The corrections; None without a file, or with a damaged one."""
         self._saved = self._file.load(
             _parse, absent=None, damaged=None, consequence="ignored, the compass learns its errors anew"
         )
         return self._saved
 
     def save(self, offsets: bytes) -> None:
-        """Keep the corrections of a compass whose calibration is complete. Equal ones are not written again."""
+        """Write the corrections of a fully calibrated compass, unless the file has the same ones."""
         if offsets != self._saved and self._file.save(_content(offsets)):
             self._saved = offsets

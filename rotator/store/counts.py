@@ -1,7 +1,7 @@
-"""The angles of the axes that count pulses, from one run to the next: a count has no other memory.
+"""The file with the angles of the axes that count pulses: without it the count is lost at power-off.
 
-Knows the file's form, and when an angle is written. The file marks an axis as moving before it moves. After a power cut
-during a move the mark remains, and the axis counts as lost. Does not know how pulses are counted.
+Knows the file's form, and when an angle is written. The file marks an axis as moving before the axis moves. After a
+power cut during a move the mark remains, and the axis is lost. Does not know how pulses are counted.
 
 Memory cards wear. A move costs one write before it and one after it. While a satellite is tracked, with a step every
 few seconds, the mark stays in the file: a rest is written after 2 s if the last one is a minute old, else after 20 s.
@@ -34,18 +34,18 @@ REST_EVERY_S = 60.0
 
 
 class Standing(Enum):
-    """What the file says about an axis. A KNOWN axis can be aimed; the others obey jog until they are homed."""
+    """What the file says about an axis. A KNOWN axis can be aimed; any other takes only jog orders until homed."""
 
     KNOWN = "known"
     MOVING = "moving"
-    """In the file: the axis was about to move when this was written."""
+    """The mark in the file: the axis was about to move when the mark was written."""
     LOST = "lost"
     NEVER = "never homed"
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """`angle_deg` is on the rotor's own scale, and a number only where the standing is KNOWN."""
+    """`angle_deg` is on the rotor's own scale; NaN unless the standing is KNOWN."""
 
     standing: Standing
     angle_deg: float = math.nan
@@ -62,7 +62,7 @@ def encode(places: Mapping[Axis, Place], cams: Mapping[Axis, CamSettings]) -> st
 
 
 def decode(text: str, cams: Mapping[Axis, CamSettings]) -> dict[Axis, Place]:
-    """KNOWN, LOST or NEVER for each axis of `cams`. Raises ValueError where the text is not such a file."""
+    """KNOWN, LOST or NEVER for each axis of `cams`. Raises ValueError where the text is damaged or another file's."""
     return json_file.decode(FORMAT, text, lambda content: _parse(content, cams))
 
 
@@ -86,14 +86,15 @@ def _place(table: Mapping[str, Any], cam: CamSettings) -> Place:
         return LOST
     angle_deg = table["angle_deg"]
     if isinstance(angle_deg, bool) or not isinstance(angle_deg, (int, float)) or not math.isfinite(angle_deg):
-        raise ValueError("an angle is not a number")
+        raise ValueError(f"an angle is {angle_deg!r}, which is not a number")
     return Place(Standing.KNOWN, float(angle_deg))
 
 
 class CountsFile:
-    """`load` it; then call `start` before a move, `rest` in every cycle in which an axis stands, `close` at the end.
+    """Call `load` first; then `start` before a move, `rest` in each cycle while an axis stands, `close` at the end.
 
-    None of them raises. While the file cannot be written, only an axis that is lost anyway may move.
+    Failures go to the log, and nothing is raised. While the file cannot be written, only an axis without a known angle
+    may move.
     """
 
     def __init__(self, path: Path, cams: Mapping[Axis, CamSettings]) -> None:
@@ -101,16 +102,16 @@ class CountsFile:
         self._cams = cams
         self._written: dict[Axis, Place] = dict.fromkeys(cams, NEVER)
         self._stood: dict[Axis, tuple[float, float]] = {}
-        """Since when an axis stands, and at which angle."""
+        """For an axis that stands: the moment since when, and its angle."""
         self._rested_s = dict.fromkeys(cams, -math.inf)
 
     @property
     def trouble(self) -> str:
-        """Why the file cannot be written; empty: it can."""
+        """The reason of the last failed write; empty after a good one."""
         return self._file.trouble
 
     def load(self) -> dict[Axis, Place]:
-        """What is known from the last run. With a damaged file every axis is LOST."""
+        """The state of each axis at the end of the last run. With a damaged file every axis is LOST."""
         self._written = self._file.load(
             lambda content: _parse(content, self._cams),
             absent=self._written,
@@ -120,7 +121,7 @@ class CountsFile:
         return dict(self._written)
 
     def start(self, axis: Axis) -> bool:
-        """The axis is about to move. True: it may: the mark is in the file, or its angle is not known anyway."""
+        """The axis is about to move. True: it may, because the mark is in the file or the axis has no known angle."""
         self._stood.pop(axis, None)
         return self._written[axis].standing is not Standing.KNOWN or self._write(axis, MOVING)
 
@@ -135,7 +136,7 @@ class CountsFile:
         self._write(axis, Place(Standing.KNOWN, angle_deg))
 
     def rest(self, now_s: float, axis: Axis, angle_deg: float) -> None:
-        """The axis stands at this angle, and its count is good. It is written when it has stood long enough."""
+        """The axis stands at this angle, and its count is right. The angle is written after a long enough rest."""
         since_s = self._stood[axis][0] if axis in self._stood else now_s
         self._stood[axis] = (since_s, angle_deg)
         place = Place(Standing.KNOWN, round(angle_deg, 3))

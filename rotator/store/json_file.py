@@ -1,7 +1,7 @@
-"""A small JSON file that is written whole: the form that everything the box keeps from one run to the next has.
+"""One JSON file with a format name, replaced as a whole: each file in which the box keeps something has this form.
 
-Knows the file's format name, and that a damaged or foreign file must not stop the box. Does not know what the content
-means: each store brings its own `parse`.
+Knows that a damaged or foreign file must not stop the box. Does not know what the content means: each store has its own
+`parse`.
 """
 
 from __future__ import annotations
@@ -19,38 +19,44 @@ log = logging.getLogger(__name__)
 T = TypeVar("T")
 
 Parse = Callable[[dict[str, Any]], T]
-"""From the file's content to a value. May raise ValueError, KeyError, TypeError or AttributeError: it is damaged."""
+"""From the file's content to a value. Raises ValueError, KeyError, TypeError or AttributeError for damaged content."""
 
 
 def encode(form: str, content: Mapping[str, object]) -> str:
+    """The file's text. `form`: the format name."""
     return json.dumps({"format": form, **content}, indent=1) + "\n"
 
 
 def decode(form: str, text: str, parse: Parse[T]) -> T:
-    """Raises ValueError where the text is damaged or has another format name than `form`."""
+    """The value in the file's text. Raises ValueError where the text is damaged, or its format name is not `form`."""
     try:
         content = json.loads(text)
         if not isinstance(content, dict) or content.get("format") != form:
-            raise ValueError("it is not the box's")
+            raise ValueError(f"its format is not {form!r}")
         return parse(content)
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as fault:
+    except KeyError as fault:
+        raise ValueError(f"the key {fault.args[0]} is missing") from fault
+    except (ValueError, TypeError, AttributeError, RecursionError) as fault:
         raise ValueError(str(fault) or type(fault).__name__) from fault
 
 
 class JsonFile:
-    """`form`: the format name. `what`: the content in a few words, for the log. Neither `load` nor `save` raises."""
+    """`form`: the format name. `what`: the content in a few words, for the log.
+
+    `load` and `save` raise nothing: their failures go to the log.
+    """
 
     def __init__(self, path: Path, form: str, what: str) -> None:
         self.path = path
         self.trouble = ""
-        """Why the file could not be written the last time; empty: it was."""
+        """The reason of the last failed write; empty after a good one."""
         self._form = form
         self._what = what
 
     def load(self, parse: Parse[T], *, absent: T, damaged: T, consequence: str) -> T:
-        """The value in the file. `absent`: the value without a file; `damaged`: with one that cannot be trusted.
+        """The value in the file; `absent` without a file; `damaged` where the file cannot be read or parsed.
 
-        `consequence` tells the log's reader what a damaged file means for the box.
+        `consequence`: what a damaged file means for the box, for the log.
         """
         try:
             return decode(self._form, self.path.read_text(encoding="utf-8"), parse)
@@ -61,7 +67,7 @@ class JsonFile:
             return damaged
 
     def save(self, content: Mapping[str, object]) -> bool:
-        """Write the file, whole or not at all. False: it could not be written; the log has each reason once."""
+        """Replace the file as a whole. False: the write failed. The log has each new reason once."""
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_whole(self.path, encode(self._form, content))

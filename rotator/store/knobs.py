@@ -1,6 +1,6 @@
-"""What a front panel's knobs read at their maximum, from one run to the next.
+"""The file with the full scale of each front panel knob: its reading at the end of its travel.
 
-Knows the file's form. Does not know how the maximum was measured.
+Knows the file's form, and which full scales are possible. Does not know how a full scale is measured.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
-from rotator.store import json_file
 from rotator.store.json_file import JsonFile
 
 FILE_NAME = "knobs.json"
@@ -18,51 +17,40 @@ FILE_NAME = "knobs.json"
 FORMAT = "rotator knobs 1"
 LEAST, MOST = 0.1, 1.1
 """The full scale of a working knob lies between these shares of its supply."""
+DIGITS = 4
+"""A share has so many digits in the file."""
 
 FullScales = dict[Axis, float]
-
-
-def encode(full_scales: Mapping[Axis, float]) -> str:
-    return json_file.encode(FORMAT, _content(full_scales))
-
-
-def decode(text: str) -> FullScales:
-    """Raises ValueError where the text is not such a file."""
-    return json_file.decode(FORMAT, text, _parse)
-
-
-def _content(full_scales: Mapping[Axis, float]) -> dict[str, object]:
-    return {"full_scales": {axis.value: share for axis, share in _rounded(full_scales).items()}}
-
-
-def _rounded(full_scales: Mapping[Axis, float]) -> FullScales:
-    return {axis: round(share, 4) for axis, share in full_scales.items()}
+"""The reading of each knob at the end of its travel, as a share of the knob's supply."""
 
 
 def _parse(content: dict[str, Any]) -> FullScales:
     shares = {Axis(name): share for name, share in content["full_scales"].items()}
     for axis, share in shares.items():
         if isinstance(share, bool) or not isinstance(share, (int, float)) or not LEAST <= share <= MOST:
-            raise ValueError(f"{share!r} is no full scale of the {axis.value} knob")
+            raise ValueError(
+                f"the {axis.value} knob's full scale is {share!r}; it must be a number from {LEAST} to {MOST}"
+            )
     return {axis: float(share) for axis, share in shares.items()}
 
 
 class KnobsFile:
-    """`load` the full scales, `save` new ones; neither raises."""
+    """`load` the full scales, `save` new ones. Failures go to the log, and nothing is raised."""
 
     def __init__(self, path: Path) -> None:
         self._file = JsonFile(path, FORMAT, "the knobs' full scales")
         self._saved: FullScales = {}
 
     def load(self) -> FullScales:
-        """The known full scales; empty where there is no file, or none that can be trusted."""
+        """The known full scales; none without a file, or with a damaged one."""
         self._saved = self._file.load(
             _parse, absent={}, damaged={}, consequence="ignored, the panel's knobs count as uncalibrated"
         )
         return dict(self._saved)
 
     def save(self, full_scales: Mapping[Axis, float]) -> None:
-        """Equal full scales are not written again."""
-        wanted = _rounded(full_scales)
-        if wanted != self._saved and self._file.save(_content(wanted)):
-            self._saved = wanted
+        """Write the full scales, unless the file has the same ones."""
+        rounded = {axis: round(share, DIGITS) for axis, share in full_scales.items()}
+        content = {axis.value: share for axis, share in rounded.items()}
+        if rounded != self._saved and self._file.save({"full_scales": content}):
+            self._saved = rounded

@@ -1,6 +1,6 @@
-"""The speed and coast of each motor as the box has measured them, from one run to the next.
+"""The file with the measured speed and coast of each motor.
 
-Knows the file's form, and when a change is large enough to be written. Does not know how motors are measured.
+Knows the file's form, and which change is large enough for a write. Does not know how a motor is measured.
 """
 
 from __future__ import annotations
@@ -22,18 +22,21 @@ FORMAT = "rotator state 1"
 WORTH_WRITING = 0.05
 """Memory cards wear: a change smaller than this share waits for the end of the program."""
 LEAST_COAST_DEG = 0.2
-"""Shorter coasts are compared as if they were this long: a share of a very short coast is only noise."""
+"""A shorter coast is compared as if it were this long: 5 % of a very short coast is only noise."""
 FASTEST_DPS = 1000.0
 LONGEST_COAST_S = 5.0
 
 Motors = tuple[LearntMotor, LearntMotor]
 """The two directions of one motor: clockwise or up, then counter-clockwise or down."""
 MotorSettings = Mapping[str, object]
-"""What the configuration says about a motor. Figures learnt with other settings belong to another motor."""
+"""The settings of a motor in the configuration. Figures measured with other settings are not used."""
 
 
 class LearntFile:
-    """`load` it, `note` what the box starts with, `save` now and then; none of them raises."""
+    """Call `load` first, then `note`, then `save` now and then. Failures go to the log, and nothing is raised.
+
+    `begun`: the present settings of each motor.
+    """
 
     def __init__(self, path: Path, begun: Mapping[Axis, MotorSettings]) -> None:
         self._file = JsonFile(path, FORMAT, "what the motors taught")
@@ -41,7 +44,7 @@ class LearntFile:
         self._kept: dict[Axis, Motors] = {}
 
     def load(self) -> dict[Axis, Motors]:
-        """What is known from earlier runs; empty where there is no file, or none that can be trusted."""
+        """The figures of earlier runs; none without a file, or with a damaged one."""
         nothing: dict[Axis, tuple[object, Motors]] = {}
         known = self._file.load(
             _parse, absent=nothing, damaged=nothing, consequence="ignored, the motors are learnt anew"
@@ -52,11 +55,11 @@ class LearntFile:
         return {axis: motors for axis, (begun, motors) in known.items() if begun == dict(self._begun[axis])}
 
     def note(self, learnt: Mapping[Axis, Motors]) -> None:
-        """What the box starts with: it need not be written again."""
+        """The figures with which the box starts. They are written only after a change."""
         self._kept = dict(learnt)
 
     def save(self, learnt: Mapping[Axis, Motors], *, ending: bool) -> None:
-        """Write what has been learnt: at the end of the program any change, before that only large ones."""
+        """Write the measured figures. At the end of the program (`ending`) any change counts; before, a large one."""
         if not any(
             axis not in self._kept or _differs(self._kept[axis], motors, ending=ending)
             for axis, motors in learnt.items()
@@ -77,12 +80,12 @@ def _parse(content: dict[str, Any]) -> dict[Axis, tuple[object, Motors]]:
 
 
 def _motors(table: Mapping[str, Any]) -> Motors:
-    """Raises ValueError, KeyError or TypeError where these are not the figures of a motor."""
+    """The figures of one motor. Raises ValueError, KeyError or TypeError for wrong ones."""
     plus, minus = (LearntMotor(**table[direction]) for direction in ("plus", "minus"))
     for motor in (plus, minus):
         numbers = (motor.speed_dps, motor.coast_deg)
         if not all(isinstance(number, (int, float)) and math.isfinite(number) for number in numbers):
-            raise ValueError("a figure is not a number")
+            raise ValueError(f"speed and coast must be numbers, not {motor.speed_dps!r} and {motor.coast_deg!r}")
         if not 0 < motor.speed_dps <= FASTEST_DPS or not 0 <= motor.coast_deg <= LONGEST_COAST_S * motor.speed_dps:
             raise ValueError(f"no motor runs at {motor.speed_dps:g}°/s and coasts {motor.coast_deg:g}°")
     return plus, minus

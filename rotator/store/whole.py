@@ -1,6 +1,6 @@
-"""Replaces a file whole or not at all, even if the power fails at any moment.
+"""Replaces a file as a whole: after a power failure at any moment there is the old content or the new, never a part.
 
-Knows files. Does not know their content.
+Knows files and folders. Does not know what a file contains.
 """
 
 from __future__ import annotations
@@ -10,13 +10,15 @@ from contextlib import suppress
 from pathlib import Path
 
 NEW = ".new"
+"""The ending of the name under which the new content is written first."""
 
 
 def write_whole(path: Path, content: str | bytes) -> None:
-    """Replace the file by `content`, text as UTF-8. Raises OSError; then the old file is unchanged.
+    """Replace the file by `content`, text as UTF-8. Mode and owner stay those of the old file; a link stays a link.
 
-    A `.new` file that an earlier attempt left is overwritten. Mode and owner stay those of the old file; a symbolic
-    link stays a link.
+    Raises OSError. The old file is then unchanged, except where only the last step failed, the sync of the folder: the
+    new file is then in place, and a power failure may bring the old one back. A second call repeats all steps, and
+    overwrites a `.new` file that the first one left.
     """
     path = path.resolve()
     new = path.with_name(path.name + NEW)

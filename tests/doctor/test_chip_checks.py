@@ -123,7 +123,7 @@ def test_gravity(pi: Pi) -> None:
     pi.world.bus.attach(0x68, Zeros())
     finding = pi.only("sensors")
     assert finding.ok is False
-    assert "WHO_AM_I says 0x00" in finding.found
+    assert "the chip's identity is 0x00" in finding.found
 
 
 def test_a_compass(pi: Pi) -> None:

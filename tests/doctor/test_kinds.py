@@ -140,7 +140,7 @@ def test_a_running_box_may_be_moving(pi: Pi) -> None:
 def test_a_file_that_is_not_the_boxs(pi: Pi) -> None:
     pi.kind("relay-pulse")
     pi.write("/var/lib/rotator/counts.json", "{}")
-    assert "cannot be believed: it is not the box's" in pi.only("counts").found
+    assert "cannot be believed: its format is not 'rotator counts 1'" in pi.only("counts").found
 
 
 def test_pots_keep_no_counts(pi: Pi) -> None:

@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 
 from hw.ports import Axis
-from rotator.store.knobs import KnobsFile, decode, encode
+from rotator.store.knobs import KnobsFile
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 FULL_SCALES = {AZ: 0.9712, EL: 0.9384}
+WRITTEN = '{"format": "rotator knobs 1", "full_scales": {"azimuth": 0.9712, "elevation": 0.9384}}'
 
 
 @pytest.fixture
@@ -20,8 +21,8 @@ def path(tmp_path: Path) -> Path:
 
 
 def test_there_and_back(path: Path) -> None:
-    assert decode(encode(FULL_SCALES)) == FULL_SCALES
     KnobsFile(path).save(FULL_SCALES)
+    assert json.loads(path.read_text()) == json.loads(WRITTEN)
     assert KnobsFile(path).load() == FULL_SCALES
 
 
@@ -50,8 +51,8 @@ def shares(value: object) -> str:
         shares(-1),
         shares(7),
         '{"format": "rotator knobs 1", "full_scales": {"azimuth": NaN}}',
-        encode(FULL_SCALES)[:-20],
-        encode(FULL_SCALES).replace("knobs", "counts"),
+        WRITTEN[:-20],
+        WRITTEN.replace("knobs", "counts"),
         "[" * 100_000,
     ],
     ids=lambda text: text[:60].replace("\n", " ") or "empty",
@@ -82,3 +83,18 @@ def test_where_it_cannot_be_written_it_is_logged_and_tried_again(path: Path, cap
     path.parent.unlink()
     file.save(FULL_SCALES)
     assert KnobsFile(path).load() == FULL_SCALES
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ('{"format": "rotator knobs 1"}', "the key full_scales is missing"),
+        ("{}", "its format is not 'rotator knobs 1'"),
+        (shares("x"), "the azimuth knob's full scale is 'x'; it must be a number from 0.1 to 1.1"),
+    ],
+)
+def test_the_log_has_the_reason(path: Path, text: str, reason: str, caplog: pytest.LogCaptureFixture) -> None:
+    path.parent.mkdir()
+    path.write_text(text)
+    KnobsFile(path).load()
+    assert reason in caplog.text

@@ -263,7 +263,7 @@ def test_a_chip_that_is_gone_and_comes_back(bench: Bench) -> None:
 
 def test_another_chip_at_the_address(bench: Bench) -> None:
     bench.chip.identity = 0x33
-    with pytest.raises(HardwareError, match="its identity is 0x33, a BNO055's is 0xa0"):
+    with pytest.raises(HardwareError, match="the chip's identity is 0x33, a BNO055 has 0xa0"):
         bench.driver().attitude()
 
 

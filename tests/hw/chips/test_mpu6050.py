@@ -10,7 +10,7 @@ from firmware_sim.buses.i2c import SimI2CBus
 from firmware_sim.chips.mpu6050 import Mpu6050 as SimMpu6050
 from firmware_sim.clock import SimClock
 from hw.buses.i2c import SmbusI2C
-from hw.chips.mpu6050 import LASTS_S, Mounting, Mpu6050
+from hw.chips.mpu6050 import AVERAGED_OVER_S, Mounting, Mpu6050
 from hw.ports import AngleSensor, AngleSource, HardwareError
 
 CYCLE_S = 0.05
@@ -133,7 +133,7 @@ def test_moving_at_3_degrees_a_second_the_average_is_a_quarter_of_a_degree_late(
 def test_a_pause_ends_the_average(bench: Bench) -> None:
     sensor = bench.driver()
     sensor.read()
-    bench.clock.sleep(LASTS_S + 0.01)
+    bench.clock.sleep(AVERAGED_OVER_S + 0.01)
     bench.elevation_deg = 60.0
     assert sensor.read() == pytest.approx(60.0, abs=0.01)
 
@@ -164,7 +164,7 @@ def test_a_short_jolt_is_passed_over_a_long_one_is_told(bench: Bench) -> None:
     sensor = bench.driver()
     sensor.read()
     jolt(bench, 0.8)
-    until_s = bench.clock() + LASTS_S - CYCLE_S
+    until_s = bench.clock() + AVERAGED_OVER_S - CYCLE_S
     while bench.clock() < until_s:
         bench.clock.sleep(CYCLE_S / 2)
         assert sensor.read() == pytest.approx(30.0, abs=0.01)
@@ -201,7 +201,7 @@ def test_after_a_dip_in_the_supply_it_is_woken_again(bench: Bench) -> None:
         bench.clock.sleep(CYCLE_S)
         sensor.read()
     bench.elevation_deg = 70.0
-    bench.clock.sleep(LASTS_S + CYCLE_S)
+    bench.clock.sleep(AVERAGED_OVER_S + CYCLE_S)
     assert sensor.read() == pytest.approx(70.0, abs=0.01)
 
 
@@ -213,7 +213,7 @@ def test_a_board_on_its_side(bench: Bench) -> None:
 
 def test_another_chip_at_the_address(bench: Bench) -> None:
     bench.chip.identity = 0x70
-    with pytest.raises(HardwareError, match="WHO_AM_I says 0x70, an MPU6050 says 0x68"):
+    with pytest.raises(HardwareError, match="the chip's identity is 0x70, an MPU6050 has 0x68"):
         bench.driver().read()
 
 

@@ -99,9 +99,16 @@ def test_a_frequency_that_the_chip_cannot_make(frequency_hz: float) -> None:
         Bench().driver(frequency_hz=frequency_hz)
 
 
+def test_the_possible_frequencies_follow_from_the_oscillator() -> None:
+    with pytest.raises(HardwareError, match="only 24 to 1526 Hz"):
+        Bench().driver(frequency_hz=2000)
+    with pytest.raises(HardwareError, match="only 26 to 1648 Hz"):
+        Bench().driver(frequency_hz=2000, osc_hz=27e6)
+
+
 @pytest.mark.parametrize("width_us", [0, -5, 20_000])
 def test_a_pulse_that_does_not_fit(width_us: float) -> None:
-    with pytest.raises(HardwareError, match="does not fit"):
+    with pytest.raises(HardwareError, match="must be longer than 0 and shorter than the period"):
         Bench().driver().pulse(0, width_us)
 
 

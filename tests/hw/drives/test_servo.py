@@ -15,7 +15,7 @@ from hw.buses.gpio import GpioOutputs
 from hw.buses.i2c import SmbusI2C
 from hw.chips.pca9685 import Pca9685
 from hw.drives.relays import LONGEST_LEASE_S
-from hw.drives.servo import ENABLE, LOOK_S, RETRY_S, ServoDrive
+from hw.drives.servo import CHECK_S, ENABLE, RETRY_S, ServoDrive
 from hw.drives.servo_axis import ServoSpec
 from hw.ports import AngleSource, Axis, HardwareError
 from hw.safety.guard import PATIENCE_S
@@ -252,7 +252,7 @@ def test_a_board_without_supply_is_told_and_comes_back_without_a_pulse(fault: st
     bench.settle()
     bench.rotor.inject(fault)
     with pytest.raises(HardwareError):
-        bench.follow(AZ, 100.0, LOOK_S + 0.2)
+        bench.follow(AZ, 100.0, CHECK_S + 0.2)
     assert {AZ, EL} == set(bench.drive.faults())
     with pytest.raises(HardwareError, match="0x40"):
         bench.drive.sensor(AZ).read()

@@ -88,7 +88,7 @@ def bench() -> Bench:
 
 @pytest.fixture
 def guard(bench: Bench) -> Iterator[Guard]:
-    guard = Guard(bench.bank, time.monotonic, alarm="CUT THE MOTOR POWER")
+    guard = Guard(bench.bank, time.monotonic, operator_must="CUT THE MOTOR POWER")
     guard.start()
     yield guard
     bench.lines.broken = False
