@@ -1,7 +1,7 @@
-"""Simulated time: it moves on only in `sleep`.
+"""Simulated time: it passes only in `sleep` and `sleep_until`.
 
-Knows the present moment, and the alarms that ring on the way to a later one. Knows no rotor, no chip and no thread:
-everything on a `SimClock` runs in one thread, so that an hour of tracking takes a second.
+Knows the present moment, and the alarms due on the way to a later one. Knows no rotor, no chip and no thread: all code
+on a `SimClock` runs in one thread, so that an hour of tracking takes a second.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Alarm:
-    """Something that must happen at its moment while the caller sleeps: a guard, a sampler.
+    """A call at its moment while the program sleeps, as of a guard or a sampler.
 
     Of two alarms due at one moment, the one added first rings first.
     """
@@ -37,7 +37,7 @@ class SimClock:
         self._alarms.append(Alarm(due_s, ring))
 
     def every(self, period_s: float, ring: Callable[[float], None]) -> None:
-        """Ring now, and then every `period_s` seconds, without drift."""
+        """Call `ring(now_s)` now, and then every `period_s` seconds, without drift."""
         start_s, count = self._now_s, 0
 
         def due_s() -> float:
@@ -55,7 +55,7 @@ class SimClock:
         self.sleep_until(self._now_s + max(0.0, seconds))
 
     def sleep_until(self, moment_s: float) -> None:
-        """Let time pass up to that moment, and ring the alarms that are due by then."""
+        """Let time pass up to `moment_s`, and ring the alarms on the way, oldest first."""
         while True:
             first, first_s = None, math.inf
             for alarm in self._alarms:

@@ -1,6 +1,8 @@
-"""Faults of a simulated rotor, by name: each can be injected, and cleared again.
+"""Faults of simulated hardware, by name: each can be injected and cleared.
 
-Knows names, and that a part changes only after it has been brought up to the present moment. Knows no part.
+Knows the table of names, and how a fault changes a part. Knows no part. Two faults that set the same attribute exclude
+each other: the later one replaces the earlier one, and clearing either of them repairs the part. The tables of faults
+name these pairs.
 """
 
 from __future__ import annotations
@@ -12,24 +14,27 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class SimFault:
-    """One fault: what `inject` does to the simulated hardware, and what `clear` repairs."""
+    """One fault: `inject` breaks the simulated hardware, `clear` repairs it."""
 
     inject: Callable[[], None]
     clear: Callable[[], None]
 
 
 class Fallible:
-    """A simulated rotor with a table of `faults` by name. Its parts change under its lock only."""
+    """Simulated hardware with a table of `faults` by name.
+
+    A fault changes a part under the lock, after `_advance`: until then the part worked without the fault.
+    """
 
     faults: dict[str, SimFault]
     _lock: threading.RLock
 
     def inject(self, name: str) -> None:
-        """Let that fault happen. Raises ValueError, with a list of the names, for an unknown one."""
+        """Begin the fault `name`. Raises ValueError, with the names of all faults, for an unknown name."""
         self._fault(name).inject()
 
     def clear(self, name: str) -> None:
-        """Repair that fault. Raises ValueError for an unknown one."""
+        """Repair the fault `name`. Raises ValueError, with the names of all faults, for an unknown name."""
         self._fault(name).clear()
 
     def _advance(self) -> None:
@@ -43,10 +48,17 @@ class Fallible:
 
     def _fault_of(self, part: object, field: str, bad: object, good: object) -> SimFault:
         """A fault that is an attribute of a part: `bad` while injected, `good` when cleared."""
+        return self._fault_by(lambda: setattr(part, field, bad), lambda: setattr(part, field, good))
 
-        def become(value: object) -> None:
-            with self._lock:
-                self._advance()
-                setattr(part, field, value)
+    def _single_fault(self, happen: Callable[[], None]) -> SimFault:
+        """A fault of one moment, as a dip of a supply. There is nothing to clear."""
+        return SimFault(lambda: self._change(happen), lambda: None)
 
-        return SimFault(lambda: become(bad), lambda: become(good))
+    def _fault_by(self, break_part: Callable[[], None], repair_part: Callable[[], None]) -> SimFault:
+        """A fault that calls one of these two functions, under the lock and after `_advance`."""
+        return SimFault(lambda: self._change(break_part), lambda: self._change(repair_part))
+
+    def _change(self, change_part: Callable[[], None]) -> None:
+        with self._lock:
+            self._advance()
+            change_part()

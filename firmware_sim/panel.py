@@ -1,7 +1,8 @@
 """A simulated front panel: a mode switch, jog switches, knobs, a stop button, lamps and meters.
 
-Knows what is wired where, its resistors, and its faults by name. Knows no driver: it is connected to lines in the shape
-of gpiod and a bus in the shape of smbus2, and the rest is Ohm's law.
+Knows which line or channel each of these parts is on, the panel's resistors, and its faults by name. Knows no driver:
+it is connected to lines in the shape of gpiod and a bus in the shape of smbus2. Does not know what a switch or a lamp
+means to the program. Only the mode switch can bounce.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from firmware_sim.chips.pca9685 import Pca9685
 from firmware_sim.faults import Fallible, SimFault
 
 BOUNCES_HZ = 7.3
-"""How often a worn mode switch changes while it bounces: out of step with a reader that reads 20 times a second."""
+"""Changes of a bouncing mode switch in a second: out of step with a program that reads it 20 times a second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,19 +42,19 @@ class PanelSpec:
     outputs_address: int = 0x41
     supply_v: float = 3.3
     meter_full_share: float = 1.0
-    """The share of the time for which an output must be on to bring its needle to the end: set by the trimmer."""
+    """Duty cycle of an output at which its needle is at full scale, set by the trimmer."""
     bias_ohm: tuple[float, float] = (10e3, 10e3)
-    """The resistors from the jog input to the supply, and to ground."""
+    """The resistor from the jog input to the supply, and the one to ground."""
     azimuth_ohm: float = 6.8e3
-    """The resistor behind the azimuth jog switch."""
+    """The resistor in series with the azimuth jog switch."""
     elevation_ohm: float = 12e3
-    """The resistor behind the elevation jog switch."""
+    """The resistor in series with the elevation jog switch."""
     knob_end: float = 1.0
-    """The share of the supply at a knob's wiper at its maximum."""
+    """Voltage at a knob's wiper at its maximum, as a share of the supply."""
 
 
 class SimPanel(Fallible):
-    """Connects its switches to `gpio`, and its two chips to `bus` where they are needed."""
+    """Connects its switches to `gpio`. Attaches its converter and its output chip to `bus` if the spec uses them."""
 
     def __init__(self, spec: PanelSpec, gpio: SimGpio, bus: SimI2CBus, clock: Callable[[], float]) -> None:
         self.spec = spec
@@ -89,12 +90,12 @@ class SimPanel(Fallible):
     # --- what the operator does
 
     def turn_mode(self, position: int) -> None:
-        """0 MANUAL, 1 PARK, 2 AUTO, 3 JOG."""
+        """Turn the mode switch: 0 MANUAL, 1 PARK, 2 AUTO, 3 JOG."""
         self._position = position
         self._wire_up()
 
     def throw(self, axis: str, way: int) -> None:
-        """A jog switch: +1 CW or up, -1 CCW or down, 0 released."""
+        """Throw a jog switch: +1 CW or up, -1 CCW or down, 0 released."""
         self._thrown[axis] = way
 
     def turn_knob(self, axis: str, share: float) -> None:
@@ -102,7 +103,7 @@ class SimPanel(Fallible):
         self._knobs[axis] = share
 
     def press_stop(self) -> None:
-        """Press the stop button, which stays in."""
+        """Press the stop button, which latches."""
         self._stop_closed = False
         self._wire_up()
 
@@ -126,13 +127,13 @@ class SimPanel(Fallible):
         return {name for name in self.spec.lamps if self.lamp(name)}
 
     def needle(self, axis: str) -> float:
-        """Where a meter's needle stands, 0 to 1 of its scale; it cannot go beyond the end."""
+        """Position of a meter's needle, 0 to 1 of its scale; the end of the scale stops it."""
         return min(self.board.high_share(self.spec.meters[axis]) / self.spec.meter_full_share, 1.0)
 
     # --- the wires
 
     def jog_v(self) -> float:
-        """The voltage of the jog input, by Millman's theorem: there the currents of all resistors add up to zero."""
+        """The voltage of the jog input, by Millman's theorem: the currents into the input add up to zero."""
         if "jog-shorted" in self._broken:
             return 0.0
         up_ohm, down_ohm = self.spec.bias_ohm
@@ -150,13 +151,13 @@ class SimPanel(Fallible):
         return self._wiper_v("elevation")
 
     def _wiper_v(self, axis: str) -> float:
-        """The voltage of a knob's wiper. Where its wire is broken, a resistor pulls the input to ground."""
+        """The voltage of a knob's wiper. If its wire is broken, a resistor pulls the input to ground."""
         if f"{axis}-knob-wire-broken" in self._broken:
             return 0.0
         return self._knobs[axis] * self.spec.knob_end * self.supply_v
 
     def _wire_up(self) -> None:
-        """Put the switches' states on the lines. Each is between its line and ground; the Pi pulls an open one high."""
+        """Put the state of each switch on its line. Closed: ground; open: the Pi pulls it high."""
         spec, position = self.spec, self._position
         if "mode-switch-bouncing" in self._broken:
             position ^= int(self._clock() * BOUNCES_HZ) % 2
@@ -178,6 +179,7 @@ class SimPanel(Fallible):
         """Nothing to do: no part of a panel moves by itself."""
 
     def _fault_table(self, bus: SimI2CBus) -> dict[str, SimFault]:
+        """Each fault is independent of the others; `jog-shorted` hides `jog-wire-broken`."""
         spec = self.spec
         wires = (
             "stop-wire-broken", "mode-wire-broken", "mode-switch-bouncing", "jog-wire-broken", "jog-shorted",
@@ -188,7 +190,7 @@ class SimPanel(Fallible):
             "outputs-gone": SimFault(
                 lambda: bus.gone.add(spec.outputs_address), lambda: bus.gone.discard(spec.outputs_address)
             ),
-            "outputs-dip": SimFault(self._dip, lambda: None),
+            "outputs-dip": self._single_fault(self._dip),
             "supply-sags": self._fault_of(self, "supply_v", 0.9 * spec.supply_v, spec.supply_v),
             "bus-hung": SimFault(bus.hang, bus.release),
         }
@@ -201,6 +203,6 @@ class SimPanel(Fallible):
         return SimFault(lambda: become(broken=True), lambda: become(broken=False))
 
     def _dip(self) -> None:
-        """The board's supply fails for an instant, which resets the chip."""
+        """Interrupt the board's supply, which resets the chip."""
         self.board.supply = False
         self.board.supply = True

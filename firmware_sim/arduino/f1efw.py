@@ -1,7 +1,8 @@
 """The sketch this program replaces: F1EFW's "V4" azimuth and elevation tracker for the Arduino UNO.
 
-Knows the sketch as its author describes it, with its faults. Of the rotor it knows two coefficients only. It does not
-know where the stops are, that 359 and 1 degrees are neighbours, that a motor coasts, or that a reversal needs a pause.
+Knows the sketch as its author describes it, with its faults. Of the rotor it knows only two coefficients. The sketch
+does not know the end stops, that 359 and 1 degrees are neighbours, that a motor coasts, or that a reversal needs a
+pause.
 
 The sketch's text is not public, so this is a model. The author describes: the pins; `W` or `w` anywhere in the received
 text, then azimuth and elevation; no reply, and any other text ignored; angle = ADC x coefficient; a relay on while
@@ -50,7 +51,7 @@ while the pointing error stays within 0.3 degrees. So 100 ms is rather favourabl
 
 ORDER = re.compile(rb"[Ww](\d{1,3})[ \t,]+(-?\d{1,3})(?!\d)")
 HEARD_BYTES = 32
-"""Longer than any order; older characters cannot become part of one."""
+"""Longer than any order: older characters cannot be part of the next one."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
-"""What a sketch's LiquidCrystal object does to six pins of a UNO: an HD44780 driven blind, four bits at a time.
+"""A sketch's LiquidCrystal object on six pins of a UNO: it writes to an HD44780, four bits at a time.
 
-Knows the controller's wake-up sequence, the order of the nibbles, and how long to wait: with R/W on ground it cannot
-read whether the display is ready. Does not know whether a display is connected at all.
+Knows the controller's wake-up sequence, the order of the nibbles, and the waits: with R/W on ground it cannot read
+whether the display is ready. Does not know whether a display is connected.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ SET_ADDRESS = 0x80
 POWER_UP_MS = 50
 """The controller needs 40 ms from the moment its supply is good."""
 WAKE_NIBBLES = ((0x3, 4500), (0x3, 4500), (0x3, 150), (0x2, 0))
-"""Three times "8 bits" brings it to a known state from any other, then "4 bits"; each with its wait in µs."""
+"""Three times "8 bits" resets the controller from any state, then "4 bits". The second number is the wait in µs."""
 CLEAR_US = 2000
 SETTLE_US = 100
 """Every other instruction takes 37 µs; slow displays take longer."""
@@ -29,7 +29,7 @@ SECOND_ROW = 0x40
 
 @dataclass(frozen=True, slots=True)
 class LcdPins:
-    """Where the display is wired; `data` is D4, D5, D6, D7."""
+    """The UNO's pins of the display; `data` is D4, D5, D6, D7."""
 
     rs: int
     enable: int

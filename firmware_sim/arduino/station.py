@@ -1,6 +1,6 @@
 """The station before this program: a UNO with the F1EFW sketch, two motors, two pots and a display, wired up.
 
-Knows which wire goes where. Does not know tracking, which the sketch does, nor mechanics, which are in `parts`. It
+Knows which wire goes where. Knows neither tracking, which the sketch does, nor mechanics, which are in `parts`. It
 works with any clock: in simulated time call `run_until`; in real time give it `time.monotonic` and `time.sleep`, and
 let a thread call `run` while other threads send orders and read the antenna.
 """
@@ -29,14 +29,14 @@ LCD_WIRES = (f1efw.LCD.rs, f1efw.LCD.enable, *f1efw.LCD.data)
 
 @dataclass(frozen=True, slots=True)
 class Boom:
-    """Where the antenna really points, on the rotor's own scale; the pots may show another angle."""
+    """True direction of the antenna on the rotor's own scale. The pots may show another angle."""
 
     azimuth_deg: float
     elevation_deg: float
 
 
 def coefficient(pot: PotSpec) -> float:
-    """Degrees for each count, found as a user of the sketch does: turn to the end, read the converter, divide."""
+    """Degrees for each count, as a user of the sketch measures them: turn to the end, read the converter, divide."""
     end_count = min(int(pot.high_ratio * ADC_STEPS), ADC_STEPS - 1)
     return pot.high_deg / end_count
 
@@ -65,7 +65,7 @@ class WiredAxis:
 
 
 class ArduinoStation:
-    """The constructor switches it on: the sketch's `setup` runs at once and takes about 60 ms of the clock."""
+    """The constructor switches the station on: the sketch's `setup` runs at once and takes about 60 ms of the clock."""
 
     def __init__(
         self,
@@ -80,7 +80,7 @@ class ArduinoStation:
         elevation_start_deg: float = 0.0,
     ) -> None:
         self.relay_starts = 0
-        """How often a relay has closed."""
+        """Number of closures of relays."""
         self.board = Uno(clock, sleep)
         self.display = Hd44780(clock)
         self.azimuth = WiredAxis(
@@ -135,7 +135,7 @@ class ArduinoStation:
             return Boom(self.azimuth.motor.boom_deg, self.elevation.motor.boom_deg)
 
     def drives(self) -> tuple[int, int]:
-        """What the relays ask of azimuth and elevation: -1, 0 or 1."""
+        """Direction in which the relays switch azimuth and elevation: -1, 0 or 1."""
         return self.azimuth.drive, self.elevation.drive
 
     def _wiper_v(self, axis: WiredAxis) -> float:

@@ -1,9 +1,9 @@
 """An Arduino UNO R3 as a sketch sees it: pins, converter, clock, serial port.
 
 Knows the ATmega328P behind the Arduino core: each pin starts as an input, a conversion has 10 bits against the 5 V
-supply and takes 104 µs, the serial port holds 63 bytes each way. Knows neither what is wired to it nor the sketch. Not
-simulated: the time of instructions (some microseconds a pin change), interrupts, PWM, and the bootloader, which makes a
-real UNO deaf for about 1.5 s after the port is opened.
+supply and takes 104 µs, the serial port buffers 63 bytes in each direction. Knows neither the wiring of its pins nor
+the sketch. Not simulated: the time of instructions (some µs for a change of a pin), interrupts, PWM, and the
+bootloader, which ignores the PC for about 1.5 s after the port is opened.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ CONVERSION_S = 104e-6
 """13 cycles of the 125 kHz converter clock."""
 
 MICROS_STEP = 4
-"""Timer 0 ticks every 4 us at 16 MHz."""
+"""Timer 0 counts in steps of 4 µs at 16 MHz."""
 COUNTER_SPAN = 2**32
-"""`millis` wraps after 49.7 days, `micros` after 71.6 minutes."""
+"""`millis` starts again from 0 after 49.7 days, `micros` after 71.6 minutes."""
 
 BUFFER_BYTES = 63
 """The core's ring buffers have 64 places; one stays empty, so that full and empty differ."""
@@ -62,7 +62,7 @@ class UnoSerial:
         self._byte_s = BITS_A_BYTE / baud
 
     def available(self) -> int:
-        """How many bytes can be read."""
+        """Number of bytes that can be read."""
         self._listen()
         return len(self._received)
 
@@ -72,7 +72,7 @@ class UnoSerial:
         return self._received.popleft() if self._received else -1
 
     def write(self, data: bytes) -> int:
-        """Queue bytes for the PC; like the real one, wait when the buffer is full. Returns how many were queued."""
+        """Queue bytes for the PC. Wait while the buffer is full. Returns the number of queued bytes."""
         if self._byte_s is None:
             return 0
         for byte in data:
@@ -101,7 +101,10 @@ class UnoSerial:
         return bytes(came)
 
     def _listen(self) -> None:
-        """The receive interrupt. Only a read makes room, so it is enough to run it just before one."""
+        """Receive the bytes that arrived up to now. A full buffer drops new bytes.
+
+        The UNO does this in an interrupt. Here it runs just before a read, which is enough: only a read makes room.
+        """
         now_s = self._clock()
         while self._incoming and self._incoming[0][0] <= now_s:
             byte = self._incoming.popleft()[1]
@@ -109,7 +112,8 @@ class UnoSerial:
                 self._received.append(byte)
 
     def _wait_for_room(self, byte_s: float) -> None:
-        # The line's time decides, not the queue: the PC may not have fetched bytes that arrived long ago.
+        # The buffer is full while more than 63 bytes are still to be sent. The length of the queue does not show that:
+        # it also has bytes that reached the PC, but were not fetched with `host_receive`.
         full_s = BUFFER_BYTES * byte_s
         behind_s = self._outgoing_free_s - self._clock()
         if behind_s > full_s:
@@ -122,9 +126,9 @@ class Uno:
     def __init__(self, clock: Callable[[], float], sleep: Callable[[float], None]) -> None:
         self.serial = UnoSerial(clock, sleep)
         self.analog_inputs: dict[int, Callable[[], float]] = {}
-        """The volts at A0 to A5, by pin."""
+        """By pin A0 to A5: reads the volts there."""
         self.digital_inputs: dict[int, Callable[[], bool]] = {}
-        """The levels from outside, by pin."""
+        """By pin: reads the level from outside."""
         self.on_pin: list[Callable[[float, int, bool], None]] = []
         """Called with the time, the pin and its new level when an output changes."""
         self._clock = clock
@@ -139,13 +143,13 @@ class Uno:
         self._modes[pin] = mode
         if mode is not PinMode.OUTPUT:
             self._latches[pin] = mode is PinMode.INPUT_PULLUP
-        self._tell(pin, before)
+        self._report(pin, before)
 
     def digital_write(self, pin: int, level: bool) -> None:
-        """Set a pin's latch. On an input that only switches the pull-up, and drives nothing."""
+        """Set a pin's latch. On an input this only switches the pull-up."""
         before = self.level(pin)
         self._latches[pin] = level
-        self._tell(pin, before)
+        self._report(pin, before)
 
     def digital_read(self, pin: int) -> bool:
         """An output reads its own level; an input reads the level from outside, or its pull-up."""
@@ -154,13 +158,13 @@ class Uno:
         return self.digital_inputs[pin]()
 
     def level(self, pin: int) -> bool:
-        """The level that the pin drives. An input drives none, which a relay board takes for LOW."""
+        """The level that the pin drives. An input drives none: a relay board then sees LOW."""
         return self._modes[pin] is PinMode.OUTPUT and self._latches[pin]
 
     def analog_read(self, pin: int) -> int:
         """0 to 1023. Takes A0 to A5, or the channel 0 to 5, as the core does.
 
-        An open input reads the voltage that the sampling capacitor still has from the conversion before.
+        An open input reads the voltage that the sampling capacitor kept from the last conversion.
         """
         pin = pin if pin >= A0 else pin + A0
         if pin in self.analog_inputs:
@@ -187,9 +191,9 @@ class Uno:
     def host_receive(self) -> bytes:
         return self.serial.host_receive()
 
-    def _tell(self, pin: int, before: bool) -> None:
+    def _report(self, pin: int, before: bool) -> None:
         level = self.level(pin)
         if level != before:
             now_s = self._clock()
-            for hear in self.on_pin:
-                hear(now_s, pin, level)
+            for listener in self.on_pin:
+                listener(now_s, pin, level)

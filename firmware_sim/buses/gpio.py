@@ -1,7 +1,8 @@
 """Simulated GPIO chips in the shape of the `gpiod` module (libgpiod 2.x).
 
-Knows which chips there are. For simulated hardware and tests it offers a bench: put a level on a pin, and see every
-change of a pin. Does not know what is wired to the pins.
+Knows which chips there are, and the user of each line. For simulated hardware and tests it offers a bench on the chip
+with the pin header: put a level on a pin, read a pin, see the last 10,000 changes. Does not know what is wired to the
+pins. Not simulated: `watch_line_info`, and requests made through a `Chip`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Self
 
-from firmware_sim.buses.gpio_lines import LINES, Bank
+from firmware_sim.buses.gpio_lines import LINE_COUNT, Bank
 from firmware_sim.buses.gpio_request import (
     Config,
     RequestReleasedError,
@@ -27,6 +28,7 @@ from firmware_sim.buses.gpio_request import (
 __all__ = ["ChipInfo", "Edge", "LineInfo", "RequestReleasedError", "SimChip", "SimGpio", "SimLineRequest"]
 
 EDGES_KEPT = 10_000
+"""How many changes of the header's pins `edges` holds; older ones are dropped."""
 DEFAULT_CHIPS = {"/dev/gpiochip0": "pinctrl-bcm2711"}
 
 Listener = Callable[[float, Mapping[int, bool]], None]
@@ -34,7 +36,7 @@ Listener = Callable[[float, Mapping[int, bool]], None]
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """A physical level that changed."""
+    """A change of a pin: the moment, and the physical level from then on."""
 
     at_s: float
     offset: int
@@ -64,8 +66,8 @@ class SimGpio:
     """Takes the place of the module `gpiod`: `request_lines`, `Chip`, `is_gpiochip_device`.
 
     `level`, `edges`, `on_edges`, `on_look` and `drive_input` are for the chip with the pin header: the first one whose
-    label begins with pinctrl-. `strict`: released lines become inputs again, as in the mainline kernel. Raspberry Pi
-    kernels leave them driven unless `dtparam=strict_gpiod` is set.
+    label begins with pinctrl-. `strict=True`: a released line becomes an input again, as in the mainline kernel. False:
+    a released output stays driven, as in Raspberry Pi kernels without `dtparam=strict_gpiod`.
     """
 
     def __init__(
@@ -74,15 +76,15 @@ class SimGpio:
         self.strict = strict
         self.edges: deque[Edge] = deque(maxlen=EDGES_KEPT)
         self.on_edges: list[Listener] = []
-        """Called at each instant with the physical levels that changed then. The lines are locked during the call."""
+        """Called at each change with the moment and the new physical levels. The lines are locked during the call."""
         labels = DEFAULT_CHIPS if chips is None else chips
         self._banks = {path: Bank(path, label, clock) for path, label in labels.items()}
         banks = list(self._banks.values()) or [Bank("", "", clock)]
         self._header = next((bank for bank in banks if bank.label.startswith("pinctrl-")), banks[0])
         self._header.changed = self._record
         self.on_look = self._header.on_look
-        """Called with the present moment before an input is read. Simulated hardware that moves by itself then reports
-        its pins' changes with `drive_input`, in order of time. The lines are locked during the call."""
+        """Called with the present moment before an input is read. Simulated hardware that moves without an order then
+        calls `drive_input` for each change of its pins since the last call, oldest first. The lines are locked."""
 
     # --- gpiod
 
@@ -155,10 +157,10 @@ class SimChip:
         self.close()
 
     def close(self) -> None:
-        """Nothing to release."""
+        """Does nothing: a simulated chip holds no file."""
 
     def get_info(self) -> ChipInfo:
-        return ChipInfo(os.path.basename(self._bank.path), self._bank.label, LINES)
+        return ChipInfo(os.path.basename(self._bank.path), self._bank.label, LINE_COUNT)
 
     def get_line_info(self, offset: int) -> LineInfo:
         check_offset(offset)

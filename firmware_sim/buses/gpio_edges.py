@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 EVENTS_PER_LINE = 16
-"""The kernel's default buffer, in events a line; the largest buffer is this for each of 64 lines."""
+"""Size of the kernel's default buffer, in events for each line."""
 LARGEST_BUFFER = 64 * EVENTS_PER_LINE
+"""The kernel's limit, in events: a request has at most 64 lines."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +34,7 @@ class EdgeEvent:
 
 
 class EventQueue:
-    """The events of a request that were not read yet. `size`: the requested buffer; None or 0: the kernel's default."""
+    """The unread events of a request. `size`: the requested buffer, in events; None or 0: the kernel's default."""
 
     def __init__(self, lines: int, size: int | None) -> None:
         wanted = min(size or lines * EVENTS_PER_LINE, LARGEST_BUFFER)
@@ -46,7 +47,7 @@ class EventQueue:
         return len(self._events)
 
     def put(self, offset: int, at_s: float, *, rising: bool) -> None:
-        """Add an event; when the buffer is full, the oldest is dropped."""
+        """Add an event. A full buffer drops its oldest event."""
         self._seqno += 1
         line_seqno = self._line_seqnos[offset] = self._line_seqnos.get(offset, 0) + 1
         kind = EdgeEvent.Type.RISING_EDGE if rising else EdgeEvent.Type.FALLING_EDGE
@@ -92,7 +93,7 @@ class EdgeDetector:
         self.level = level
         """The pin's level after debouncing."""
         self.due_s = math.inf
-        """When the debounce period that is running ends."""
+        """End of the running debounce period; infinite while none runs."""
         self._offset = offset
         self._pin = level
         self._queue = queue
@@ -101,7 +102,7 @@ class EdgeDetector:
         self._debounce_s = debounce_s
 
     def change(self, at_s: float, level: bool) -> None:
-        """The pin's level changed."""
+        """Take a change of the pin: its new level, and the moment."""
         self._pin = level
         if self._debounce_s > 0:
             self.due_s = at_s + self._debounce_s
@@ -109,7 +110,7 @@ class EdgeDetector:
             self._take(at_s)
 
     def settle(self) -> None:
-        """The debounce period is over."""
+        """End the debounce period, at the moment `due_s`."""
         at_s, self.due_s = self.due_s, math.inf
         self._take(at_s)
 

@@ -1,6 +1,6 @@
-"""The lines of one simulated GPIO chip: which program holds them, each pin's level, and when it changes.
+"""The lines of one simulated GPIO chip: which program holds them, the level of each pin, and its changes.
 
-Knows pull resistors, outputs, levels from outside, and the detectors that watch inputs. Knows neither the interface of
+Knows pull resistors, outputs, levels from outside, and the edge detectors on inputs. Knows neither the interface of
 gpiod nor what is wired to the pins.
 """
 
@@ -13,19 +13,20 @@ from dataclasses import dataclass
 
 from firmware_sim.buses.gpio_edges import EdgeDetector
 
-LINES = 58
+LINE_COUNT = 58
+"""Of a BCM2711, the chip of a Raspberry Pi 4."""
 PULLED_UP_AT_BOOT = range(9)  # BCM2835 ARM Peripherals, table 6-31: GPIO 0-8 up, 9-27 down
 
 
 @dataclass(slots=True)
 class Line:
-    """One line; `pull`: the level of its pull resistor."""
+    """One line. `pull` is the level of its pull resistor."""
 
     pull: bool
     driven: bool | None = None
     """The level of an output; None: the line is an input."""
     outside: bool | None = None
-    """The level that the hardware outside puts on the pin; None: none. A driven output wins."""
+    """The level that the hardware outside puts on the pin; None: open. A driven output wins."""
     consumer: str | None = None
     """The name of the program that holds the line; None: it is free."""
 
@@ -38,7 +39,7 @@ class Line:
 
 
 class Bank:
-    """The lines of one chip. `clock` gives seconds."""
+    """The lines of one chip, in order of their offsets. `clock` gives seconds. All state changes under `lock`."""
 
     def __init__(self, path: str, label: str, clock: Callable[[], float]) -> None:
         self.path = path
@@ -47,11 +48,11 @@ class Bank:
         self.changed: Callable[[float, Mapping[int, bool]], None] = lambda at_s, changes: None
         self.on_look: list[Callable[[float], None]] = []
         self.detectors: dict[int, EdgeDetector] = {}
-        self.lines = [Line(pull=offset in PULLED_UP_AT_BOOT) for offset in range(LINES)]
+        self.lines = [Line(pull=offset in PULLED_UP_AT_BOOT) for offset in range(LINE_COUNT)]
         self.lock = threading.RLock()
 
     def look(self) -> None:
-        """Bring all inputs up to the present moment; called before an input is read."""
+        """Bring all inputs up to the present moment. Call it before reading an input."""
         with self.lock:
             now_s = self.clock()
             for catch_up in self.on_look:
@@ -60,7 +61,10 @@ class Bank:
 
     @contextmanager
     def instant(self, offsets: Iterable[int], at_s: float | None = None) -> Iterator[None]:
-        """The changes that the body makes to these lines happen in one instant: now, or at an earlier moment `at_s`."""
+        """All changes of these lines in the `with` body count as simultaneous: now, or at the earlier moment `at_s`.
+
+        At the end of the body the detectors and `changed` get the pins whose level is another one.
+        """
         with self.lock:
             moment_s = self.clock() if at_s is None else at_s
             self._settle(moment_s)
@@ -76,7 +80,7 @@ class Bank:
             self.changed(moment_s, changes)
 
     def _settle(self, until_s: float) -> None:
-        """End the debounce periods that are over by then, in order of time."""
+        """End the debounce periods that are over by `until_s`, oldest first."""
         due = [detector for detector in self.detectors.values() if detector.due_s <= until_s]
         for detector in sorted(due, key=lambda detector: detector.due_s):
             detector.settle()

@@ -1,8 +1,11 @@
 """Lines held by a program, in the shape of `gpiod.LineRequest`.
 
-Knows the settings of a line, and its state after release. It reads settings by their attributes and enum members by
-their names, so that the real ones of the gpiod package fit without importing it. Open-drain outputs and other clocks
-are not simulated: a request for them raises NotImplementedError, because a line without events looks like a dead wire.
+Knows a line's settings, its value, its edge events with the wait for them, and its state after release. It reads
+settings by their attributes and enum members by their names, so that the real ones of the gpiod package fit without an
+import. Does not know what is wired to a line, nor the other requests of a program.
+
+Not simulated: open-drain and open-source outputs, other event clocks. A request for them raises NotImplementedError,
+so that a missing feature is not taken for a broken wire. A request cannot be reconfigured.
 """
 
 from __future__ import annotations
@@ -17,15 +20,15 @@ from enum import Enum
 from typing import Any, Self
 
 from firmware_sim.buses.gpio_edges import LARGEST_BUFFER, EdgeDetector, EdgeEvent, EventQueue
-from firmware_sim.buses.gpio_lines import LINES, Bank
+from firmware_sim.buses.gpio_lines import LINE_COUNT, Bank
 
 Settings = Any
 """A `gpiod.LineSettings`."""
 Config = Mapping[Any, Settings]
-"""From an offset, or a tuple of offsets, to their settings."""
+"""Settings by offset, or by a tuple of offsets."""
 EVENTS_A_READ = 64
 LOOK_EVERY_S = 0.005
-"""Simulated contacts move only when they are read; a wait for events reads this often."""
+"""Simulated contacts move only when a program reads them. A wait for events therefore reads this often."""
 
 
 class RequestReleasedError(Exception):
@@ -36,9 +39,9 @@ class RequestReleasedError(Exception):
 
 
 class SimLineRequest:
-    """Lines held until released. Values are members of the caller's own enum.
+    """Holds its lines until `release`. Values are members of the caller's own enum.
 
-    Raises OSError (EBUSY) where another request holds one of them.
+    Raises OSError (EBUSY) if another request holds one of the lines.
     """
 
     def __init__(
@@ -57,9 +60,10 @@ class SimLineRequest:
         self._live = True
         self._events = EventQueue(len(settings), event_buffer_size)
         self._events_a_read = min(event_buffer_size or EVENTS_A_READ, LARGEST_BUFFER)
-        bank.look()
-        self._take_lines(outputs, consumer)
-        self._watch_edges()
+        with bank.lock:  # no edge may come between the two steps, and another thread must not see one without the other
+            bank.look()
+            self._take_lines(outputs, consumer)
+            self._watch_edges()
 
     def _take_lines(self, outputs: Mapping[int, bool], consumer: str) -> None:
         bank = self._bank
@@ -69,7 +73,7 @@ class SimLineRequest:
             for offset, wanted in self._settings.items():
                 line = bank.lines[offset]
                 line.consumer = consumer
-                # libgpiod: edge detection makes a line an input, also against its direction.
+                # libgpiod: edge detection makes a line an input, even if its direction says output.
                 if wanted.edge_detection.name != "NONE" or wanted.direction.name == "INPUT":
                     line.driven = None
                 elif wanted.direction.name == "OUTPUT":
@@ -100,7 +104,7 @@ class SimLineRequest:
         self.release()
 
     def release(self) -> None:
-        """Release the lines. May be called twice, as gpiod's own."""
+        """Release the lines. A second call does nothing, as in gpiod."""
         with self._bank.instant(self._settings):
             if not self._live:
                 return
@@ -149,7 +153,7 @@ class SimLineRequest:
         return self.fd
 
     def wait_edge_events(self, timeout: timedelta | float | None = None) -> bool:
-        """Whether there are events; waits for the first, `timeout` seconds of real time at most (None: for ever)."""
+        """Whether there are events. Waits for the first, at most `timeout` seconds of real time (None: without end)."""
         self._check_live()
         seconds = timeout.total_seconds() if isinstance(timeout, timedelta) else timeout
         until_s = float("inf") if seconds is None else time.monotonic() + seconds
@@ -189,17 +193,22 @@ def is_active(value: Enum | None) -> bool:
 
 
 def by_offset(config: Config) -> dict[int, Settings]:
-    """Each line's settings. Raises ValueError, OSError or NotImplementedError for settings that cannot be."""
+    """The settings of each line.
+
+    Raises ValueError or OSError for settings that libgpiod or Linux refuses, NotImplementedError for those that are not
+    simulated.
+    """
     settings: dict[int, Settings] = {}
     for key, wanted in config.items():
         for offset in (key,) if isinstance(key, int) else key:
             check_offset(offset)
             if offset in settings:
+                # libgpiod's own words, as in `check_offset`
                 raise ValueError(f"line must be configured exactly once - offset {offset} repeats")
             if wanted.drive.name != "PUSH_PULL":
-                raise NotImplementedError("open outputs are not simulated")
+                raise NotImplementedError("open-drain and open-source outputs are not simulated")
             if wanted.event_clock.name != "MONOTONIC":
-                raise NotImplementedError("events are timed on the monotonic clock only")
+                raise NotImplementedError("event clocks other than MONOTONIC are not simulated")
             detected = wanted.edge_detection.name != "NONE"
             if wanted.debounce_period and not detected and wanted.direction.name != "INPUT":
                 raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))  # Linux: debounce needs an explicit input
@@ -208,5 +217,6 @@ def by_offset(config: Config) -> dict[int, Settings]:
 
 
 def check_offset(offset: int) -> None:
-    if not 0 <= offset < LINES:
-        raise ValueError("line offset of out range")
+    """Raises ValueError for an offset that the chip does not have."""
+    if not 0 <= offset < LINE_COUNT:
+        raise ValueError("line offset of out range")  # libgpiod's own words, with its slip

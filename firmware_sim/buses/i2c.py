@@ -1,7 +1,8 @@
 """A simulated I2C adapter in the shape of `smbus2.SMBus`.
 
-Knows the parts of a transfer, its time on the wire, Linux's error numbers, and the faults of an adapter. Knows no chip:
-each attached chip gets the bytes of its address.
+Knows the messages of a transfer, its time on the wire, Linux's error numbers, and two faults: an address that does not
+answer, and a bus that hangs. Knows no chip: each attached chip gets the bytes for its address. Not simulated: SMBus
+words, process calls and blocks with a length byte, clock stretching, and a second master.
 """
 
 from __future__ import annotations
@@ -59,12 +60,13 @@ class SimI2CBus:
 
     def __init__(self, sleep: Callable[[float], None] | None = None, byte_s: float = 90e-6) -> None:
         self.gone: set[int] = set()
-        """Fault: addresses that do not answer although something is attached there."""
+        """Fault: addresses that do not answer although a chip is attached there."""
         self._sleep = sleep
         self._byte_s = byte_s
         self._chips: dict[int, I2CChip] = {}
         self._bytewise: set[int] = set()
-        # Simulated time has one thread: a transfer that an alarm starts while another one sleeps comes before that one.
+        # Reentrant: simulated time has one thread, and an alarm may start a transfer while another transfer sleeps. The
+        # chips then get the second transfer first.
         self._transfer_lock = threading.RLock()
         self._flowing = threading.Event()
         self._flowing.set()
@@ -73,7 +75,7 @@ class SimI2CBus:
         self._undelivered_bytes = 0
         self._unslept_s = 0.0
 
-    # --- the bench: what is wired, and what goes wrong
+    # --- the bench: wiring and faults
 
     def attach(self, address: int, chip: I2CChip) -> None:
         if address in self._chips:
@@ -87,7 +89,7 @@ class SimI2CBus:
         self._bytewise.discard(address)
 
     def hang(self, hang_timeout_s: float | None = None) -> None:
-        """Fault: each transfer blocks until `release`, or fails with ETIMEDOUT after so many seconds of real time."""
+        """Fault: each transfer blocks until `release`, or fails with ETIMEDOUT after `hang_timeout_s` of real time."""
         self._hang_timeout_s = hang_timeout_s
         self._flowing.clear()
 
@@ -95,10 +97,10 @@ class SimI2CBus:
         self._flowing.set()
 
     def wire_time(self, clock: Callable[[], float]) -> Callable[[], float]:
-        """A clock for a chip on this bus: during a transfer it gives the moment at which the present byte was complete.
+        """A clock for a chip on this bus: during a transfer it gives the moment at which the current byte was complete.
 
-        Without `sleep` a transfer takes no time on `clock`, but it does on this clock, which therefore runs ahead. Its
-        differences are right: a display is not blamed for bytes that came faster than a wire can carry them.
+        Without `sleep` a transfer takes no time on `clock`, but it does on this clock, which therefore runs ahead of
+        `clock`. Its differences are right, so that a display does not count bytes as too fast for a real wire.
         """
         return lambda: clock() + self._unslept_s - self._undelivered_bytes * self._byte_s
 
@@ -189,9 +191,9 @@ class SimI2CBus:
         chip = self._chips[part.address]
         self._undelivered_bytes -= 1  # the address byte
         if isinstance(part, _Read):
-            reply = chip.read(part.length)  # a chip fixes its answer when it is addressed, not when the last bit is out
+            reply = chip.read(part.length)  # a chip fixes its answer at its address byte, not at the last bit
             self._undelivered_bytes -= part.length
-            return reply[: part.length].ljust(part.length, b"\xff")  # no chip pulls SDA down: ones
+            return reply[: part.length].ljust(part.length, b"\xff")  # no chip pulls SDA down: the master reads ones
         if part.address in self._bytewise:
             for value in part.data:
                 self._undelivered_bytes -= 1

@@ -1,6 +1,7 @@
 """Simulated SPI: the kernel's controller in the shape of the module `spidev`, and a chip on four GPIO lines.
 
-Knows clocks and selects, in modes 0 and 3 (CPOL and CPHA alike). Knows no chip.
+Knows clocks and selects, in modes 0 and 3 (CPOL equals CPHA). Knows no chip. Not simulated: modes 1 and 2, and the time
+of a transfer.
 """
 
 from __future__ import annotations
@@ -14,18 +15,18 @@ from firmware_sim.buses.gpio import SimGpio
 
 
 class SpiChip(Protocol):
-    """A chip as its pins show it."""
+    """A chip at its pins."""
 
     @property
     def so(self) -> bool | None:
         """The level of its data output; None: it does not drive the line."""
 
     def pins(self, *, cs: bool, sck: bool, si: bool) -> None:
-        """The levels from now on; `cs` low selects it."""
+        """Take the levels of its inputs from now on; `cs` low selects the chip."""
 
 
 def wire_spi(gpio: SimGpio, chip: SpiChip, *, select: int, sck: int, si: int, so: int) -> None:
-    """Hang the chip on lines that a program moves bit by bit."""
+    """Connect the chip to lines that a program switches bit by bit."""
     watched = {select, sck, si}
 
     def lines_changed(_now_s: float, changes: Mapping[int, bool]) -> None:
@@ -37,7 +38,7 @@ def wire_spi(gpio: SimGpio, chip: SpiChip, *, select: int, sck: int, si: int, so
 
 
 class SimSpidev:
-    """Stands where the module `spidev` stands. `chips` are at /dev/spidevBUS.SELECT by those two numbers."""
+    """Takes the place of the module `spidev`. `chips[BUS, SELECT]` is the chip at /dev/spidevBUS.SELECT."""
 
     def __init__(self, chips: Mapping[tuple[int, int], SpiChip] | None = None) -> None:
         self.chips: dict[tuple[int, int], SpiChip] = dict(chips or {})
@@ -47,7 +48,7 @@ class SimSpidev:
 
 
 class SimSpiDevice:
-    """As `spidev.SpiDev`, in modes 0 and 3, the ones that our chips take."""
+    """As `spidev.SpiDev`, in modes 0 and 3, which the simulated chips use."""
 
     def __init__(self, chips: Mapping[tuple[int, int], SpiChip]) -> None:
         self.mode = 0
@@ -61,7 +62,7 @@ class SimSpiDevice:
         self._chip = self._chips[bus, device]
 
     def xfer2(self, values: Sequence[int]) -> list[int]:
-        """Select, clock every byte both ways, let go. The chip's output is sampled where the clock rises."""
+        """Select the chip, exchange each byte, release the chip. The output is sampled where the clock rises."""
         if self._chip is None:
             raise OSError(errno.EBADF, os.strerror(errno.EBADF))
         chip, rest, si = self._chip, self.mode == 3, False

@@ -1,7 +1,7 @@
 """A simulated ADS1115: four inputs, one 16-bit converter, I2C registers.
 
 Knows the register map (TI SBAS444), the time of a conversion, and how volts become counts. Knows no pots and no angles.
-It has no comparator: the thresholds can be written and read, and the ALERT pin does nothing.
+Not simulated: the comparator. The thresholds can be written and read, and there is no ALERT pin.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ SINGLE_SHOT_BIT = 0x0100
 FULL_SCALE_V = (6.144, 4.096, 2.048, 1.024, 0.512, 0.256, 0.256, 0.256)
 RATE_SPS = (8, 16, 32, 64, 128, 250, 475, 860)
 PINS = ((0, 1), (0, 3), (1, 3), (2, 3), (0, None), (1, None), (2, None), (3, None))
-"""What the multiplexer connects, positive and negative side; None is GND."""
+"""Inputs at the positive and the negative side of the converter, by setting of the multiplexer; None is GND."""
 
 WAKE_UP_S = 25e-6
 COUNTS = 32768
@@ -35,8 +35,8 @@ class _Conversion:
 class Ads1115:
     """The chip. `inputs` give the volts at AIN0 to AIN3; a conversion samples them when it ends.
 
-    The chip's code runs only when it is read or written, so a conversion that ended before then samples at that moment.
-    For an exact sample in simulated time, call `settle` at the moment that `due_s` returns.
+    The simulation runs only at a read or a write: a conversion that ended earlier samples the inputs only then. For an
+    exact sample in simulated time, call `settle` at the moment that `due_s` returns.
     """
 
     def __init__(
@@ -51,12 +51,12 @@ class Ads1115:
         self.inputs: list[Callable[[], float]] = [lambda: 0.0] * 4
         self.vdd_v = vdd_v
         self.oscillator_error = oscillator_error
-        """+0.1: a slow oscillator, with which conversions take 10 % longer: the datasheet's limit."""
+        """Relative error of the conversion time. +0.1 is 10 % longer, the datasheet's limit."""
         self.noise_v_rms = noise_v_rms
         self.frozen = False
-        """Fault: conversions end as usual, and the result does not change."""
+        """Fault: conversions end as usual, but the result does not change."""
         self.early_reads = 0
-        """How often the conversion register was read, in single-shot mode, before the conversion had ended."""
+        """Number of reads of the conversion register in single-shot mode before the end of the conversion."""
         self._clock = clock
         self._noise = noise or random.Random(1115)
         self._lock = threading.RLock()
@@ -96,7 +96,7 @@ class Ads1115:
     # --- conversions
 
     def due_s(self) -> float | None:
-        """When the running conversion ends; None while the chip is powered down."""
+        """Moment of the end of the running conversion; None while the chip is powered down."""
         return self._running.ends_at_s if self._running else None
 
     def settle(self) -> None:
@@ -113,14 +113,14 @@ class Ads1115:
                 self._finish(done.config)
 
     def _configure(self, value: int) -> None:
-        # A running conversion keeps the settings it began with; a start ordered meanwhile is lost.
+        # A running conversion keeps its settings. The chip ignores a start order until its end.
         self._registers[CONFIG] = value
         ordered = bool(value & OS_BIT) or not self._single_shot
         if ordered and self._running is None:
             self._running = _Conversion(value, self._clock() + WAKE_UP_S + self._period_s)
 
     def _latest_by(self, now_s: float, first: _Conversion) -> _Conversion:
-        """In continuous mode, the last of the conversions that ended since the chip was read."""
+        """The last of the conversions in continuous mode that ended up to `now_s`."""
         more = int((now_s - first.ends_at_s) / self._period_s)
         if more == 0:
             return first

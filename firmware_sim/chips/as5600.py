@@ -1,7 +1,8 @@
 """A simulated AS5600: a magnet over a chip with twelve bits a turn, I2C registers.
 
-Knows the register map (ams AS5600), how the gain follows the magnet, and the command that burns settings. Knows no
-axis. Not simulated: the analog output, the low-power modes, and the hysteresis at the ends of a narrowed range.
+Knows the register map (ams AS5600), how the gain follows the magnet, the faults of a magnet, and the command that burns
+settings. Knows no axis. Not simulated: the analog output, the low-power modes, the filters, and the hysteresis at the
+ends of a narrowed range.
 """
 
 from __future__ import annotations
@@ -14,16 +15,16 @@ ZMCO, ZPOS, MPOS, MANG, CONF = 0x00, 0x01, 0x03, 0x05, 0x07
 STATUS, RAW_ANGLE, ANGLE, AGC, MAGNITUDE = 0x0B, 0x0C, 0x0E, 0x1A, 0x1B
 BURN = 0xFF
 HELD = (RAW_ANGLE, ANGLE, MAGNITUDE)
-"""At these registers the pointer does not move on, so that the two bytes can be read again and again."""
+"""At these registers the pointer does not move on: each read returns the same two bytes, newly measured."""
 
 WEAKEST_MT, STRONGEST_MT, DETECTED_MT = 30.0, 90.0, 8.0
 GAIN_MAX_3V3 = 128
-"""At 5 V it would be 255."""
+"""Largest gain with a supply of 3.3 V; with 5 V it is 255."""
 STEPS = 4096
 
 
 class MagnetFault(Enum):
-    """What can be wrong with the magnet."""
+    """Faults of the magnet."""
 
     NONE = ""
     MISSING = "magnet-missing"
@@ -42,7 +43,7 @@ class As5600:
     ) -> None:
         self.fault = MagnetFault.NONE
         self.burns: list[int] = []
-        """The values written to BURN. On a real chip they cannot be undone."""
+        """The values written to BURN. A real chip keeps burnt settings for ever."""
         self._turn = turn
         self._noise_turn_rms = noise_deg_rms / 360.0
         self._noise = noise or random.Random(5600)

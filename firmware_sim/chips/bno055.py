@@ -1,7 +1,8 @@
 """A simulated BNO055: a compass that needs time to start, to change its mode and to calibrate itself.
 
-Knows the register map of page 0 (Bosch BST-BNO055-DS000), two modes, and the faults of compasses and of the Raspberry
-Pi's I2C. Knows no rotor. Not simulated: the raw sensors, modes other than CONFIG and NDOF, and the axis map's effect.
+Knows the register map of page 0 (Bosch BST-BNO055-DS000), the modes CONFIG and NDOF, and the faults of compasses and of
+the Raspberry Pi's I2C. Knows no rotor. Not simulated: the raw sensors, other modes, interrupts, and the effect of the
+axis map.
 """
 
 from __future__ import annotations
@@ -25,11 +26,11 @@ INTO_CONFIG_S, OUT_OF_CONFIG_S = 0.019, 0.007
 FUSION_HZ = 100
 FIRST_ANGLES_S = 0.05
 LEARNT_S = {"system": 15.0, "gyroscope": 3.0, "accelerometer": 8.0, "magnetometer": 12.0}
-"""When each part's calibration reaches 3 while the antenna is turned; after a restore five times as fast."""
+"""Time until the calibration of each part reaches 3 while the antenna turns; a fifth of it after a restore."""
 LEARNT = struct.pack("<11h", -12, 30, -7, 210, -145, 88, -1, 2, 0, 1000, 730)
 """Offsets of accelerometer, magnetometer and gyroscope, and the two radii."""
 UNLEARNT_DEG = 70.0
-"""How far the heading is off before the magnetometer is calibrated."""
+"""Error of the heading before the magnetometer is calibrated."""
 
 
 class Bno055:
@@ -46,15 +47,15 @@ class Bno055:
         noise: random.Random | None = None,
     ) -> None:
         self.bit7_share = 0.0
-        """Fault `bits-corrupted`: this share of the bytes read arrives with bit 7 set."""
+        """Fault `bits-corrupted`: the share of the read bytes that arrive with bit 7 set."""
         self.nack_share = 0.0
-        """Fault `busy`: this share of the transfers is not acknowledged."""
+        """Fault `busy`: the share of the transfers without an acknowledge."""
         self.learns = True
         """Fault `not-calibrated`, when False: the antenna was not turned, and the chip never calibrates itself."""
         self.hard_iron_deg = 0.0
-        """Fault `steel-near`: the largest error of the heading, once to each side in a turn."""
+        """Fault `steel-near`: the largest error of the heading, reached once to each side in a turn."""
         self.wander_deg = 0.0
-        """Fault `magnetic-disturbance`: the heading swings by this to each side, every seven seconds."""
+        """Fault `magnetic-disturbance`: amplitude of a swing of the heading with a period of seven seconds."""
         self.system_error = 0
         """Fault `system-error`: the code in SYS_ERR."""
         self.identity = IDENTITIES[0]
@@ -65,7 +66,7 @@ class Bno055:
         self._boot(POWER_ON_S)
 
     def brown_out(self) -> None:
-        """Fault: the supply dips, and the chip starts as after power-on."""
+        """Fault: the supply dips. The chip then starts as after power-on."""
         self._boot(POWER_ON_S)
 
     def _boot(self, duration_s: float) -> None:
@@ -159,7 +160,7 @@ class Bno055:
         return stat
 
     def _sample(self) -> None:
-        """Fusion: new angles every 10 ms, however often they are read."""
+        """Fusion: new angles every 10 ms. Reads in between get the same angles."""
         tick = int(self._clock() * FUSION_HZ)
         if self._mode != NDOF or self._clock() < self._mode_from_s + FIRST_ANGLES_S or tick == self._sampled:
             return

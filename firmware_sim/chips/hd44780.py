@@ -1,8 +1,8 @@
 """A simulated HD44780 character LCD at its pins: RS, RW, E, D4 to D7.
 
-Knows the instruction set (Hitachi ADE-207-272), the nibbles, how long each instruction keeps the chip busy, and the
-text on the glass. Does not know what drives its pins. D0 to D3 are open and read as 0. Not simulated: reading (RW
-high), and the set-up times of RS and data.
+Knows the instruction set (Hitachi ADE-207-272), the nibbles, the busy time of each instruction, and the text on the
+glass. Does not know which circuit drives its pins. D0 to D3 are open and count as 0. Not simulated: reading (RW high),
+the cursor, the 5x10 font, and the set-up times of RS and data.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 POWER_UP_S = 15e-3
 FIRST_FUNCTION_SETS_S = (4.1e-3, 100e-6)  # "initializing by instruction": the first two take longer
 INSTRUCTION_S = 37e-6
-DATA_S = 37e-6 + 4e-6  # the address counter moves 4 us after the data is in
+DATA_S = 37e-6 + 4e-6  # the address counter moves 4 µs after the data is in
 CLEAR_OR_HOME_S = 1.52e-3
 E_HIGH_MIN_S = 450e-9
 
@@ -21,7 +21,7 @@ WRAPS_TWO_LINES = {(0x27, 1): 0x40, (0x67, 1): 0x00, (0x40, -1): 0x27, (0x00, -1
 WRAPS_ONE_LINE = {(0x4F, 1): 0x00, (0x00, -1): 0x4F}
 
 BLANK = 0x20
-CUSTOM_GLYPHS = "⓪①②③④⑤⑥⑦"  # circled digits tell one glyph from another, which ROM characters cannot
+CUSTOM_GLYPHS = "⓪①②③④⑤⑥⑦"  # one circled digit for each custom character: none is in the ROM
 ROM_A00 = {0x5C: "¥", 0x7E: "→", 0x7F: "←", 0xDF: "°", 0xE4: "µ", 0xF4: "Ω", 0xF7: "π", 0xFD: "÷", 0xFF: "█"}
 
 
@@ -44,9 +44,9 @@ class Hd44780:
         self.columns = columns
         self.rows = rows
         self.busy_violations = 0
-        """How many instructions and data bytes came while the chip was busy; they are lost."""
+        """Number of instructions and data bytes that came while the chip was busy and so were lost."""
         self.short_pulses = 0
-        """How many E pulses were shorter than 450 ns; they work. Not counted where the clock stood still."""
+        """Number of E pulses shorter than 450 ns. They work. Not counted: 0 s, where the clock stood still."""
         self.display_on = False
         self.cgram = bytearray(64)
         self._clock = clock
@@ -180,7 +180,7 @@ class Hd44780:
 
 
 def _character(code: int) -> str:
-    """Character generator ROM A00, as far as Latin text and katakana go; other signs show as U+FFFD."""
+    """Character generator ROM A00, for Latin text and katakana. Other characters show as U+FFFD."""
     if code in ROM_A00:
         return ROM_A00[code]
     if code < 0x10:

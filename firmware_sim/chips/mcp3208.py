@@ -1,7 +1,7 @@
 """A simulated MCP3208: eight inputs, one 12-bit converter, clocked out bit by bit.
 
-Knows the pins and every clock of a conversion, as Microchip DS21298E shows them (figures 5-1 and 5-2). Knows nothing of
-pots or angles. The droop of a sample that is clocked out slowly is not simulated.
+Knows the pins and every clock of a conversion, as Microchip DS21298E shows them (figures 5-1 and 5-2). Knows no pots
+and no angles. Not simulated: noise, the limits of the clock, and the droop of a sample that is clocked out slowly.
 """
 
 from __future__ import annotations
@@ -11,24 +11,24 @@ from collections.abc import Callable
 BITS = 12
 STEPS = 1 << BITS
 SAMPLED_AT = 6
-"""The falling edge, counted from the start bit as clock 1, with which the sample ends and the null bit comes out."""
+"""The sample ends and the null bit comes out at the falling edge of this clock. The start bit is clock 1."""
 CHANNELS = 8
 
 
 class Mcp3208:
-    """The chip. `inputs` are the volts at CH0 to CH7, asked for when a sample ends; `vref_v` those at VREF."""
+    """The chip. `inputs` give the volts at CH0 to CH7 at the end of a sample; `vref_v` is the voltage at VREF."""
 
     def __init__(self, vref_v: float = 3.3) -> None:
         self.inputs: list[Callable[[], float]] = [lambda: 0.0] * CHANNELS
         self.vref_v = vref_v
         self.gone = False
-        """Fault: it has no supply, and drives nothing."""
+        """Fault: the chip has no supply, and does not drive DOUT."""
         self.conversions = 0
         self._cs, self._sck = True, False
         self._clocks = 0
-        """Rising edges since the start bit, that one included; 0: none yet."""
+        """Rising edges since the start bit, which counts as 1; 0 before the start bit."""
         self._order = 0
-        """SGL/DIFF, D2, D1, D0 as they come in."""
+        """The bits SGL/DIFF, D2, D1, D0 in the order of their arrival."""
         self._code = 0
         self._so: bool | None = None
 
@@ -38,7 +38,7 @@ class Mcp3208:
         return None if self.gone else self._so
 
     def pins(self, *, cs: bool, sck: bool, si: bool) -> None:
-        """The levels from now on."""
+        """Take the levels of the pins from now on."""
         if cs or self._cs:
             # CS high ends a conversion; its falling edge begins one.
             self._clocks, self._order, self._so = 0, 0, None
@@ -62,7 +62,7 @@ class Mcp3208:
         elif place <= BITS:
             self._so = bool(self._code >> BITS - place & 1)
         elif place < 2 * BITS:
-            self._so = bool(self._code >> place - BITS & 1)  # the same again, least significant bit first, without B0
+            self._so = bool(self._code >> place - BITS & 1)  # the code again, least significant bit first, without B0
         else:
             self._so = False
 

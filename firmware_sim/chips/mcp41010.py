@@ -1,6 +1,8 @@
 """A simulated MCP41010: a shift register behind three pins, and the wiper it sets.
 
-Knows edges, frames and commands. Knows nothing of what the wiper is wired to.
+Knows the edges of its pins, its frames and commands (Microchip DS11195), and two faults: a broken select line, and an
+interruption of the supply. Does not know what the wiper is wired to. Not simulated: the wiper's resistance, the load on
+the wiper, and the timing of the pins.
 """
 
 from __future__ import annotations
@@ -13,34 +15,34 @@ WRITE, SHUTDOWN = 0b01, 0b10
 
 
 class Mcp41010:
-    """The chip. `before_change` is called before the wiper moves, so that the parts behind it catch up first."""
+    """The chip. It calls `before_change` before the wiper moves: the parts behind it first use the old step."""
 
     so = None
-    """It has no output: nothing can be read back."""
+    """The chip has no data output."""
 
     def __init__(self) -> None:
         self.before_change: list[Callable[[], None]] = []
         self.deaf = False
         """Fault: its select line is broken."""
         self.frames = 0
-        """How many frames it has obeyed."""
+        """Number of commands carried out."""
         self.step = POWER_ON_STEP
         self.shut_down = False
         self._cs, self._sck = True, False
         self._shifted, self._count = 0, 0
 
     def share(self) -> float:
-        """The wiper's place between B (0) and A (1), without a load."""
+        """Position of the wiper between B (0) and A (1), without a load."""
         return 0.0 if self.shut_down else self.step / 256
 
     def power_on(self) -> None:
-        """Its supply comes back after an interruption: the wiper is in the middle."""
-        self._announce()
+        """Fault: the supply is interrupted. Afterwards the wiper is in the middle."""
+        self._catch_up()
         self.step, self.shut_down = POWER_ON_STEP, False
         self._shifted, self._count = 0, 0
 
     def pins(self, *, cs: bool, sck: bool, si: bool) -> None:
-        """The levels of its pins from now on."""
+        """Take the levels of the pins from now on."""
         cs = cs or self.deaf
         if self._cs and not cs:
             self._shifted, self._count = 0, 0
@@ -54,7 +56,7 @@ class Mcp41010:
     def _obey(self, command: int, data: int) -> None:
         if not command & 0b01:  # the second pot of another chip of the family
             return
-        self._announce()
+        self._catch_up()
         match command >> 4 & 0b11:
             case 0b01:
                 self.step, self.shut_down = data, False
@@ -64,6 +66,6 @@ class Mcp41010:
                 return
         self.frames += 1
 
-    def _announce(self) -> None:
+    def _catch_up(self) -> None:
         for catch_up in self.before_change:
             catch_up()

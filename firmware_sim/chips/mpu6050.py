@@ -17,7 +17,7 @@ IDENTITY = 0x68
 BANDWIDTH_HZ = (260, 184, 94, 44, 21, 10, 5, 260)
 STEPS_PER_G = (16384, 8192, 4096, 2048)
 WAKE_UP_S = 0.03
-"""For so long after sleep the outputs do not change."""
+"""Time after sleep in which the outputs do not change."""
 
 Acceleration = tuple[float, float, float]
 
@@ -34,7 +34,7 @@ class Mpu6050:
         noise: random.Random | None = None,
     ) -> None:
         self.shaken_g = 0.0
-        """Fault `shaken`: a motor or the wind shakes the board, rms on each axis."""
+        """Fault `shaken`: acceleration from a motor or the wind, rms on each axis."""
         self.offset_g: Acceleration = (0.0, 0.0, 0.0)
         """The zero offsets: a new chip has up to 0.05 g on x and y, 0.08 g on z."""
         self.identity = IDENTITY
@@ -46,7 +46,7 @@ class Mpu6050:
         self.brown_out()
 
     def brown_out(self) -> None:
-        """Fault: the supply dips, and the chip is as after power-on: asleep, its outputs 0."""
+        """Fault: the supply dips. The chip is then as after power-on: asleep, with outputs 0."""
         self._registers = bytearray(0x80)
         self._registers[POWER_1] = SLEEP_BIT
         self._runs_from_s = math.inf
@@ -88,7 +88,9 @@ class Mpu6050:
     def _sample(self) -> None:
         if self._clock() < self._runs_from_s:
             return
-        noise_g = self._noise_g * math.sqrt(BANDWIDTH_HZ[self._registers[CONFIG] & 0b111] * math.pi / 2)
+        # A first-order low-pass filter lets through as much noise as an ideal one of pi/2 times its bandwidth.
+        noise_bandwidth_hz = BANDWIDTH_HZ[self._registers[CONFIG] & 0b111] * math.pi / 2
+        noise_g = self._noise_g * math.sqrt(noise_bandwidth_hz)
         rms_g = math.hypot(noise_g, self.shaken_g)
         steps = STEPS_PER_G[self._registers[ACCEL_CONFIG] >> 3 & 0b11]
         counts = [

@@ -1,7 +1,9 @@
 """A simulated PCA9685: sixteen pulse outputs, one oscillator, I2C registers.
 
-Knows the register map (NXP PCA9685 rev. 4), sleep, and the pulse at each output. Knows no servo and no meter. Not
-simulated: its all-call and sub-addresses, and the software reset.
+Knows the register map (NXP PCA9685 rev. 4), sleep and restart, and the pulse width and duty cycle at each output. Knows
+no servo and no meter. Not simulated: the all-call and sub-addresses, the software reset, the OE pin, the phase of a
+pulse, the moment at which a new value becomes effective, and the test mode. The settings of MODE2 (inversion, open
+drain) and the switch to an external clock can be written and read, and have no effect.
 """
 
 from __future__ import annotations
@@ -11,12 +13,13 @@ from collections.abc import Callable
 
 from firmware_sim.buses.i2c import Nack
 
-MODE1, MODE2, LED0, LED_END, ALL_LED, PRE_SCALE, TEST_MODE = 0x00, 0x01, 0x06, 0x46, 0xFA, 0xFE, 0xFF
+MODE1, MODE2, LED0, LED_END, ALL_LED, PRE_SCALE = 0x00, 0x01, 0x06, 0x46, 0xFA, 0xFE
 RESTART_BIT, EXTCLK_BIT, AI_BIT, SLEEP_BIT = 0x80, 0x40, 0x20, 0x10
 FULL_BIT = 0x10
 LEAST_PRESCALE = 3
 STEPS = 4096
 STABLE_S = 500e-6
+"""The oscillator's start after sleep."""
 
 
 class Pca9685:
@@ -25,9 +28,9 @@ class Pca9685:
     def __init__(self, clock: Callable[[], float], *, osc_hz: float = 25e6) -> None:
         self.osc_hz = osc_hz
         self.before_change: list[Callable[[], None]] = []
-        """Called before a write that may change an output, so that the parts behind it catch up with the old pulse."""
+        """Called before a write that may change an output: the parts behind it first use the old pulse up to now."""
         self.early_writes = 0
-        """How many writes to outputs came before the oscillator was stable, which the datasheet does not allow."""
+        """Number of bytes written to outputs before the oscillator was stable, which the datasheet does not allow."""
         self._clock = clock
         self._lock = threading.RLock()
         self._supply = True
@@ -51,9 +54,9 @@ class Pca9685:
 
     @supply.setter
     def supply(self, on: bool) -> None:
-        """VCC: without it the chip does not answer and no output works; its return is a reset."""
+        """Fault when False: without VCC the chip does not answer, and no output works. The return of VCC is a reset."""
+        self._catch_up()
         with self._lock:
-            self._announce()
             if on and not self._supply:
                 self._reset()
             self._supply = on
@@ -65,7 +68,7 @@ class Pca9685:
         return (self._registers[PRE_SCALE] + 1) * STEPS / self.osc_hz
 
     def high_share(self, channel: int) -> float:
-        """The share of the period for which an output is high."""
+        """Duty cycle of an output, 0 to 1."""
         with self._lock:
             on_l, on_h, off_l, off_h = self._registers[LED0 + 4 * channel : LED0 + 4 * channel + 4]
             if not self._supply or off_h & FULL_BIT:
@@ -78,18 +81,19 @@ class Pca9685:
             return (off - on) % STEPS / STEPS
 
     def pulse_us(self, channel: int) -> float | None:
-        """The width of the pulse at an output; None: there is none."""
+        """The width of the pulse at an output in µs; None while the output is constantly low or high."""
         share = self.high_share(channel)
         return share * self.period_s() * 1e6 if 0.0 < share < 1.0 else None
 
     # --- I2C
 
     def write(self, data: bytes) -> None:
+        if data:
+            self._catch_up()
         with self._lock:
             self._check_supply()
             if not data:
                 return
-            self._announce()
             self._pointer = data[0]
             for value in data[1:]:
                 self._put(self._pointer, value)
@@ -147,6 +151,11 @@ class Pca9685:
         if not self._supply:
             raise Nack
 
-    def _announce(self) -> None:
+    def _catch_up(self) -> None:
+        """Let the parts behind the outputs use the old pulse up to now.
+
+        Called without the chip's lock: these parts take the rotor's lock and then read the pulse. Order of locks: first
+        the rotor, then the chip.
+        """
         for catch_up in self.before_change:
             catch_up()

@@ -1,7 +1,8 @@
 """A simulated PCF8574 port expander, and the backpack with one behind a character LCD.
 
-Knows the byte on its eight pins, and which LCD pin is wired to which of them. Knows no time: the bus decides when a
-byte comes. Does not know what the LCD does with its pins.
+Knows the byte on its eight pins, and which LCD pin is wired to which of them. Knows no time: the bus delivers each byte
+at its moment. Does not know what the LCD does with its pins. Not simulated: the interrupt output, and reading the LCD
+through the backpack.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ POWER_ON = 0xFF
 
 
 class Pcf8574:
-    """The expander: each byte written is on the pins at its ACK. `on_change` is called with each new state."""
+    """The expander puts each written byte on its pins at the byte's ACK, and calls `on_change` with a changed byte."""
 
     bytewise = True
 
@@ -22,7 +23,7 @@ class Pcf8574:
         self.on_change = on_change
         self.port = POWER_ON
         self.inputs = 0xFF
-        """Levels from outside: a 0 pulls that pin down. A pin written 1 is only weakly high, and works as an input."""
+        """Levels from outside: a 0 pulls that pin low. A written 1 is only weakly high: the pin is an input."""
 
     def write(self, data: bytes) -> None:
         for value in data:
@@ -37,8 +38,8 @@ class Pcf8574:
 class Backpack:
     """An expander soldered to an LCD. Attach `expander` to the bus; give the LCD the bus's `wire_time`.
 
-    `pin_map` names the expander bit of rs, rw, e, d4, d5, d6, d7 and bl. Without rw that pin is grounded; without bl
-    the light is always on.
+    `pin_map` gives the expander's bit for rs, rw, e, d4, d5, d6, d7 and bl. Without rw the LCD's R/W pin is grounded;
+    without bl the backlight is always on.
     """
 
     def __init__(self, lcd: Hd44780, pin_map: Mapping[str, int], backlight_active_high: bool = True) -> None:
@@ -50,6 +51,7 @@ class Backpack:
 
     @property
     def backlight(self) -> bool:
+        """Whether the backlight is on."""
         return "bl" not in self._pin_map or self._high("bl", self.expander.port) == self._backlight_active_high
 
     def _wires(self, port: int) -> None:

@@ -1,7 +1,8 @@
-"""The CAN bus between a computer and its controllers: which controller gets a frame, and which ones answer.
+"""The CAN bus between a computer and its controllers: the controllers that get a frame, and their replies.
 
-Knows CAN ids as moteus uses them, and silent controllers. Knows neither the adapter's text lines nor the library:
-`SimTransport` has the shape of the library's own transport, so that the library runs on it in simulated time.
+Knows CAN ids as moteus uses them, and controllers without supply. Knows neither the adapter's text lines nor what a
+frame means. `SimTransport` has the shape of the library's own transport, so that the library runs on it in simulated
+time. Not simulated: the time of a frame, arbitration, and bus errors.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ WANTS_REPLY = 0x8000
 EVERYBODY = 0x7F
 NOP = b"\x50"
 LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
-"""Of the data in a CAN-FD frame."""
+"""Lengths that the data of a CAN-FD frame can have, in bytes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +30,7 @@ class Frame:
 
 
 class SimCan:
-    """`controllers` by CAN id. Those in `muted` get nothing and answer nothing: no supply, or a broken wire."""
+    """`controllers` by CAN id. Those in `muted` get no frame and send none: no supply, or a broken wire."""
 
     def __init__(self, controllers: Mapping[int, SimController]) -> None:
         self.controllers = controllers

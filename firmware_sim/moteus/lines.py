@@ -1,7 +1,8 @@
 """The text protocol of an mjbots CAN-FD adapter, as a moteus controller's own UART speaks it.
 
-Knows lines, checksums and the answers to commands. Bytes go in; lines come out, each with the moment it is due. Knows
-no port. After the first line with a good checksum, each line must have one.
+Knows lines, checksums, the answers to `can send`, and the faults of the lines. Bytes go in; lines come out, each with
+the moment when it is due. Knows no port and no other command. After the first line with a good checksum, each line must
+have one.
 """
 
 from __future__ import annotations
@@ -29,12 +30,12 @@ def crc8(data: bytes) -> int:
 
 @dataclass(slots=True)
 class Mishaps:
-    """Faults of the lines on their way to the computer."""
+    """Faults of the lines to the computer. They can be combined."""
 
     deaf: bool = False
-    """The adapter takes lines and never answers."""
+    """The adapter does not handle the received lines, and sends none."""
     dropped: bool = False
-    """Replies are lost; the adapter's own OK still comes."""
+    """The replies are lost; the adapter still sends its own OK."""
     garbled: bool = False
     """One character of each reply is wrong."""
     late_s: float = 0.0
@@ -43,7 +44,7 @@ class Mishaps:
 
 @dataclass(slots=True)
 class LineServer:
-    """The adapter. `transcript` has the latest lines without their ends: `>` from the computer, `<` to it."""
+    """The adapter. `transcript` has the last 1000 lines without line ends: `>` from the computer, `<` to it."""
 
     can: SimCan
     clock: Callable[[], float]
@@ -53,7 +54,7 @@ class LineServer:
     _summed: bool = False
 
     def receive(self, data: bytes) -> list[tuple[float, bytes]]:
-        """Take bytes from the computer. Returns the lines for it, each with the moment it is due."""
+        """Handle bytes from the computer. Returns the lines to it, each with the moment when it is due."""
         *lines, self._pending = re.split(rb"[\r\n]", self._pending + data)
         self._pending = self._pending if len(self._pending) <= LONGEST_LINE else b""
         return [] if self.mishaps.deaf else [due for line in lines if line for due in self._answer(line)]
@@ -72,7 +73,7 @@ class LineServer:
         if command is None:
             return [(now_s, self._ended(b"ERR unknown command"))]
         replies = self.can.send(Frame(int(command[1], 16), bytes.fromhex(command[2].decode("ascii"))))
-        ok = self._ended(b"OK")  # before the replies, always
+        ok = self._ended(b"OK")  # always before the replies
         heard = [] if self.mishaps.dropped else [self._reply(reply) for reply in replies]
         return [(now_s, ok), *((now_s + self.mishaps.late_s, line) for line in heard)]
 

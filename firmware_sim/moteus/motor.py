@@ -1,7 +1,8 @@
 """The motor of a moteus with its firmware: modes, watchdog, position bounds, and what it loses at power-off.
 
-Knows what a command does and where the shaft is. Knows no frames. Its modes are stopped, fault, enabling, position,
-timeout, zero velocity and brake. The shaft follows the set point exactly, unless it is jammed.
+Knows what a command does, the angle of the shaft, and the faults. Knows no frames. Its modes are stopped, fault,
+enabling, position, timeout, zero velocity and brake. The shaft follows the set point exactly, unless it is jammed. Not
+simulated: torque, current, load, and coasting without torque.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ class Mode(IntEnum):
 
 
 class Home(IntEnum):
-    """What its position is worth: arbitrary, right within a turn of the rotor, or right for the output."""
+    """Reference of the reported position: arbitrary, true within a turn of the rotor, or true for the output."""
 
     RELATIVE = 0
     ROTOR = 1
@@ -66,7 +67,7 @@ class SimMoteusMotor:
     def __init__(self, clock: Callable[[], float], settings: MoteusSettings, shaft_rev: float) -> None:
         self.settings = settings
         self.shaft_rev = shaft_rev
-        """Where the output really is, on the controller's scale at the start."""
+        """True position of the output, on the scale that the controller had at the start."""
         self.home = Home.OUTPUT
         self.jammed = False
         """Fault: the set point moves and the shaft does not."""
@@ -84,12 +85,12 @@ class SimMoteusMotor:
     # --- faults
 
     def fail(self, code: int) -> None:
-        """A fault by the firmware's number: no torque until it gets a stop."""
+        """Fault with this code of the firmware: no torque until the next stop."""
         self.advance()
         self._fault(code)
 
     def power_cycle(self) -> None:
-        """Power off and on: stopped, and it no longer knows which of its turns the rotor is in."""
+        """Power off and on: the motor stops, and the controller loses the count of the rotor's turns."""
         self.advance()
         self.command = dict(COMMAND_DEFAULTS)
         self._become(Mode.STOPPED)
@@ -177,7 +178,7 @@ class SimMoteusMotor:
     # --- time
 
     def advance(self) -> None:
-        """Bring it up to the present moment."""
+        """Move the set point and the shaft up to the present moment."""
         now_s = self._clock()
         if self._mode is Mode.POSITION and self._expires_s <= now_s:
             self._move(self._expires_s)

@@ -1,6 +1,7 @@
 """The simulated adapter on a pseudo-terminal at its own path, in real time. It can be unplugged and plugged in.
 
-Knows bytes, a path, and when a late line is due. Does not know what the lines mean.
+Knows bytes, a path, and the moments when lines are due. Does not know what the lines mean. A late line is lost when the
+adapter is unplugged.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from pathlib import Path
 
 Receive = Callable[[bytes], list[tuple[float, bytes]]]
 PATIENCE_S = 0.5
+"""Longest wait of the thread for bytes."""
 
 
 class SimAdapter:
@@ -42,7 +44,7 @@ class SimAdapter:
         self._thread.start()
 
     def unplug(self) -> None:
-        """Unplug it: the path goes, and the terminal closes. May be called twice."""
+        """Unplug the adapter: its path disappears, and the terminal closes. A second call does nothing."""
         if not self._thread:
             return
         self.path.unlink(missing_ok=True)

@@ -1,6 +1,6 @@
 """How a moteus moves its set point: a trapezoid of speed towards a target, which may move too.
 
-Knows positions, speeds and limits, in revolutions and seconds. Knows no registers and no modes.
+Knows positions, speeds and limits, in revolutions and seconds. Knows no registers, no modes and no position bounds.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ STEP_S = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """Be at `position_rev` at the moment `at_s`, moving on at `velocity_rev_s`. Position NaN: only the speed counts."""
+    """At `position_rev` at the moment `at_s`, with the constant speed `velocity_rev_s`. NaN as position: speed only."""
 
     position_rev: float
     velocity_rev_s: float
@@ -32,13 +32,13 @@ class Target:
 
 @dataclass(slots=True)
 class SetPoint:
-    """Where the shaft is ordered to be at the moment `now_s`."""
+    """Ordered position and speed of the shaft at the moment `now_s`."""
 
     position_rev: float
     velocity_rev_s: float
     now_s: float
     arrived: bool = False
-    """It is at the target and moves as the target does."""
+    """True: it has the position and the speed of the target."""
 
     def advance(self, target: Target, until_s: float) -> None:
         while self.now_s < until_s and not self.arrived:

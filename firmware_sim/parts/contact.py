@@ -1,7 +1,7 @@
 """A cam on a rotor's shaft that closes a contact every few degrees: the only signal of an Alliance U-100.
 
-Knows where the contact closes and opens, how long it bounces, and its faults. The contact shows neither the direction
-nor the place. Knows no GPIO line: it returns changes of the contact with their moments.
+Knows the angles at which the contact closes and opens, its bounces, and its faults. A change of the contact shows
+neither the direction nor the angle. Knows no GPIO line: it returns changes of the contact with their moments.
 """
 
 from __future__ import annotations
@@ -14,23 +14,25 @@ from dataclasses import dataclass
 from enum import Enum
 
 BISECTIONS = 40
-"""An hour halved so many times is some nanoseconds: the precision of an edge's moment."""
+"""An hour halved 40 times is some nanoseconds: the precision of the moment of an edge."""
 DOUBLED_AT_S, DOUBLED_FOR_S = 0.04, 0.03
-"""When a doubled pulse opens again after it closed, and for how long: a debounce of 20 ms does not remove that."""
+"""A doubled pulse opens this long after it closed, for this time. A debounce of 20 ms does not remove the gap."""
 
 
 @dataclass(frozen=True, slots=True)
 class ContactSpec:
+    """Geometry of the cam, and the bouncing of the contact."""
+
     spacing_deg: float = 5.0
-    """From one closure to the next."""
+    """Angle from one closure to the next."""
     closed_deg: float = 1.0
-    """For how much of that it is closed."""
+    """The part of `spacing_deg` in which the contact is closed."""
     closes_at_deg: float = 0.0
-    """The angle at which one of the closures begins, for a shaft that turns clockwise or up."""
+    """Angle of the beginning of any one closure, for a shaft that turns clockwise or up."""
     play_deg: float = 0.0
-    """Play between the shaft and the cam: after a reversal each edge comes this much later."""
+    """Backlash between shaft and cam: after a reversal each edge comes later by this angle."""
     bounce_s: float = 0.005
-    """How long the contact bounces after each change."""
+    """Duration of the bouncing after each change."""
 
 
 class ContactFault(Enum):
@@ -48,7 +50,7 @@ FAULTY_EACH = 5
 
 
 class SimContact:
-    """Give `turned` to a motor's `on_turn`; call `take` for the changes."""
+    """Add `turned` to a motor's `on_turn`. `take` returns the changes."""
 
     def __init__(self, spec: ContactSpec, shaft_deg: float, seed: int = 0) -> None:
         self.spec = spec
@@ -59,32 +61,32 @@ class SimContact:
         """The zone of the cam: even zones are closed, odd ones are the gaps above them."""
         if shaft_deg >= self._low_deg(self.zone + 1):
             self.zone += 1
-        self._told = self.zone % 2 == 0
+        self._taken = self.zone % 2 == 0
         self._changes: deque[tuple[float, bool]] = deque()
         self._closures = 0
 
     def take(self, until_s: float) -> list[tuple[float, bool]]:
-        """The changes up to that moment since the last call: moment and state (True: closed), in order of time."""
+        """The changes since the last call, up to `until_s`: moment and state (True: closed), oldest first."""
         taken: list[tuple[float, bool]] = []
         while self._changes and self._changes[0][0] <= until_s:
             at_s, closed = self._changes.popleft()
-            if closed is not self._told:
-                self._told = closed
+            if closed is not self._taken:
+                self._taken = closed
                 taken.append((at_s, closed))
         return taken
 
     @property
     def closed(self) -> bool:
         """The state after the last change that `take` returned."""
-        return self._told
+        return self._taken
 
     def break_down(self, fault: ContactFault, now_s: float) -> None:
-        """That fault begins at this moment; NONE ends it."""
+        """Begin that fault at the moment `now_s`; NONE ends it."""
         self.fault = fault
         self._change(now_s, self._shown(self.zone % 2 == 0))
 
     def turned(self, from_s: float, seconds: float, shaft_deg: Callable[[float], float]) -> None:
-        """The shaft has turned in one direction; see `firmware_sim.parts.motor.Stretch`."""
+        """Follow a turn of the shaft in one direction; see `firmware_sim.parts.motor.Stretch`."""
         end_deg = self._follow(shaft_deg(seconds))
         # The lambdas are used at once, before the loop changes `edge_deg`: the warning B023 does not apply.
         while end_deg >= self._low_deg(self.zone + 1):
@@ -98,16 +100,16 @@ class SimContact:
         self._cam_deg = end_deg
 
     def _follow(self, shaft_deg: float) -> float:
-        """Where the cam is: after a reversal it follows the shaft once the play is taken up."""
+        """Angle of the cam. After a reversal it follows the shaft only at the end of the backlash."""
         return min(max(self._cam_deg, shaft_deg), shaft_deg + self.spec.play_deg)
 
     def _low_deg(self, zone: int) -> float:
-        """The lower edge of a zone."""
+        """Angle of the lower edge of a zone."""
         turns, gap = divmod(zone, 2)
         return self.spec.closes_at_deg + turns * self.spec.spacing_deg + gap * self.spec.closed_deg
 
     def _when(self, beyond: Callable[[float], bool], shaft_deg: Callable[[float], float], seconds: float) -> float:
-        """After how many seconds the cam is first `beyond` an edge, by bisection."""
+        """Seconds until the cam is first `beyond` an edge, by bisection."""
         early_s, late_s = 0.0, seconds
         for _ in range(BISECTIONS):
             middle_s = (early_s + late_s) / 2
@@ -133,10 +135,10 @@ class SimContact:
         return {ContactFault.STUCK_OPEN: False, ContactFault.STUCK_CLOSED: True}.get(self.fault, closed)
 
     def _change(self, at_s: float, closed: bool) -> None:
-        """Change to that state, with some bounces; bounces of an earlier change that are still to come are dropped."""
+        """Change to that state, with some bounces. Bounces of an earlier change end at `at_s`."""
         while self._changes and self._changes[-1][0] >= at_s:
             self._changes.pop()
-        before = self._changes[-1][1] if self._changes else self._told
+        before = self._changes[-1][1] if self._changes else self._taken
         if before is closed:
             return
         bounces = self._random.randrange(4) if self.spec.bounce_s > 0 else 0

@@ -1,8 +1,8 @@
 """One axis of a rotor: relay contacts, motor, gear play, end stops.
 
-Knows mechanics: how long a contact takes, how a motor gathers speed and coasts, the play of the gear, the end stops.
-Knows no volts, no GPIO line and no protocol. Motion between two contact changes is a closed formula, so the result does
-not depend on how often `advance` is called.
+Knows mechanics: the delay of a contact, how a motor gathers speed and coasts, the backlash, the end stops, and the
+faults of contacts and motor. Knows no volts, no GPIO line and no protocol. Motion between two contact changes is a
+closed formula, so the result does not depend on how often `advance` is called.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class MotorSpec:
     speed_dps: float
     lag_s: float
     relay_delay_s: float
-    """How long a contact takes to follow its coil."""
+    """Delay of a contact after its coil."""
     backlash_deg: float
     """Total play between the shaft (where the pot sits) and the boom (where the antenna is)."""
     stop_low_deg: float
@@ -28,11 +28,12 @@ class MotorSpec:
 
 
 Stretch = Callable[[float, float, Callable[[float], float]], None]
-"""A turn of the shaft in one direction: the moment it begins, how long it lasts, the angle after so many seconds."""
+"""A listener for a turn of the shaft in one direction. It gets the moment of the beginning in seconds, the duration in
+seconds, and a function from seconds since the beginning to the shaft's angle in degrees."""
 
 
 class SimMotor:
-    """A motor behind two relay contacts. Call `coils` when a coil changes and `advance` before looking."""
+    """A motor behind two relay contacts. Call `coils` when a coil changes, and `advance` before you read an angle."""
 
     def __init__(self, spec: MotorSpec, start_deg: float, now_s: float) -> None:
         self.spec = spec
@@ -42,29 +43,29 @@ class SimMotor:
         self.drive = 0
         """How the contacts feed the motor: -1, 0, 1."""
         self.supply = True
-        """Whether the contacts are fed; a master relay switches that."""
+        """Whether the contacts have current; a master relay switches it."""
         self.stalled = False
-        """Fault: the motor hums and nothing turns."""
+        """Fault: the motor has current and does not turn."""
         self.welded = 0
-        """Fault: the contact of this direction (-1, 1) stays closed, also without its coil."""
+        """Fault: the contact of this direction (-1, 1) stays closed, even when its coil is off; 0: none is welded."""
         self.reversed = False
-        """Fault: its two wires are swapped."""
+        """Fault: the two wires of the motor are swapped."""
         self.pace = 1.0
-        """Fault: the share of its speed that it reaches: cold grease, a weak supply."""
+        """Fault: its speed as a share of the normal speed, as with cold grease or a weak supply."""
         self.pushed = 0.0
-        """Fault: a hand or a gale turns it while it is not fed, at this share of its speed."""
+        """Fault: a hand or the wind turns it while it has no current, at this share of its normal speed."""
         self.stop_low_deg, self.stop_high_deg = spec.stop_low_deg, spec.stop_high_deg
         """The end stops; a fault may move them."""
         self.shorted_s = 0.0
-        """How long both directions were fed at once, which burns a motor. Must stay 0."""
+        """Total time for which both directions had current at once, which burns a motor. Must stay 0."""
         self.on_turn: list[Stretch] = []
-        """Called with each turn of the shaft, in order of time."""
+        """Called for each turn of the shaft, oldest first."""
         self._now_s = now_s
         self._contacts = (False, False)
         self._moving_contacts: deque[tuple[float, tuple[bool, bool]]] = deque()
 
     def coils(self, plus: bool, minus: bool, now_s: float) -> None:
-        """Coil levels from now on; the contacts follow after the relay's delay."""
+        """Switch the coils at `now_s`. The contacts follow after the relay's delay."""
         self.advance(now_s)
         self._moving_contacts.append((now_s + self.spec.relay_delay_s, (plus, minus)))
         self.advance(now_s)
@@ -96,7 +97,7 @@ class SimMotor:
         wanted_dps = 0.0 if self.stalled else share * self.spec.speed_dps
         if self.stalled:
             self.speed_dps = 0.0
-        # A reversal is two turns, so that the play is taken up from the angle where the shaft really turned back.
+        # A reversal is two turns: the backlash then begins at the angle where the shaft really turned back.
         turn_s = self._time_to_standstill(wanted_dps)
         if turn_s is not None and turn_s < left_s:
             self._glide(wanted_dps, turn_s, from_s)
@@ -121,11 +122,11 @@ class SimMotor:
             return start_deg + wanted_dps * after_s + gap_dps * lag_s * (1.0 - math.exp(-after_s / lag_s))
 
         self.speed_dps = wanted_dps if lag_s <= 0 else wanted_dps + gap_dps * math.exp(-seconds / lag_s)
-        if wanted_dps == 0.0 and abs(self.speed_dps) < 1e-6:  # a millionth of a degree a second is rest
+        if wanted_dps == 0.0 and abs(self.speed_dps) < 1e-6:  # slower than 1e-6 °/s is standstill
             self.speed_dps = 0.0
         self._move_to(shaft_deg(seconds))
-        for told in self.on_turn:
-            told(from_s, seconds, lambda after_s: self._stopped(shaft_deg(after_s)))
+        for listener in self.on_turn:
+            listener(from_s, seconds, lambda after_s: self._stopped(shaft_deg(after_s)))
 
     def _move_to(self, shaft_deg: float) -> None:
         self.shaft_deg = self._stopped(shaft_deg)

@@ -1,6 +1,8 @@
 """The potentiometer on a rotor's shaft: shaft angle in, wiper volts out.
 
-Knows the pot's ends, its non-linearity, its noise and its faults. Knows no motor and no converter.
+Knows the ratio at the pot's ends, its non-linearity, its noise and its faults. Knows no motor and no time. Of the
+converter it knows only that its input reads as ground when the wire to the wiper breaks. Not simulated: the load of the
+converter on the wiper, and a dead arc.
 """
 
 from __future__ import annotations
@@ -15,15 +17,19 @@ class PotFault(Enum):
 
     NONE = "none"
     OPEN = "open"
+    """The wire to the wiper is broken: the converter's input reads as ground."""
     SHORTED = "shorted"
+    """The wiper is connected to the supply."""
     STUCK = "stuck"
+    """The wiper does not follow the shaft."""
     REVERSED = "reversed"
+    """The wires at the ends are swapped."""
 
 
 @dataclass(frozen=True, slots=True)
 class PotSpec:
-    """A pot between ground and its supply. `low_ratio` and `high_ratio`: the wiper at the ends of travel, as shares of
-    the supply, with end resistors included.
+    """A pot between ground and its supply. `low_ratio` and `high_ratio`: the wiper voltage at `low_deg` and `high_deg`
+    as a share of the supply, end resistors included.
     """
 
     low_deg: float
@@ -31,24 +37,22 @@ class PotSpec:
     low_ratio: float = 0.05
     high_ratio: float = 0.95
     noise_deg: float = 0.0
-    """Gaussian noise, rms, new at each reading."""
+    """Gaussian noise of each reading, rms."""
     bow_deg: float = 0.0
-    """How far the middle of the travel is off a straight line."""
-    pull_ratio: float = 0.0
-    """The converter's reading when the wire to the wiper breaks: its pull resistor sets it."""
+    """Non-linearity: error in the middle of the travel. It falls to 0 at both ends."""
 
 
 @dataclass(slots=True)
 class SimPot:
-    """One pot on `supply_v` volts; `chance` makes its noise."""
+    """One pot on `supply_v` volts. `chance` is the source of its noise."""
 
     spec: PotSpec
     supply_v: float
     fault: PotFault = PotFault.NONE
     jump_deg: float = 0.0
-    """Fault: added to the next reading only, as by a spark on the wire."""
+    """Fault: error of the next reading only, as from a spark on the wire."""
     loose_deg: float = 0.0
-    """Fault: each reading is off by a random angle up to this, either way, as with a loose wire."""
+    """Fault: largest error of each reading, random and to both sides, as from a loose wire."""
     chance: random.Random = field(default_factory=lambda: random.Random(1))
     _stuck_ratio: float = 0.0
 
@@ -60,19 +64,25 @@ class SimPot:
         """The wiper as a share of the supply, 0 to 1."""
         match self.fault:
             case PotFault.OPEN:
-                return self.spec.pull_ratio
+                return 0.0
             case PotFault.SHORTED:
                 return 1.0
             case PotFault.STUCK:
                 return self._stuck_ratio
-            case _:
-                ratio = self._healthy(shaft_deg)
-                return 1.0 - ratio if self.fault is PotFault.REVERSED else ratio
+            case PotFault.REVERSED:
+                return 1.0 - self._healthy(shaft_deg)
+            case PotFault.NONE:
+                return self._healthy(shaft_deg)
 
-    def stick(self, shaft_deg: float) -> None:
-        """Fault: from now on the wiper stays where it is while the shaft turns."""
-        self._stuck_ratio = self._healthy(shaft_deg)
-        self.fault = PotFault.STUCK
+    def break_down(self, fault: PotFault, shaft_deg: float) -> None:
+        """Begin that fault with the shaft at `shaft_deg`; NONE ends it. A stuck wiper then stays at that angle."""
+        if fault is PotFault.STUCK:
+            self._stuck_ratio = self._healthy(shaft_deg)
+        self.fault = fault
+
+    def disturb_once(self, error_deg: float) -> None:
+        """Add an error to the next reading only."""
+        self.jump_deg = error_deg
 
     def _healthy(self, shaft_deg: float) -> float:
         spec = self.spec

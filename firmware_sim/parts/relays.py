@@ -1,7 +1,7 @@
 """A relay board: a relay for each direction of two motors, and a master relay in the motors' supply.
 
-Knows which line switches which coil, at which level, and how often a relay was closed. Does not know how long a contact
-takes to follow its coil, nor that a contact can weld: both belong to the motor behind it.
+Knows which line switches which coil, at which level, and how often a motor relay was closed. Knows neither the delay
+nor the welding of a contact: `SimMotor` simulates both.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class RelayPins:
     elevation_plus: int
     elevation_minus: int
     master: int | None = None
-    """The relay that feeds both motors; None: they are always fed."""
+    """Line of the relay in the supply of both motors; None: the motors always have supply."""
 
 
 @dataclass(slots=True)
@@ -34,13 +34,13 @@ class _MotorRelays:
     minus_pin: int
     plus: bool = False
     minus: bool = False
-    """Whether each coil is fed."""
+    """True: the coil has current."""
 
 
 class SimRelays:
-    """Follows the lines of `gpio` and tells the motors. `lock` is the rotor's: its parts change under that lock only.
+    """Follows the lines of `gpio` and switches the motors. `lock` is the rotor's: parts change only under it.
 
-    `active_low`: a coil is fed while its line is low, as on most boards with opto-isolators.
+    `active_low`: a coil has current while its line is low, as on most boards with opto-isolators.
     """
 
     def __init__(
@@ -54,7 +54,7 @@ class SimRelays:
         active_low: bool = False,
     ) -> None:
         self.starts = 0
-        """How often a motor relay has closed."""
+        """Number of closures of motor relays."""
         self._gpio = gpio
         self._lock = lock
         self._active_low = active_low
@@ -69,7 +69,7 @@ class SimRelays:
             self._lines_changed(now_s, {pins.master: gpio.level(pins.master)})
 
     def drives(self) -> tuple[int, int]:
-        """What the coils ask of azimuth and elevation: -1, 0 or 1."""
+        """Direction in which the coils switch azimuth and elevation: -1, 0 or 1."""
         with self._lock:
             azimuth, elevation = (int(relays.plus) - int(relays.minus) for relays in self._motors)
             return azimuth, elevation

@@ -1,6 +1,8 @@
 """A simulated hobby servo: it turns to the angle of its pulse as fast as it can, and reports nothing.
 
-Knows pulses, its speed, its stops and its jitter. Does not know which chip makes the pulses.
+Knows its pulse, its speed, its stops, its jitter, and three faults: its supply fails, an obstacle holds it, the wind
+turns it while it has no torque. Does not know which chip makes the pulses. Not simulated: acceleration, overshoot, and
+the dead band of its controller.
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class SimServoSpec:
-    """What the servo really is, which a driver's table may describe wrongly."""
+    """The true properties of the servo. A driver's settings may differ from them."""
 
     low_us: float = 500.0
     """The pulse for `low_deg`."""
@@ -28,20 +30,23 @@ class SimServoSpec:
 
 
 class SimServo:
-    """`pulse_us` gives the present width of its pulse (None: no pulse). Call `advance` before the pulse changes."""
+    """`pulse_us` gives the present width of its pulse (None: no pulse). Call `advance` before the pulse changes.
+
+    Without a pulse or without supply a servo has no torque.
+    """
 
     def __init__(
         self, spec: SimServoSpec, start_deg: float, clock: Callable[[], float], pulse_us: Callable[[], float | None]
     ) -> None:
         self.spec = spec
         self.powered = True
-        """Fault when False: its own 5 V supply fails, and it is limp even with a pulse."""
+        """Fault when False: its own 5 V supply fails. It then has no torque even with a pulse."""
         self.stalled = False
-        """Fault: something holds it."""
+        """Fault: an obstacle holds the shaft."""
         self.pushed_dps = 0.0
-        """Fault: the wind turns it while it is limp."""
+        """Fault: the speed at which the wind turns it while it has no torque."""
         self.strained_s = 0.0
-        """How long it has pressed against one of its stops, which burns a servo."""
+        """Total time for which it pressed against one of its stops, which burns a servo."""
         self._shaft_deg = start_deg
         self._clock = clock
         self._pulse_us = pulse_us
@@ -49,13 +54,13 @@ class SimServo:
         self._noise = random.Random(9685)
 
     def angle_deg(self) -> float:
-        """Where it stands now, with its jitter."""
+        """Its present angle, with jitter."""
         self.advance()
         jitter_deg = self._noise.gauss(0.0, self.spec.jitter_deg) if self._holds() else 0.0
         return self._shaft_deg + jitter_deg
 
     def advance(self) -> None:
-        """Bring it up to the present moment, with the present pulse."""
+        """Move it up to the present moment, with the present pulse."""
         now_s = self._clock()
         past_s, self._now_s = now_s - self._now_s, now_s
         if past_s <= 0 or self.stalled:
@@ -66,11 +71,11 @@ class SimServo:
             self._shaft_deg = min(max(self._shaft_deg + self.pushed_dps * past_s, low_deg), high_deg)
             return
         wanted_deg = self._wanted_deg()
-        way_deg = min(max(wanted_deg, low_deg), high_deg) - self._shaft_deg
-        way_s = abs(way_deg) / self.spec.slew_dps
-        self._shaft_deg += way_deg if way_s <= past_s else way_deg * past_s / way_s
+        left_deg = min(max(wanted_deg, low_deg), high_deg) - self._shaft_deg
+        needed_s = abs(left_deg) / self.spec.slew_dps
+        self._shaft_deg += left_deg if needed_s <= past_s else left_deg * past_s / needed_s
         if not low_deg <= wanted_deg <= high_deg:
-            self.strained_s += max(0.0, past_s - way_s)
+            self.strained_s += max(0.0, past_s - needed_s)
 
     def _holds(self) -> bool:
         return self.powered and self._pulse_us() is not None

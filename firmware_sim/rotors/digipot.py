@@ -1,7 +1,8 @@
 """A simulated rotor of two control boxes of the ORBIT-360 kind, each with an MCP41010 in place of its knob.
 
-Knows what is wired where, how a box compares the wiper with its own pot, and its faults by name. Knows no driver: it
-offers lines in the shape of gpiod and a module in the shape of spidev, and the rest is physics.
+Knows which lines the chips are on, how a box compares the wiper with its own pot, and the rotor's faults by name. Knows
+no driver: it offers lines in the shape of gpiod and a module in the shape of spidev. Not simulated: the noise and the
+errors of a box's own pot, and what the box's front panel does.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ BOX_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.15, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=-3.0, stop_high_deg=363.0
 )
 COMPARE_S = 0.005
-"""A real box compares continuously; here it compares this often."""
+"""Period of the comparison. A real box compares continuously."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,23 +30,24 @@ class DigipotAxisSpec:
     start_deg: float = 0.0
     motor: MotorSpec = BOX_MOTOR
     full_deg: float = 360.0
-    """Where the rotor stands when the knob is at its end; 0° is the other end."""
+    """The rotor's angle with the knob at its upper end. The lower end is 0°."""
     dead_band_deg: float = 2.0
 
 
 class SimBox:
-    """A comparator between two wipers, and the motor behind it. Looked at only through the rotor, under its lock."""
+    """A comparator between two wipers, and its motor. Only the rotor uses it, under the rotor's lock."""
 
     def __init__(self, spec: DigipotAxisSpec, now_s: float) -> None:
         self.spec = spec
         self.chip = Mcp41010()
         self.motor = SimMotor(spec.motor, spec.start_deg, now_s)
         self.starts = 0
-        """How often the box has switched its motor on."""
+        """Number of times the box has switched its motor on."""
         self._now_s = now_s
         self._driven = 0
 
     def advance(self, now_s: float) -> None:
+        """Compare and turn up to `now_s`."""
         while self._now_s < now_s:
             self._compare()
             self._now_s = min(self._now_s + COMPARE_S, now_s)
@@ -63,7 +65,7 @@ class SimBox:
 class SimDigipotRotor(GearedRotor):
     """`clock` gives seconds; `sleep` lets time pass on the bus (None: transfers take no time).
 
-    `enable_pin`: the line of the relay that feeds both boxes while it is high; None: they are always fed.
+    `enable_pin`: the line of a relay that feeds both boxes while the line is high; None: they are always fed.
     """
 
     azimuth: SimBox
@@ -111,7 +113,7 @@ class SimDigipotRotor(GearedRotor):
         table: dict[str, SimFault] = {}
         for name, box in (("azimuth", self.azimuth), ("elevation", self.elevation)):
             table |= {
-                f"{name}-chip-dips": SimFault(box.chip.power_on, lambda: None),
+                f"{name}-chip-dips": self._single_fault(box.chip.power_on),
                 f"{name}-select-broken": self._fault_of(box.chip, "deaf", True, False),
             }
         return table | self._motor_faults()

@@ -1,6 +1,7 @@
-"""What simulated rotors with gears share: where boom and shaft are, a board of relays, and the faults of their motors.
+"""What simulated rotors with gears share: the angles of boom and shaft, a relay board, and the faults of the motors.
 
-Knows motors and relays. Does not know how a program learns the angle, nor, without relays, what feeds a motor.
+Knows motors, relays and their faults by name. Does not know which sensor measures the angle, nor which part feeds a
+motor without relays.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from firmware_sim.parts.relays import RelayPins, SimRelays
 from firmware_sim.rotors.rotor import SimRotor
 
 SLOW_PACE = 0.4
-"""Fault `motor-slow`: the share of its speed that the motor reaches."""
+"""Fault `motor-slow`: the motor's speed as a share of its normal speed."""
 
 
 class GearedAxis(Protocol):
-    """An axis whose motor turns the boom through gears with play."""
+    """An axis with a motor that turns the boom through gears with backlash."""
 
     motor: SimMotor
 
@@ -44,7 +45,7 @@ class GearedRotor(SimRotor):
         self.elevation.motor.advance(now_s)
 
     def _motor_faults(self) -> dict[str, SimFault]:
-        """Both motors can stall, and can be slow."""
+        """Either motor can stall or be slow."""
         table: dict[str, SimFault] = {}
         for name, motor in (("azimuth", self.azimuth.motor), ("elevation", self.elevation.motor)):
             table |= {
@@ -55,7 +56,7 @@ class GearedRotor(SimRotor):
 
 
 class RelayedRotor(GearedRotor):
-    """A geared rotor whose motors are switched by relays. A kind calls `_wire_relays` when its motors are there."""
+    """A geared rotor whose relays switch its motors. A kind makes its motors and then calls `_wire_relays`."""
 
     _relays: SimRelays
 
@@ -72,7 +73,10 @@ class RelayedRotor(GearedRotor):
         self._relays = SimRelays(pins, self.gpio, motors, self._clock(), self._lock, active_low=active_low)
 
     def _motor_faults(self) -> dict[str, SimFault]:
-        """Beside the motors' own faults: swapped wires, a contact that stays closed, a hand that turns the antenna."""
+        """Also swapped wires, a welded contact, and a hand that turns the antenna while its motor has no current.
+
+        The two `relay-welded` faults of one axis exclude each other.
+        """
         table = super()._motor_faults()
         for name, motor, plus, minus in (
             ("azimuth", self.azimuth.motor, "cw", "ccw"),

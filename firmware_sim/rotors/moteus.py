@@ -1,7 +1,7 @@
 """A simulated rotor of two moteus controllers, and its faults by name.
 
-Knows which controller turns which axis, and how revolutions become degrees of the antenna. Knows no driver: it offers a
-transport in the shape of the library's own, and an adapter on a pseudo-terminal.
+Knows which controller turns which axis, the scale from revolutions to degrees of the antenna, and the rotor's faults by
+name. Knows no driver: it offers a transport in the shape of the library's own, and an adapter on a pseudo-terminal.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ FAULT_CODES = {
     "position-error": 49,
     "velocity-error": 50,
 }
-"""The firmware's faults. Each takes the torque away until the controller gets a stop."""
+"""The firmware's fault codes. After each of them the motor has no torque until the controller gets a stop."""
 
 FACTORY_BOUND_REV = 0.01
 """Fault `factory-bounds`: the position bounds of a controller that was never configured."""
@@ -55,7 +55,7 @@ class MoteusAxisSpec:
     can_id: int
     start_deg: float = 0.0
     rev_per_turn: float = 1.0
-    """Revolutions of the controller's scale for 360° of the antenna; below 0 it runs the other way."""
+    """Revolutions of the controller's scale for 360° of the antenna; negative if the directions are opposite."""
     zero_rev: float = 0.0
     settings: MoteusSettings = field(default_factory=MoteusSettings)
 
@@ -90,7 +90,7 @@ class SimMoteusRotor(SimRotor):
         return SimTransport(self.can)
 
     def adapter(self, path: Path) -> SimAdapter:
-        """For the library in real time, at `path` once it is plugged in. Adds the fault `adapter-unplugged`."""
+        """For the library in real time. `plug` makes it appear at `path`. Adds the fault `adapter-unplugged`."""
 
         def receive(data: bytes) -> list[tuple[float, bytes]]:
             with self._lock:
@@ -101,7 +101,7 @@ class SimMoteusRotor(SimRotor):
         return adapter
 
     def controller(self, axis: str) -> SimController:
-        """The controller of `azimuth` or `elevation`, for a test to look into."""
+        """The controller of `azimuth` or `elevation`, for tests."""
         return self._controllers[axis]
 
     def antenna(self) -> tuple[float, float]:
@@ -130,19 +130,12 @@ class SimMoteusRotor(SimRotor):
                     partial(self.can.muted.add, can_id), partial(self.can.muted.discard, can_id)
                 ),
                 f"{axis}-jammed": self._fault_of(motor, "jammed", True, False),
-                f"{axis}-power-cycled": self._once(motor.power_cycle),
+                f"{axis}-power-cycled": self._single_fault(motor.power_cycle),
                 f"{axis}-factory-bounds": self._bounds(motor),
             }
             for name, code in FAULT_CODES.items():
-                table[f"{axis}-{name}"] = self._once(partial(motor.fail, code))
+                table[f"{axis}-{name}"] = self._single_fault(partial(motor.fail, code))
         return table
-
-    def _once(self, happen: Callable[[], None]) -> SimFault:
-        def inject() -> None:
-            with self._lock:
-                happen()
-
-        return SimFault(inject, lambda: None)
 
     def _advance(self) -> None:
         for controller in self._controllers.values():
@@ -153,8 +146,6 @@ class SimMoteusRotor(SimRotor):
         bounds = settings.position_min_rev, settings.position_max_rev
 
         def become(low_rev: float, high_rev: float) -> None:
-            with self._lock:
-                motor.advance()
-                settings.position_min_rev, settings.position_max_rev = low_rev, high_rev
+            settings.position_min_rev, settings.position_max_rev = low_rev, high_rev
 
-        return SimFault(lambda: become(-FACTORY_BOUND_REV, FACTORY_BOUND_REV), lambda: become(*bounds))
+        return self._fault_by(lambda: become(-FACTORY_BOUND_REV, FACTORY_BOUND_REV), lambda: become(*bounds))

@@ -1,13 +1,14 @@
 """A simulated rotor of motors on relays with a pot on each shaft, as a Yaesu G-5500.
 
-Knows what is wired where, and its faults by name. Knows no driver and no converter: it offers lines in the shape of
-gpiod and the volts at the wipers, and the rest is physics.
+Knows which relay feeds which motor, which pot is on which shaft, and the rotor's faults by name. Knows no driver and no
+converter: it offers lines in the shape of gpiod and the volts at the wipers. The physics is in `parts`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from firmware_sim.faults import SimFault
 from firmware_sim.parts.motor import MotorSpec, SimMotor
@@ -16,11 +17,11 @@ from firmware_sim.parts.relays import RelayPins
 from firmware_sim.rotors.geared import RelayedRotor
 
 EARLY_DEG = 4.0
-"""Fault `stop-early`: how far inside the range the misplaced end stop stands."""
+"""Fault `stop-early`: how far the misplaced end stop stands inside the pot's range."""
 WIND_SHARE = 0.3
 """Fault `wind-turns`: the share of the motor's speed at which wind turns an axis that is not fed."""
-SPARK_DEG = 90.0
-"""Fault `pot-jumps` and `pot-loose`: how far a reading is off."""
+POT_ERROR_DEG = 90.0
+"""Error of one reading in fault `pot-jumps`; largest error of each reading in fault `pot-loose`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +47,7 @@ class RelayPotSpec:
 
 
 class RelayPotAxis:
-    """A motor with its pot. Looked at only through the rotor, under its lock."""
+    """A motor with its pot. Only the rotor uses it, under the rotor's lock."""
 
     def __init__(self, spec: RelayPotAxisSpec, supply_v: float, now_s: float) -> None:
         self.spec = spec
@@ -81,9 +82,10 @@ class SimRelayPotRotor(RelayedRotor):
             return axis.pot.volts(axis.motor.shaft_deg)
 
     def _fault_table(self) -> dict[str, SimFault]:
-        table = {
-            "bus-hung": SimFault(self.bus.hang, self.bus.release),
-        }
+        """Of one axis, `pot-open`, `-shorted`, `-reversed` and `-stuck` exclude each other; so do `wind-turns` and
+        `hand-turns`.
+        """
+        table = {"bus-hung": SimFault(self.bus.hang, self.bus.release)}
         for name, axis in (("azimuth", self.azimuth), ("elevation", self.elevation)):
             stop_deg, early_deg = axis.spec.motor.stop_high_deg, axis.spec.pot.high_deg - EARLY_DEG
             table |= {
@@ -91,25 +93,15 @@ class SimRelayPotRotor(RelayedRotor):
                 f"{name}-pot-shorted": self._pot_fault(axis, PotFault.SHORTED),
                 f"{name}-pot-reversed": self._pot_fault(axis, PotFault.REVERSED),
                 f"{name}-pot-stuck": self._pot_fault(axis, PotFault.STUCK),
-                f"{name}-pot-jumps": SimFault(lambda axis=axis: self._jump(axis), lambda: None),  # type: ignore[misc]
-                f"{name}-pot-loose": self._fault_of(axis.pot, "loose_deg", SPARK_DEG, 0.0),
+                f"{name}-pot-jumps": self._single_fault(partial(axis.pot.disturb_once, POT_ERROR_DEG)),
+                f"{name}-pot-loose": self._fault_of(axis.pot, "loose_deg", POT_ERROR_DEG, 0.0),
                 f"{name}-wind-turns": self._fault_of(axis.motor, "pushed", WIND_SHARE, 0.0),
                 f"{name}-stop-early": self._fault_of(axis.motor, "stop_high_deg", early_deg, stop_deg),
             }
         return table | self._motor_faults()
 
     def _pot_fault(self, axis: RelayPotAxis, fault: PotFault) -> SimFault:
-        def inject() -> None:
-            with self._lock:
-                self._advance()
-                if fault is PotFault.STUCK:
-                    axis.pot.stick(axis.motor.shaft_deg)
-                axis.pot.fault = fault
+        def become(wanted: PotFault) -> None:
+            axis.pot.break_down(wanted, axis.motor.shaft_deg)
 
-        def clear() -> None:
-            axis.pot.fault = PotFault.NONE
-
-        return SimFault(inject, clear)
-
-    def _jump(self, axis: RelayPotAxis) -> None:
-        axis.pot.jump_deg = SPARK_DEG
+        return self._fault_by(lambda: become(fault), lambda: become(PotFault.NONE))

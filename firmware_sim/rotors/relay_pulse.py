@@ -1,7 +1,8 @@
 """A simulated rotor of the Alliance U-100 kind: two motors behind relays, and a cam contact on each shaft.
 
-Knows what is wired where, and its faults by name. Knows no driver: it offers lines in the shape of gpiod, and the rest
-is physics. The contacts come through opto-isolators: a closed contact pulls its line low, unless told otherwise.
+Knows which relay feeds which motor, which line each contact is on, and the rotor's faults by name. The contacts come
+through opto-isolators: a closed contact pulls its line low, or high with `contacts_active_low=False`. Knows no driver:
+it offers lines in the shape of gpiod. The physics is in `parts`.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from firmware_sim.rotors.geared import RelayedRotor
 U100_MOTOR = MotorSpec(
     speed_dps=6.0, lag_s=0.1, relay_delay_s=0.015, backlash_deg=0.5, stop_low_deg=0.0, stop_high_deg=360.0
 )
-"""One turn a minute; it stands half a second after its relay has opened."""
+"""One turn a minute. The motor stands still half a second after its relay has opened."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +37,7 @@ class RelayPulseAxisSpec:
 
 
 class RelayPulseAxis:
-    """A motor with its contact. Looked at only through the rotor, under its lock."""
+    """A motor with its contact. Only the rotor uses it, under the rotor's lock."""
 
     def __init__(self, spec: RelayPulseAxisSpec, now_s: float) -> None:
         self.spec = spec
@@ -77,7 +78,7 @@ class SimRelayPulseRotor(RelayedRotor):
     def _catch_up(self, now_s: float) -> None:
         """Put the contacts' changes up to now on their lines.
 
-        The caller holds the lock of the lines. It is always taken before the rotor's lock.
+        The caller holds the lock of the lines. Order of locks: first the lines, then the rotor.
         """
         with self._lock:
             self._advance()
@@ -86,6 +87,7 @@ class SimRelayPulseRotor(RelayedRotor):
             self.gpio.drive_input(axis.spec.contact_pin, closed is self._closed_level, at_s)
 
     def _fault_table(self) -> dict[str, SimFault]:
+        """Of one axis, the two `contact-stuck` faults and the two of the pulses exclude each other."""
         table: dict[str, SimFault] = {}
         for name, axis in (("azimuth", self.azimuth), ("elevation", self.elevation)):
             table |= {
@@ -98,8 +100,6 @@ class SimRelayPulseRotor(RelayedRotor):
 
     def _contact_fault(self, axis: RelayPulseAxis, fault: ContactFault) -> SimFault:
         def become(wanted: ContactFault) -> None:
-            with self._lock:
-                self._advance()
-                axis.contact.break_down(wanted, self._clock())
+            axis.contact.break_down(wanted, self._clock())
 
-        return SimFault(lambda: become(fault), lambda: become(ContactFault.NONE))
+        return self._fault_by(lambda: become(fault), lambda: become(ContactFault.NONE))

@@ -1,7 +1,8 @@
-"""What every simulated rotor has beside its motors: the Pi's lines and bus, a display, a panel, sensors on its shafts.
+"""What simulated rotors have beside motors: the Pi's lines and buses, a display, a panel, sensors, limit switches.
 
-Knows what is wired where on the Pi's side. Knows no driver: it offers a bus in the shape of smbus2 and lines in the
-shape of gpiod. Does not know what turns: each kind adds its motors and their faults.
+Knows which line or address each of these parts is on, and the fault of each part. Knows no driver: it offers lines in
+the shape of gpiod, a bus in the shape of smbus2, and a module in the shape of spidev. Does not know what turns: each
+kind adds its motors and their faults.
 """
 
 from __future__ import annotations
@@ -23,6 +24,13 @@ from firmware_sim.chips.pcf8574 import Backpack
 from firmware_sim.faults import Fallible, SimFault
 from firmware_sim.panel import PanelSpec, SimPanel
 from firmware_sim.parts.pot import PotFault, PotSpec, SimPot
+
+AXES = ("azimuth", "elevation")
+"""Names of the axes, in the order of `antenna` and `shafts`."""
+SHAKEN_G = 0.5
+"""Fault `elevation-shaken`: the shaking of the sensor's board, rms."""
+HARD_IRON_DEG = 40.0
+"""Fault `steel-near`: the largest error of the compass."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,20 +54,21 @@ class SimRotor(Fallible):
         self.bus = SimI2CBus(sleep)
         self.spidev = SimSpidev()
         self.wipers: dict[str, Callable[[], float]] = {}
-        """The volts at the wiper of each axis that has a pot, for the inputs of a converter."""
+        """By axis name: reads the volts at the wiper of its pot. An axis without a pot is missing."""
+        self.faults = {}
         self.lcd: Hd44780 | None = None
         self.panel: SimPanel | None = None
 
     def antenna(self) -> tuple[float, float]:
-        """Where the boom really points: azimuth and elevation in degrees, on the rotor's own scales."""
+        """True azimuth and elevation of the boom in degrees, on the rotor's own scales."""
         raise NotImplementedError
 
     def shafts(self) -> tuple[float, float]:
-        """Where the shafts are, before the play of the gears. Without gears, the same as `antenna`."""
+        """Angles of the shafts in degrees, on the motor's side of the backlash. Without gears as `antenna`."""
         return self.antenna()
 
     def drives(self) -> tuple[int, int]:
-        """What the relays' coils ask of azimuth and elevation: -1, 0 or 1; 0 without relays."""
+        """Direction in which the relay coils switch azimuth and elevation: -1, 0 or 1; 0 without relays."""
         return 0, 0
 
     @property
@@ -71,8 +80,7 @@ class SimRotor(Fallible):
         """Connect a display of two rows of sixteen characters."""
         if spec.address is not None:
             self.lcd = Hd44780(self.bus.wire_time(self._clock))
-            self.bus.attach(spec.address, Backpack(self.lcd, spec.pins, spec.backlight_active_high).expander)
-            self.faults["lcd-gone"] = self._gone(spec.address)
+            self.wire_i2c("lcd", spec.address, Backpack(self.lcd, spec.pins, spec.backlight_active_high).expander)
             return
         lcd = self.lcd = Hd44780(self._clock)
         levels = {pin: self.gpio.level(pin) for pin in spec.pins.values()}
@@ -85,27 +93,36 @@ class SimRotor(Fallible):
         self.gpio.on_edges.append(pins_changed)
 
     def wire_pots(self, pots: Mapping[str, PotSpec], supply_v: float) -> None:
-        """Pots on the shafts of a rotor that brings none."""
+        """Put pots on the shafts of a rotor whose kind has none. `pots` is by axis name."""
         for name, spec in pots.items():
-            pot = SimPot(spec, supply_v)
-            self.wipers[name] = lambda name=name, pot=pot: pot.volts(self._shaft_deg(name))  # type: ignore[misc]
-            self.faults[f"{name}-pot-open"] = self._fault_of(pot, "fault", PotFault.OPEN, PotFault.NONE)
+            self._wire_pot(name, SimPot(spec, supply_v))
+
+    def _wire_pot(self, name: str, pot: SimPot) -> None:
+        shaft_deg = self._shaft(name)
+
+        def wiper_v() -> float:
+            with self._lock:
+                return pot.volts(shaft_deg())
+
+        self.wipers[name] = wiper_v
+        self.faults[f"{name}-pot-open"] = self._fault_of(pot, "fault", PotFault.OPEN, PotFault.NONE)
 
     def wire_i2c(self, name: str, address: int, chip: I2CChip) -> None:
-        """A chip on the bus; its fault is `NAME-gone`."""
+        """Attach a chip to the bus. Fault `NAME-gone`: it does not answer."""
         self.bus.attach(address, chip)
-        self.faults[f"{name}-gone"] = self._gone(address)
+        gone = self.bus.gone
+        self.faults[f"{name}-gone"] = SimFault(lambda: gone.add(address), lambda: gone.discard(address))
 
     def wire_as5600(self, name: str, address: int) -> None:
         """Put a magnet on the shaft of axis `name`, over an AS5600 at that address."""
-        chip = As5600(lambda: self._shaft_deg(name) / 360.0)
-        self.bus.attach(address, chip)
+        shaft_deg = self._shaft(name)
+        chip = As5600(lambda: shaft_deg() / 360.0)
         self.faults[f"{name}-magnet-missing"] = self._fault_of(chip, "fault", MagnetFault.MISSING, MagnetFault.NONE)
-        self.faults[f"{name}-as5600-gone"] = self._gone(address)
+        self.wire_i2c(f"{name}-as5600", address, chip)
 
     def wire_mpu6050(self, address: int, gravity_g: Callable[[float, float], tuple[float, float, float]]) -> None:
-        """Put an MPU6050 on the boom. `gravity_g`: from gravity along the boom and across it to what the board feels
-        along its x, y and z.
+        """Put an MPU6050 on the boom. `gravity_g` turns gravity along and across the boom into gravity along the
+        board's x, y and z.
         """
 
         def feels_g() -> tuple[float, float, float]:
@@ -113,16 +130,14 @@ class SimRotor(Fallible):
             return gravity_g(math.sin(elevation), math.cos(elevation))
 
         chip = Mpu6050(self._clock, feels_g)
-        self.bus.attach(address, chip)
-        self.faults["elevation-shaken"] = self._fault_of(chip, "shaken_g", 0.5, 0.0)
-        self.faults["mpu6050-gone"] = self._gone(address)
+        self.faults["elevation-shaken"] = self._fault_of(chip, "shaken_g", SHAKEN_G, 0.0)
+        self.wire_i2c("mpu6050", address, chip)
 
     def wire_bno055(self, address: int, magnetic_deg: Callable[[float], float]) -> Bno055:
-        """Put a BNO055 on the boom. `magnetic_deg`: from the boom's azimuth to the chip's magnetic heading."""
+        """Put a BNO055 on the boom. `magnetic_deg` turns the boom's azimuth into the chip's magnetic heading."""
         chip = Bno055(self._clock, lambda: magnetic_deg(self.antenna()[0]) % 360.0)
-        self.bus.attach(address, chip)
-        self.faults["steel-near"] = self._fault_of(chip, "hard_iron_deg", 40.0, 0.0)
-        self.faults["compass-gone"] = self._gone(address)
+        self.faults["steel-near"] = self._fault_of(chip, "hard_iron_deg", HARD_IRON_DEG, 0.0)
+        self.wire_i2c("compass", address, chip)
         return chip
 
     def wire_panel(self, spec: PanelSpec) -> SimPanel:
@@ -134,18 +149,19 @@ class SimRotor(Fallible):
     def wire_limit(self, key: str, pin: int, name: str, at_deg: float, *, high: bool) -> None:
         """Connect a limit switch to ground: it opens when the shaft of axis `name` reaches `at_deg`."""
         wire = SimpleNamespace(broken=False)
+        shaft_deg = self._shaft(name)
 
-        def look(_now_s: float) -> None:
-            shaft_deg = self._shaft_deg(name)
-            reached = shaft_deg >= at_deg if high else shaft_deg <= at_deg
+        def catch_up(_now_s: float) -> None:
+            reached = shaft_deg() >= at_deg if high else shaft_deg() <= at_deg
             self.gpio.drive_input(pin, None if reached or wire.broken else False)
 
         self.gpio.drive_input(pin, False)
-        self.gpio.on_look.append(look)
+        self.gpio.on_look.append(catch_up)
         self.faults[f"{key.replace('_', '-')}-switch-open"] = self._fault_of(wire, "broken", True, False)
 
-    def _shaft_deg(self, name: str) -> float:
-        return self.shafts()[0 if name == "azimuth" else 1]
-
-    def _gone(self, address: int) -> SimFault:
-        return SimFault(lambda: self.bus.gone.add(address), lambda: self.bus.gone.discard(address))
+    def _shaft(self, name: str) -> Callable[[], float]:
+        """A function that reads the shaft of axis `name`, in degrees. Raises ValueError for an unknown axis."""
+        if name not in AXES:
+            raise ValueError(f"no axis called {name!r}; there are: {', '.join(AXES)}")
+        place = AXES.index(name)
+        return lambda: self.shafts()[place]

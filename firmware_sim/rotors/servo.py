@@ -1,7 +1,7 @@
 """A simulated rotor of two hobby servos on a PCA9685, and the antenna they turn.
 
-Knows what is wired where, and its faults by name. Knows no driver: it offers a bus in the shape of smbus2 and lines in
-the shape of gpiod, and the rest is physics.
+Knows which output each servo is on, the board's OE line, and the rotor's faults by name. Knows no driver: it offers a
+bus in the shape of smbus2 and lines in the shape of gpiod. The boom is the servo's own shaft: there is no backlash.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from firmware_sim.parts.servo import SimServo, SimServoSpec
 from firmware_sim.rotors.rotor import SimRotor
 
 WIND_DPS = 10.0
-"""Fault `wind-turns`: how fast the wind turns a limp servo."""
+"""Fault `wind-turns`: the speed at which the wind turns a servo without torque."""
 
 
 @dataclass(frozen=True, slots=True)
 class ServoAxisSpec:
-    """One axis: the board's output its servo is on, and where the servo stands at power-on."""
+    """One axis: the board's output for its servo, and the servo's angle at power-on."""
 
     channel: int
     start_deg: float = 90.0
@@ -80,7 +80,7 @@ class SimServoRotor(SimRotor):
         table = {
             "board-unpowered": self._fault_of(self.board, "supply", False, True),
             "bus-hung": SimFault(self.bus.hang, self.bus.release),
-            "board-dips": SimFault(self._dip, lambda: None),
+            "board-dips": self._single_fault(self._dip),
         }
         for name, servo in (("azimuth", self.azimuth), ("elevation", self.elevation)):
             table |= {
@@ -91,6 +91,6 @@ class SimServoRotor(SimRotor):
         return table
 
     def _dip(self) -> None:
-        """The board's supply fails for an instant, which resets the chip."""
+        """Interrupt the board's supply, which resets the chip."""
         self.board.supply = False
         self.board.supply = True
