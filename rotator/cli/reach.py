@@ -34,7 +34,7 @@ def reach(places: Sequence[Path], what: str) -> socket.socket:
             return box
         except PermissionError:
             box.close()
-            raise LinkError(f"{place} is not yours to use: use sudo, or join its group") from None
+            raise LinkError(f"you may not use {place}: use sudo, or join its group") from None
         except OSError:
             box.close()
     tried = " or ".join(map(str, places))
