@@ -1,8 +1,8 @@
 """The control loop: reads the sensors, steps the controller, commands the drive. The only reader of the clock.
 
-Knows when to do what. Decides nothing: the controller does. No other code touches the rotor, except the guard, which
-may open relays at any time. The sensors have a thread of their own: a bus that is slow or hangs delays no order, and
-the loop still notices that a reading is old.
+Knows the timing, and logs changes of the status. The controller makes the decisions. No other code touches the rotor,
+except the guard, which may open relays at any time. The sensors have a thread of their own: a slow or hanging bus
+delays no order, and the loop still notices that a reading is old.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ log = logging.getLogger(__name__)
 SENSORS_THREAD = "sensors"
 """The name of the thread that reads the sensors."""
 LATE_PERIODS = 1.5
-"""Without new readings for so many periods the loop acts all the same, and notices that the sensors are silent."""
+"""After this many periods without new readings the loop acts anyway, and notices that the sensors are silent."""
 JOIN_S = 1.0
 """How long the end waits for the sensors' thread, in seconds."""
 
@@ -33,7 +33,8 @@ JOIN_S = 1.0
 class ControlLoop:
     """`post` and `status` may be used from any thread; the rest by one thread only: `run`'s, or a rehearsal's.
 
-    `after_good_step` is called after each step in which all that must obey did. It may raise HardwareError.
+    The loop calls `after_good_step` after each step in which the drives and the motors' supply obeyed. It may raise
+    HardwareError.
     """
 
     def __init__(
@@ -76,9 +77,9 @@ class ControlLoop:
             if can_wait:
                 kind = _kind(order)
                 self._inbox = [
-                    (whose, each, waits)
-                    for whose, each, waits in self._inbox
-                    if not (waits and whose == source and _kind(each) == kind)
+                    (giver, each, waits)
+                    for giver, each, waits in self._inbox
+                    if not (waits and giver == source and _kind(each) == kind)
                 ]
             self._inbox.append((source, order, can_wait))
         if not can_wait:
@@ -116,7 +117,7 @@ class ControlLoop:
         self._sign_of_life()
 
     def _run_errands(self) -> None:
-        """Do what the controller wants done once, such as telling a rotor where an axis stands."""
+        """Do the controller's single requests, such as passing the confirmed angle of an axis to its rotor."""
         for errand in self._controller.errands:
             try:
                 self._rotor.run(errand)
@@ -186,7 +187,7 @@ class ControlLoop:
             while not self._stopping:
                 self._read_all()
                 self._wake.set()
-                # When it has fallen behind, it goes on from now: a burst of readings would not help.
+                # A late round does not lead to a burst of readings: the next one is due from now on.
                 due_s = max(due_s + self._period_s, self._clock())
                 self._pause.wait(due_s - self._clock())
         except Exception as failure:
@@ -226,8 +227,8 @@ class ControlLoop:
             if fault not in before.faults:
                 log.log(logging.WARNING if fault.passing else logging.ERROR, "FAULT %s", fault)
         mover = self.status.controlled_by
-        if mover and mover != before.controlled_by and (told := self._movers.admit(f"{mover} moves the antenna")):
-            log.info("%s", told)
+        if mover and mover != before.controlled_by and (line := self._movers.admit(f"{mover} moves the antenna")):
+            log.info("%s", line)
         if before.faults and not self.status.faults:
             passed = all(fault.passing for fault in before.faults)
             log.warning("no fault any more" if passed else "faults acknowledged")
@@ -241,5 +242,5 @@ class ControlLoop:
 
 
 def _kind(order: Order) -> object:
-    """Of two orders of one kind, only the later one need be done."""
+    """The kind of an order. Of two waiting orders of one kind, only the later one is carried out."""
     return (Jog, order.axis) if isinstance(order, Jog) else type(order)
