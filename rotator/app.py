@@ -1,7 +1,7 @@
-"""The box: from a configuration to hardware, controller and links, running.
+"""The whole box in real time: builds its parts from a configuration, starts them, and stops them in a safe order.
 
-Knows how the parts fit together, and in which order they start and stop. Knows no concrete driver, rotor or link: those
-are chosen in `rotator.assembly`.
+Knows the order of start and stop, and which parts end the box when they end. Knows no driver, kind of rotor or
+protocol: `rotator.assembly` chooses those.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import itertools
 import logging
 import os
 import time
-from collections.abc import Mapping
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -22,6 +21,7 @@ from rotator.assembly.settings import build_controller, build_learnt, build_moun
 from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.links.console import ConsoleSocket, console_path
+from rotator.monitor.places import monitor_path
 from rotator.monitor.socket import MonitorSocket
 from rotator.monitor.tap import Tap
 from rotator.orders import Source
@@ -33,7 +33,7 @@ from rotator.runtime.closing import Part, closing
 from rotator.runtime.display import DisplayThread
 from rotator.runtime.engine import Engine, process_end
 from rotator.runtime.loop import ControlLoop
-from rotator.runtime.service_manager import ServiceManager, runtime_folder
+from rotator.runtime.service_manager import ServiceManager
 from rotator.store import counts, knobs
 from rotator.views import lcd
 
@@ -43,16 +43,10 @@ RELAY_LINES = "relay-lines.json"
 """The unit's ExecStopPost reads this file to open the relays of a program that has died."""
 
 
-def monitor_path(config: Config, environment: Mapping[str, str]) -> Path:
-    """The path of the monitor's socket."""
-    beside = runtime_folder(environment) or Path(config.state.path).parent
-    return Path(config.monitor.path) if config.monitor.path else beside / "monitor"
-
-
 def open_station(config: Config) -> Station:
-    """The hardware, in real time. Counted axes of real hardware go on from the file of the last run."""
-    kept = None if config.rotor.hardware == "sim" else Path(config.state.path).with_name(counts.FILE_NAME)
-    return Station(config, time.monotonic, time.sleep, counts=kept)
+    """The hardware, in real time. Axes that count pulses on real hardware start with the counts of the last run."""
+    counts_file = None if config.rotor.hardware == "sim" else Path(config.state.path).with_name(counts.FILE_NAME)
+    return Station(config, time.monotonic, time.sleep, counts=counts_file)
 
 
 class App:
@@ -108,10 +102,10 @@ class App:
                     failures.note(task.get_name(), ended_by)
 
     def _parts(self) -> list[Part]:
-        """What is stopped, in this order.
+        """The parts that must be stopped, in the order of stopping.
 
-        Motion ends first: the engine opens the relays, and then their guard ends. What may hang or fail comes later.
-        The station dismisses the sentinel once all lines are off.
+        Motion ends first: the engine opens the relays, and then their guard ends. Parts that may hang or fail come
+        later. The station dismisses the sentinel once all lines are off.
         """
         parts = [
             Part.quick("the service manager", self._service_manager.stopping),

@@ -1,1 +1,1 @@
-"""The larger half of the composition root: from the file to settings, chips, drivers and rotors, real or not."""
+"""The composition root: from the configuration to settings, drivers and rotors, on real or simulated hardware."""

@@ -1,6 +1,6 @@
-"""The converter that reads the pots, real or simulated: which driver and which simulated chip each kind takes.
+"""Opens the converter of the pots with the driver of its kind, and wires a simulated one to the simulated pots.
 
-Part of the composition root. Decides nothing.
+Part of the composition root: knows the drivers and the keys of [adc]. Does not judge readings.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class Converter:
         return PotSensor(self.inputs, channel, self.supply)
 
     def supply_v(self) -> float:
-        """Raises HardwareError where it is measured and cannot be."""
+        """The supply of the pots in volts, measured or from the file. Raises HardwareError if the measurement fails."""
         return self.supply.volts() if isinstance(self.supply, Reference) else self.supply
 
 

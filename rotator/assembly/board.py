@@ -1,6 +1,7 @@
 """The lines and buses of the Pi that the program runs on, or of the simulated one.
 
-Part of the composition root. Knows which package stands behind a line. Knows nothing of what hangs on it.
+Part of the composition root. Chooses the package or the simulator behind each line and bus. Does not know which parts
+are connected to them.
 """
 
 from __future__ import annotations

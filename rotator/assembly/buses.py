@@ -1,7 +1,7 @@
 """Lines and buses, opened when a part asks for them and closed together.
 
-Part of the composition root. Knows which driver stands behind a line, an I2C bus and an SPI bus. Knows nothing of what
-hangs on them, nor whether they are real: that is in the interfaces that it is given.
+Part of the composition root. Knows the drivers of lines, I2C and SPI. Does not know which parts are connected, nor
+whether the buses are real: its arguments decide that.
 """
 
 from __future__ import annotations

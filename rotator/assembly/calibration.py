@@ -38,7 +38,7 @@ class CalibrationTraits:
     first_press: str
     """What the operator must expect of the first press; empty: nothing unusual."""
     reversal: str
-    """What to change when the antenna turns the wrong way; empty: the two relays."""
+    """The repair for an antenna that turns the wrong way; empty: exchange the two relays."""
 
 
 def calibration_traits(config: Config, axis: Axis) -> CalibrationTraits:
@@ -79,7 +79,7 @@ def _reach_deg(config: Config, axis: Axis) -> tuple[float, float]:
 
 
 def _without_limits(config: Config, axis: Axis) -> Config:
-    """A motor that goes to an angle by itself stops at its limits, and the limits have still to be found."""
+    """A drive with its own angle control stops at its limits, and a calibration has yet to find the limits."""
     if config.rotor.switched:
         return config
     low_deg, high_deg = _reach_deg(config, axis)

@@ -1,6 +1,6 @@
-"""The chips that the doctor looks at, real or simulated: its share of the composition root.
+"""Opens the chips that the doctor reads, real or simulated: its share of the composition root.
 
-Knows which driver reads what. Takes only inputs, and the SPI lines of the converter, and only while they are free.
+Knows the driver of each chip. Takes only inputs, and the SPI lines of the converter, and only while they are free.
 Writes only to the chips that need an order to measure (converter, gravity sensor, compass). Moves no motor.
 """
 
@@ -77,7 +77,7 @@ PATIENCE_S = 1.5
 """Controllers answer within milliseconds; an adapter needs longer after it has been plugged in."""
 LOOK_S = 0.02
 BOOTED_S = 2.0
-"""How long a simulated station has had power: a compass takes nearly a second to boot."""
+"""The time since power-on of a simulated station: a compass takes nearly a second to boot."""
 
 
 def ask_controllers(config: Config) -> dict[Axis, Heard]:
@@ -132,7 +132,7 @@ class Chips:
     clock: Callable[[], float]
     sleep: Callable[[float], None]
     moteus: Callable[[Config], Mapping[Axis, Heard]] = ask_controllers
-    """Asks both controllers how they are. Raises HardwareError where the package is missing."""
+    """The state of both controllers. Raises HardwareError if the package is missing."""
     spidev: Callable[[], Any] = real_spidev
     """The spidev package, or an object of its shape. Raises HardwareError where it is missing."""
 

@@ -1,6 +1,6 @@
-"""Every line off that would keep a motor running, without a station: for `rotator off`, when no box is running.
+"""Switches off every line that could keep a motor running, for `rotator off` while no box is running.
 
-Part of the composition root. Decides nothing.
+Part of the composition root. The kind of rotor names the lines; no sensor and no bus is opened.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from rotator.assembly.station import off_lines
 from rotator.config.model import Config
 
 PATIENCE_S = 1.0
-"""A program that is dying releases its lines within this."""
+"""A dying program releases its lines within this time."""
 
 
 def switch_lines_off(config: Config) -> dict[str, int]:

@@ -1,6 +1,6 @@
-"""A front panel and limit switches, from their tables of the file to drivers: their share of the composition root.
+"""Opens a front panel and limit switches as their tables describe them: their share of the composition root.
 
-Knows what is wired where. Decides nothing: the panel knows what a switch means, the axis what a limit forbids.
+Knows the drivers and the wiring. The panel knows the meaning of a switch, the axis that of a limit.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from rotator.status import Status
 from rotator.store.knobs import KnobsFile
 
 METER_HZ = 1000.0
-"""Fast enough for a needle to stand still."""
+"""The frequency of the meters' outputs: fast enough that a needle does not tremble."""
 
 
 def limit_switches(config: Config, board: Board) -> BlockedDirections:

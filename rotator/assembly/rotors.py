@@ -1,7 +1,7 @@
-"""What every kind of rotor is put together from: the file, the Pi's lines and buses, its sensors and limit switches.
+"""The parts that every kind of rotor is built from: the file, lines and buses, sensors, and limit switches.
 
-Part of the composition root. Knows which driver each kind of sensor takes. How a kind uses them is in its own file in
-`rotator.assembly.kinds`. Decides nothing.
+Part of the composition root. Chooses the sensor of each axis. The use of these parts is in the file of each kind in
+`rotator.assembly.kinds`.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Assembly:
         return {axis: sensor or (own or {})[axis] for axis, sensor in named.items()}
 
     def first_deg(self, axis: Axis, said_deg: float) -> float:
-        """Where an axis without feedback is taken to stand: where the file says; in a simulation, where it does."""
+        """The assumed start angle of an axis without feedback: that of the file; in a simulation the true one."""
         return said_deg if self.board.world is None else self.start_deg(axis)
 
     def _named(self, axis: Axis) -> AngleSensor | None:

@@ -1,6 +1,6 @@
-"""Sensors that are chips of their own, from their tables of the file to their drivers.
+"""Opens the sensor chips of the axes (AS5600, MPU6050) with their drivers, as their tables describe them.
 
-Part of the composition root. Decides nothing.
+Part of the composition root. Pots, counts and controllers belong to other files.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from rotator.config.sensors import CompassTable, SensorTable
 def sensor_chip(
     table: SensorTable, open_bus: Callable[[int], I2CBus], clock: Callable[[], float], sleep: Callable[[float], None]
 ) -> AngleSensor | None:
-    """The chip that tells the angle of an axis; None: the table names none. Raises HardwareError."""
+    """The sensor chip of an axis; None: the table names no chip. Raises HardwareError."""
     match table.kind, table.i2c:
         case "as5600", (number, address):
             return As5600(open_bus(number), address, zero_turn=table.zero_turn)

@@ -45,7 +45,7 @@ def build_mount(config: Config) -> Mount:
 
 
 def build_learnt(config: Config) -> LearntFile:
-    """The file with the learnt motors; figures learnt under another description of the motor do not count."""
+    """The file of the learnt motors. It ignores figures that were learnt with other settings of the motor."""
 
     def described(table: AxisTable, sim: SimAxisTable) -> dict[str, object]:
         motor: dict[str, object] = {"hardware": config.rotor.hardware}
@@ -131,11 +131,11 @@ def _motor(learnt: LearntMotor) -> Motor:
 
 
 EVERYTHING = (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK)
-"""What an axis lacks that has never been commissioned."""
+"""Everything that an axis which was never set up lacks."""
 
 
 def missing(table: AxisTable, *, calibrated: bool) -> tuple[Missing, ...]:
-    """What an axis of real hardware lacks before it may be aimed."""
+    """What an axis of real hardware still lacks before it may be aimed."""
     written = table.model_fields_set
     done = (calibrated, {"min_deg", "max_deg"} <= written, table.direction_checked)
     return tuple(name for name, is_done in zip(EVERYTHING, done, strict=True) if not is_done)

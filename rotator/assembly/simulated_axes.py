@@ -1,4 +1,4 @@
-"""The simulated axes that a file describes: motors, pots, and where they stand at first.
+"""Builds the simulated axes that a file describes: motors, pots, and their start angles.
 
 Part of the composition root. Knows which key of the file is which property of a simulated part. Knows no driver, and
 no kind of rotor: those are in `rotator.assembly.kinds`.
@@ -17,7 +17,7 @@ from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
 
 SIM_CALIBRATION_RAW = (0.05, 0.95)
-"""Where the simulated pot's wiper stands at the ends of the range: end resistors keep it off the rails."""
+"""The simulated pot's reading at each end of the range. End resistors keep it away from 0 and 1."""
 STOP_BEYOND_DEG = 2.0
 """The end stops stand a little beyond the range, as on a G-5500."""
 
@@ -35,7 +35,7 @@ class SimulatedAxes:
     first_deg: tuple[float, float]
 
     def start_deg(self, axis: Axis) -> float:
-        """Where the axis stands at first, on the rotor's own scale."""
+        """The start angle, on the rotor's own scale."""
         table, said = self.config.axis(axis), self.sim(axis).start_deg
         first_deg = self.first_deg[0 if axis is Axis.AZIMUTH else 1]
         return min(max(first_deg if said is None else said, table.min_deg), table.max_deg)

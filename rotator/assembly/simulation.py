@@ -1,4 +1,4 @@
-"""The simulated station that a file describes: its rotor, display, sensors, panel and limit switches.
+"""Builds the simulated station that a file describes: rotor, display, sensors, panel and limit switches.
 
 Part of the composition root. Knows which key of the file is which property of a simulated part. Knows no driver. The
 rotors themselves are in `rotator.assembly.kinds`.
@@ -52,7 +52,7 @@ class SimulatedStation:
         return rotor
 
     def start_deg(self, axis: Axis) -> float:
-        """Where the axis stands at first, on the rotor's own scale."""
+        """The start angle, on the rotor's own scale."""
         return self._axes.start_deg(axis)
 
     def _wire_sensors(self, rotor: SimRotor) -> None:
@@ -109,7 +109,7 @@ def simulated_rotor(
     bus_sleep: Callable[[float], None] | None,
     start_deg: tuple[float, float],
 ) -> SimRotor:
-    """The rotor that the file describes; `start_deg` holds where the file does not say."""
+    """The rotor that the file describes. `start_deg`: the start angles where the file has none."""
     return SimulatedStation(config, clock, bus_sleep, start_deg).build()
 
 

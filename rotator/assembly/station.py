@@ -1,7 +1,7 @@
 """The hardware half of the composition root: from a configuration to drivers, on real chips or simulated ones.
 
-Knows what every station opens, and in which order it is closed. The drivers of the rotor are put together in
-`rotator.assembly.kinds`. Decides nothing.
+Knows the parts that every station opens, and the order in which they close. `rotator.assembly.kinds` builds the rotor
+with its drivers.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ class Station:
             self.heartbeat.beat()
 
     def close(self) -> None:
-        """Switch everything off and give everything back. What fails skips nothing. May be called twice.
+        """Switch everything off and release everything. A part that fails skips no other. May be called twice.
 
         Raises HardwareError.
         """

@@ -33,7 +33,7 @@ class NorthGuide(CompassGuide):
         super().__init__(facts)
         self.result: NorthFound | AngleConfirmed | None = None
         self.save_wanted = False
-        """The antenna stands and the compass's corrections are to be saved. The rig sets it back when that is done."""
+        """The antenna stands, and the rig must save the compass's corrections. The rig clears this afterwards."""
         self._saved = False
 
     def _path(self) -> Steps:

@@ -1,1 +1,1 @@
-"""The commands."""
+"""The command line: `rotator` and its sub-commands."""

@@ -1,6 +1,7 @@
 """`rotator arduino`: the emulated Arduino that the box replaces, on a pseudo-terminal, to compare the two.
 
-Knows how to run it in real time and show it. The simulator emulates the board and its sketch.
+Runs it in real time and shows its display. The simulator emulates the board and its sketch; the controller of this box
+is not used.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ JOIN_S = 2.0
 
 
 class Sketch(Protocol):
-    """The emulated board with its sketch, as it is seen from outside."""
+    """The emulated board with its sketch, from outside."""
 
     def host_send(self, data: bytes) -> None:
         """Bytes from the PC, on the serial line."""
@@ -40,7 +41,7 @@ class Sketch(Protocol):
 
 
 class ArduinoSession:
-    """The sketch's end of the serial line: bytes go to the board, which never answers."""
+    """The sketch's end of the serial line: passes bytes to the board, which never answers."""
 
     idle_s = None
     closed = False

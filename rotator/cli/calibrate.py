@@ -1,6 +1,7 @@
-"""`rotator calibrate`: the operator at the keys, or lines on standard input.
+"""`rotator calibrate`: connects a calibration session to the terminal, or to lines on standard input and output.
 
-Knows keys, lines and printing. The questions are the guides'; `calibrating.session` runs them.
+Reads keys and lines, prints, and refuses to start beside a running box. `calibrating.session` runs the guides, which
+ask the questions.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None,
 async def _run(config: Config, path: Path | None, faults: tuple[str, ...], tasks: list[str], *, plain: bool) -> int:
     stop = stop_on_signals()
     log_to(logging.StreamHandler())
-    # The guide reports faults in their place; log lines between the questions would only confuse.
+    # The guide reports faults itself. Log lines between its questions would confuse.
     logging.getLogger().setLevel(logging.CRITICAL)
     screen: PlainLines | LivePicture = PlainLines() if plain else LivePicture()
     session = CalibrationSession(config, path, screen, open_station, partial(_inject, faults))
@@ -106,14 +107,14 @@ class LivePicture:
 
 
 def _inject(faults: tuple[str, ...], station: Station) -> None:
-    """Let the simulator misbehave as the option --fault says."""
+    """Inject the faults of the option --fault into the simulator."""
     for at_s, name in parse_faults(faults, station.world):
         assert station.world is not None, "parse_faults refuses faults on real hardware"
         asyncio.get_running_loop().call_later(at_s, station.world.inject, name)
 
 
 def _refuse_beside_running_box(path: Path | None) -> None:
-    """Raises LinkError where the box is running: two programs could open a serial port or an I2C chip together."""
+    """Raises LinkError if the box is running: two programs could open the same serial port or I2C chip."""
     try:
         box = reach([console_path(place) for place in monitor_places(path)], "console")
     except LinkError:

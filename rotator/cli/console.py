@@ -1,6 +1,7 @@
-"""The commands that speak to the running box over its console: the questions before, and what is shown afterwards.
+"""The work of the commands that use the console of the running box: connect, confirm with the user, send, print.
 
-Knows the console's words and answers. Does not know whether the box will obey.
+Knows the form of the console's answers. The box decides whether it obeys. `home` also waits for the end, and stops the
+antenna if it is interrupted.
 """
 
 from __future__ import annotations
@@ -23,14 +24,16 @@ from rotator.protocols.console import Ask, ConsoleCommand, encode
 from rotator.protocols.console_session import ERROR, OK
 
 ANSWER_S = 5.0
+"""The longest wait for an answer, in seconds."""
 LOOK_S = 0.25
+"""The time between two looks at a homing axis, in seconds."""
 STANDING_LOOKS = 12
-"""Between two turns of a homing the axis stands, for fewer looks than this."""
+"""The axis has stopped for good after more looks than this without a turn. Pauses within a homing are shorter."""
 CONSOLE = "console"
-"""How the status names the users of the console."""
+"""The prefix of a console user's name in a status."""
 
 Lines = list[tuple[str, str]]
-"""The lines of a status: a name and a value each."""
+"""The lines of a status: (name, value)."""
 
 
 class Refused(LinkError):  # noqa: N818 - the box's answer, no failure of the program
@@ -52,9 +55,9 @@ class ConsoleClient:
         self._answers.close()
         self._box.close()
 
-    def send(self, said: ConsoleCommand) -> list[str]:
+    def send(self, command: ConsoleCommand) -> list[str]:
         """Send an order or a question. Returns the lines of the answer. Raises Refused, LinkError."""
-        return self.line(encode(said))
+        return self.line(encode(command))
 
     def line(self, line: bytes) -> list[str]:
         """Send one line. Returns the lines of the answer before its `ok`. Raises Refused, LinkError."""
@@ -75,11 +78,11 @@ class ConsoleClient:
         raise LinkError("the box has ended")
 
     def status(self) -> Lines:
-        return [(what, how) for what, _, how in (line.partition(": ") for line in self.send(Ask.STATUS))]
+        return [(name, value) for name, _, value in (line.partition(": ") for line in self.send(Ask.STATUS))]
 
 
 def tell(path: Path | None, words: Sequence[str]) -> None:
-    """Send words to the console. Without words: ask which words it knows."""
+    """Send words to the console and print the answer. Without words: print the list of its words."""
     line = " ".join(" ".join(words).split()) or Ask.HELP.value
     with ConsoleClient(path) as box:
         for answer in box.line(line.encode("utf-8", "replace") + b"\n") or [OK]:
@@ -101,7 +104,7 @@ def stop(path: Path | None) -> None:
 def resume(path: Path | None) -> None:
     with ConsoleClient(path) as box:
         box.send(Release())
-    click.echo("Whoever may move the antenna can do so again.")
+    click.echo("The antenna may move again.")
 
 
 def let_go(path: Path | None, *, yes: bool) -> None:
@@ -139,11 +142,11 @@ def home(path: Path | None, axis: Axis, *, yes: bool) -> None:
                 # A second Ctrl-C must not interrupt the stop.
                 signal.signal(signal.SIGINT, signal.SIG_IGN)
                 stop(path)
-    for what, how in lines:
-        if what in ("fault", "missing") and how.startswith(axis.value):
-            raise LinkError(how)
-        if what == "moved by" and not how.startswith(CONSOLE):
-            raise LinkError(f"{axis.value} is not homed: {how} moves the antenna")
+    for name, value in lines:
+        if name in ("fault", "missing") and value.startswith(axis.value):
+            raise LinkError(value)
+        if name == "moved by" and not value.startswith(CONSOLE):
+            raise LinkError(f"{axis.value} is not homed: {value} moves the antenna")
     click.echo(f"{axis.value} stands: {dict(lines)[axis.value]}")
 
 
@@ -157,14 +160,14 @@ def _until_it_stands(box: ConsoleClient, axis: Axis) -> Lines:
     try:
         while True:
             lines = box.status()
-            said = dict(lines)
-            turns = axis.value in said.get("moving", "").split()
+            values = dict(lines)
+            turns = axis.value in values.get("moving", "").split()
             still = 0 if turns else still + 1
-            before, ours = ours, said["moved by"].startswith(CONSOLE)
+            before, ours = ours, values["moved by"].startswith(CONSOLE)
             if still > STANDING_LOOKS or (before and not ours):
                 return lines
             if turns or row:
-                text = f"{axis.value} {said[axis.value]}"
+                text = f"{axis.value} {values[axis.value]}"
                 click.echo(f"\r\x1b[K{text}" if row else text, nl=not row)
             time.sleep(LOOK_S)
     finally:

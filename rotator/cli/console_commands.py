@@ -1,4 +1,4 @@
-"""The commands that speak to the running box over its console: names, arguments, options. The logic is in `console`."""
+"""The commands that use the console of the running box: names, arguments and options. `console` does the work."""
 
 # ruff: noqa: PLC0415 - a command loads what it needs and no more
 
@@ -22,7 +22,7 @@ MINUS_IS_A_NUMBER = {"ignore_unknown_options": True}
 @CONFIG
 @click.argument("words", nargs=-1, type=click.UNPROCESSED)
 def tell(path: Path | None, words: tuple[str, ...]) -> None:
-    """Send words to the console of the running box. Without WORDS: list the words it knows."""
+    """Send WORDS to the console of the running box. Without WORDS: list the words of the console."""
     from rotator.cli import console
 
     console.tell(path, words)
@@ -31,7 +31,7 @@ def tell(path: Path | None, words: tuple[str, ...]) -> None:
 @click.command()
 @CONFIG
 def where(path: Path | None) -> None:
-    """Show where the antenna is, and what is wrong. Also who moves it, and what is missing."""
+    """Show where the antenna is, who moves it, and what is wrong."""
     from rotator.cli import console
 
     console.where(path)
@@ -40,7 +40,7 @@ def where(path: Path | None) -> None:
 @click.command()
 @CONFIG
 def stop(path: Path | None) -> None:
-    """Stop the antenna, until `rotator resume`. No link can move it in between."""
+    """Stop the antenna until `rotator resume`. Until then no link can move it."""
     from rotator.cli import console
 
     console.stop(path)
@@ -49,7 +49,7 @@ def stop(path: Path | None) -> None:
 @click.command()
 @CONFIG
 def resume(path: Path | None) -> None:
-    """Let the antenna move again after a stop at the box. Acknowledges faults."""
+    """Let the antenna move again after a stop. Acknowledges faults."""
     from rotator.cli import console
 
     console.resume(path)
@@ -60,7 +60,7 @@ def resume(path: Path | None) -> None:
 @YES
 @AXIS
 def home(path: Path | None, yes: bool, axis: str) -> None:
-    """Find the end stop of an axis that counts pulses. You watch the antenna; Ctrl-C stops it."""
+    """Turn an axis that counts pulses to its end stop. Watch the antenna; Ctrl-C stops it."""
     from rotator.cli import console
 
     console.home(path, Axis(axis), yes=yes)
@@ -71,7 +71,7 @@ def home(path: Path | None, yes: bool, axis: str) -> None:
 @AXIS
 @click.argument("degrees", type=float)
 def confirm(path: Path | None, axis: str, degrees: float) -> None:
-    """Say where an axis stands that cannot know it itself. A moteus behind a gear needs it after power-on."""
+    """Confirm the angle of an axis, in DEGREES. A moteus behind a gear needs it after power-on."""
     from rotator.cli import console
 
     console.confirm(path, Axis(axis), degrees)
@@ -81,7 +81,7 @@ def confirm(path: Path | None, axis: str, degrees: float) -> None:
 @CONFIG
 @YES
 def let_go(path: Path | None, yes: bool) -> None:
-    """Take the torque from the motors. An antenna out of balance turns; nothing moves it until `rotator resume`."""
+    """Switch off the motors' torque until `rotator resume`. An antenna out of balance then turns."""
     from rotator.cli import console
 
     console.let_go(path, yes=yes)

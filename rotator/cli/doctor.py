@@ -1,6 +1,6 @@
 """`rotator doctor`: check everything, and print the findings.
 
-Knows the default file, the output and the exit codes. The checks are in `rotator.doctor`.
+Chooses the file, and prints the report or JSON. The checks and the exit code come from `rotator.doctor`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ PLAIN_WIDTH = 110
 
 
 def examine_box(path: Path | None, *, as_json: bool) -> int:
-    """The exit code: 0 where nothing is wrong, 1 where something is, 2 for a configuration that cannot be used."""
+    """Check and print. Returns the exit code: 0 without errors, 1 with errors, 2 for an unusable configuration."""
     machine = this_machine()
     if path is None and machine.at(INSTALLED).exists():
         path = machine.at(INSTALLED)

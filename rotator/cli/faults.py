@@ -1,6 +1,6 @@
-"""The option --fault: which named fault of the simulator begins when.
+"""Parses the option --fault: the name of a simulated fault, and the time at which it begins.
 
-Knows the option's form. The simulated rotor knows the names and what each fault does.
+Knows the form `NAME@SECONDS`. The simulated rotor has the names, and does what each fault does.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import click
 
 
 class FaultInjector(Protocol):
-    """A simulated rotor, as far as this option needs it."""
+    """The part of a simulated rotor that this option needs."""
 
     @property
     def faults(self) -> Collection[str]:

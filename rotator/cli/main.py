@@ -1,4 +1,4 @@
-"""The command `rotator`: its sub-commands and their options. No logic: each calls a file of its own."""
+"""The command `rotator`: its sub-commands and options, and the exit codes of errors. Other files do the work."""
 
 from __future__ import annotations
 
@@ -15,7 +15,11 @@ from rotator.links.wire import LinkError
 from rotator.setup.plan import SetupError
 
 FAULT = click.option(
-    "--fault", "faults", multiple=True, metavar="NAME[@SECONDS]", help="Let the simulator misbehave; `list` tells how."
+    "--fault",
+    "faults",
+    multiple=True,
+    metavar="NAME[@SECONDS]",
+    help="Begin this fault in the simulator; `list` prints the names.",
 )
 
 
@@ -44,9 +48,9 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
 @CONFIG
 @FAULT
 @click.argument("pass_file", type=click.Path(path_type=Path, dir_okay=False), metavar="PASS.csv")
-@click.option("--via", type=click.Choice(["gs232", "rotctld"]), default="gs232", help="The protocol orders come by.")
-@click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write what happened, as CSV.")
-@click.option("--json", "as_json", is_flag=True, help="The summary as JSON.")
+@click.option("--via", type=click.Choice(["gs232", "rotctld"]), default="gs232", help="The protocol of the orders.")
+@click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the flight to this CSV file.")
+@click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
 @click.option("--arduino", is_flag=True, help="Fly the pass with the emulated Arduino instead of the box.")
 def rehearse(  # noqa: PLR0917 - click calls it by keyword
     path: Path | None,
@@ -57,18 +61,18 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
     as_json: bool,
     arduino: bool,
 ) -> None:
-    """Fly a satellite pass (t,az,el) on the simulated rotor, in simulated time."""
+    """Fly a satellite pass on the simulated rotor. The file holds t,az,el; the time is simulated."""
     from rotator.cli.rehearse import rehearse_pass
 
     rehearse_pass(pass_file, path, faults, via=via, trace=trace, as_json=as_json, arduino=arduino)
 
 
 @cli.command()
-@click.option("--pty", default="run/arduino", type=click.Path(path_type=Path), help="Where to open its serial port.")
+@click.option("--pty", default="run/arduino", type=click.Path(path_type=Path), help="The path of its serial port.")
 @CONFIG
 @click.option("--plain", is_flag=True, help="Plain lines even in a terminal.")
 def arduino(pty: Path, path: Path | None, plain: bool) -> None:
-    """Run the Arduino that this box replaces, emulated, to compare the two."""
+    """Run an emulation of the Arduino, to compare it with the box."""
     from rotator.cli.arduino import run_arduino
 
     run_arduino(pty, path, plain=plain or not sys.stdout.isatty())
@@ -80,7 +84,7 @@ def arduino(pty: Path, path: Path | None, plain: bool) -> None:
 @click.option("--plain", is_flag=True, help="Lines in and out even in a terminal.")
 @click.argument("what", required=False, type=click.Choice(["azimuth", "elevation", "north"]))
 def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, what: str | None) -> None:
-    """Set an axis up, or both: directions, ends, points in between. Or find north. Saved in the file."""
+    """Set up one axis or both, or find north, with questions. Saves the result in the file."""
     from rotator.cli.calibrate import calibrate_axes
 
     plain = plain or not (sys.stdin.isatty() and sys.stdout.isatty())
@@ -90,8 +94,13 @@ def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, what: str
 @cli.command()
 @CONFIG
 @click.option("--to", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="Write to a new file.")
-@click.option("--link", "links", multiple=True, metavar="NAME", help="Only this link; may be given several times.")
-@click.option("--limit-mb", type=click.FloatRange(0, min_open=True), default=10.0, help="The file's end; 10 MB.")
+@click.option("--link", "links", multiple=True, metavar="NAME", help="Show only this link; may be given several times.")
+@click.option(
+    "--limit-mb",
+    type=click.FloatRange(0, min_open=True),
+    default=10.0,
+    help="Size limit of the file, 10 MB by default.",
+)
 def monitor(path: Path | None, to: Path | None, links: tuple[str, ...], limit_mb: float) -> None:
     """Show every byte on the links of the running box, with its time."""
     from rotator.cli.monitor import watch
@@ -102,7 +111,7 @@ def monitor(path: Path | None, to: Path | None, links: tuple[str, ...], limit_mb
 @cli.command()
 @CONFIG
 def off(path: Path | None) -> None:
-    """Open every relay when the box is not running: after a crash, the kernel may have left some closed."""
+    """Open every relay while the box is not running. After a crash the kernel may have left some closed."""
     from rotator.cli.off import relays_off
 
     relays_off(path)
@@ -110,9 +119,9 @@ def off(path: Path | None) -> None:
 
 @cli.command()
 @CONFIG
-@click.option("--json", "as_json", is_flag=True, help="What was found as JSON.")
+@click.option("--json", "as_json", is_flag=True, help="Print the findings as JSON.")
 def doctor(path: Path | None, as_json: bool) -> None:
-    """Check everything that the box needs, and say how to repair what is wrong."""
+    """Check everything that the box needs, and advise repairs."""
     from rotator.cli.doctor import examine_box
 
     sys.exit(examine_box(path, as_json=as_json))
@@ -120,9 +129,9 @@ def doctor(path: Path | None, as_json: bool) -> None:
 
 @cli.command(name="config")
 @click.argument("name", default=SIMULATED, metavar="[NAME]")
-@click.option("--list", "listed", is_flag=True, help="Say which there are.")
+@click.option("--list", "listed", is_flag=True, help="List the shipped configurations.")
 def show_config(name: str, listed: bool) -> None:
-    """Print a shipped configuration, a start for your own: the simulated rotor's, or a real one's by NAME."""
+    """Print the shipped configuration NAME, as a start for your own. Without NAME: the simulated rotor's."""
     if listed:
         for each in (SIMULATED, *profiles()):
             click.echo(f"{each:<10} {shipped(each).splitlines()[0].removeprefix('# ')}")
@@ -132,15 +141,15 @@ def show_config(name: str, listed: bool) -> None:
 
 @cli.group(name="setup")
 def set_up() -> None:
-    """Prepare this Pi itself: shows what would change, asks, and can take it back."""
+    """Prepare this Pi itself. Shows the changes and asks first; --undo removes them."""
 
 
-UNDO = click.option("--undo", is_flag=True, help="Take out again what was put in, and nothing else.")
+UNDO = click.option("--undo", is_flag=True, help="Remove the changes of this command, and nothing else.")
 ROOT = click.option(
     "--root",
     type=click.Path(path_type=Path, file_okay=False, exists=True),
     default=Path("/"),
-    help="Where the Pi's files are, for a card in another machine.",
+    help="The folder with the Pi's files, for a card in another machine.",
 )
 STATION = click.option(
     "--config",
@@ -155,13 +164,13 @@ STATION = click.option(
 @YES
 @ROOT
 @STATION
-@click.option("--usb-id", default="1d6b:0104", metavar="VENDOR:PRODUCT", help="What the PC sees; 1d6b:0104 by default.")
-@click.option("--up", "gadget", flag_value="up", help="Build the USB device now: what the unit does at each start.")
-@click.option("--down", "gadget", flag_value="down", help="Take it down.")
+@click.option("--usb-id", default="1d6b:0104", metavar="VENDOR:PRODUCT", show_default=True, help="The USB id.")
+@click.option("--up", "gadget", flag_value="up", help="Build the USB device now, as the unit does.")
+@click.option("--down", "gadget", flag_value="down", help="Remove the USB device now.")
 def usb_serial(  # noqa: PLR0917 - click calls it by keyword
     undo: bool, yes: bool, root: Path, path: Path | None, usb_id: str, gadget: str | None
 ) -> None:
-    """Make the Pi a serial port of the PC, over its USB device socket."""
+    """Make the Pi a serial port of the PC, over USB."""
     from rotator.cli.setup import lower_gadget, raise_gadget, usb_serial_port
 
     match gadget:
@@ -179,7 +188,7 @@ def usb_serial(  # noqa: PLR0917 - click calls it by keyword
 @ROOT
 @STATION
 def pins(undo: bool, yes: bool, root: Path, path: Path | None) -> None:
-    """Hold the relay lines off from power-on, and let them go when the program dies."""
+    """Hold the relays off from power-on. Release them when the program dies."""
     from rotator.cli.setup import relay_pins
 
     relay_pins(root, path, undo=undo, yes=yes)

@@ -1,6 +1,7 @@
 """`rotator monitor`: every byte on every link of the running box, live or to a file.
 
-Knows how a recording ends. The form of the lines is in `rotator.monitor.transcript`.
+Filters lines by link, prints or records them, and ends a recording properly. The form of the lines is in
+`rotator.monitor.transcript`.
 """
 
 from __future__ import annotations
@@ -38,12 +39,12 @@ def _lines(box: socket.socket) -> Iterator[str]:
 
 def _only(links: Sequence[str], lines: Iterator[str]) -> Iterator[str]:
     """The remarks, and the lines of these links; without names, of all links. Raises LinkError for an unknown name."""
-    there: list[str] = []
+    known: list[str] = []
     for line in lines:
         entry = parse(line)
         match entry:
             case LinkNote(name):
-                there.append(name)
+                known.append(name)
                 wanted = name in links
             case Piece(source=source):
                 wanted = source.link in links
@@ -51,9 +52,9 @@ def _only(links: Sequence[str], lines: Iterator[str]) -> Iterator[str]:
                 wanted = True
         if not isinstance(entry, LinkNote | Remark):
             # The box has named all its links by now.
-            unknown = [name for name in links if name not in there]
+            unknown = [name for name in links if name not in known]
             if unknown:
-                raise LinkError(f"no link is called {unknown[0]}; there are: {', '.join(there)}")
+                raise LinkError(f"no link is called {unknown[0]}; there are: {', '.join(known)}")
         if wanted or not links:
             yield line
 

@@ -1,6 +1,6 @@
-"""`rotator off`: every relay line off, when no box is running.
+"""`rotator off`: switches every relay line off when no box is running, and prints the lines.
 
-Knows the command's words. Which lines there are, and how they are switched, is in `rotator.assembly.lines_off`.
+`rotator.assembly.lines_off` knows the lines and switches them.
 """
 
 from __future__ import annotations

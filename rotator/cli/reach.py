@@ -1,6 +1,7 @@
-"""Connects to a socket of the running box: beside the state file of its configuration, or where the service has it.
+"""Connects a command to a socket of the running box.
 
-Knows paths and permissions. Does not know what goes over the sockets.
+Knows where the socket may be: at the path of the configuration, beside the state file, or in the service's folder.
+Knows the error texts. Does not know what goes over the sockets.
 """
 
 from __future__ import annotations
@@ -10,9 +11,9 @@ import socket
 from collections.abc import Sequence
 from pathlib import Path
 
-from rotator.app import monitor_path
 from rotator.config.load import load
 from rotator.links.wire import LinkError
+from rotator.monitor.places import monitor_path
 
 MONITOR_OF_THE_SERVICE = Path("/run/rotator/monitor")
 
@@ -25,7 +26,7 @@ def monitor_places(path: Path | None) -> list[Path]:
 
 
 def reach(places: Sequence[Path], what: str) -> socket.socket:
-    """A socket connected to the first of `places` where a box listens. `what`: the name of it. Raises LinkError."""
+    """Connect to the first of `places` where a box listens. `what`: the socket's name in an error. Raises LinkError."""
     for place in places:
         box = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
@@ -33,7 +34,7 @@ def reach(places: Sequence[Path], what: str) -> socket.socket:
             return box
         except PermissionError:
             box.close()
-            raise LinkError(f"{place} is not yours to use: use sudo, or join its group") from None
+            raise LinkError(f"you may not use {place}: use sudo, or join its group") from None
         except OSError:
             box.close()
     tried = " or ".join(map(str, places))

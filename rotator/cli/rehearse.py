@@ -1,6 +1,7 @@
 """`rotator rehearse`: fly a pass on the simulated rotor and report the pointing error.
 
-Knows files and output. `rotator.rehearsal.flight` flies the pass.
+Knows files and output, and makes a simulated station of the configuration of a real one. `rotator.rehearsal.flight`
+flies the pass.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """`rotator run`: the box in the foreground, with a live picture in a terminal, or plain lines elsewhere.
 
-Knows which key does what. Knows neither how the picture looks nor what the box does.
+Knows the keys, and starts the faults of --fault. `rotator.views` draws the picture; `rotator.app` is the box.
 """
 
 from __future__ import annotations

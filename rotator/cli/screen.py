@@ -1,6 +1,6 @@
-"""What the foreground commands share: signals, keys, log lines, and a picture drawn a few times a second.
+"""What the foreground commands share: signals, single keys, log lines, and a picture drawn a few times a second.
 
-Knows the terminal. Does not know what it shows.
+Knows the terminal. The commands supply the picture and the meaning of the keys.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ def stop_on_signals() -> asyncio.Event:
 async def draw(
     render: Callable[[], RenderableType], key: Callable[[str], None], console: Console | None = None
 ) -> None:
-    """Draw until cancelled; hand single keys to `key`. What is printed on `console` stays, above the picture."""
+    """Draw until cancelled, and pass single keys to `key`. Text printed on `console` stays above the picture."""
     with _keys(key), Live(console=console or Console(), auto_refresh=False) as live:
         while True:
             live.update(render(), refresh=True)
@@ -59,7 +59,7 @@ async def draw(
 
 async def print_lines(greeting: Callable[[], list[str]], line: Callable[[], str]) -> None:
     """For output that is no terminal: print a greeting, then each line that differs from the one before."""
-    # By then the links have been opened, and the greeting can say where they are.
+    # After this pause the links are open, and the greeting can name their ports.
     await asyncio.sleep(0.1)
     last = ""
     print(*greeting(), sep="\n", flush=True)  # noqa: T201 - this is the output

@@ -1,6 +1,7 @@
-"""`rotator setup`: shows what would change on this Pi, asks, changes it, and says what is left to do.
+"""`rotator setup`: shows the planned changes to this Pi, asks, makes them, and says that a reboot is due.
 
-Knows the dialogue with the user. What has to change is in `rotator.setup`; how files are written, in its `tree`.
+Knows the dialogue, the paths of the settings, and the identity of the USB device. `rotator.setup` plans the changes,
+and its `tree` writes the files.
 """
 
 from __future__ import annotations
@@ -73,7 +74,7 @@ def identity(serial: str, usb_id: str) -> gadget.Identity:
 
 
 def _serial_number(root: Path) -> str:
-    """The serial number of the Pi; elsewhere one that stays as long as the system is installed."""
+    """The serial number of the Pi; on another computer a number made from its machine id."""
     for path in SERIALS:
         with suppress(OSError):
             return (root / path).read_text().rstrip("\0\n")
@@ -85,7 +86,7 @@ def _serial_number(root: Path) -> str:
 
 
 def _command(root: Path) -> str:
-    """How systemd starts this program: as installed, else as it was started now."""
+    """The command line of this program for systemd: the installed program, else the one that runs now."""
     if (root / INSTALLED).exists() or root.resolve() != Path("/"):
         return f"/{INSTALLED}"
     started = Path(sys.argv[0]).absolute()
@@ -101,7 +102,7 @@ def _quoted(word: str) -> str:
 def _refuse_overlay(command_line: str) -> None:
     if any(word.startswith(tree.OVERLAYS) for word in command_line.split()):
         raise SetupError(
-            "the overlay file system is on, what is written now is gone after a reboot: "
+            "the overlay file system is on, and a reboot would undo the changes: "
             "switch it off in raspi-config (Performance), reboot, run this, and switch it on again"
         )
 

@@ -1,6 +1,6 @@
-"""The table of the converter that reads the pots.
+"""The table [adc]: the converter that reads the pots, an ADS1115 on I2C or an MCP3208 on SPI.
 
-Knows the words of the file for its inputs and its bus, and what each kind of converter has. Knows no driver.
+Knows its keys and defaults, and how many inputs each converter has. Knows no driver.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ class Adc(Table):
     kind: Literal["ads1115", "mcp3208"] = "ads1115"
     """An ADS1115 (16 bits, 4 inputs, I2C) or an MCP3208 (12 bits, 8 inputs, SPI)."""
     bus: I2CBus = 1
-    """ADS1115: the N of /dev/i2c-N; the header's bus is 1."""
+    """ADS1115: 1 is the bus on the header."""
     address: I2CAddress = 0x48
     """ADS1115: 0x48 with its ADDR pin at GND, 0x49 at its supply, 0x4a at SDA, 0x4b at SCL."""
     spi: Literal["lines", "kernel"] = "lines"
-    """MCP3208: any GPIO lines, or the Pi's SPI controller (dtparam=spi=on, and the Python package spidev)."""
+    """MCP3208: on any GPIO lines, or on the Pi's SPI controller (dtparam=spi=on, Python package spidev)."""
     select: Gpio = 8
     """MCP3208: its CS; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
     sck: Gpio = 11
@@ -36,15 +36,15 @@ class Adc(Table):
     so: Gpio = 9
     """MCP3208: its DOUT."""
     azimuth_channel: Input = 0
-    """The input with the azimuth wiper: A0 to A3, or CH0 to CH7."""
+    """The input with the azimuth wiper: 0 for A0 or CH0."""
     elevation_channel: Input = 1
     """The input with the elevation wiper."""
     reference_channel: Input | None = None
-    """ADS1115: where the pots' supply is wired to, if it is: readings then no longer depend on it."""
+    """ADS1115: the input with the pots' supply, if it is wired; the supply's voltage then no longer matters."""
     supply_v: float = Field(3.3, gt=0.5, le=5.5)
-    """The pots' supply where it is not measured; the MCP3208's VREF is wired to it."""
+    """The pots' supply where no input measures it. Wire the MCP3208's VREF to it."""
     rate_sps: Literal[128, 250, 475, 860] = 860
-    """ADS1115: conversions a second: slower is quieter, but every cycle waits for two of them."""
+    """ADS1115: conversions a second. Fewer give less noise; each cycle waits for two conversions."""
 
     def channel(self, axis: Axis) -> int:
         """The input with the wiper of this axis."""
@@ -56,13 +56,13 @@ class Adc(Table):
 
     @property
     def suspicion(self) -> str:
-        """What may be wrong with a converter that gives no reading, for a person."""
+        """Likely causes of a converter without readings, as a text for the user."""
         if self.kind == "ads1115":
             return "A sick chip, or not an ADS1115 at adc.address."
         return "Its VDD and VREF on 3.3 V; CLK, DIN, DOUT and CS on adc.sck, si, so and select; an MCP3208?"
 
     def faults(self) -> list[str]:
-        """What contradicts itself in the table, where it is in use."""
+        """Contradictions between the keys of the table, one sentence each. Only asked where a pot is in use."""
         channels = {
             "azimuth_channel": self.azimuth_channel,
             "elevation_channel": self.elevation_channel,

@@ -1,6 +1,6 @@
-"""How the angle of an axis is known.
+"""How the angle of an axis is known: measured, counted or modelled, and in which unit its readings come.
 
-Knows what follows from the source of an angle for its readings. Knows no sensor and no kind of rotor.
+A value and no more. Knows no sensor and no kind of rotor.
 """
 
 from __future__ import annotations
@@ -20,4 +20,4 @@ class Angle:
     pot: bool = False
     """A pot on the converter is read."""
     by: str = ""
-    """How the degrees come, for a person; empty: by a calibration."""
+    """The source of the degrees, in words for the user; empty for a calibration."""

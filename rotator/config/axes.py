@@ -1,6 +1,6 @@
-"""The tables of the two axes: their range, their motor, their sensor.
+"""The tables [azimuth] and [elevation]: range, motor, calibration and sensor of an axis.
 
-Knows the words of the file for an axis. Knows no hardware.
+Knows their keys, defaults and bounds, and the shape of a calibration. Knows no hardware.
 """
 
 from __future__ import annotations
@@ -15,31 +15,31 @@ from rotator.config.table import Point, Table
 
 class AxisTable(Table):
     min_deg: float = Field(0.0, ge=-360, le=720)
-    """The lowest angle it may be sent to, on the rotor's own scale."""
+    """The lowest angle of an order, on the rotor's own scale."""
     max_deg: float = Field(450.0, ge=-360, le=720)
-    """The highest angle it may be sent to; above 360 on azimuth: overlap."""
+    """The highest angle of an order; an azimuth above 360 is overlap."""
     tolerance_deg: float = Field(4.0, gt=0, le=45)
-    """How far off on the sky the antenna may be before a motor starts."""
+    """The pointing error on the sky at which a motor starts."""
     speed_dps: float = Field(6.0, gt=0, le=360)
-    """The motor's speed, roughly: the box measures it as it goes."""
+    """The motor's speed, roughly: the box learns the exact one."""
     coast_s: float = Field(0.17, ge=0, le=5)
-    """How long the motor goes on after it is switched off, as time at full speed."""
+    """How far the motor runs on after it is switched off, as seconds at full speed."""
     calibration: list[Point] | None = None
     """Points [reading, degrees]; the reading is the wiper's share of the pot's supply, 0 to 1."""
     lowest_reading: float = Field(0.02, ge=-0.1, le=1)
     """A reading below this means a broken wire or a shorted pot."""
     highest_reading: float = Field(0.98, ge=0, le=1.1)
-    """A reading above this means the same; end resistors keep every valid angle between the two."""
+    """A reading above this means the same. End resistors keep all valid readings between the two."""
     sensor: SensorTable = SensorTable()
     """The sensor of the axis's angle."""
     direction_checked: bool = False
-    """Set it when you have seen that CW turns clockwise and UP up."""
+    """Set it after you have seen the antenna turn clockwise on CW, and up on UP."""
     offset_deg: float = Field(0.0, ge=-180, le=180)
-    """Added to the rotor's own scale: where the antenna points when the scale says 0."""
+    """Where the antenna points when the rotor's own scale says 0."""
     longest_run_s: float = Field(300.0, ge=0, le=86_400)
-    """How long the motor may run before it has to rest; running and resting add up. 0: without limit."""
+    """The longest run from cold before the motor must rest; runs add up, and rest takes off. 0: no limit."""
     rest_s: float = Field(300.0, gt=0, le=86_400)
-    """How long it takes to cool after that; it may run again after half of this time."""
+    """The time to cool fully after the longest run. The motor may run again after half of it."""
 
     @model_validator(mode="after")
     def _make_sense(self) -> AxisTable:
@@ -65,8 +65,8 @@ class Azimuth(AxisTable):
 
 class Elevation(AxisTable):
     min_deg: float = Field(0.0, ge=-90, le=180)
-    """The lowest elevation it may be sent to; where it rests below the horizon."""
+    """The lowest elevation of an order; below 0 for a rotor that goes below the horizon."""
     max_deg: float = Field(180.0, ge=0, le=210)
-    """The highest elevation it may be sent to; 90 for a rotor that cannot go over the top."""
+    """The highest elevation of an order; 90 for a rotor that cannot go over the top."""
     speed_dps: float = Field(2.7, gt=0, le=360)
-    """The motor's speed, roughly: the box measures it as it goes."""
+    """The motor's speed, roughly: the box learns the exact one."""

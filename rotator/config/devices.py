@@ -1,6 +1,6 @@
-"""The tables of the relays and of the display.
+"""The tables [relays] and [lcd]: the pins of the motor relays, and the display on pins or on I2C.
 
-Knows the words of the file for pins and addresses. Knows no driver.
+Knows their keys and defaults. Knows no driver.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from rotator.config.table import Gpio, I2CAddress, I2CBus, Table
 
 
 class Relays(Table):
-    """GPIO numbers as the Pi's kernel counts them (BCM). The defaults have pull-downs at boot and are no bus's pins."""
+    """GPIO numbers (BCM). The default pins have pull-downs at boot, and belong to no bus."""
 
     chip: str | None = None
-    """A path such as /dev/gpiochip0; left out, the chip with the 40-pin header is found by its label."""
+    """A path such as /dev/gpiochip0; left out, the box finds the chip of the 40-pin header by its label."""
     azimuth_cw: Gpio = 22
     """Turns clockwise."""
     azimuth_ccw: Gpio = 23
@@ -30,13 +30,13 @@ class Relays(Table):
     master: Gpio | None = None
     """An output that switches the motors' supply."""
     heartbeat: Gpio | None = None
-    """An output that changes level after every good step, for a one-shot that gates the motors' supply."""
+    """An output that toggles after each good step of the control loop, for a one-shot that gates the motors' supply."""
     active: Literal["high", "low"] = "high"
-    """The level that closes a relay, for all of them, the master too."""
+    """The level that closes a relay; the same for all relays and the master."""
     dead_time_s: float = Field(0.5, ge=0.05, le=5)
-    """How long a motor rests before it is reversed."""
+    """The pause of a motor before it reverses."""
     one_at_a_time: bool = False
-    """Never run both motors at once, for a small transformer: the second waits for the first."""
+    """Run one motor at a time, for a small transformer: the second waits for the first."""
 
     def turning(self, axis: Axis) -> tuple[int, int]:
         """The GPIOs of the two relays of an axis: clockwise or up, then the other way."""
@@ -58,13 +58,13 @@ class Relays(Table):
 
 class Lcd(Table):
     kind: Literal["none", "gpio", "pcf8574"] = "gpio"
-    """No display, one on six GPIO lines, or one behind an I2C backpack."""
+    """No display, a display on six GPIO lines, or a display on an I2C backpack (PCF8574)."""
     bus: I2CBus = 1
-    """Backpack: the N of /dev/i2c-N."""
+    """Backpack: 1 is the bus on the header."""
     address: I2CAddress = 0x27
     """Backpack: usually 0x27 or 0x3f."""
     backpack: Literal["ywrobot", "lcm1602", "mjkdz", "lcdxio", "swapped"] = "ywrobot"
-    """Backpack: which of its bits goes to which pin; `ywrobot` is nearly every board sold."""
+    """Backpack: how its bits are wired to the display; nearly every board sold is `ywrobot`."""
     rs: Gpio = 17
     """Six lines: RS."""
     e: Gpio = 27
@@ -80,11 +80,11 @@ class Lcd(Table):
 
     @property
     def lines(self) -> dict[str, int]:
-        """The six GPIOs of a display without a backpack, by the names of its pins; empty where it has another kind."""
+        """The GPIO of each of the six pins, for a display on GPIO lines; empty for the other kinds."""
         if self.kind != "gpio":
             return {}
         return {"rs": self.rs, "e": self.e, "d4": self.d4, "d5": self.d5, "d6": self.d6, "d7": self.d7}
 
     def chips(self) -> list[I2CChip]:
-        """The chip of its backpack, where it has one."""
+        """The chip of the backpack; empty for a display without one."""
         return [I2CChip(self.bus, self.address, "lcd.address", "PCF8574")] if self.kind == "pcf8574" else []

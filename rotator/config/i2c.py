@@ -1,6 +1,6 @@
-"""Which chips hang on an I2C bus, and at which address.
+"""An I2C chip in use, with its bus and address, and the addresses that each part can have.
 
-Knows the addresses that each part can be given. Knows no register.
+Knows no register, and not which chips a configuration uses: its tables say that.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ ADDRESSES: dict[str, tuple[int, ...]] = {
     "MPU6050": (0x68, 0x69),
     "BNO055": (0x28, 0x29),
 }
-"""The usual addresses of each part, from its data sheet; the PCF8574A has those from 0x38 on."""
+"""The usual addresses of each part, from its data sheet. 0x38 to 0x3F are those of the PCF8574A."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,4 +26,4 @@ class I2CChip:
     key: str
     """The key of the file that names the address: `adc.address`."""
     part: str
-    """The name of the part, as in `ADDRESSES` where it can have several addresses."""
+    """The name of the part, as in `ADDRESSES`."""

@@ -1,6 +1,6 @@
-"""The `[[link]]` tables of the configuration file: which protocol at which place, and which machines may connect.
+"""A `[[link]]` table of the configuration file: its protocol, its port or file, and the rights of its programs.
 
-Knows the words of one link. Does not know how a link is made, nor the other links.
+Knows the keys of one link, and which of them go together. Knows neither the other links nor how a link is opened.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _PLACES: dict[str, tuple[ProtocolName, ...]] = {
     "udp": ("pstrotator", "n1mm", "macdoppler"),
     "file": ("wsjtx",),
 }
-"""Places for some protocols only; these protocols have no other place."""
+"""Keys of a place that serve these protocols only. These protocols have no other place."""
 _MANY_PROTOCOLS_PLACES = ("pty", "serial", "tcp")
 _ONLY_ORDERS: tuple[ProtocolName, ...] = (FOLLOW, "macdoppler", "wsjtx")
 
@@ -39,45 +39,45 @@ class Link(Table):
     protocol: ProtocolName
     """The protocol of the program at the other end."""
     name: str | None = Field(None, min_length=1, max_length=24)
-    """Its name in the log and on the display; left out, its protocol."""
+    """The link's name in the log and on the display; left out, its protocol."""
     pty: str | None = Field(None, min_length=1)
-    """A symlink made to a pseudo-terminal, for programs on the same machine."""
+    """The path of a symlink to a pseudo-terminal, for programs on the same machine."""
     serial: str | None = Field(None, min_length=1)
-    """A serial port, or any URL that pyserial opens; the box waits for it while it is missing."""
+    """A serial port, or a URL of pyserial; the box waits for a missing one."""
     tcp: str | None = None
-    """A listening socket, "host:port"."""
+    """The address where the box listens, "host:port"."""
     connect: str | None = None
-    """rotctld-follow: the other program's rotctld, "host:port"; the box asks it for its position again and again."""
+    """rotctld-follow: the rotctld whose position the box asks for and follows, "host:port"."""
     poll_s: float = Field(0.1, ge=0.02, le=10)
     """rotctld-follow: the time between two questions."""
     udp: str | None = None
-    """pstrotator, n1mm, macdoppler: where datagrams are received, "host:port"; 0.0.0.0 for broadcasts too."""
+    """pstrotator, n1mm, macdoppler: where the box receives datagrams, "host:port"; 0.0.0.0 for broadcasts too."""
     file: str | None = Field(None, min_length=1)
-    """wsjtx: its file azel.dat; the box waits for it while it is missing."""
+    """wsjtx: the path of its azel.dat; the box waits for a missing file."""
     body: Literal["Moon", "Sun", "Source"] = "Moon"
     """wsjtx: the body to follow."""
     rotor_name: str | None = Field(None, min_length=1, max_length=40)
-    """n1mm: obey the orders for the rotor of this name, capitals as in N1MM; left out, every order."""
+    """n1mm: obey only orders for the rotor of this name, capitals as in N1MM; left out, obey all."""
     status_to: str | None = None
-    """n1mm: the PC that shows where the antenna points, "address:13010"; 255.255.255.255 for all. Needs rotor_name."""
+    """n1mm: the PC that shows the antenna's angle, "address:13010"; 255.255.255.255 for all PCs. Needs rotor_name."""
     baud: int | None = Field(None, ge=50, le=4_000_000)
     """Serial ports only; always 8N1. Left out, 9600; rot1prog 1200, rot2prog 600, dcu1 4800."""
     ack: Literal["none", "cr"] = "none"
-    """GS-232: the reply to a command that asks nothing; old Hamlib (3.x) needs the CR."""
+    """GS-232: the reply to a command that is no question; old Hamlib (3.x) needs the CR."""
     may_calibrate: bool = False
-    """GS-232: O, F, O2 and F2 take the present reading for an end of the range."""
+    """GS-232: let O, F, O2 and F2 take the present reading as an end of the range."""
     easycomm_answer: Literal["named", "pstrotator"] = "named"
-    """EasyComm: the reply to AZ EL is AZ235.0 EL25.0, or +235.0 25.0, which PstRotator is reported to need."""
+    """EasyComm: the reply to AZ EL: AZ235.0 EL25.0, or +235.0 25.0 (reported to be what PstRotator needs)."""
     pulses_per_degree: Literal[1, 2, 4, 10] | None = None
     """Rot2Prog and MD-01: the resolution of orders. Left out, rot2prog 2, md01 10."""
     read_only: bool = False
-    """The box answers questions and refuses orders, a stop too."""
+    """Answer questions, and refuse all orders, a stop too."""
     allow: list[str] | None = None
-    """Network links: the machines that may connect, as addresses and networks; left out, all that reach the address."""
+    """Network links: addresses and networks of the machines that may connect; left out, every machine may."""
     most_clients: int = Field(128, ge=1, le=1000)
-    """TCP: the greatest number of connections at a time."""
+    """TCP: the most connections at a time."""
     most_per_s: int = Field(100, ge=1, le=10_000)
-    """Orders a second from one connection that act at once; of those beyond, only the newest acts. Stops always act."""
+    """The most orders a second of one connection. Of those beyond, only the newest acts. A stop always acts at once."""
 
     @model_validator(mode="after")
     def _one_place(self) -> Link:
@@ -182,5 +182,5 @@ def is_same_place(server: str, client: str) -> bool:
 
 
 def _is_here(host: str) -> bool:
-    """Whether an address is one that only this machine's own programs reach."""
+    """Whether only programs on this machine reach the address."""
     return host in ("localhost", "::1") or host.startswith("127.")

@@ -1,6 +1,7 @@
-"""Reads the configuration file; lists everything that is wrong with it at once.
+"""Reads a configuration file, or a shipped one, and lists all its faults at once.
 
-Knows TOML and how to word a fault. Knows no key: those are in the model.
+Knows TOML, the wording of a fault, and harmless values with which it goes on to find further faults. The keys are in
+the model.
 """
 
 from __future__ import annotations
@@ -26,14 +27,14 @@ _KINDS = {
     "tuple": "a pair of numbers in brackets",
     "model": "a table",
 }
-
+"""The first word of a pydantic error type, in words for the user."""
 
 SIMULATED = "simulated"
 """The name of the configuration that runs without a file."""
 
 
 class ConfigError(Exception):
-    """The file cannot be used. `faults` holds a line for each thing to change."""
+    """The file cannot be used. `faults`: one line for each thing to change."""
 
     def __init__(self, name: str, faults: list[str]) -> None:
         super().__init__(name, faults)
@@ -57,7 +58,7 @@ def load(path: Path | None) -> Config:
 
 
 def shipped(name: str = SIMULATED) -> str:
-    """The text of a shipped configuration, as a start. Raises ConfigError, which lists those that there are."""
+    """The text of a shipped configuration. Raises ConfigError for an unknown name, with the list of names."""
     if name == SIMULATED:
         return files("rotator.config").joinpath("simulated.toml").read_text(encoding="utf-8")
     if name not in profiles():
@@ -73,7 +74,7 @@ def profiles() -> list[str]:
 
 
 def parse(text: str, name: str) -> Config:
-    """Raises ConfigError."""
+    """The checked configuration in a TOML text. `name` stands in the errors. Raises ConfigError."""
     try:
         values = tomllib.loads(text)
     except tomllib.TOMLDecodeError as fault:
@@ -88,7 +89,7 @@ def parse(text: str, name: str) -> Config:
         faults += [_explain(error) for error in errors]
         if any(not error["loc"] for error in errors):
             break
-        # One fault can hide another (limits are compared only once both are numbers): mend these and look again.
+        # One fault can hide another: limits are compared only if both are numbers. Mend the faults, and check again.
         for error in errors:
             _mend(values, list(error["loc"]))
     if faults:
@@ -121,7 +122,7 @@ def _mend(values: dict[str, Any], place: list[int | str]) -> None:
 
 
 def _explain(error: ErrorDetails) -> str:
-    """One fault in words: the key, its value, what is allowed, and what was probably meant."""
+    """One fault in words: the key, its value, the allowed values, and the likely intended one."""
     place = list(error["loc"])
     key = _key(place)
     value = error["input"]
@@ -140,9 +141,9 @@ def _explain(error: ErrorDetails) -> str:
         case "value_error":
             return f"{key}: {context['error']}"
         case kind:
-            said = _KINDS.get(kind.split("_")[0]) if kind.endswith(("_type", "_parsing")) else None
-            said = said or error["msg"].removeprefix("Input should be ")
-            return f"{key} = {_show(value)}: must be {said}"
+            expected = _KINDS.get(kind.split("_")[0]) if kind.endswith(("_type", "_parsing")) else None
+            expected = expected or error["msg"].removeprefix("Input should be ")
+            return f"{key} = {_show(value)}: must be {expected}"
 
 
 def _key(place: list[int | str]) -> str:

@@ -1,7 +1,7 @@
-"""What the configuration file may say: every key, its default, its bounds. The only place where defaults live.
+"""The whole configuration: all its tables, the small ones in this file, and the rules across tables.
 
-Knows the tables, and what does not go together; the bigger tables have files of their own beside this, and the kinds of
-rotor in `kinds/`. Knows no file on a disk, no hardware, and no use of the values.
+The bigger tables have files beside this one, the kinds of rotor have theirs in `kinds/`. Defaults and bounds are in
+these tables, except what differs by kind of rotor: `usual` of each kind. Knows no file on a disk and no hardware.
 """
 
 from __future__ import annotations
@@ -33,20 +33,20 @@ from rotator.config.table import Point, Table
 
 class MountTable(Table):
     flip: Literal["off", "over-top"] = "off"
-    """Whether the box itself may turn the antenna over the top (`over-top`): only where a person has seen that the
-    antenna, its cables and the mast clear each other all the way."""
+    """`over-top`: the box may decide to turn the antenna over the top. Only after you have watched antenna and cables
+    clear the mast all the way."""
     north: Literal["true", "magnetic"] = "true"
-    """Which north the azimuth scale was lined up with; orders and reports are always from true north."""
+    """The north on which the azimuth scale was aligned; orders and reports always use true north."""
     declination_deg: float | None = Field(None, ge=-180, le=180)
-    """By how much a compass points east of true north at your place (west: minus); `magnetic` needs it."""
+    """How far a compass at your place points east of true north (west: minus); `magnetic` needs it."""
     park_azimuth_deg: float = Field(0.0, ge=0, le=450)
-    """Where a park order (rotctld K) sends the azimuth, on the rotor's own scale."""
+    """The azimuth of the park position, on the rotor's own scale."""
     park_elevation_deg: float = Field(0.0, ge=0, le=180)
-    """Where a park order sends the elevation."""
+    """The elevation of the park position, on the rotor's own scale."""
     park_after_s: float = Field(0.0, ge=0, le=86_400)
-    """Park when no order has come for so long; 0: never."""
+    """Park after this time without an order; 0: never."""
     horizon: list[Point] = Field(default_factory=list)
-    """Points [azimuth, least elevation] of trees and roofs, azimuth rising from 0 to below 360."""
+    """Points [azimuth, lowest elevation] of trees and roofs; azimuths rise from 0 to below 360."""
 
     @model_validator(mode="after")
     def _knows_north(self) -> MountTable:
@@ -67,18 +67,18 @@ class MountTable(Table):
 
 class StateTable(Table):
     path: str = Field("run/state.json", min_length=1)
-    """The file in which the box keeps what it has learnt of its motors; on a Pi `/var/lib/rotator/state.json`."""
+    """The file with the learnt speed and coast of the motors; on a Pi `/var/lib/rotator/state.json`."""
 
 
 class MonitorTable(Table):
     path: str | None = Field(None, min_length=1)
-    """The socket that `rotator monitor` reads; left out, `monitor` in systemd's runtime directory, else beside the
-    state file."""
+    """The socket for `rotator monitor`; left out, `monitor` in systemd's runtime directory, else beside the state
+    file."""
 
 
 class Control(Table):
     rate_hz: float = Field(20.0, ge=20, le=100)
-    """How often the pots are read and the motors decided on; orders never wait for it."""
+    """How often the box reads the sensors and decides on the motors; orders act at once."""
 
 
 class Config(Table):
@@ -93,7 +93,7 @@ class Config(Table):
     control: Control = Control()
     """The control loop."""
     state: StateTable = StateTable()
-    """The memory of the box from one run to the next."""
+    """What the box remembers from one run to the next."""
     monitor: MonitorTable = MonitorTable()
     """The monitor of the bytes on the links."""
     pulses: Pulses = Pulses()
@@ -111,16 +111,16 @@ class Config(Table):
     adc: Adc = Adc()
     """The converter that reads the pots."""
     panel: PanelTable = PanelTable()
-    """A front panel. What is left out is not fitted."""
+    """A front panel. A part without a key is not fitted."""
     limits: LimitsTable = LimitsTable()
-    """Limit switches on the rotor: normally closed, to ground, so that a broken wire is a limit reached."""
+    """Limit switches on the rotor: normally closed, to ground, so that a broken wire acts as a reached limit."""
     lcd: Lcd = Lcd()
     """The 16×2 display."""
     sim: Sim = Sim()
-    """The simulated rotor; without effect on real hardware."""
+    """The simulated rotor. Real hardware ignores it."""
     link: list[Link] = Field(default_factory=list)
-    """A way in for a program: give exactly one of `pty`, `serial`, `tcp` (rotctld-follow: `connect`; pstrotator, n1mm,
-    macdoppler: `udp`; wsjtx: `file`). As many as you like."""
+    """A link to a program; as many as you like. Each has exactly one of `pty`, `serial`, `tcp` (rotctld-follow:
+    `connect`; pstrotator, n1mm, macdoppler: `udp`; wsjtx: `file`)."""
 
     @model_validator(mode="before")
     @classmethod
@@ -157,15 +157,15 @@ class Config(Table):
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
 
     def angle(self, axis: Axis) -> Angle:
-        """How the angle of this axis is known: the only place that says."""
+        """How the angle of this axis is known: by its own sensor table, else as its kind of rotor says."""
         return self.axis(axis).sensor.angle or self.kind.own
 
     def has_pot(self, axis: Axis) -> bool:
-        """Whether a pot on the converter tells where this axis stands."""
+        """Whether a pot on the converter measures the angle of this axis."""
         return self.angle(axis).pot
 
     def counts(self, axis: Axis) -> bool:
-        """Whether this axis is where the count of its contact says."""
+        """Whether the angle of this axis comes from counted pulses."""
         return self.angle(axis).source is AngleSource.COUNTED
 
     def in_degrees(self, axis: Axis) -> bool:
@@ -173,11 +173,11 @@ class Config(Table):
         return self.angle(axis).in_degrees
 
     def end_stop(self, axis: Axis) -> EndStop | None:
-        """Where homing of this axis ends; None: it does not count, and is not homed."""
+        """The end stop at which homing ends; None for an axis that does not count pulses, and has no homing."""
         return self.kind.end_stop(axis) if self.counts(axis) else None
 
     def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
-        """Where its limits can be, on the rotor's own scale; None: the rotor's tables set no end."""
+        """The lowest and highest possible limit, on the rotor's own scale; None: the tables set no end."""
         stop = self.end_stop(axis)
         return (stop.home_deg, None) if stop else self.kind.reach_deg(axis)
 
@@ -186,7 +186,7 @@ class Config(Table):
         return any(self.has_pot(axis) for axis in Axis)
 
     def spi_uses(self) -> list[SpiUse]:
-        """Every use of SPI."""
+        """The SPI chips in use, by table."""
         return self.kind.spi_uses() + (self.adc.spi_uses() if self.uses_adc else [])
 
     def pins(self) -> list[tuple[int, str]]:

@@ -1,6 +1,6 @@
-"""The tables of a front panel, and of limit switches on the rotor: what is fitted, and where it is wired to.
+"""The tables [panel] and [limits]: a front panel, and limit switches on the rotor, with their pins and inputs.
 
-Knows the words of the file for pins, inputs and outputs. Knows no driver. A part that is left out is not fitted.
+A part without a key is not fitted. Knows which parts need each other. Knows no driver, and not what a switch does.
 """
 
 from __future__ import annotations
@@ -26,61 +26,61 @@ LAMPS = (
 
 class PanelTable(Table):
     adc_bus: I2CBus = 1
-    """The N of /dev/i2c-N with the ADS1115 that reads the knobs and the jog switches."""
+    """The bus of the ADS1115 that reads the knobs and the jog switches."""
     adc_address: I2CAddress = 0x49
-    """The address of that ADS1115: 0x49 with its ADDR pin at its supply."""
+    """Its address: 0x49 with its ADDR pin at its supply."""
     azimuth_knob: Channel | None = None
-    """The input (A0 to A3) with the wiper of the azimuth knob; the knobs need the mode switch."""
+    """The wiper of the azimuth knob; the knobs need the mode switch."""
     elevation_knob: Channel | None = None
-    """The input with the wiper of the elevation knob."""
+    """The wiper of the elevation knob."""
     jog: Channel | None = None
-    """The input with both jog switches, over the resistors of the wiring page."""
+    """Both jog switches, over the resistors of the wiring page."""
     reference: Channel | None = None
-    """Where the supply of knobs and jog switches is wired to, if it is: readings then no longer depend on it."""
+    """The supply of knobs and jog switches, if it is wired to an input; its voltage then no longer matters."""
     supply_v: float = Field(3.3, gt=0.5, le=5.5)
-    """Their supply where it is not measured."""
+    """The supply of knobs and jog switches where no input measures it."""
     mode_msb: Gpio | None = None
-    """The mode switch's contact that counts 2, to ground: MANUAL 0, PARK 1, AUTO 2, JOG 3; a closed contact counts."""
+    """The mode switch's contact of value 2, to ground. Closed contacts add up: MANUAL 0, PARK 1, AUTO 2, JOG 3."""
     mode_lsb: Gpio | None = None
-    """The mode switch's contact that counts 1, to ground."""
+    """The mode switch's contact of value 1, to ground."""
     calibrate: Gpio | None = None
-    """The calibrate switch, to ground; closed at power-up it calibrates. It needs the mode switch."""
+    """The calibrate switch, to ground; closed at power-up, it calibrates the knobs. Needs the mode switch."""
     stop: Gpio | None = None
-    """The stop button, normally closed, to ground: a broken wire is a pressed button."""
+    """The stop button, normally closed, to ground: a broken wire acts as a pressed button."""
     azimuth_nudge_deg: float = Field(5.0, gt=0, le=45)
-    """How far one press of the azimuth's jog switch shifts an order in AUTO; a rotor that counts: its pulse spacing."""
+    """The step of an order for a press of the azimuth's jog switch in AUTO; a rotor that counts: its pulse spacing."""
     elevation_nudge_deg: float = Field(5.0, gt=0, le=45)
-    """The same for the elevation's."""
+    """The same for the elevation's jog switch."""
     outputs_bus: I2CBus = 1
-    """The N of /dev/i2c-N with the PCA9685 that drives meters and lamps; the servos need one of their own."""
+    """The bus of the PCA9685 that drives meters and lamps; servos need another PCA9685."""
     outputs_address: I2CAddress = 0x41
-    """The address of that PCA9685: 0x41 with its bridge A0 closed."""
+    """Its address: 0x41 with its bridge A0 closed."""
     azimuth_meter: Output | None = None
-    """The output (0 to 15) with the azimuth meter, over its trimmer."""
+    """The output of the azimuth meter, over its trimmer."""
     elevation_meter: Output | None = None
-    """The output with the elevation meter."""
+    """The output of the elevation meter."""
     meter_full_scale: float = Field(1.0, gt=0, le=1)
-    """The share of the time for which the output is on at full scale."""
+    """The duty cycle of a meter's output at full scale."""
     lamp_manual: Output | None = None
-    """The output with the lamp of MANUAL."""
+    """Lit in MANUAL."""
     lamp_park: Output | None = None
-    """The output with the lamp of PARK."""
+    """Lit in PARK."""
     lamp_auto: Output | None = None
-    """The output with the lamp of AUTO."""
+    """Lit in AUTO."""
     lamp_jog: Output | None = None
-    """The output with the lamp of JOG."""
+    """Lit in JOG."""
     lamp_data: Output | None = None
-    """Lit while programs send something."""
+    """Lit while data comes from a program."""
     lamp_motor: Output | None = None
     """Lit while a motor runs."""
     lamp_stop: Output | None = None
-    """Lit while the stop button is pressed, and until the box is released."""
+    """Lit from a press of the stop button until the release."""
     lamp_azimuth_pulse: Output | None = None
     """Lit while the azimuth's index contact is closed."""
     lamp_elevation_pulse: Output | None = None
     """Lit while the elevation's index contact is closed."""
     lamp_switch: Output | None = None
-    """Lit when a jog switch has been noticed, and while the mode switch has not yet been still for a second."""
+    """Lit when the box accepts a jog switch, and until the mode switch has been still for a second."""
 
     @model_validator(mode="after")
     def _fits_together(self) -> PanelTable:
@@ -101,12 +101,12 @@ class PanelTable(Table):
 
     @property
     def inputs(self) -> dict[str, int]:
-        """The converter's input of each knob and of the jog switches, by its key."""
+        """The converter's input of each fitted knob and of the jog switches, by key."""
         return self._fitted((*KNOBS, "jog"))
 
     @property
     def switches(self) -> dict[str, int]:
-        """The GPIO of each switch, by its key."""
+        """The GPIO of each fitted switch, by key."""
         return self._fitted(SWITCHES)
 
     @property
@@ -132,7 +132,7 @@ class PanelTable(Table):
         return bool(self.meters or self.lamps)
 
     def chips(self) -> list[I2CChip]:
-        """Its own converter and its output board, those that are fitted."""
+        """The panel's converter and its output board, where a part uses them."""
         used = []
         if self.uses_adc:
             used.append(I2CChip(self.adc_bus, self.adc_address, "panel.adc_address", "ADS1115"))
@@ -156,19 +156,19 @@ class PanelTable(Table):
 
 
 class LimitsTable(Table):
-    """Normally closed, to ground: a broken wire is a limit reached."""
+    """Normally closed, to ground: a broken wire acts as a reached limit."""
 
     azimuth_low: Gpio | None = None
-    """Opens where the azimuth must turn no further counter-clockwise."""
+    """Opens at the counter-clockwise end of the azimuth."""
     azimuth_high: Gpio | None = None
-    """Opens where the azimuth must turn no further clockwise."""
+    """Opens at the clockwise end of the azimuth."""
     elevation_low: Gpio | None = None
-    """Opens where the elevation must go no further down."""
+    """Opens at the low end of the elevation."""
     elevation_high: Gpio | None = None
-    """Opens where the elevation must go no further up."""
+    """Opens at the high end of the elevation."""
 
     @property
     def switches(self) -> dict[str, int]:
-        """The GPIO of each switch, by its key."""
+        """The GPIO of each fitted switch, by key."""
         keys = ("azimuth_low", "azimuth_high", "elevation_low", "elevation_high")
         return {key: pin for key in keys if (pin := getattr(self, key)) is not None}

@@ -1,6 +1,7 @@
-"""The key tables of docs/configuration.md, made from the model, so that the page cannot drift from the program.
+"""Makes the key tables of docs/configuration.md from the model, so that page and program agree.
 
-Knows Markdown, and the short names of the kinds of value. Does not know any key: those are the model's.
+Knows Markdown, the legend of the tables, and the short name of each type of value. The keys and their meanings come
+from the model.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ _KINDS = {
 }
 _EDGES = {"ge": "from {}", "gt": "above {}", "le": "to {}", "lt": "below {}"}
 _LENGTHS = {"min_length": "{} or more", "max_length": "up to {}"}
-"""How limits are worded. A text may never be empty, and the page does not repeat it."""
+"""The wording of a limit. No text may be empty, and the page does not repeat that."""
 _HEADINGS = ("key", "default; allowed", "meaning")
 _LEFT_OUT = "–"
 _LEGEND = """\
@@ -48,17 +49,17 @@ def _usual() -> str:
     for kind, places in USUAL.items():
         if not places:
             continue
-        said: dict[str, list[str]] = {}
+        tables_of: dict[str, list[str]] = {}
         for place, keys in places.items():
             for key, value in keys.items():
-                said.setdefault(f"`{key} = {_toml(value)}`", []).append(f"`{place}`")
-        rows.append((f"`{kind}`", "; ".join(f"{each} in {', '.join(tables)}" for each, tables in said.items())))
+                tables_of.setdefault(f"`{key} = {_toml(value)}`", []).append(f"`{place}`")
+        rows.append((f"`{kind}`", "; ".join(f"{each} in {', '.join(tables)}" for each, tables in tables_of.items())))
     intro = "Defaults that differ from those above (limits: on the simulated rotor only)."
     return f"### By kind of rotor\n\n{intro}\n\n{_rows(rows)}"
 
 
 def _tables(models: list[tuple[str, type[BaseModel]]]) -> Iterator[str]:
-    """The tables below these: one, or those of both axes, which have the same keys."""
+    """The tables inside these models: one model, or those of both axes, which have the same keys."""
     fields = models[0][1].model_fields
     for name, field in fields.items():
         if _table_of(field)[0] is None or (name == _AXES[1] and _AXES[0] in fields):
@@ -72,9 +73,9 @@ def _tables(models: list[tuple[str, type[BaseModel]]]) -> Iterator[str]:
 def _section(tables: list[tuple[str, FieldInfo]]) -> Iterator[str]:
     headings = [f"[[{path}]]" if _table_of(field)[1] else f"[{path}]" for path, field in tables]
     yield f"### {' and '.join(f'`{heading}`' for heading in headings)}"
-    said = [_described(*each) for each in zip(headings, (field for _, field in tables), strict=True)]
-    if len(set(said)) == 1:
-        yield said[0]
+    sentences = [_described(*each) for each in zip(headings, (field for _, field in tables), strict=True)]
+    if len(set(sentences)) == 1:
+        yield sentences[0]
     rows = [
         [_row(path, key, each) for key, each in kind.model_fields.items() if _table_of(each)[0] is None]
         for path, field in tables
@@ -87,7 +88,7 @@ def _section(tables: list[tuple[str, FieldInfo]]) -> Iterator[str]:
 
 
 def _merged(row: tuple[str, ...], other: tuple[str, ...] | None = None) -> tuple[str, ...]:
-    """One row of a key that both axes have; a cell names what differs for elevation."""
+    """One row for a key of both axes. A cell names both values where they differ."""
     if other is None:
         return row
     *cells, meaning = (a if a == b else f"{a}, elevation {b}" for a, b in zip(row, other, strict=True))
@@ -97,7 +98,7 @@ def _merged(row: tuple[str, ...], other: tuple[str, ...] | None = None) -> tuple
 
 
 def _table_of(field: FieldInfo) -> tuple[type[BaseModel] | None, bool]:
-    """The table that a field is, if it is one, and whether the file may have several of it."""
+    """The table that a field holds, None for a key, and whether the file may have several such tables."""
     inner = get_args(field.annotation)
     many = get_origin(field.annotation) is list
     kind = inner[0] if many else field.annotation
@@ -119,7 +120,7 @@ def _row(heading: str, key: str, field: FieldInfo) -> tuple[str, ...]:
 
 
 def _allowed(kind: Any, limits: list[Any], field: FieldInfo) -> str:
-    """What may be written for a key beside its default: the other choices, or the kind and its bounds."""
+    """The allowed values beside the default: the other choices, or the type and its bounds."""
     if get_origin(kind) is Literal:
         others = ", ".join(_toml(choice) for choice in get_args(kind) if choice != field.default)
         return f"or {others}" if field.default in get_args(kind) else others
@@ -146,7 +147,7 @@ def _bare(kind: Any, limits: list[Any]) -> tuple[Any, list[Any]]:
             limits = limits + (list(note.metadata) if isinstance(note, FieldInfo) else [note])
         return _bare(kind, limits)
     if get_origin(kind) is list:
-        # What is said of the list's items is no limit of the list.
+        # The limits of the items are no limits of the list.
         return list[_bare(get_args(kind)[0], [])[0]], limits  # type: ignore[misc]
     return kind, limits
 
@@ -155,7 +156,7 @@ _NAMED = {
     name: _bare(kind, [])[1]
     for name, kind in {"GPIO": Gpio, "bus": I2CBus, "address": I2CAddress, "input": Channel}.items()
 }
-"""Kinds of whole number that the legend explains, by their limits."""
+"""The limits of each kind of whole number that the legend explains."""
 
 
 def _bounds(limits: list[Any], kind: Any) -> str:

@@ -1,6 +1,7 @@
-"""The table [rotor], and what is usual for each kind of rotor.
+"""The table [rotor], and the step that fills in the defaults of its kind of rotor before the file is checked.
 
-Knows how the defaults of a kind go beneath the values of a file. The kinds themselves are in `rotator.config.kinds`.
+Knows where these defaults go, and that real hardware takes no limits from them. The defaults themselves are in
+`rotator.config.kinds`.
 """
 
 from __future__ import annotations
@@ -15,27 +16,27 @@ from rotator.config.table import Table
 
 class Rotor(Table):
     type: KindName = "relay-pot"
-    """How the rotor is driven and measured: motors on relays with pots, or with a contact that is counted; two moteus
-    controllers; two hobby servos; or a control box with a digital pot for a knob."""
+    """Motors on relays with pots, or with counted contacts; two moteus controllers; two hobby servos; or control boxes
+    with a digital pot in place of each knob."""
     hardware: Literal["sim", "pi"] = "sim"
     """A simulated rotor, or the relays, chips and display on this Pi."""
 
     @property
     def switched(self) -> bool:
-        """Whether its motors are only on or off, by relays."""
+        """Whether relays switch the motors on and off."""
         return KINDS[self.type].switched
 
 
 USUAL: Mapping[KindName, Usual] = {name: kind.usual for name, kind in KINDS.items()}
-"""What each kind has in place of a relay rotor's defaults, where the file does not say."""
+"""The defaults of each kind that differ from those of a relay rotor with pots."""
 
 
 def with_usual(values: dict[str, Any]) -> dict[str, Any]:
-    """The file's values, with what is usual for its kind of rotor beneath them."""
+    """The file's values, and the defaults of its kind of rotor for keys that it leaves out. `values` stays as it is."""
     rotor = values.get("rotor")
-    said: dict[str, Any] = rotor if isinstance(rotor, dict) else {}
-    usual = next((places for kind, places in USUAL.items() if kind == said.get("type")), {})
-    limits = {"min_deg", "max_deg"} if said.get("hardware") == "pi" else set()
+    table: dict[str, Any] = rotor if isinstance(rotor, dict) else {}
+    usual = next((places for kind, places in USUAL.items() if kind == table.get("type")), {})
+    limits = {"min_deg", "max_deg"} if table.get("hardware") == "pi" else set()
     filled = dict(values)
     for place, keys in usual.items():
         parent = filled

@@ -1,6 +1,7 @@
-"""Writes values back into the user's file: its comments stay, a copy is kept, and it is whole at any moment.
+"""Writes a calibration and other keys of an axis back into the user's configuration file.
 
-Knows how to change a file safely. Knows nothing of where the values come from.
+Comments stay, a copy with `.bak` is kept, and a power cut leaves a whole file. Does not know where the values come
+from.
 """
 
 from __future__ import annotations
@@ -17,20 +18,20 @@ from rotator.store.whole import write_whole
 
 Points = Sequence[tuple[float, float]]
 LONG_TABLE = 4
-"""A calibration with more points than this has a line for each."""
+"""A calibration with more points than this has one line for each point."""
 
 
 def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **values: float | bool) -> None:
-    """Replace keys of the table `[axis]`, `calibration` too where there is a new one, all or none.
+    """Replace keys of the table `[axis]`, all or none. `calibration=None` leaves the calibration as it is.
 
-    The file before the change stays beside it as `.bak`. Raises OSError or ConfigError; then the file is as it was.
+    The old file stays beside it as `.bak`. Raises OSError or ConfigError, and then the file is unchanged.
     """
     try:
         before = path.read_text(encoding="utf-8")
         text = changed(before, axis, calibration=calibration, **values)
     except (TOMLKitError, UnicodeDecodeError) as fault:
         raise ConfigError(str(path), [f"is not TOML any more: {fault}"]) from fault
-    # What would not be accepted at the next start is not written.
+    # A text that the next start would refuse is not written.
     parse(text, str(path))
     write_whole(path.with_name(path.name + ".bak"), before)
     write_whole(path, text)

@@ -1,6 +1,6 @@
-"""The tables of the angle sensors, and of the compass that finds north.
+"""The tables [azimuth.sensor], [elevation.sensor] and [compass]: angle sensors, and the compass that finds north.
 
-Knows the words of the file for them. Knows no chip.
+Knows their keys, and how each sensor's angle is known. Knows no register.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ Arrow = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
 
 class SensorTable(Table):
     kind: Literal["own", "pot", "as5600", "mpu6050"] = "own"
-    """The sensor: `own` is that of the kind of rotor (a pot where there are relays, the count, the controller, or a
-    model); else a pot on the converter, a magnet over an AS5600, or gravity by an MPU6050 on the boom (elevation)."""
+    """`own`: what belongs to `rotor.type` (pot, counted contact, controller or model). Else a pot on the converter, an
+    AS5600 under a magnet, or an MPU6050 on the boom that feels gravity (elevation only)."""
     bus: I2CBus = 1
-    """AS5600, MPU6050: the N of /dev/i2c-N; the header's bus is 1."""
+    """AS5600, MPU6050: 1 is the bus on the header."""
     address: I2CAddress | None = None
-    """AS5600, MPU6050: left out, 0x36 or 0x68."""
+    """AS5600, MPU6050. Left out: 0x36 or 0x68."""
     zero_turn: float = Field(0.0, ge=0, lt=1)
-    """AS5600: where in its turn the reading begins; put it outside the axis's range, for there it jumps."""
+    """AS5600: the place in its turn where the reading jumps from 1 to 0. Put it outside the axis's range."""
     forward: Arrow = "+x"
     """MPU6050: the board's arrow that points along the boom."""
     up: Arrow = "+z"
     """MPU6050: the board's arrow that points up while the boom is level."""
     averaged: int = Field(4, ge=1, le=16)
-    """MPU6050: how many readings are averaged, within 0.3 s."""
+    """MPU6050: the number of readings in an average, within 0.3 s."""
 
     @property
     def angle(self) -> Angle | None:
-        """How its angle is known; None: as the kind of rotor says."""
+        """How the angle is known; None for the sensor of the kind of rotor."""
         match self.kind:
             case "own":
                 return None
@@ -49,14 +49,14 @@ class SensorTable(Table):
 
     @property
     def i2c(self) -> tuple[int, int] | None:
-        """Its bus and address; None: it is no chip of its own."""
+        """Bus and address of the sensor chip; None for `own` and a pot."""
         usual = {"as5600": 0x36, "mpu6050": 0x68}
         if self.kind not in usual:
             return None
         return self.bus, usual[self.kind] if self.address is None else self.address
 
     def chips(self, key: str) -> list[I2CChip]:
-        """Its chip, where it has one of its own; `key` names its address in the file."""
+        """The sensor chip, empty for `own` and a pot. `key`: the key of its address in the file."""
         return [I2CChip(*self.i2c, key, self.kind.upper())] if self.i2c else []
 
     @model_validator(mode="after")
@@ -68,17 +68,17 @@ class SensorTable(Table):
 
 class CompassTable(Table):
     kind: Literal["none", "bno055"] = "none"
-    """A BNO055 on the boom finds north for `rotator calibrate north`; it does not steer."""
+    """A BNO055 on the boom finds north for `rotator calibrate north`; it never steers."""
     bus: I2CBus = 3
-    """The N of /dev/i2c-N. On a Pi before the 5 not the header's bus 1, whose clock stretching spoils its answers:
-    a bus of dtoverlay=i2c-gpio."""
+    """On a Pi before the 5 a bus of dtoverlay=i2c-gpio: on the header's bus 1 this chip's clock stretching spoils the
+    answers."""
     address: I2CAddress = 0x28
     """0x28 with its ADR pin low, 0x29 high."""
     mounting: Literal["P0", "P1", "P2", "P3", "P4", "P5", "P6", "P7"] = "P1"
-    """How the board lies, by the data sheet's names; P1: flat, chip up."""
+    """How the board is mounted, as in the data sheet; P1: flat, chip up."""
     offset_deg: float = Field(0.0, ge=-180, le=180)
-    """Where the boom points, clockwise, as seen from the compass's own forward."""
+    """The boom's direction, clockwise from the forward arrow of the compass."""
 
     def chips(self) -> list[I2CChip]:
-        """Its chip, where there is one."""
+        """The compass chip; empty without a compass."""
         return [I2CChip(self.bus, self.address, "compass.address", "BNO055")] if self.kind == "bno055" else []

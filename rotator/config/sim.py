@@ -1,6 +1,6 @@
-"""The tables of the simulated rotor.
+"""The tables [sim], [sim.azimuth] and [sim.elevation]: the motors and pots of the simulated rotor.
 
-Knows the file's words for it. Knows nothing of how it is simulated.
+Knows their keys and defaults. Does not know the simulator.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ class SimAxisTable(Table):
     speed_dps: float = Field(6.0, gt=0, le=360)
     """The motor's full speed."""
     lag_s: float = Field(0.15, ge=0, le=5)
-    """First-order lag of the motor: it coasts speed × lag."""
+    """The motor's first-order lag: it coasts by speed × lag."""
     relay_delay_s: float = Field(0.015, ge=0, le=1)
-    """From the coil to the contact."""
+    """The time from coil to contact."""
     backlash_deg: float = Field(0.5, ge=0, le=30)
-    """Total play; the pot is on the shaft, the antenna beyond the play."""
+    """Total play between the shaft with the pot and the antenna."""
     pot_noise_deg: float = Field(0.1, ge=0, le=30)
     """Noise of the pot, rms."""
     pot_bow_deg: float = Field(0.0, ge=-30, le=30)
-    """How far the pot is off a straight line in the middle of its travel."""
+    """The pot's deviation from a straight line, at mid-travel."""
     start_deg: float | None = None
-    """Where the rotor stands at first; left out, at 0 (in a rehearsal, where the pass begins)."""
+    """The angle at the start. Left out: 0, and in a rehearsal the start of the pass."""
 
 
 class SimElevation(SimAxisTable):
@@ -38,4 +38,4 @@ class Sim(PerAxis, Table):
     elevation: SimElevation = SimElevation()
     """The simulated elevation motor and pot."""
     bus_takes_time: bool = True
-    """The simulated I2C bus is as slow as a real one."""
+    """Transfers on the simulated I2C bus take as long as on a real one."""

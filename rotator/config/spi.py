@@ -1,6 +1,6 @@
-"""Which chips hang on SPI, and on which lines.
+"""The SPI chips of a table of the file, with their GPIO lines.
 
-Knows the words of the file for selects and wires, and the two selects of the Pi's own SPI controller. Knows no chip.
+Knows the two select lines of the Pi's own SPI controller, and that its chips share clock and data lines. Knows no chip.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ class SpiUse:
     table: str
     """Such as `digipot`."""
     chips: str
-    """What they are, for a person: `digital pots`."""
+    """The name of the chips for the user: `digital pots`."""
     selects: dict[str, int]
     """The select lines: `azimuth.select`."""
     wires: dict[str, int]
     """Clock and data: `sck`, `si`, and `so` where a chip answers."""
     kernel: bool
-    """They hang on the Pi's own SPI controller, through spidev; else the program moves the lines bit by bit."""
+    """True: the Pi's own SPI controller, through spidev. False: the program switches the lines bit by bit."""
 
     @property
     def lines(self) -> list[tuple[int, str]]:
@@ -33,7 +33,7 @@ class SpiUse:
 
 
 def spi_lines(uses: list[SpiUse]) -> list[tuple[int, str]]:
-    """The lines of all of them. Chips on the kernel's SPI share its wires: these are there once."""
+    """The lines of all uses, each with its key. Lines that chips share on the kernel's SPI are listed once."""
     lines: list[tuple[int, str]] = []
     shared: set[int] = set()
     for use in uses:

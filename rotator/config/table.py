@@ -1,6 +1,6 @@
-"""What every table of the configuration file has in common.
+"""The base of every table of the configuration file, and the types of value that several tables use.
 
-Knows how strictly the file is checked, and the types of value that several tables use. Knows no key.
+Knows how strictly the file is checked. Knows no key but `azimuth` and `elevation`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Point = Annotated[tuple[float, float], Field(strict=False)]
 
 
 class Table(BaseModel):
-    """A table of the file: no key but those named, nothing changed after loading."""
+    """A table of the file. Unknown keys are faults, and no value changes after loading."""
 
     model_config = ConfigDict(
         extra="forbid", frozen=True, allow_inf_nan=False, strict=True, use_attribute_docstrings=True
@@ -40,7 +40,7 @@ class HasAxes(Protocol[T_co]):
 
 
 class PerAxis:
-    """For a table with the fields `azimuth` and `elevation`: the one of an axis, with its type."""
+    """For a table with the fields `azimuth` and `elevation`: `of` returns that of an axis, with its type."""
 
     def of(self: HasAxes[T_co], axis: Axis) -> T_co:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation

@@ -1,6 +1,6 @@
-"""The checks of the program's rights: the groups of its user, and the folder of its state file.
+"""The checks of the user account: its groups, and its right to write in the folder of the state file.
 
-Knows which group owns which device on Debian and Raspberry Pi OS. Changes neither group nor folder.
+Knows which group opens which device on Debian and Raspberry Pi OS. Changes neither groups nor folders.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ def groups(machine: Machine, config: Config) -> Iterator[Finding]:
         if unit is None:
             yield fine("root needs none")
         return
-    person = _membership(machine, machine.user, needed)
+    own = _membership(machine, machine.user, needed)
     # Where the service runs the box, the user needs the groups for `rotator calibrate` only.
-    yield person if person.ok or unit is None else warn(person.found, person.advice)
+    yield own if own.ok or unit is None else warn(own.found, own.advice)
 
 
 def _needed(config: Config) -> set[str]:
@@ -49,13 +49,13 @@ def _needed(config: Config) -> set[str]:
 def _membership(machine: Machine, user: str, needed: set[str]) -> Finding:
     member_of = _groups_of(machine, user)
     if member_of is None:
-        return wrong(f"there is no user {user}", "sudo ./install.sh makes the service's user anew.")
+        return wrong(f"there is no user {user}", "sudo ./install.sh creates the service's user again.")
     if missing := sorted(needed - member_of):
         return wrong(
             f"{user} is not in {', '.join(missing)}",
             f"sudo usermod -aG {','.join(missing)} {user}, then log in again (a service: restart it).",
         )
-    return fine(f"{user} is in {', '.join(sorted(needed))}" if needed else f"{user} is given its groups by the service")
+    return fine(f"{user} is in {', '.join(sorted(needed))}" if needed else f"the service gives {user} its groups")
 
 
 def _groups_of(machine: Machine, user: str) -> set[str] | None:
@@ -77,7 +77,7 @@ def state_folder(machine: Machine, config: Config) -> Iterator[Finding]:
     folder = str(path.parent)
     if not machine.may_write_in(path.parent):
         yield wrong(
-            f"{folder} cannot be written to: what the motors teach would be lost",
+            f"{folder} cannot be written to: the learnt motor speeds would be lost",
             f"sudo install -d -o {machine.user} {folder}; or is the card read-only? Then use a folder that is not.",
         )
         return

@@ -1,6 +1,7 @@
-"""The checks of the configuration: whether it loads, and whether each axis is commissioned.
+"""The checks of the configuration: whether it loads, and whether each axis is set up.
 
-Knows the words for what an axis lacks. Knows no hardware.
+An axis of real hardware needs limits, a direction check, and a calibration unless its readings are degrees. Reads the
+file and no hardware.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, wrong
 
-NO_FILE = "Give --config a file that is there and yours to read; rotator config NAME prints one to start from."
+NO_FILE = "Give --config an existing file that you may read; rotator config NAME prints one to start from."
 
 
 def configuration(path: Path | None) -> Iterator[Finding]:
@@ -27,7 +28,7 @@ def configuration(path: Path | None) -> Iterator[Finding]:
         yield from (wrong(f"{fault.name}: {each}", advice) for each in fault.faults)
     else:
         rotor = "a simulated rotor" if config.rotor.hardware == "sim" else "a real rotor"
-        yield fine(f"{path or 'the shipped one, for no file is given'}: {rotor}")
+        yield fine(f"{path or 'the shipped one, because no file is given'}: {rotor}")
 
 
 def axes(config: Config) -> Iterator[Finding]:
@@ -44,7 +45,7 @@ def _set_up(config: Config, axis: Axis) -> Finding:
         keys = [f"{name}.{key}" for key in ("min_deg", "max_deg", *(() if angle.in_degrees else ("calibration",)))]
         return wrong(
             f"{name} is not set up, and obeys short presses only: it lacks {', '.join(each.text for each in lacks)}",
-            f"rotator calibrate {name} --config FILE leads you through it, or write {', '.join(keys)} and "
+            f"Run rotator calibrate {name} --config FILE; or write {', '.join(keys)} and "
             f"{name}.direction_checked yourself.",
         )
     known = angle.by or "calibrated"

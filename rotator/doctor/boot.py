@@ -1,7 +1,7 @@
-"""The checks of lines that must be off while no program drives them: at the start of the Pi, and after a crash.
+"""The checks of relay and enable lines while no program drives them: as the Pi starts, and after a crash.
 
-Knows what config.txt means for relays and enable lines, the pulls of the pins, and that a Raspberry Pi's kernel leaves
-an output as it was when its program dies. Writes nothing: `rotator setup pins` does.
+Knows which lines of config.txt drive a pin, the pulls of the pins, and that a Raspberry Pi's kernel keeps the level of
+an output after its program has died. Writes nothing: `rotator setup pins` does.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from rotator.setup.pi import known
 from rotator.setup.pins import PULLED_UP, closing, off_lines
 
 CONFIG_TXT = ("/boot/firmware/config.txt", "/boot/config.txt")
-"""Its place since Debian 12, and its place before."""
+"""The paths since Debian 12, and before."""
 SETUP = "sudo rotator setup pins, then reboot."
 
 
@@ -76,12 +76,12 @@ def boot_pins(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def _on(line: OffLine) -> bool:
-    """The level at which it is on: True is high."""
+    """The line's on level: True is high."""
     return not line.off_high
 
 
 def in_effect(machine: Machine) -> list[Setting]:
-    """The settings of config.txt that hold on this board."""
+    """The settings of config.txt that apply to this board."""
     text = next((text for path in CONFIG_TXT if (text := machine.text(path)) is not None), "")
     return [setting for setting in settings(text) if setting.may_hold_on(known(machine.model))]
 

@@ -1,7 +1,7 @@
-"""The checks of the I2C bus, of the devices on it, and of the pots.
+"""The checks of the I2C buses, of the chips on them, and of the pots on a converter.
 
-Knows what a reading outside the window means. While the box is running it reads no pot: a conversion started here would
-spoil one of the box's own.
+Knows the likely cause of each bad reading. Reads no pot while the box is running: a conversion started here would spoil
+one of the box.
 """
 
 from __future__ import annotations
@@ -21,8 +21,9 @@ from rotator.doctor.wires import running
 
 SAMPLES = 20
 UNSTEADY = 0.02
-"""Share of the supply between the least and the greatest sample. An antenna at rest, or turning, gives far less."""
+"""Largest spread of the samples, as a share of the supply. An antenna at rest, or turning, gives far less."""
 AT_RAIL = 0.01
+"""A reading this near to 0 or to the supply, as a share of it, means a broken or shorted wire."""
 
 WIRING = "Check its power, SDA and SCL, and that the two are not swapped."
 
@@ -89,7 +90,7 @@ def pots(machine: Machine, config: Config) -> Iterator[Finding]:
             else:
                 yield wrong("the converter does not answer", config.adc.suspicion)
     except HardwareError:
-        yield skipped("the bus cannot be asked")
+        yield skipped("the bus cannot be read")
 
 
 def _readings(converter: Converter, config: Config) -> Iterator[Finding]:
@@ -123,9 +124,7 @@ def _reading(axis: str, table: AxisTable, pin: str, supply_v: float, volts: list
         return fine(found)
     outside = f"{found}, outside {table.lowest_reading:g} to {table.highest_reading:g}"
     if mean > 1 + AT_RAIL:
-        return wrong(
-            outside, "The pot hangs on more than adc.supply_v says: on 5 V? See pots on 5 V in docs/wiring.md."
-        )
+        return wrong(outside, "The pot's supply is above adc.supply_v: is it 5 V? See pots on 5 V in docs/wiring.md.")
     if mean >= 1 - AT_RAIL:
         return wrong(outside, "The pot's ground lead is broken, or its wiper is shorted to the supply.")
     if mean <= AT_RAIL:

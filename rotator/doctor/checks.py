@@ -1,6 +1,6 @@
-"""Every check, in the order of the report, and the examination that makes them.
+"""The list of all checks, in the order of the report, and the function that runs them.
 
-A check that fails by a mistake of the program does not stop the others. The checks themselves are in the files beside
+An exception in one check becomes a finding, and the others still run. The checks themselves are in the files beside
 this one.
 """
 
@@ -33,87 +33,87 @@ from rotator.doctor.finding import Check, Finding, skipped, wrong
 from rotator.doctor.machine import Machine
 
 CONFIGURATION: Check[[Path | None]] = Check(
-    "configuration", "the file can be read, and every key and value in it is allowed", axes.configuration
+    "configuration", "the file can be read, and all its keys and values are allowed", axes.configuration
 )
 
 OF_THE_MACHINE: tuple[Check[[Machine]], ...] = (
-    Check("python", "its version, 3.11 to 3.13", software.python),
-    Check("packages", "gpiod 2.1 or later and not its namesake, smbus2, pyserial", software.packages),
-    Check("kernel", "its version, 5.10 or later; which Raspberry Pi it runs on", software.kernel),
-    Check("power", "whether the Pi's supply sags, or has sagged since the start", health.power),
-    Check("temperature", "the processor's, below 80 °C", health.temperature),
-    Check("clock", "whether the network has set it", health.clock),
-    Check("watchdog", "whether a frozen computer is restarted", health.watchdog),
-    Check("service", "where it is installed: running, and starting by itself", health.service),
+    Check("python", "version 3.11 to 3.13", software.python),
+    Check("packages", "gpiod 2.1 or later (not the other package of that name), smbus2, pyserial", software.packages),
+    Check("kernel", "version 5.10 or later; the model of the Pi", software.kernel),
+    Check("power", "under-voltage now, or since the start", health.power),
+    Check("temperature", "processor below 80 °C", health.temperature),
+    Check("clock", "set by the network", health.clock),
+    Check("watchdog", "restarts a frozen computer", health.watchdog),
+    Check("service", "if installed: it runs, and starts with the Pi", health.service),
 )
 
 OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
     Check(
-        "axes", "what each needs before it may be aimed: limits, direction check, a calibration where it has a pot",
+        "axes", "each has limits, a direction check, and a calibration if it needs one",
         lambda _machine, config: axes.axes(config),
     ),
     Check(
-        "counts", "the file with the counts can be believed; which axis was never homed, or has lost its count",
+        "counts", "the saved counts are valid; each axis is homed and has not lost its count",
         counts.counts, concerns=counts.keeps_counts,
     ),
     Check(
-        "GPIO chip", "the one with the 40-pin header is there, and yours to open",
+        "GPIO chip", "the chip of the 40-pin header is there, and you may open it",
         wires.gpio_chip, on_chips=True, concerns=wires.has_lines,
     ),
     Check(
-        "GPIO lines", "no other program holds a line of the box, outputs and inputs",
+        "GPIO lines", "no other program holds a line of the box",
         wires.gpio_lines, on_chips=True, concerns=wires.has_lines,
     ),
-    Check("I2C bus", "it is there, and yours to open", bus.i2c_bus, on_chips=True, concerns=bus.has_chips),
+    Check("I2C bus", "it is there, and you may open it", bus.i2c_bus, on_chips=True, concerns=bus.has_chips),
     Check(
-        "I2C devices", "every chip that the file names answers; if not, which address does",
+        "I2C devices", "every chip in the file answers; if not, which address does",
         bus.i2c_devices, on_chips=True, concerns=bus.has_chips,
     ),
     Check(
-        "pots", "they read within their window, and steadily; not while the box is running",
+        "pots", "steady readings, within lowest_reading and highest_reading \\*",
         bus.pots, on_chips=True, concerns=bus.has_pots,
     ),
     Check(
-        "sensors", "AS5600 and its magnet, MPU6050 and its 1 g, BNO055 and its heading; not while the box is running",
+        "sensors", "AS5600: magnet; MPU6050: 1 g; BNO055: heading \\*",
         sensors.sensors, on_chips=True, concerns=sensors.has_sensors,
     ),
     Check(
-        "PCA9685", "those of servos and panel are what they should be, and have not been reset under a running box",
+        "PCA9685", "the chips of servos and panel are PCA9685, and the running box's have not been reset",
         outputs.output_boards, on_chips=True, concerns=outputs.has_boards,
     ),
     Check(
-        "moteus", "library and adapter; both controllers: volts, what stopped them, whether they know where they point",
+        "moteus", "library, adapter; both controllers: supply, fault, known angle \\*",
         moteus.controllers, on_chips=True, concerns=moteus.is_moteus,
     ),
     Check(
-        "SPI", "the kernel's, where chips hang on it: the package spidev, and their devices",
+        "SPI", "for chips on the kernel's SPI: the package spidev, and the devices",
         outputs.spi, on_chips=True, concerns=outputs.uses_spi,
     ),
     Check(
-        "switches", "stop button and limit switches closed; where the mode switch stands; not while the box is running",
+        "switches", "stop button and limit switches are closed; position of the mode switch \\*",
         switches.switches, on_chips=True, concerns=switches.has_switches,
     ),
     Check(
-        "released lines", "`strict_gpiod`: relays drop when the program dies",
+        "released lines", "`strict_gpiod`: the relays open when the program dies",
         boot.released_lines, concerns=boot.has_relays,
     ),
     Check(
         "boot pins", "`gpio=` in config.txt: relays and enable lines are off while the Pi starts",
         boot.boot_pins, concerns=boot.has_lines,
     ),
-    Check("serial ports", "those of the links are there, yours to open, and no console", links.serial_ports),
-    Check("pseudo-terminals", "those of the links can be made", links.pseudo_terminals),
-    Check("TCP ports", "those of the links are free, or the box's; which are open to the network", links.tcp_ports),
-    Check("UDP ports", "the same of those that hear datagrams", links.udp_ports),
-    Check("groups", "gpio, i2c, spi, dialout: those needed, of you and of the service's user", account.groups),
-    Check("state folder", "it can be written to, and the card is not full", account.state_folder),
+    Check("serial ports", "those of the links are there, you may open them, no console uses them", links.serial_ports),
+    Check("pseudo-terminals", "those of the links can be created", links.pseudo_terminals),
+    Check("TCP ports", "those of the links are free or the box's; which are open to the network", links.tcp_ports),
+    Check("UDP ports", "the same for links that receive datagrams", links.udp_ports),
+    Check("groups", "you and the service's user are in those that the file needs", account.groups),
+    Check("state folder", "writable, and the card is not full", account.state_folder),
 )  # fmt: skip
-"""A check is left out where the configuration has nothing of its kind."""
+"""A check is left out if the configuration has no such part."""
 
 
 @dataclass(frozen=True, slots=True)
 class Examination:
-    """The findings, by the name of the check, in order; a check may have several."""
+    """(name of the check, finding), in the order of the report. A check may have several findings."""
 
     findings: tuple[tuple[str, Finding], ...]
     usable: bool
@@ -160,5 +160,7 @@ def _of_station(
 def _safely(look: Callable[..., Iterator[Finding]], *what: Any) -> Iterator[Finding]:
     try:
         yield from look(*what)
-    except Exception as fault:  # one broken check must not hide the others
-        yield wrong(f"the check itself failed: {type(fault).__name__}: {fault}", "A mistake of ours: please tell us.")
+    except Exception as fault:  # A bug in one check must not hide the others.
+        yield wrong(
+            f"the check itself failed: {type(fault).__name__}: {fault}", "A bug of this program: please report it."
+        )

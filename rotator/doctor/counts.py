@@ -1,6 +1,6 @@
-"""The check of the file that keeps the counts of axes with an index contact.
+"""The check of the file with the saved counts of axes that count pulses.
 
-Knows what such an axis lacks before it may be aimed. Writes nothing.
+Knows why a count may be missing or lost, and that homing repairs it. Writes nothing.
 """
 
 from __future__ import annotations

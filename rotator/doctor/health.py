@@ -1,6 +1,6 @@
-"""The checks of the computer: power, heat, time, the watchdog, the service.
+"""The checks of the computer: supply, temperature, clock, watchdog, and the service.
 
-Knows where a Raspberry Pi and systemd report them. Knows nothing of the configuration.
+Knows where a Raspberry Pi and systemd report them. Does not know the configuration.
 """
 
 from __future__ import annotations
@@ -10,12 +10,12 @@ from collections.abc import Iterator
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
 
-# The bits of `vcgencmd get_throttled` (Raspberry Pi documentation): now, and 16 bits higher, since the start.
+# The bits of `vcgencmd get_throttled` (Raspberry Pi documentation) for now; 16 bits higher: since the start.
 THROTTLED = {0: "under-voltage", 1: "clock capped", 2: "throttled", 3: "too hot"}
 UNDER_VOLTAGE = 1 << 0
 SINCE_START = 16
 HOT_C = 80.0
-"""From this temperature on a Pi slows itself down."""
+"""At this temperature a Pi begins to slow down."""
 
 SUPPLY = "Use the Pi's own power supply and a short, thick cable, and feed relays and display from another one."
 

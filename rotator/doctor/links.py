@@ -1,6 +1,6 @@
-"""The checks of the links: serial ports, pseudo-terminals, TCP and UDP ports, before a program at the other end fails.
+"""The checks of the links: serial ports, pseudo-terminals, TCP and UDP ports.
 
-Knows what the box needs of each, and which programs often hold it. Sends nothing, and accepts no connection.
+Knows what the box needs of each port, and finds the program that holds it. Sends nothing, and accepts no connection.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def serial_port(machine: Machine, name: str) -> Finding:
     if not path.exists():
         return wrong(f"{name} is not there", _absent(machine, name))
     if not os.access(path, os.R_OK | os.W_OK):
-        return wrong(f"{name}: not yours", f"sudo usermod -aG dialout {machine.user}, then log in again.")
+        return wrong(f"{name}: you may not open it", f"sudo usermod -aG dialout {machine.user}, then log in again.")
     if path.resolve().name in _consoles(machine):
         return wrong(
             f"{name}: the kernel's console is on it, and its messages would be orders",
@@ -76,7 +76,9 @@ def pseudo_terminals(machine: Machine, config: Config) -> Iterator[Finding]:
         elif path.exists():
             yield wrong(f"{name}: a file of that name is in the way", "Remove it, or give the link another pty.")
         elif not machine.may_write_in(Path(name).parent):
-            yield wrong(f"{name}: its folder is not yours", "Give the link a pty in a folder that you may write to.")
+            yield wrong(
+                f"{name}: you may not write in its folder", "Give the link a pty in a folder that you may write to."
+            )
         else:
             yield fine(f"{name} will be made when the box runs")
 
@@ -127,7 +129,7 @@ def _port(machine: Machine, name: str, kind: socket.SocketKind) -> Finding:
 
 
 def _refusal(place: Place) -> int | None:
-    """The error number with which a port refuses a listener; None: it is free."""
+    """The error number of an attempt to bind; None: the port is free."""
     family, kind, protocol, _, where = place
     try:
         with socket.socket(family, kind, protocol) as probe:
@@ -147,7 +149,7 @@ def _is_ours(command: list[str]) -> bool:
 
 
 def _listener(machine: Machine, port: int, kind: socket.SocketKind) -> list[str] | None:
-    """The command line of the program that listens on the port; None where this user may not know it."""
+    """The command line of the program that listens on the port; None if this user may not see it."""
     sockets = set()
     table_name, listening = LISTENING[kind]
     for table in (f"/proc/net/{table_name}", f"/proc/net/{table_name}6"):

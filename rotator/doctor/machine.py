@@ -1,6 +1,6 @@
-"""The computer that the doctor checks: its files, its programs, its user.
+"""The computer that the doctor checks, as a value: its file tree, programs, packages, user and chips.
 
-Knows how to read and ask. Knows nothing of what the answers mean. Writes nothing.
+Reads files and runs programs. Does not judge what it reads, and writes nothing.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 from rotator.assembly.chips import Chips, real_chips
 
 PATIENCE_S = 5.0
-"""A program that takes longer counts as one that does not answer."""
+"""A program that takes longer does not answer, in seconds."""
 SERVICE_USER = "rotator"
 SERVICE_FOLDERS = (Path("/run/rotator"), Path("/var/lib/rotator"))
 """The service manager makes these for the service whenever it starts."""
@@ -27,18 +27,18 @@ UNITS = ("/etc/systemd/system/rotator.service", "/usr/lib/systemd/system/rotator
 @dataclass(frozen=True, slots=True)
 class Machine:
     root: Path
-    """Where its file tree starts."""
+    """The root of its file tree."""
     programs: str
-    """Where its programs are, as in PATH."""
+    """The folders of its programs, as in PATH."""
     packages: tuple[str, ...]
-    """Where its Python packages are, as in `sys.path`."""
+    """The folders of its Python packages, as in `sys.path`."""
     python: tuple[int, int, int]
     pointer_bits: int
-    """Of that Python: 32 or 64."""
+    """32 or 64, of that Python."""
     kernel: tuple[str, str]
-    """Release and machine, as `uname` has them."""
+    """Release and machine, as in `uname`."""
     user: str
-    """The user; behind sudo, the one who called it."""
+    """The user who runs the doctor; under sudo, the user who called sudo."""
     free_bytes: Callable[[Path], int]
     """Free bytes on the disk with that file."""
     chips: Chips
@@ -79,13 +79,13 @@ class Machine:
 
     @property
     def listening(self) -> set[str]:
-        """The files at which programs listen on this machine, as they named them."""
+        """The paths of the Unix sockets on which programs listen, as they named them."""
         rows = [line.split(maxsplit=7) for line in (self.text("/proc/net/unix") or "").splitlines()[1:]]
         return {row[7] for row in rows if len(row) == 8}
 
     def holder(self, opened: set[str]) -> list[str] | None:
-        """The command line of a program that has one of these files open; None where there is none, or where this user
-        may not know it.
+        """The command line of a program that has one of these files open; None: no program, or this user may not see
+        it.
         """
         for descriptor in self.glob("/proc/[0-9]*/fd/*"):
             try:
@@ -111,7 +111,7 @@ class Machine:
         return next((text for path in UNITS if (text := self.text(path)) is not None), None)
 
     def may_write_in(self, folder: Path) -> bool:
-        """Whether the user may, or the service where it is installed; a folder that is not there yet counts as made."""
+        """Whether the user, or an installed service, may write there. For a missing folder its parent counts."""
         if self.unit is not None and any(folder.is_relative_to(made) for made in SERVICE_FOLDERS):
             return True
         place = nearest(self.at(folder))

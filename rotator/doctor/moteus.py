@@ -1,7 +1,7 @@
-"""The check of the moteus controllers: the library, the adapter, and the state of both controllers.
+"""The check of the moteus rotor: the library, the adapter, and the state of both controllers.
 
-Knows what their answers mean for a user. Sends queries and no order. While the box is running it does not ask: two
-programs at one adapter take each other's answers.
+Knows what their answers mean for the user. Sends queries and no order, and nothing while the box is running: two
+programs on one adapter take each other's answers.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from rotator.doctor.machine import Machine
 from rotator.doctor.wires import running
 
 LEAST_V = 10.0
-"""The least supply of a moteus r4.11, and of the smaller ones."""
+"""The lowest supply of a moteus r4.11 and of the smaller models."""
 CAN_FD_MTU = "72"
 UP = 1
 """The bit of an interface's flags in /sys/class/net."""
 
 LIBRARY = (
-    "Installed by install.sh: sudo ./install.sh puts it in, now that the file asks for it. Else, in the program's "
+    "sudo ./install.sh installs it, now that the file needs it. Without install.sh, in the program's "
     "venv: pip install --no-deps 'moteus>=1.1,<2', and pip install importlib-metadata packaging 'python-can>=4.3'."
 )
 BRING_UP = (

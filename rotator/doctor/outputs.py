@@ -1,6 +1,6 @@
-"""The checks of a PCA9685 of servos or panel, and of the kernel's SPI.
+"""The checks of the PCA9685 boards of servos and panel, and of the kernel's SPI devices.
 
-Knows the registers of a PCA9685 before and after the box has started. Writes to no chip.
+Knows the state of a PCA9685 before and after the start of the box. Writes to no chip.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from rotator.doctor.machine import Machine
 from rotator.doctor.wires import box_is_running
 
 SPIDEV = (
-    "Installed by install.sh: sudo ./install.sh puts it in, now that the file asks for it (it needs gcc and "
-    "python3-dev). Else pip install 'spidev>=3.6' in the program's venv;"
+    "sudo ./install.sh installs it, now that the file needs it (with gcc and "
+    "python3-dev). Without install.sh: pip install 'spidev>=3.6' in the program's venv;"
 )
 
 
@@ -46,14 +46,14 @@ def output_boards(machine: Machine, config: Config) -> Iterator[Finding]:
                     continue
                 yield _board(name, machine.chips.output_board(bus, chip.address), is_running=is_running)
         except HardwareError:
-            yield skipped(f"{name}: the bus cannot be asked")
+            yield skipped(f"{name}: the bus cannot be read")
 
 
 def _board(name: str, board: OutputBoard, *, is_running: bool | None) -> Finding:
     if not board.plausible:
         return wrong(
             f"{name} is no PCA9685: MODE1 0x{board.mode:02x}, PRE_SCALE 0x{board.prescale:02x}",
-            "Another chip has this address: see which of them is where with i2cdetect, and move one.",
+            "Another chip has this address: look with i2cdetect, and give one of them another address.",
         )
     if board.waits_for_a_clock:
         return wrong(
@@ -100,5 +100,5 @@ def _device(machine: Machine, use: SpiUse, key: str, pin: int) -> Finding:
     if not path.exists():
         return wrong(f"{name} is not there", "sudo rotator setup pins switches it on (dtparam=spi=on); then reboot.")
     if not os.access(path, os.R_OK | os.W_OK):
-        return wrong(f"{name}: not yours", f"sudo usermod -aG spi {machine.user}, then log in again.")
+        return wrong(f"{name}: you may not open it", f"sudo usermod -aG spi {machine.user}, then log in again.")
     return fine(f"{name} is there and may be opened")

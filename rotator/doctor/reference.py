@@ -1,6 +1,6 @@
-"""The table of checks of docs/troubleshooting.md, made from the checks, so that the page cannot drift from the program.
+"""Makes the table of checks in docs/troubleshooting.md, so that page and program agree.
 
-Knows Markdown. Knows no check: those are in their own table.
+Knows Markdown. The checks are in `checks.py`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from rotator.doctor.finding import Check
 
 
 def checks_table() -> str:
-    """A row for each check, in the order of the report."""
+    """One row for each check, in the order of the report."""
     checks: tuple[Check[...], ...] = (CONFIGURATION, *OF_THE_MACHINE, *OF_THE_STATION)
     rows = [f"| {check.name} | {check.looks_at} |" for check in checks]
     return "\n".join(["| check | looks at |", "| --- | --- |", *rows])

@@ -1,6 +1,6 @@
-"""The checks of the sensors that are chips of their own: magnet, gravity, compass.
+"""The checks of the sensor chips: AS5600 (magnet), MPU6050 (gravity) and BNO055 (compass).
 
-Knows which readings are plausible. Knows no register: those are in the drivers.
+Knows which readings are plausible. Knows no register: the drivers do. Reads nothing while the box is running.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ def sensors(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def _at(chips: Chips, number: int, address: int, name: str) -> Finding | None:
-    """Why it cannot be read; the check of the I2C devices explains it. None: it can be read."""
+    """A finding if the chip cannot be read (the check of the I2C devices has the details); None: it can be read."""
     try:
         with chips.bus(number) as bus:
             return None if bus.answers(address) else skipped(f"{name} does not answer")
     except HardwareError:
-        return skipped(f"{name}: the bus cannot be asked")
+        return skipped(f"{name}: the bus cannot be read")
 
 
 def _angle(chips: Chips, number: int, address: int, config: Config, axis: Axis) -> Finding:

@@ -1,6 +1,6 @@
 """The checks of Python, its packages and the kernel.
 
-Knows which versions will do. Knows nothing of the configuration.
+Knows the versions that the program needs. Does not know the configuration.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from rotator.doctor.machine import Machine
 
 OLDEST_PYTHON, TOO_NEW_PYTHON = (3, 11), (3, 14)
 OLDEST_KERNEL = (5, 10)
-"""The second version of the GPIO interface came with Linux 5.10."""
+"""The kernel's second GPIO interface, which gpiod 2 needs, came with Linux 5.10."""
 PACKAGES = {"gpiod": (2, 1), "smbus2": (0, 4, 2), "pyserial": (3, 5)}
-"""The packages that reach the hardware, and the oldest version of each that will do."""
+"""The packages for hardware, with the oldest version that works."""
 
 
 def python(machine: Machine) -> Iterator[Finding]:
@@ -25,7 +25,7 @@ def python(machine: Machine) -> Iterator[Finding]:
     if OLDEST_PYTHON <= machine.python < TOO_NEW_PYTHON:
         yield fine(found)
     else:
-        yield wrong(found, "Python 3.11, 3.12 or 3.13 is needed: make the venv anew with one of them.")
+        yield wrong(found, "Python 3.11, 3.12 or 3.13 is needed: create the venv again with one of them.")
 
 
 def packages(machine: Machine) -> Iterator[Finding]:

@@ -1,6 +1,7 @@
 """The check of the stop button, the mode switch and the limit switches.
 
-Knows which of them must be closed before a motor may run. Takes their lines for a moment, while no program has them.
+Knows which of them must be closed before a motor may run. Takes their lines for a moment, and never while the box is
+running.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ POSITIONS = (
     "AUTO: programs move the antenna",
     "JOG: the jog switches move the antenna, programs do not",
 )
-"""By 2 × MSB + LSB; a closed contact is a 1."""
+"""Indexed by 2 × MSB + LSB; a closed contact is 1."""
 
 
 def has_switches(config: Config) -> bool:
@@ -43,7 +44,8 @@ def switches(machine: Machine, config: Config) -> Iterator[Finding]:
         yield fine(f"the mode switch is on {POSITIONS[2 * closed['panel.mode_msb'] + closed['panel.mode_lsb']]}")
     if closed.get("panel.calibrate"):
         yield warn(
-            "the calibrate switch is closed: the box calibrates when it starts", "Open it, unless you want that."
+            "the calibrate switch is closed: the box calibrates when it starts",
+            "Open it, unless you want a calibration.",
         )
     if limits:
         yield from _limits({key: closed[key] for key in limits}, limits)
@@ -68,7 +70,7 @@ def _limits(closed: Mapping[str, bool], pins: Mapping[str, int]) -> Iterator[Fin
             )
         elif opened:
             yield warn(
-                f"{opened[0]} (GPIO {pins[opened[0]]}) is open: that way the {axis.value} goes no further",
+                f"{opened[0]} (GPIO {pins[opened[0]]}) is open: the {axis.value} goes no further in that direction",
                 "Does the antenna stand at that end? Then turn it away. If not, its wire is broken.",
             )
     if all(closed.values()):

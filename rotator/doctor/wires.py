@@ -1,6 +1,7 @@
-"""The checks of the GPIO lines: is the chip there, and is each line free.
+"""The checks of the GPIO chip and its lines, and the test for a running box that other checks use.
 
-Knows the key of every line, and the signs of a running box. Takes no line, so it may look while the box is running.
+Knows the key of every line, and the signs of a running box: its socket, and its names on lines. Takes no line, so these
+checks also work while the box is running.
 """
 
 from __future__ import annotations
@@ -14,13 +15,13 @@ from rotator.doctor.finding import Finding, fine, skipped, wrong
 from rotator.doctor.machine import SERVICE_FOLDERS, Machine
 
 OURS = "rotator-"
-"""The names under which our programs hold their lines begin so."""
+"""The prefix of the names under which our programs hold lines."""
 MONITOR = "monitor"
 """The socket of a running box, in systemd's folder or beside the state file."""
 
 
 def lines(config: Config) -> dict[int, str]:
-    """The GPIOs that the box takes, with their keys: not those of the kernel's own SPI."""
+    """The GPIOs that the box takes, with their keys. The kernel holds those of its own SPI."""
     kernels = {key for use in config.spi_uses() if use.kernel for _, key in use.lines}
     return {pin: key for pin, key in config.pins() if key not in kernels}
 
@@ -59,9 +60,9 @@ def gpio_lines(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def box_is_running(machine: Machine, config: Config) -> bool:
-    """Whether a program of ours runs this station: its socket is there, or it holds a line.
+    """Whether a program of ours runs this station: its socket is there, or it holds a line. Never in a simulation.
 
-    Raises HardwareError where that cannot be found out. Each program has simulated chips of its own.
+    Raises HardwareError if the GPIO chip cannot be asked.
     """
     if config.rotor.hardware == "sim":
         return False
@@ -73,7 +74,7 @@ def box_is_running(machine: Machine, config: Config) -> bool:
 
 
 def running(machine: Machine, config: Config) -> Finding | None:
-    """Why the chips must not be read now; None: they may be."""
+    """A finding if the chips must not be read now; None: they may be read."""
     try:
         if box_is_running(machine, config):
             return skipped("the box is running and reads them itself; see its terminal, or rotator where")

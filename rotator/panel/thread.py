@@ -23,7 +23,7 @@ from rotator.status import Status
 log = logging.getLogger(__name__)
 
 PANEL_THREADS = ("panel", "panel-bus")
-"""The names of the two threads: the switches have one, what is on a bus has the other."""
+"""The names of the two threads: one for the switches, one for the chips on a bus."""
 PERIOD_S = 0.05
 STALE_S = 0.25
 """An older reading does not count: a jog ends when the bus hangs."""

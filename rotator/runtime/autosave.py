@@ -1,6 +1,6 @@
-"""Saves what a running box finds out: calibrations taken over a link, and what it has learnt of its motors.
+"""Saves calibrations taken over a link, and the learnt speeds and coasts of the motors, while the box runs.
 
-Knows when to save, and which file takes what. Does not know how files are written. A full disk never stops the box.
+Knows when to save, and in which file. Other files do the writing. A failed write is logged, and never stops the box.
 """
 
 from __future__ import annotations
@@ -35,18 +35,18 @@ class Autosave:
         self._offsets = offsets
         self._learnt = learnt
         self._saving = threading.Lock()
-        """The last save may come while another one is still under way."""
+        """`close` may come while another thread still saves."""
         self._points = {axis: loop.status.axis(axis).calibration for axis in Axis}
         learnt.note(self._motors())
 
     async def run(self) -> None:
         """Save now and then, until cancelled."""
-        looks = 0
+        rounds = 0
         while True:
             await asyncio.sleep(CALIBRATIONS_EVERY_S)
             await asyncio.to_thread(self.keep_calibrations)
-            looks += 1
-            if looks * CALIBRATIONS_EVERY_S % LEARNT_EVERY_S == 0:
+            rounds += 1
+            if rounds * CALIBRATIONS_EVERY_S % LEARNT_EVERY_S == 0:
                 await asyncio.to_thread(self._keep_learnt, ending=False)
 
     def close(self) -> None:

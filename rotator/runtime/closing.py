@@ -1,6 +1,6 @@
-"""Stops the parts of a box one after the other. A part that fails skips no other.
+"""Stops the parts of a box one after the other, and logs each failure. A part that fails skips no other.
 
-Knows names, calls and failures. Knows no part: the app says what there is and in which order it stops.
+Knows names, calls and failures. The app supplies the parts and their order.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Part:
 
 
 class Failures:
-    """What has failed, in order. Each failure is in the log once."""
+    """The failures, in order. Each one is logged once."""
 
     def __init__(self) -> None:
         self.noted: list[Exception] = []
@@ -57,7 +57,7 @@ class Failures:
         try:
             await part.close()
         except Exception as failure:
-            # One failure may hide another one, which only the traceback shows.
+            # A failure may have another one as its cause, which only the traceback shows.
             self.note(part.name, failure, traceback=True)
 
 

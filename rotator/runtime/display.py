@@ -1,7 +1,7 @@
 """The display's thread: keeps the rows of a character display up to date.
 
-Knows when to write. Knows neither what the rows mean nor how the display works. It has a thread of its own because a
-slow or missing display must not delay anything else.
+Knows when to write, when to reset the display, and when to try a missing display again. Knows neither what the rows
+mean nor how the display works. It has a thread of its own because a slow or missing display must not delay other parts.
 """
 
 from __future__ import annotations
@@ -17,8 +17,10 @@ log = logging.getLogger(__name__)
 DISPLAY_THREAD = "display"
 """The name of the thread."""
 REFRESH_S = 0.2
+"""The time between two looks at the rows, in seconds."""
 RESET_EVERY_S = 300.0
-"""Sparks of motor relays disturb these displays, and the program cannot read them back. A reset repairs them."""
+"""Seconds between two resets. Sparks of motor relays garble these displays, the program cannot read them back, and a
+reset repairs them."""
 RETRY_S = 5.0
 """The pause, in seconds, before a display that does not answer is tried again."""
 
@@ -27,11 +29,18 @@ class DisplayThread:
     """`rows` gives the text of each row, at a moment of `clock`, in seconds."""
 
     def __init__(
-        self, display: CharacterDisplay, rows: Callable[[float], Sequence[str]], clock: Callable[[], float]
+        self,
+        display: CharacterDisplay,
+        rows: Callable[[float], Sequence[str]],
+        clock: Callable[[], float],
+        *,
+        retry_s: float = RETRY_S,
     ) -> None:
+        """`retry_s`: the real pause before the next try with a display that does not answer."""
         self._display = display
         self._rows = rows
         self._clock = clock
+        self._retry_s = retry_s
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._keep, name=DISPLAY_THREAD, daemon=True)
 
@@ -57,7 +66,7 @@ class DisplayThread:
                 if answered:
                     log.error("display: %s", fault)
                 answered = False
-                self._stopping.wait(RETRY_S)
+                self._stopping.wait(self._retry_s)
 
     def _show_until(self, reset_s: float) -> None:
         shown: Sequence[str] = ()

@@ -1,4 +1,4 @@
-"""Starts and stops the control loop and the rotor with its guard, each of which has a thread.
+"""Starts and stops the two threads that move the antenna: the control loop, and the rotor's guard.
 
 Knows in which order they start and stop. Knows neither what is controlled nor the links.
 """
@@ -36,7 +36,7 @@ async def process_end(pid: int) -> None:
 
 
 class ControlThread:
-    """Runs the control loop in a thread. `ended` is done when the loop has ended, with what ended it."""
+    """Runs the control loop in a thread. `ended` is done when the loop has ended: its failure, or None."""
 
     def __init__(self, loop: ControlLoop) -> None:
         self._loop = loop
@@ -48,7 +48,7 @@ class ControlThread:
         self._thread.start()
 
     async def join(self) -> Exception | None:
-        """Wait for the end. Returns what ended the loop, None for a proper end.
+        """Wait for the end. Returns the failure that ended the loop, None for a proper end.
 
         A thread that hangs on a dead bus is left behind: the guard has opened the relays.
         """

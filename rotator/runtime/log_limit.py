@@ -1,6 +1,6 @@
-"""Keeps a message that is repeated from filling the log: once at first, then once a minute with a count.
+"""Limits repeated log lines: a text passes at once, its repetitions once a minute with a count.
 
-Knows texts and moments. Does not write the log.
+Knows texts and the time. Does not write the log.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ class LogLimit:
         self._withheld = 0
 
     def admit(self, text: str) -> str | None:
-        """The line to log now, with the count of those withheld before; None: log nothing."""
+        """The line to log now, with the count of lines withheld before it; None: log nothing."""
         now_s = self._clock()
         if now_s >= self._until_s:
             self._until_s = now_s + self._every_s

@@ -1,8 +1,8 @@
 """The control loop: reads the sensors, steps the controller, commands the drive. The only reader of the clock.
 
-Knows when to do what. Decides nothing: the controller does. No other code touches the rotor, except the guard, which
-may open relays at any time. The sensors have a thread of their own: a bus that is slow or hangs delays no order, and
-the loop still notices that a reading is old.
+Knows the timing, and logs changes of the status. The controller makes the decisions. No other code touches the rotor,
+except the guard, which may open relays at any time. The sensors have a thread of their own: a slow or hanging bus
+delays no order, and the loop still notices that a reading is old.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ MUST_OBEY = (SUPPLY, *DRIVES.values())
 class ControlLoop:
     """`post` and `status` may be used from any thread; the rest by one thread only: `run`'s, or a rehearsal's.
 
-    `after_good_step` is called after each step in which all that must obey did. It may raise HardwareError.
+    The loop calls `after_good_step` after each step in which the drives and the motors' supply obeyed. It may raise
+    HardwareError.
     """
 
     def __init__(
@@ -125,7 +126,7 @@ class ControlLoop:
         self._wake.set()
 
     def _run_errands(self) -> None:
-        """Do what the controller wants done once, such as telling a rotor where an axis stands."""
+        """Do the controller's single requests, such as passing the confirmed angle of an axis to its rotor."""
         for errand in self._controller.errands:
             try:
                 self._rotor.run(errand)

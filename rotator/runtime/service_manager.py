@@ -1,4 +1,4 @@
-"""Tells the service manager that the box is ready, well, or stopping: systemd's sd_notify protocol.
+"""Reports to the service manager that the box is ready, well, or stopping, by systemd's sd_notify protocol.
 
 Knows the socket and the folder that the environment names. Without them it does nothing. Does not know when the box is
 well: the control loop calls `alive` after each good step. Source: sd_notify(3), one datagram a message.

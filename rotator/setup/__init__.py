@@ -1,1 +1,1 @@
-"""Prepares the Pi itself: what has to stand in the system's files before the box can run well on it."""
+"""Prepares the Pi itself: the changes to its system files that the box needs."""

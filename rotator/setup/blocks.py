@@ -1,7 +1,7 @@
-"""A marked block of our lines in a file of the system: put in, brought up to date, taken out without a trace.
+"""A marked block of our lines in a file of the system: inserts, updates and removes it, and leaves no trace.
 
-Knows lines and marks. Knows nothing of what the lines mean. Where a file has no line feed at its end, the block has
-none either: the line feed before the block is then known to be ours, and goes with it.
+Knows lines and marks, not what the lines mean. In a file without a line feed at its end, the block at the end has none
+either. So the line feed before that block is ours, and is removed with it.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from rotator.setup.plan import SetupError, lines
 @dataclass(frozen=True, slots=True)
 class Block:
     name: str
-    """Stands in the marks: the command that wrote the block."""
+    """The name in the marks: the command that wrote the block."""
     ours: re.Pattern[str]
     """The pattern of our lines. Other lines inside the marks were added by the user, and stay."""
     last: bool = False
-    """At the end of the file rather than at its top."""
+    """The block is at the end of the file; else at its top."""
 
     @property
     def begin(self) -> str:
@@ -31,9 +31,9 @@ class Block:
         return f"# {self.name}: end"
 
     def into(self, text: str, wanted: Sequence[str]) -> str:
-        """The text with these lines in the block; where there is one already it stays in its place.
+        """The text with these lines in the block. An old block is replaced in its place; no lines, no block.
 
-        Without any lines there is no block. Raises SetupError where a mark has no fellow.
+        Raises SetupError if only one of the two marks is there.
         """
         rest = self.without(text)
         if not wanted:
@@ -49,7 +49,7 @@ class Block:
         return before + block + line_end + after
 
     def without(self, text: str) -> str:
-        """The text as it would be had the block never been there. Raises SetupError where a mark has no fellow."""
+        """The text without the block. Raises SetupError if only one of the two marks is there."""
         kept: list[str] = []
         line_end = ""
         inside = False
@@ -94,5 +94,5 @@ class Block:
     def _torn(self) -> SetupError:
         return SetupError(
             f'only one of the two marks "{self.begin}" and "{self.end}" is left: '
-            "take that line, and what belonged to it, out by hand"
+            "remove that line, and the lines that belonged to it, by hand"
         )

@@ -1,7 +1,7 @@
-"""Reads config.txt, the file a Raspberry Pi's firmware reads before there is a kernel.
+"""Parses config.txt, which the firmware of a Raspberry Pi reads before the kernel starts.
 
 Knows sections, settings, device tree parameters and GPIO lines, as on the config.txt pages of Raspberry Pi's
-documentation. Knows nothing of the lines that the box needs.
+documentation. Does not know which lines the box needs, and reads no file.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ class Setting:
     """A line `key=value`."""
 
     number: int
-    """The line, counted from 1."""
+    """The number of the line, from 1."""
     key: str
     value: str
     filters: tuple[str, ...]
-    """The sections that all have to hold: one model at most, and conditions of other kinds."""
+    """The sections that must all apply: at most one model, and other conditions."""
 
     def __str__(self) -> str:
         section = "".join(f"[{each}]" for each in self.filters)
         return f"line {self.number}, {self.key}={self.value}" + (f" under {section}" if section else "")
 
     def may_hold_on(self, pi: Pi | None) -> bool:
-        """Whether it may be in force on this Pi; a condition that only the firmware can judge may be true."""
+        """Whether it may apply on this Pi. A condition that only the firmware can judge counts as true."""
         models = [each for each in self.filters if each in MODEL_FILTERS]
         return "none" not in self.filters and (pi is None or all(each in pi.filters for each in models))
 
@@ -56,7 +56,7 @@ def settings(text: str) -> list[Setting]:
 
 
 def _narrowed(filters: tuple[str, ...], section: str) -> tuple[str, ...]:
-    """The filters after a section: [all] ends every filter, a model replaces a model, others are added."""
+    """The filters after a section line: [all] ends all filters, a model replaces a model, others are added."""
     if section == "all":
         return ()
     if section in MODEL_FILTERS:
@@ -65,7 +65,7 @@ def _narrowed(filters: tuple[str, ...], section: str) -> tuple[str, ...]:
 
 
 def parameters(found: list[Setting], *names: str) -> Iterator[tuple[Setting, bool]]:
-    """Each `dtparam` with one of these switches, and whether it is switched on there."""
+    """Each `dtparam` line with one of these names, and whether it switches on."""
     for setting in found:
         if setting.key == "dtparam":
             for word in setting.words:
@@ -85,8 +85,8 @@ def pins(found: list[Setting]) -> Iterator[tuple[Setting, frozenset[int], frozen
     """Each line `gpio=4,5-7=op,dl`: the setting, its pins and its words."""
     for setting in found:
         if setting.key == "gpio":
-            numbers, _, told = setting.value.partition("=")
-            yield setting, _numbers(numbers), frozenset(word.strip().lower() for word in told.split(","))
+            numbers, _, words = setting.value.partition("=")
+            yield setting, _numbers(numbers), frozenset(word.strip().lower() for word in words.split(","))
 
 
 def _numbers(text: str) -> frozenset[int]:

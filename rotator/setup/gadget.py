@@ -1,4 +1,4 @@
-"""The USB device itself: one serial port (CDC ACM), built in the kernel's configfs and tied to the Pi's USB controller.
+"""Builds and removes the USB device: one serial port (CDC ACM) in the kernel's configfs, on the Pi's USB controller.
 
 Knows the layout of configfs/usb_gadget (Documentation/usb/gadget_configfs.rst in the kernel's source). Class 02 and
 subclass 02 on the device make Windows 10 and 11 take their own usbser.sys, without an INF file. The serial number
@@ -50,10 +50,11 @@ class Identity:
 
 
 def up(configfs: Path, controllers: Path, identity: Identity, rmdir: Callable[[Path], None] = os.rmdir) -> str:
-    """Build the device and tie it to the first controller; its name. One that is up already is left alone.
+    """Build the device and bind it to the first controller. Returns the controller's name.
 
-    `configfs` is usually /sys/kernel/config, `controllers` /sys/class/udc. What an earlier attempt left half-built is
-    taken down first. Raises SetupError where there is no controller or another device has it; then nothing is left.
+    A complete device stays as it is; a half-built one is removed first. `configfs` is usually /sys/kernel/config,
+    `controllers` /sys/class/udc. Raises SetupError if there is no controller or another device has it; then no part
+    of the device remains.
     """
     if not (configfs / "usb_gadget").is_dir():
         raise SetupError(f"{configfs}/usb_gadget is missing: run `sudo modprobe libcomposite` first")
@@ -82,7 +83,7 @@ def up(configfs: Path, controllers: Path, identity: Identity, rmdir: Callable[[P
 
 
 def down(configfs: Path, rmdir: Callable[[Path], None] = os.rmdir) -> None:
-    """Untie the device and take it apart, also one that is half built. Raises SetupError."""
+    """Unbind the device and remove it, also a half-built one. Raises SetupError."""
     gadget = configfs / "usb_gadget" / NAME
     if not gadget.is_dir():
         return
@@ -92,7 +93,7 @@ def down(configfs: Path, rmdir: Callable[[Path], None] = os.rmdir) -> None:
         for link in gadget.glob("configs/*/*"):
             if link.is_symlink():
                 link.unlink()
-        # configfs wants the inner folders gone before the outer ones; those that it made itself go with them.
+        # configfs removes only folders without inner ones; it removes the folders that it made by itself.
         for pattern in ("configs/*/strings/*", "configs/*", "functions/*", "strings/*"):
             for folder in gadget.glob(pattern):
                 rmdir(folder)
@@ -125,13 +126,13 @@ def _refuse_a_second(configfs: Path, controllers: Path, controller: str) -> None
 
 def _busy(controller: str, owner: str) -> SetupError:
     return SetupError(
-        f"the USB controller {controller} is taken by {owner or 'another USB gadget'}, and it takes one only: "
+        f"the USB controller {controller} is taken by {owner or 'another USB gadget'}, and it can have only one: "
         "switch that off (`sudo rpi-usb-gadget off`, or no g_... module at start) and reboot"
     )
 
 
 def _reads(attribute: Path) -> str:
-    """Empty where there is none."""
+    """The text of an attribute; empty if it cannot be read."""
     try:
         return attribute.read_text().strip()
     except OSError:

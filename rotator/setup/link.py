@@ -1,6 +1,6 @@
-"""The link to the PC in rotator.toml, for the port the Pi then has: added where there is none, taken out again.
+"""The `[[link]]` to the PC in rotator.toml, for the Pi's USB serial port: adds it, and removes it again.
 
-Knows the lines of that link. Lines that the user has changed stay.
+Knows the lines of that link. Works on texts and writes no file. A link that the user has changed stays.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _BY_HAND = 'add a [[link]] with protocol = "gs232b" and serial = "/dev/ttyGS0" t
 
 
 def added(text: str | None) -> tuple[str | None, str]:
-    """The text of the file with a link on the port, and a note for the user where it cannot be added."""
+    """The text with a link on the port, and a note for the user if the link cannot be added."""
     if text is None:
         return None, f"there is no such file; {_BY_HAND}"
     try:
@@ -28,12 +28,12 @@ def added(text: str | None) -> tuple[str | None, str]:
         longer = BLOCK.into(text, LINES)
         parse(longer, "rotator.toml")
     except (ConfigError, SetupError):
-        return text, f"it is left as it is, for it cannot be read, or not be added to; {_BY_HAND}"
+        return text, f"it stays unchanged, because it has a fault or its marks are damaged; {_BY_HAND}"
     return longer, ""
 
 
 def taken_out(text: str | None) -> tuple[str | None, str]:
-    """The text without the link, and a note where it stays because the user has changed it."""
+    """The text without the link, and a note if the link stays."""
     if text is None:
         return None, ""
     if BLOCK.strangers(text):

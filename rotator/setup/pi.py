@@ -1,7 +1,7 @@
-"""The Raspberry Pis: which of them can be a USB device, at which socket, and where its power then comes from.
+"""The models of Raspberry Pi: names, sections of config.txt, the socket for USB device mode, and the power supply then.
 
-Knows the names in /proc/device-tree/model. The Pi 1 B, 2 B, 3 B and 3 B+ have a hub between the processor and their
-sockets, and a hub cannot be turned round.
+Knows the names in /proc/device-tree/model; reads no file. The Pi 1 B, 2 B, 3 B and 3 B+ have a USB hub between the
+processor and their sockets, and a hub cannot work as a device.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ class Pi:
     model: str
     """Its full name, with the revision."""
     filters: frozenset[str]
-    """The sections of config.txt that hold for it."""
+    """The sections of config.txt that apply to it."""
     socket: str | None
-    """The socket at which it can be a USB device; None: it has none."""
+    """The socket for USB device mode; None: no socket can do that."""
     power: str = ""
-    """How to power it while that socket goes to a PC."""
+    """How to power the Pi while that socket is connected to a PC."""
 
 
 _MODELS: tuple[tuple[str, str, str | None, str], ...] = (
@@ -58,7 +58,7 @@ _MODELS: tuple[tuple[str, str, str | None, str], ...] = (
     ("Compute Module 0", "pi0 pi0w pi02 cm0", CARRIER_PORT, CARRIER),
     ("Compute Module", "pi1 cm1", CARRIER_PORT, CARRIER),
 )
-"""Of two names that begin alike, the longer comes first."""
+"""Name, sections, socket, power. Of two names with the same beginning, the longer comes first."""
 
 MODEL_FILTERS = frozenset(" ".join(filters for _, filters, _, _ in _MODELS).split())
 

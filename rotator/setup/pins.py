@@ -1,7 +1,7 @@
 """The lines of config.txt that keep relays and enable lines off from power-on until the program drives them.
 
-Knows the pins of the 40-pin header, their pulls and their other uses. Which lines there are, the kind of rotor knows.
-Touches no file.
+Knows the pins of the 40-pin header, their pulls and their other uses. The kind of rotor names the lines. Works on texts
+and writes no file.
 """
 
 from __future__ import annotations
@@ -29,28 +29,28 @@ _I2C_DEV = "# /dev/i2c-1 for the box's chips. Removed by `rotator setup pins --u
 
 HEADER_BUS = 1
 I2C_NAMES = ("i2c_arm", "i2c", "i2c1")
-"""Three names of one switch."""
+"""Three names of the same parameter."""
 PULLED_UP = range(9)
 """GPIO 0 to 8 have a pull-up while the Pi starts, 9 to 27 a pull-down (BCM2835 ARM Peripherals, GPIO pull table)."""
 
 
 def off_lines(config: Config) -> dict[int, OffLine]:
-    """Each line that has to be off while the Pi starts, by its GPIO."""
+    """Each line that must be off while the Pi starts, by GPIO."""
     return {line.pin: line for line in config.kind.off_lines()}
 
 
 def off_levels(config: Config) -> dict[int, str]:
-    """The off level of each line, in the words of config.txt: `dl` low, `dh` high."""
+    """The off level of each line as config.txt writes it: `dl` low, `dh` high."""
     return {pin: "dh" if line.off_high else "dl" for pin, line in off_lines(config).items()}
 
 
 def closing(config: Config) -> dict[int, OffLine]:
-    """Those that close a contact, which must open again when the program dies."""
+    """The lines that close a contact, by GPIO. The contact must open when the program dies."""
     return {pin: line for pin, line in off_lines(config).items() if line.switches}
 
 
 def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) -> ChangeSet:
-    """Raises SetupError where a pin cannot be a relay's, or where another line of config.txt contradicts."""
+    """The changes and warnings. Raises SetupError for an unfit pin, or a contradicting line of config.txt."""
     _refuse(config)
     before = str(files[boot] or "")
     others = [each for each in boot_config.settings(BLOCK.without(before)) if each.may_hold_on(pi)]
@@ -68,7 +68,7 @@ def plan(files: Files, root: Path, boot: Path, config: Config, pi: Pi | None) ->
 
 
 def undone(files: Files, root: Path, boot: Path) -> ChangeSet:
-    """Takes out the lines that `plan` puts in, and no others."""
+    """The changes that remove the lines of `plan`, and no others."""
     before = str(files[boot] or "")
     module = root / I2C_MODULE
     return ChangeSet(
@@ -88,14 +88,14 @@ def _refuse(config: Config) -> None:
     if config.rotor.hardware == "sim":
         raise SetupError(
             'the configuration is of a simulated rotor (hardware = "sim"): '
-            'put your pins in, say hardware = "pi" under [rotor], then run this again'
+            'write your pins, and hardware = "pi" under [rotor], into it; then run this again'
         )
     for pin, line in off_lines(config).items():
         if pin > 27:
             raise SetupError(f"{line.key} = {pin} is not on the 40-pin header: take one from 4 to 27")
         if pin < 2:
             raise SetupError(
-                f"{line.key} = {pin} is where the Pi looks for an ID EEPROM as it starts: take another pin"
+                f"{line.key} = {pin} is the pin of the ID EEPROM, which the Pi reads as it starts: take another pin"
             )
 
 
@@ -126,14 +126,14 @@ def _keep_off_the_buses(config: Config, others: list[Setting]) -> None:
 
 
 def _missing(config: Config, others: list[Setting]) -> list[str]:
-    """The lines that config.txt lacks. Raises SetupError where it has the opposite, because the later line wins."""
+    """The lines that config.txt lacks. Raises SetupError if it has an opposite line: the later line wins."""
     levels = off_levels(config)
     done: set[int] = set()
-    for setting, pins, told in boot_config.pins(others):
+    for setting, pins, words in boot_config.pins(others):
         for pin in sorted(pins & levels.keys()):
-            if told & {"ip", "a0", "a1", "a2", "a3", "a4", "a5", "dl", "dh"} - {levels[pin]}:
+            if words & {"ip", "a0", "a1", "a2", "a3", "a4", "a5", "dl", "dh"} - {levels[pin]}:
                 raise _contradicts(setting, f"GPIO {pin} has to be op,{levels[pin]}")
-            if {"op", levels[pin]} <= told and not setting.filters:
+            if {"op", levels[pin]} <= words and not setting.filters:
                 done.add(pin)
     missing = []
     for level in ("dl", "dh"):
@@ -161,7 +161,7 @@ def _contradicts(setting: Setting, needed: str) -> SetupError:
 
 
 def _pulls(config: Config) -> list[str]:
-    """A warning for the relays whose pin is pulled to their on level while no program drives it."""
+    """Warnings for relays with a pull to their on level while no program drives the pin."""
     lines = closing(config)
     notes = []
     for off_high, way, good in (

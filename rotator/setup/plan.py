@@ -1,6 +1,6 @@
-"""A set-up before it is carried out: the changes of files, and notes for the user.
+"""A set-up that is planned and not yet done: the changes of files, and notes for the user.
 
-Knows how to show a change. Touches no file, and knows nothing of what their lines mean.
+Knows how to show a change as a diff. Reads and writes no file, and does not know what the lines mean.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from pathlib import Path
 
 
 class SetupError(Exception):
-    """The set-up cannot be done; the text says what the user has to do first."""
+    """The set-up cannot be done. The text says what the user must do first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class Change:
     before: Content
     after: Content
     copied: bool = False
-    """The file belongs to the user or to the system: a copy of it is kept."""
+    """The file belongs to the user or to the system: keep a copy of the old one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ class ChangeSet:
 
 
 def changes(*wanted: Change) -> tuple[Change, ...]:
-    """Those of them that have different contents before and after."""
+    """The changes with different contents before and after."""
     return tuple(change for change in wanted if change.before != change.after)
 
 

@@ -1,6 +1,6 @@
-"""The files of the Pi: finds and reads those of a set-up, and writes its changes, all of them or none.
+"""Finds and reads the files of a set-up, and writes its changes, all or none.
 
-Knows files, below `/` or below any other folder. Knows nothing of what is in them.
+Knows where config.txt is, and works below `/` or below the folder of a mounted card. Does not know what the files mean.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ OVERLAYS = ("overlayroot=tmpfs", "boot=overlay")
 
 
 def boot_config(root: Path) -> Path:
-    """config.txt, in its place since Bookworm or in its older one. Raises SetupError."""
+    """The path of config.txt: that since Bookworm, or the older one. Raises SetupError."""
     places = [root / "boot/firmware/config.txt", root / "boot/config.txt"]
     for place in places:
         if place.is_file():
@@ -57,7 +57,7 @@ def _content(path: Path) -> Content:
 
 
 def hindrance(plan: ChangeSet) -> str | None:
-    """Why the changes could not be made; asked before any is tried. None: they can."""
+    """The reason why the changes cannot be made, before any is tried; None: they can."""
     for change in plan.changes:
         folder = next(each for each in change.path.resolve().parents if each.is_dir())
         if os.statvfs(folder).f_flag & os.ST_RDONLY:
@@ -68,7 +68,7 @@ def hindrance(plan: ChangeSet) -> str | None:
 
 
 def carry_out(plan: ChangeSet, today: date) -> list[Path]:
-    """Make every change. Returns the copies of the files as they were. Raises SetupError: then nothing is changed."""
+    """Make every change. Returns the copies of the old files. Raises SetupError, and then nothing is changed."""
     done: list[Change] = []
     copies: list[Path] = []
     for change in plan.changes:

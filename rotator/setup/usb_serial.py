@@ -1,7 +1,7 @@
-"""A Pi as a COM port: its USB controller as a device, and a unit that builds that device at each start.
+"""Plans the set-up that makes the Pi a COM port of the PC: a line of config.txt, a systemd unit, and a `[[link]]`.
 
-Knows config.txt's overlay, the unit, and the other users of the same controller. How the device is built is in
-`gadget`. Touches no file.
+Knows the overlay, the unit, and other programs that use the same USB controller. `gadget` builds the USB device. Works
+on texts and writes no file.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Places:
 
 
 def unit(command: str, usb_id: str) -> str:
-    """The systemd unit; `command` starts `rotator`, quoted as systemd wants it."""
+    """The text of the systemd unit. `command` starts `rotator`, quoted for systemd."""
     return f"""\
 [Unit]
 Description=The Pi's USB port as a serial port of the PC
@@ -81,9 +81,9 @@ WantedBy=multi-user.target
 
 
 def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: str) -> ChangeSet:
-    """Raises SetupError where this Pi cannot be a USB device, or where another program has the port."""
+    """The changes and notes. Raises SetupError if this Pi cannot be a USB device, or another program has the port."""
     if pi is None:
-        raise SetupError("this is no Raspberry Pi that is known here: only one can be made a COM port this way")
+        raise SetupError("this is no Raspberry Pi that the program knows: only those can become a COM port this way")
     if pi.socket is None:
         raise SetupError(f"a {pi.model} has no socket that can be a USB device: nothing was changed.\n{TWO_ADAPTERS}")
     if rival := _rival(files, places):
@@ -107,7 +107,7 @@ def plan(files: Files, places: Places, pi: Pi | None, *, command: str, usb_id: s
 
 
 def undone(files: Files, places: Places) -> ChangeSet:
-    """Takes out the lines that `plan` puts in, and no others."""
+    """The changes that remove the lines and files of `plan`, and no others."""
     before = _text(files, places.boot_config)
     text = _text(files, places.settings) if files[places.settings] is not None else None
     settings, remark = link.taken_out(text)
@@ -120,19 +120,19 @@ def undone(files: Files, places: Places) -> ChangeSet:
 
 
 def boot_text(text: str, pi: Pi) -> str:
-    """config.txt with the controller as a device. Raises SetupError where another line of it says otherwise."""
+    """config.txt with the controller in device mode. Raises SetupError if another line makes it a host."""
     others = [each for each in boot_config.settings(BLOCK.without(text)) if each.may_hold_on(pi)]
     for setting in others:
         if setting.key == "otg_mode" and setting.value not in boot_config.NO:
             raise _says_host(setting)
-    # The older driver of the same controller, which can only be a host.
+    # dwc-otg is the older driver of the same controller, and can only be a host.
     for setting, _ in boot_config.overlays(others, "dwc-otg"):
         raise _says_host(setting)
     enough = False
-    for setting, told in boot_config.overlays(others, "dwc2"):
-        if told.get("dr_mode") == "host":
+    for setting, options in boot_config.overlays(others, "dwc2"):
+        if options.get("dr_mode") == "host":
             raise _says_host(setting)
-        # Without dr_mode, or as otg, the port is a device wherever nothing is plugged in that makes it a host.
+        # Without dr_mode, or with otg, the port is a device unless a plugged-in adapter makes it a host.
         enough = enough or not setting.filters
     return BLOCK.into(text, [] if enough else ["[all]", OVERLAY])
 
@@ -145,7 +145,7 @@ def _says_host(setting: boot_config.Setting) -> SetupError:
 
 
 def _rival(files: Files, places: Places) -> str | None:
-    """Other units that build a USB device at each start: the one controller takes only one."""
+    """An error text if another program takes the USB controller at each start: it can have only one device."""
     if files.get(places.root / RPI_USB_GADGET) is not None:
         return (
             "Raspberry Pi's own USB gadget (Ethernet) has the port, and there is only one: "

@@ -70,7 +70,7 @@ def test_transcript_of_a_stop_at_the_box(box: Any, rotator: Rotator, config: Pat
         r"rotator: stopped by console#\d+: nothing moves until resume\n",
         why(rotator("tell", "point", 90, 30, "--config", config)),
     )
-    assert said(rotator("resume", "--config", config)) == "Whoever may move the antenna can do so again.\n"
+    assert said(rotator("resume", "--config", config)) == "The antenna may move again.\n"
     box.until("elevation 0°\n")
     send(b"W090 030\r")
     box.until(r"azimuth (8[6-9]|9[0-4])° to 90\.0°")

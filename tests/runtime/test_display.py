@@ -22,12 +22,13 @@ from rotator.runtime.display import DISPLAY_THREAD, RESET_EVERY_S, DisplayThread
 
 ADDRESS = 0x27
 PATIENCE_S = 30.0
+RETRY_S = 0.05
 FIRST = ("SAT A:235 E:025 ", "SIM A:231 E:024 ")
 SECOND = ("SAT A:236 E:025 ", "SIM A:232 E:024 ")
 
 
 class HandSet:
-    """A clock that a person sets."""
+    """A clock that the test sets."""
 
     def __init__(self) -> None:
         self.now_s = 0.0
@@ -37,7 +38,7 @@ class HandSet:
 
 
 class Watched:
-    """A display that tells when something has happened to it."""
+    """A display that counts its calls and failures, and lets a test wait for a count."""
 
     def __init__(self, display: Hd44780) -> None:
         self._display = display
@@ -65,7 +66,7 @@ class Watched:
             self.changed.notify_all()
 
     def wait(self, **least: int) -> bool:
-        """Wait until each of these has happened that often."""
+        """Wait until each count has reached this number. Returns whether it has."""
         with self.changed:
             return self.changed.wait_for(
                 lambda: all(getattr(self, what) >= count for what, count in least.items()), PATIENCE_S
@@ -83,7 +84,7 @@ class Bench:
         self.display = Watched(Hd44780(port, pauses.sleep))
         self.clock = HandSet()
         self.rows = FIRST
-        self.thread = DisplayThread(self.display, self._asked, self.clock)
+        self.thread = DisplayThread(self.display, self._asked, self.clock, retry_s=RETRY_S)
 
     def _asked(self, _now_s: float) -> tuple[str, str]:
         self.display.count("asks")
@@ -121,7 +122,7 @@ def test_a_fresh_start_now_and_then_repairs_what_sparks_did(running: Bench) -> N
     assert running.display.wait(shows=1)
     enable = 1 << BACKPACKS["ywrobot"]["e"]
     running.wire.write_byte(ADDRESS, enable)
-    running.wire.write_byte(ADDRESS, 0)  # half a byte that nobody sent
+    running.wire.write_byte(ADDRESS, 0)  # half a byte that the driver never sent
     running.rows = SECOND
     assert running.display.wait(shows=2)
     assert running.glass.text() != SECOND

@@ -222,7 +222,7 @@ def test_a_heartbeat_may_be_pulled_either_way(card: Card) -> None:
 def test_a_simulated_rotor_has_no_pins(card: Card) -> None:
     card.rotator.write_text('[rotor]\nhardware = "sim"\n')
     said = card.setup("pins", "--yes")
-    assert (said.code, 'say hardware = "pi"' in said.text) == (1, True)
+    assert (said.code, 'hardware = "pi" under [rotor]' in said.text) == (1, True)
 
 
 def test_a_configuration_elsewhere(card: Card) -> None:

@@ -1,6 +1,6 @@
-"""The kinds of rotor put together, one file each: the real drivers, and the simulated rotor that they run on.
+"""The builders of the kinds of rotor, one file each: the real drivers, and the simulated rotor for them.
 
-Part of the composition root. This table names the files; what a kind says in the configuration is in
+Part of the composition root. This table names the files. The tables and properties of each kind are in
 `rotator.config.kinds`.
 """
 

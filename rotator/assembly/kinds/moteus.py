@@ -1,6 +1,6 @@
-"""Two moteus controllers put together.
+"""Builds the kind moteus: two moteus controllers on CAN-FD, real or simulated.
 
-Part of the composition root. Decides nothing.
+Part of the composition root: names drivers and simulated parts, and passes them the keys of [moteus].
 """
 
 from __future__ import annotations

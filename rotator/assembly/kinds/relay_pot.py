@@ -1,6 +1,6 @@
-"""Motors on relays with pots, put together; the bank of relays is every switched rotor's.
+"""Builds the kind relay-pot: motors on relays with pots, real or simulated. Other kinds with relays use its relay bank.
 
-Part of the composition root. Decides nothing.
+Part of the composition root: names drivers and simulated parts, and passes them the keys of [relays].
 """
 
 from __future__ import annotations

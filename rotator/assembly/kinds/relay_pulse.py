@@ -1,6 +1,6 @@
-"""Motors on relays, each with a contact that is counted, put together.
+"""Builds the kind relay-pulse: motors on relays, each with a counted contact, real or simulated.
 
-Part of the composition root. Decides nothing.
+Part of the composition root: names drivers and simulated parts, and passes them the keys of [relays] and [pulses].
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Two hobby servos on a PCA9685, put together.
+"""Builds the kind servo: two hobby servos on a PCA9685, real or simulated.
 
-Part of the composition root. Decides nothing.
+Part of the composition root: names drivers and simulated parts, and passes them the keys of [servo].
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The kinds of rotor, one file each: this table names them, and `Config.kind` makes the one that a file asks for."""
+"""The table of the kinds of rotor, which have one file each. `Config.kind` makes the kind that the file names."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """`rotor.type = "digipot"`: control boxes that follow a knob, with an MCP41010 in place of each knob.
 
-Knows its table [digipot], and what that means for the rest of the program. Knows no driver.
+Knows its table [digipot], and the answers of this kind to the questions in `kind.py`. Knows no driver.
 """
 
 from __future__ import annotations
@@ -22,31 +22,31 @@ from rotator.config.table import Gpio, PerAxis, Point, Table
 
 class DigipotAxisTable(Table):
     select: Gpio = 8
-    """The chip's select line; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
+    """The chip's CS; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
     steps: list[Point] = Field(default=[(0.0, 0.0), (360.0, 256.0)], min_length=2)
     """Points [degrees, the chip's step there, 0 to 256]."""
     start_deg: float = Field(0.0, ge=-360, le=720)
-    """Where the rotor is taken to stand when the program starts, if no pot measures it."""
+    """The assumed angle at the start of the program, if no pot measures it."""
     dead_band_deg: float = Field(2.0, ge=0, le=20)
-    """How far off the box lets it be before it turns the motor."""
+    """The error at which the control box turns its motor."""
 
 
 class DigipotElevation(DigipotAxisTable):
     select: Gpio = 7
-    """The chip's select line; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
+    """The chip's CS; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
     steps: list[Point] = Field(default=[(0.0, 0.0), (90.0, 64.0)], min_length=2)
     """Points [degrees, the chip's step there, 0 to 256]."""
 
 
 class Digipot(PerAxis, Table):
     spi: Literal["lines", "kernel"] = "lines"
-    """Any GPIO lines, or the Pi's SPI controller (dtparam=spi=on, and the Python package spidev)."""
+    """On any GPIO lines, or on the Pi's SPI controller (dtparam=spi=on, Python package spidev)."""
     sck: Gpio = 11
     """The clock."""
     si: Gpio = 10
     """The data."""
     enable: Gpio | None = None
-    """The relay that feeds the boxes: without it they turn to the middle at power-on, where the chips start."""
+    """The relay of the control boxes' supply. Without it they turn to mid-range at power-on, where the chips start."""
     azimuth: DigipotAxisTable = DigipotAxisTable()
     """The azimuth box."""
     elevation: DigipotElevation = DigipotElevation()
@@ -87,7 +87,7 @@ class DigipotKind(Kind):
         return reach_deg(self.digipot.of(axis).steps)
 
     def slack_deg(self, axis: Axis) -> float:
-        """The box's dead band, and one step of the chip."""
+        """The control box's dead band plus one step of the chip."""
         table = self.digipot.of(axis)
         (low_deg, low_step), (high_deg, high_step) = min(table.steps), max(table.steps)
         return table.dead_band_deg + abs((high_deg - low_deg) / (high_step - low_step))

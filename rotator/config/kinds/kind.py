@@ -1,7 +1,6 @@
-"""The questions that the program asks of a kind of rotor, with the answers of a kind without such parts.
+"""The base class of the kinds of rotor: what the program asks of a kind, with the answer of a kind without such a part.
 
-Knows the questions. Knows no kind: each has a file of its own beside this one. A kind is made from its own tables of
-the configuration, and knows no other table.
+Knows no kind: each has a file beside this one. A kind holds its own tables of the configuration, and no other.
 """
 
 from __future__ import annotations
@@ -22,24 +21,25 @@ Usual = Mapping[str, Mapping[str, Any]]
 
 @dataclass(frozen=True, slots=True)
 class OffLine:
-    """An output that must be at its off level while the program does not drive it."""
+    """An output line that must be off while no program drives it."""
 
     name: str
-    """What the program calls the line."""
+    """The program's name of the line."""
     key: str
     """The key of the file that names its GPIO."""
     pin: int
     off_high: bool = False
     """Off is the high level."""
     switches: bool = True
-    """On, it closes a contact by itself. A heartbeat does not, and an OE input has a resistor of its own."""
+    """The line's on level closes a contact directly. A heartbeat does not, and an OE input has its own resistor."""
     stops: bool = True
-    """Off, it stops the motors: the sentinel and `rotator off` switch it. A servo board's OE would drop the antenna."""
+    """The off level stops the motors, and the sentinel and `rotator off` set it. A servo board's OE would drop the
+    antenna."""
 
 
 @dataclass(frozen=True, slots=True)
 class EndStop:
-    """What homing has to know of an axis that counts: the cam, and where its low end stop is."""
+    """What homing needs of an axis that counts pulses: the cam, and the angle of the low end stop."""
 
     spacing_deg: float
     coast_s: float
@@ -47,64 +47,64 @@ class EndStop:
 
 
 class Kind:
-    """A kind of rotor with its tables. The answers here are those of a kind without such a part."""
+    """A kind of rotor with its tables. Subclasses override the answers for parts that they have."""
 
     switched: ClassVar[bool] = False
-    """Its motors are only on or off, by relays."""
+    """Relays switch the motors on and off."""
     confirmable: ClassVar[bool] = False
-    """After power-on its drive has to hear from a person where the antenna points."""
+    """After power-on the drive may need the operator to confirm the antenna's angle."""
     own: ClassVar[Angle]
-    """How an angle is known where the file names no other sensor."""
+    """How the angle is known, unless the file names another sensor."""
     usual: ClassVar[Usual] = {}
-    """What it has in place of a relay rotor's defaults, where the file does not say. On real hardware the limits are
-    not taken from here: a person has to give them."""
+    """Defaults that differ from those of a relay rotor with pots. On real hardware the limits are not taken from here:
+    the operator must give them."""
     holds: ClassVar[str] = ""
-    """What its motors do when the program has ended, where no line stops them."""
+    """What the motors do after the end of the program, for a kind without a line that stops them."""
 
     def pins(self) -> list[tuple[int, str]]:
-        """Every GPIO that it uses but those of SPI, with the key that names it."""
+        """Every GPIO in use except those of SPI, with its key in the file."""
         return []
 
     def chips(self) -> list[I2CChip]:
-        """The I2C chips of its drive."""
+        """The I2C chips of the drive."""
         return []
 
     def spi_uses(self) -> list[SpiUse]:
-        """The SPI chips of its drive."""
+        """The SPI chips of the drive."""
         return []
 
     def serial_port(self) -> str | None:
-        """The serial port over which its motors are reached."""
+        """The serial port of the motor controllers; None: there is none."""
         return None
 
     def off_lines(self) -> tuple[OffLine, ...]:
-        """The outputs that have to be off while the Pi starts and when the program dies."""
+        """The outputs that must be off while the Pi starts and after the program has died."""
         return ()
 
     def faults(self, axes: Mapping[Axis, AxisTable]) -> list[str]:
-        """What in its tables does not go with the axes, in sentences for a person."""
+        """Contradictions between its tables and the axes, one sentence each, for the user."""
         return []
 
     def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
-        """The lowest and the highest angle of its own table, on the rotor's scale; None: its table sets no end."""
+        """The lowest and the highest angle of its table, on the rotor's own scale; None: the table sets no end."""
         return None, None
 
     def slack_deg(self, axis: Axis) -> float:
-        """How far from the ordered angle the motor may come to rest by its nature."""
+        """How far from the ordered angle a healthy drive may come to rest."""
         return 0.0
 
     def accel_dps2(self, axis: Axis) -> float | None:
-        """The acceleration that the drive keeps to; None: the drive takes none."""
+        """The acceleration limit sent to the drive; None: the drive has no such limit."""
         return None
 
     def end_stop(self, axis: Axis) -> EndStop | None:
-        """For an axis that counts: how to find its end stop."""
+        """The end stop for homing; None: the axis does not count pulses."""
         return None
 
     def first_move(self, axis: Axis) -> str:
-        """A warning before the first move of a calibration; empty: it needs none."""
+        """A warning before the first move of a calibration; empty: no warning."""
         return ""
 
     def reversal(self, axis: Axis) -> str:
-        """What to change where the antenna turns the wrong way; empty: the two relays."""
+        """The repair for an antenna that turns the wrong way; empty: exchange the two relays."""
         return ""

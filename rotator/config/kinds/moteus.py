@@ -1,6 +1,6 @@
 """`rotor.type = "moteus"`: two moteus controllers on CAN-FD.
 
-Knows its table [moteus], and what that means for the rest of the program. Knows no driver.
+Knows its table [moteus], and the answers of this kind to the questions in `kind.py`. Knows no driver.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ class MoteusAxisTable(Table):
     id: int = Field(1, ge=1, le=126)
     """The controller's CAN id."""
     rev_per_turn: float = 1.0
-    """Revolutions of the controller's scale for 360° of the antenna; below 0 where it runs the other way."""
+    """Revolutions of the controller for 360° of the antenna; negative for the opposite direction."""
     zero_rev: float = 0.0
-    """The controller's position, in revolutions, where the rotor's scale is at 0°."""
+    """The controller's position at 0° of the rotor's scale, in revolutions."""
     velocity_limit_dps: float = Field(30.0, gt=0, le=360)
-    """Its greatest speed, always sent."""
+    """The speed limit, sent with every order."""
     accel_limit_dps2: float = Field(20.0, gt=0, le=1000)
-    """Its greatest acceleration, always sent."""
+    """The acceleration limit, sent with every order."""
     max_torque_nm: float | None = Field(None, gt=0)
-    """Its greatest torque; left out, the controller's own setting."""
+    """The torque limit; left out, the controller's own setting."""
     geared: bool = True
-    """Its only encoder sits before a gear: after power-on it does not know where the antenna points, and nothing moves
-    until a person confirms it."""
+    """The only encoder sits before a gear: after power-on the controller does not know the antenna's angle, and the
+    axis does not move until you confirm it."""
 
     @model_validator(mode="after")
     def _turns(self) -> MoteusAxisTable:
@@ -49,7 +49,7 @@ class Moteus(PerAxis, Table):
     port: str = Field("/dev/fdcanusb", min_length=1)
     """The adapter's serial port."""
     can: str | None = Field(None, min_length=1)
-    """In place of `port`: a CAN-FD interface of the kernel, can0 say."""
+    """In place of `port`: a CAN-FD interface of the kernel, such as can0."""
     azimuth: MoteusAxisTable = MoteusAxisTable()
     """The azimuth controller."""
     elevation: MoteusElevation = MoteusElevation()

@@ -1,6 +1,6 @@
-"""A table of points from the angle to the value of a drive without feedback: its ends are the reach of the rotor.
+"""The points [degrees, value] of a drive without feedback: the reach that they give, and the faults against it.
 
-Knows angles and the words of the faults. Knows no drive.
+Knows angles and the texts of the faults. Knows no drive: a value is a pulse width or a step of a chip.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def out_of_reach(
     points: Mapping[Axis, list[tuple[float, float]]],
     starts: Mapping[Axis, StartsSomewhere],
 ) -> list[str]:
-    """The limits that the points `key.AXIS.name` do not reach, and the starts outside of the limits."""
+    """Faults: an axis with limits beyond its points `key.AXIS.name`, or with a start angle outside its limits."""
     faults: list[str] = []
     for axis, limits in axes.items():
         start_deg = starts[axis].start_deg

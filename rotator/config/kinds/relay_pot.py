@@ -1,6 +1,7 @@
 """`rotor.type = "relay-pot"`: motors on relays, a pot on a converter for each angle. The G-5500 is one.
 
-Knows what its tables [relays] and [adc] mean for the rest of the program. Knows no driver.
+Knows the lines of its table [relays], and the answers of this kind to the questions in `kind.py`. Knows no driver, and
+not the converter: its table [adc] serves pots of every kind of rotor.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ class RelayPot(Kind):
 
 
 def relay_lines(relays: Relays) -> tuple[OffLine, ...]:
-    """The relays, the master, and the heartbeat: that one is off when it stands still, at either level."""
+    """The relays, the master, and the heartbeat. A heartbeat is off when it stands still, at either level."""
     off_high = relays.active == "low"
     lines = [OffLine(key, f"relays.{key}", pin, off_high) for key, pin in relays.contacts.items()]
     if relays.heartbeat is not None:

@@ -1,6 +1,7 @@
 """`rotor.type = "relay-pulse"`: motors on relays, each with a contact that is counted. The Alliance U-100 is one.
 
-Knows its table [pulses], and what that and [relays] mean for the rest of the program. Knows no driver.
+Knows its table [pulses], the lines of [relays], and the answers of this kind to the questions in `kind.py`. Knows no
+driver.
 """
 
 from __future__ import annotations
@@ -24,15 +25,15 @@ class PulseAxisTable(Table):
     contact: Gpio = 16
     """The input with the cam's contact."""
     spacing_deg: float = Field(5.0, gt=0, le=30)
-    """From one closure to the next: 5 on a modified Alliance U-100, else 6 or 10."""
+    """The angle from one closure to the next: 5 on a modified Alliance U-100, else 6 or 10."""
     closed_deg: float = Field(1.0, gt=0, le=30)
     """The part of the spacing in which the contact is closed."""
     closes_at_deg: float = Field(0.0, ge=-360, le=720)
-    """An angle at which the contact closes when turning clockwise or up."""
+    """Any angle at which the contact closes on the way clockwise or up."""
     coast_s: float = Field(0.5, gt=0, le=5)
-    """How long after its relay has opened the motor stands for certain."""
+    """The time after its relay opens until the motor surely stands."""
     play_deg: float = Field(0.0, ge=0, le=10)
-    """The play: after a reversal the contact changes this much later."""
+    """The play of the gear: after a reversal the contact changes this much later."""
     home_deg: float = Field(0.0, ge=-360, le=720)
     """The angle of the low end stop, where homing ends."""
 
@@ -50,18 +51,18 @@ class PulseElevation(PulseAxisTable):
 
 class Pulses(PerAxis, Table):
     active: Literal["low", "high"] = "low"
-    """The level of a closed contact; low for an opto-isolator to ground."""
+    """The level of a closed contact; low for an opto-isolator that pulls to ground."""
     pull: bool = True
-    """The Pi's own resistor holds the line at the open contact's level."""
+    """Use the Pi's own resistor to hold the line at the open level."""
     debounce_s: float = Field(0.02, ge=0, le=0.3)
-    """A change of the contact counts when it has stayed for so long."""
+    """A change of the contact counts after it has stayed for this time."""
     azimuth: PulseAxisTable = PulseAxisTable()
     """The azimuth axis's cam."""
     elevation: PulseElevation = PulseElevation()
     """The elevation axis's cam."""
 
     def cams(self, axes: Iterable[Axis]) -> dict[Axis, dict[str, float]]:
-        """What a kept count of these axes depends on: a count under another cam is worth nothing."""
+        """The settings of each axis's cam. A saved count is valid only for the same settings."""
         return {axis: self.of(axis).model_dump(exclude={"contact"}) for axis in axes}
 
 

@@ -1,6 +1,6 @@
 """`rotor.type = "servo"`: two hobby servos on a PCA9685.
 
-Knows its table [servo], and what that means for the rest of the program. Knows no driver.
+Knows its table [servo], and the answers of this kind to the questions in `kind.py`. Knows no driver.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ class ServoAxisTable(Table):
     channel: int = Field(0, ge=0, le=15)
     """The board's output."""
     pulses_us: list[Point] = Field(default=[(0.0, 500.0), (180.0, 2500.0)], min_length=2)
-    """Points [degrees, pulse width in microseconds]; beyond its ends the servo is never sent."""
+    """Points [degrees, pulse width in microseconds]; no pulse goes beyond their ends."""
     start_deg: float = Field(0.0, ge=-360, le=720)
-    """Where the first pulse sends it, at the servo's own speed: put it where the antenna was left."""
+    """The angle of the first pulse. The servo runs there at full speed, so set it to where you leave the antenna."""
     slew_dps: float = Field(60.0, gt=0, le=720)
-    """How fast the ordered angle moves; no more than the servo can."""
+    """The speed of the ordered angle; not above the servo's own."""
 
 
 class ServoElevation(ServoAxisTable):
@@ -38,15 +38,15 @@ class ServoElevation(ServoAxisTable):
 
 class Servo(PerAxis, Table):
     bus: I2CBus = 1
-    """The N of /dev/i2c-N; the header's bus is 1."""
+    """1 is the bus on the header."""
     address: I2CAddress = 0x40
     """The address of the PCA9685."""
     osc_hz: float = Field(25e6, ge=20e6, le=30e6)
-    """The true frequency of its oscillator; on many boards 26 to 27 million. It scales every pulse."""
+    """The measured frequency of its oscillator, 26 to 27 MHz on many boards. It scales every pulse."""
     enable: Gpio | None = None
-    """The line at the board's OE input, with a pull-up beside it: no pulse before the program makes one."""
+    """The line to the board's OE input, with a pull-up: no pulse before the program starts them."""
     idle_off_s: float = Field(0.0, ge=0, le=86_400)
-    """A servo that has not moved for so long gets no more pulses, and is limp. 0: it holds for good."""
+    """The time without a move after which a servo gets no more pulses and is limp. 0: it always holds."""
     azimuth: ServoAxisTable = ServoAxisTable()
     """The azimuth servo."""
     elevation: ServoElevation = ServoElevation()
@@ -75,7 +75,7 @@ class ServoKind(Kind):
     def off_lines(self) -> tuple[OffLine, ...]:
         if self.servo.enable is None:
             return ()
-        # OE is active low. When the program dies it stays on: the servos hold the antenna.
+        # OE is active low. It stays on after the program has died, so that the servos hold the antenna.
         return (OffLine("enable", "servo.enable", self.servo.enable, off_high=True, switches=False, stops=False),)
 
     def faults(self, axes: Mapping[Axis, AxisTable]) -> list[str]:
