@@ -1,12 +1,13 @@
-"""A check, and its findings.
+"""The parts of a `rotator doctor` report: a check, its findings, and the mark and colour of each finding.
 
-Knows their form. Knows nothing of the box.
+Knows the form of a check and the four marks. Does not know any single check, nor how the report is laid out.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Any, Generic, ParamSpec
 
 from hw.ports import HardwareError
@@ -14,23 +15,40 @@ from hw.ports import HardwareError
 P = ParamSpec("P")
 
 
+class Mark(StrEnum):
+    """The character in front of a finding."""
+
+    GOOD = "✓"
+    WRONG = "✗"
+    WARNING = "!"
+    SKIPPED = "–"
+
+    @property
+    def colour(self) -> str:
+        """The style in `rich`'s words."""
+        return _COLOURS[self]
+
+
+_COLOURS = {Mark.GOOD: "green", Mark.WRONG: "bold red", Mark.WARNING: "yellow", Mark.SKIPPED: "dim"}
+
+
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """`ok` None: not checked, or nothing here to check. True with an `advice` is a warning."""
+    """One result of a check. `ok` None: not checked, or nothing to check. `ok` True with an `advice` is a warning."""
 
     ok: bool | None
     found: str
     advice: str = ""
 
     @property
-    def mark(self) -> str:
+    def mark(self) -> Mark:
         match self.ok:
             case None:
-                return "–"
+                return Mark.SKIPPED
             case False:
-                return "✗"
+                return Mark.WRONG
             case True:
-                return "!" if self.advice else "✓"
+                return Mark.WARNING if self.advice else Mark.GOOD
 
 
 def fine(found: str) -> Finding:
@@ -46,12 +64,12 @@ def wrong(found: str, advice: str) -> Finding:
 
 
 def skipped(found: str, advice: str = "") -> Finding:
-    """`advice`: where the user has to look, because the program cannot."""
+    """A check that was not made. `advice`: what the user can check by hand instead."""
     return Finding(None, found, advice)
 
 
 def refused(about: str, fault: HardwareError) -> Finding:
-    """The error of a driver as a finding; the text after its semicolon is the advice."""
+    """A driver's error as a finding about this part. The text after the error's first semicolon is the advice."""
     problem, _, cure = str(fault).partition("; ")
     return wrong(f"{about}: {problem}", f"{cure[:1].upper()}{cure[1:]}." if cure else "See docs/troubleshooting.md.")
 
@@ -62,12 +80,12 @@ def always(_config: Any) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class Check(Generic[P]):
-    """One check: its name, what it looks at in a sentence, and the function that looks."""
+    """One check: its name, a sentence for the documentation, and the function that returns its findings."""
 
     name: str
     looks_at: str
     look: Callable[P, Iterator[Finding]]
     on_chips: bool = False
-    """It looks at chips. A simulated station has them too."""
+    """The check reads chips, so it also runs on a simulated station."""
     concerns: Callable[[Any], bool] = always
-    """Whether the configuration has anything of this kind; else the check is left out."""
+    """Whether the configuration uses the checked part. False: the report leaves the check out."""

@@ -1,35 +1,40 @@
-"""The box's description for rotctld's clients: limits, abilities, settings, and the state of motion.
+"""What the box tells rotctld's clients about itself: model, limits, abilities, settings, and the flags of motion.
 
-Knows the status and Hamlib's words for it. Changes nothing: the settings that a client may make have no effect.
+The box answers as a GS-232B, Hamlib's model 603. Decides which limits it reports: they are wider than the rotor's.
+Knows the status and Hamlib's words for it. Gives no orders: the settings that a client may make have no effect.
 """
 
 from __future__ import annotations
 
 from rotator import __version__
 from rotator.protocols.rotctld import INVALID_PARAMETER, NOT_AVAILABLE, Answer, BadRequest, number
-from rotator.status import Status
+from rotator.status import AxisStatus, Status
 
 SPEEDS = (1, 2, 3, 4)
 SPEED_RANGE = f"({SPEEDS[0]}..{SPEEDS[-1]}/1)"
-_PRETENDED_MODEL = 603
-_AT_AN_END_DEG = 0.5
+_MODEL = 603
+"""Hamlib's number for a GS-232B."""
+_AT_END_DEG = 0.5
+"""An axis nearer than this to an end of its range counts as at that end."""
 
 _NO_EFFECT = {
-    "write_delay": "Delay in ms between bytes: there is no port behind this, so without effect",
-    "post_write_delay": "Delay in ms between commands: likewise",
-    "timeout": "Timeout in ms: likewise",
-    "retry": "Number of retries: likewise",
+    "write_delay": "Delay between bytes in ms. No effect: the box has no serial port here.",
+    "post_write_delay": "Delay between commands in ms. No effect: the box has no serial port here.",
+    "timeout": "Timeout in ms. No effect: the box has no serial port here.",
+    "retry": "Number of retries. No effect: the box has no serial port here.",
 }
-"""Settings that Hamlib's clients make without need."""
+"""A client may set any value; the box ignores it. Hamlib's clients set these for a controller on a serial port."""
 _FIXED = {
-    "min_az": "Lowest azimuth in degrees; the box's configuration has it",
-    "max_az": "Highest azimuth in degrees; likewise",
-    "min_el": "Lowest elevation in degrees; likewise",
-    "max_el": "Highest elevation in degrees; likewise",
-    "south_zero": "Zero of azimuth is south: it never is",
+    "min_az": "Lowest azimuth that the box accepts, in degrees. Cannot be set here.",
+    "max_az": "Highest azimuth that the box accepts, in degrees. Cannot be set here.",
+    "min_el": "Lowest elevation that the box accepts, in degrees. Cannot be set here.",
+    "max_el": "Highest elevation that the box accepts, in degrees. Cannot be set here.",
+    "south_zero": "Always 0: azimuth 0 is north.",
 }
+"""A client may only set the value that the box has already."""
+_SETTINGS = _NO_EFFECT | _FIXED
 _CAPS_HEAD = (
-    f"Caps dump for model:\t{_PRETENDED_MODEL}",
+    f"Caps dump for model:\t{_MODEL}",
     "Model name:\t\tGS-232B",
     "Mfg name:\t\tgs232-rotator",
     f"Backend version:\t{__version__}",
@@ -70,10 +75,11 @@ _CAPS_END = (
 
 
 def limits(status: Status) -> dict[str, float]:
-    """The angles that the box accepts, in degrees, for clients that enforce them.
+    """The lowest and highest angles in degrees that the box reports, because some clients send nothing outside them.
 
-    Azimuth covers at least the whole circle and elevation 0 to 180, because the box turns every direction into axis
-    angles itself. Azimuth begins below zero only if the rotor does: CQRLOG takes that for a shifted scale.
+    Azimuth covers at least 0 to 360 and elevation is 0 to 180, also for a rotor with a smaller range: the box itself
+    finds the axis angles for every direction. The lowest azimuth is below 0 only if the rotor's is, because CQRLOG
+    takes a negative one for a shifted scale.
     """
     min_az_deg = min(0.0, status.azimuth.min_deg)
     max_az_deg = max(360.0, status.azimuth.max_deg)
@@ -81,12 +87,16 @@ def limits(status: Status) -> dict[str, float]:
 
 
 def dump_state(status: Status) -> Answer:
-    """Numbers alone for Hamlib up to 4.5.0, then `key=value` for later ones. The extended protocol has labels."""
+    """Model and limits, for a Hamlib client that connects.
+
+    In the default protocol: lines of bare numbers, which Hamlib up to 4.5.0 reads, then `key=value` lines, which later
+    versions read. In the extended protocol: lines with labels.
+    """
     angles = limits(status)
     names = ("Minimum Azimuth", "Maximum Azimuth", "Minimum Elevation", "Maximum Elevation")
     labelled = tuple((name, f"{value:.6f}") for name, value in zip(names, angles.values(), strict=True))
-    head = (("rotctld Protocol Ver", "1"), ("Rotor Model", f"{_PRETENDED_MODEL}"))
-    rows = ["1", f"{_PRETENDED_MODEL}", *(f"{value:.6f}" for value in angles.values()), "0"]
+    head = (("rotctld Protocol Ver", "1"), ("Rotor Model", f"{_MODEL}"))
+    rows = ["1", f"{_MODEL}", *(f"{value:.6f}" for value in angles.values()), "0"]
     rows += [f"{key}={value:.6f}" for key, value in angles.items()]
     rows += ["south_zero=0", "rot_type=AzEl", "done"]
     return Answer(
@@ -96,7 +106,7 @@ def dump_state(status: Status) -> Answer:
 
 
 def dump_caps(status: Status) -> Answer:
-    """The abilities, in the lines of Hamlib's own server for a GS-232B."""
+    """The abilities, in the same lines as Hamlib's own server writes for a GS-232B."""
     angles = limits(status)
     lines = [
         *_CAPS_HEAD,
@@ -110,25 +120,24 @@ def dump_caps(status: Status) -> Answer:
 
 
 def dump_conf(status: Status, *, always_reports: bool) -> Answer:
-    """Every setting with its meaning and value."""
-    rows = [
-        f'{name}: "{meaning}"\n\tDefault: {value}, Value: {value}\n'
-        for name, meaning in (_NO_EFFECT | _FIXED).items()
-        for value in (_setting(name, status),)
-    ]
+    """Every setting with its meaning and value. `always_reports`: a line RPRT follows in the default protocol too."""
+    rows = [_setting_rows(name, meaning, _setting(name, status)) for name, meaning in _SETTINGS.items()]
     return Answer(text="".join(rows), always_reports=always_reports)
 
 
 def get_conf(name: str, status: Status) -> Answer:
-    """Raises BadRequest for an unknown name."""
-    if name not in _NO_EFFECT | _FIXED:
+    """One setting and its value. Raises BadRequest for an unknown name."""
+    if name not in _SETTINGS:
         raise BadRequest(INVALID_PARAMETER)
     return Answer(text=f"{name}={_setting(name, status)}\n")
 
 
 def set_conf(name: str, value: str, status: Status) -> Answer:
-    """Accepts a value that changes nothing. Raises BadRequest for others: only the configuration sets limits."""
-    if name not in _NO_EFFECT | _FIXED:
+    """Accept a value without effect. Raises BadRequest for an unknown name, and for a new limit.
+
+    Only the configuration sets limits: a client on the network must not widen them.
+    """
+    if name not in _SETTINGS:
         raise BadRequest(INVALID_PARAMETER)
     if number(value) != float(_setting(name, status)) and name in _FIXED:
         raise BadRequest(NOT_AVAILABLE)
@@ -136,9 +145,11 @@ def set_conf(name: str, value: str, status: Status) -> Answer:
 
 
 def status_words(status: Status) -> str:
-    """Hamlib's flags, each followed by a blank; empty while the antenna rests between its ends."""
+    """Hamlib's flags for the present state, each followed by a blank. Empty when no flag is true."""
     azimuth, elevation = status.azimuth, status.elevation
     azimuth_deg, elevation_deg = azimuth.angle_deg, elevation.angle_deg
+    at_left, at_right = _at_ends(azimuth)
+    at_bottom, at_top = _at_ends(elevation)
     flags = {
         "MOVING": status.moving,
         "MOVING_AZ": azimuth.moving,
@@ -147,15 +158,26 @@ def status_words(status: Status) -> str:
         "MOVING_EL": elevation.moving,
         "MOVING_UP": elevation.drive > 0,
         "MOVING_DOWN": elevation.drive < 0,
-        "LIMIT_UP": elevation_deg is not None and elevation_deg >= elevation.max_deg - _AT_AN_END_DEG,
-        "LIMIT_DOWN": elevation_deg is not None and elevation_deg <= elevation.min_deg + _AT_AN_END_DEG,
-        "LIMIT_LEFT": azimuth_deg is not None and azimuth_deg <= azimuth.min_deg + _AT_AN_END_DEG,
-        "LIMIT_RIGHT": azimuth_deg is not None and azimuth_deg >= azimuth.max_deg - _AT_AN_END_DEG,
+        "LIMIT_UP": at_top,
+        "LIMIT_DOWN": at_bottom,
+        "LIMIT_LEFT": at_left,
+        "LIMIT_RIGHT": at_right,
         "OVERLAP_DOWN": elevation_deg is not None and elevation_deg < 0,
         "OVERLAP_LEFT": azimuth_deg is not None and azimuth_deg < 0,
         "OVERLAP_RIGHT": azimuth_deg is not None and azimuth_deg > 360,
     }
-    return "".join(f"{word} " for word, is_so in flags.items() if is_so)
+    return "".join(f"{word} " for word, is_true in flags.items() if is_true)
+
+
+def _at_ends(axis: AxisStatus) -> tuple[bool, bool]:
+    """Whether an axis is at its low end, and whether it is at its high end. Neither while its angle is not known."""
+    if axis.angle_deg is None:
+        return False, False
+    return axis.angle_deg <= axis.min_deg + _AT_END_DEG, axis.angle_deg >= axis.max_deg - _AT_END_DEG
+
+
+def _setting_rows(name: str, meaning: str, value: str) -> str:
+    return f'{name}: "{meaning}"\n\tDefault: {value}, Value: {value}\n'
 
 
 def _setting(name: str, status: Status) -> str:

@@ -1,8 +1,8 @@
-"""The frames of SPID's Rot1Prog, Rot2Prog and MD-01, as a table, with their codec.
+"""The frames of the SPID controllers Rot1Prog, Rot2Prog and MD-01: the command table and the codec.
 
-Knows the thirteen bytes to the controller, the five or twelve from it, and how to find a frame among other bytes. Does
-not know what the box does with a frame: `spid_session` does. Sources: LA6YKA's description of the protocol, and what
-Hamlib 4.5 and 4.6 send to models 901, 902 and 903 (see docs/protocols.md).
+A client sends 13 bytes; a Rot1Prog answers with 5, the other models with 12. Knows these bytes, and how to find a frame
+among other bytes. Does not know what the box does with a frame: `spid_session` does. Sources: LA6YKA's description of
+the protocol, and what Hamlib 4.5 and 4.6 send to models 901, 902 and 903 (see docs/protocols.md).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from enum import Enum, IntEnum, IntFlag
 START, END = 0x57, 0x20
 LENGTH = 13
 OFFSET_DEG = 360
-"""Added to every angle, so that no number is negative."""
+"""SPID adds this to every angle on the line, so that no number is negative."""
 _COMMAND_AT, _END_AT = 11, 12
 _AZIMUTH, _ELEVATION = slice(1, 5), slice(6, 10)
 _AZIMUTH_PULSES_AT, _ELEVATION_PULSES_AT = 5, 10
@@ -26,11 +26,11 @@ class Model(Enum):
     """Azimuth only, whole degrees."""
     ROT2PROG = "Rot2Prog"
     MD01 = "MD-01"
-    """As Rot2Prog; it also answers a set, and has commands to jog."""
+    """As Rot2Prog, but it also answers SET, and it has the command MOVE."""
 
 
 class Command(IntEnum):
-    """The byte that the description calls K."""
+    """The command byte; K in LA6YKA's description."""
 
     STOP = 0x0F
     STATUS = 0x1F
@@ -59,7 +59,7 @@ _BY_COMMAND: dict[int, Row] = {row.command: row for row in ROWS}
 
 
 class Turn(IntFlag):
-    """The first byte of a move."""
+    """The first byte after START in a MOVE: one direction of an axis, or the sum of one for each axis."""
 
     LEFT = 1
     RIGHT = 2
@@ -67,12 +67,17 @@ class Turn(IntFlag):
     DOWN = 8
 
 
-TURNS = tuple(x | y for x in (Turn(0), Turn.LEFT, Turn.RIGHT) for y in (Turn(0), Turn.UP, Turn.DOWN) if x | y)
+TURNS = (
+    *(Turn.UP, Turn.DOWN),
+    *(Turn.LEFT, Turn.LEFT | Turn.UP, Turn.LEFT | Turn.DOWN),
+    *(Turn.RIGHT, Turn.RIGHT | Turn.UP, Turn.RIGHT | Turn.DOWN),
+)
+"""Every turn that a MOVE may ask for. Opposite directions of one axis are no turn."""
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One command. A set has angles in steps of a pulse; a move has a turn."""
+    """One command. SET has angles in degrees; MOVE has a turn; the other commands have neither."""
 
     command: Command
     azimuth_deg: float | None = None
@@ -81,18 +86,21 @@ class Frame:
 
 
 def answers(model: Model, command: Command) -> bool:
+    """Whether this model answers this command with its position."""
     return model in _BY_COMMAND[command].answered
 
 
 @dataclass(slots=True)
 class FrameReader:
-    """Feed it pieces; it returns whole frames. Bytes that begin no frame are skipped one by one."""
+    """Finds whole frames in a stream of bytes. It skips bytes that do not belong to a frame."""
 
     model: Model
     pulses: int
+    """The controller's pulses per degree: the resolution of the angles in a SET."""
     _buffer: bytearray = field(default_factory=bytearray)
 
     def feed(self, data: bytes) -> list[Frame]:
+        """The frames that end in `data`, which may be any piece of the stream."""
         self._buffer += data
         frames = []
         start = 0
@@ -106,9 +114,10 @@ class FrameReader:
 
 
 def decode(octets: bytes, model: Model, pulses: int) -> Frame | None:
-    """From thirteen bytes to a command, for a controller with `pulses` a degree; None: they are no command.
+    """The command in 13 bytes; None: these bytes are no command for this model. `pulses`: pulses per degree.
 
-    The pulses in the client's frame are ignored, as real controllers do: the client must ask for the controller's.
+    A SET also holds the client's own pulses per degree. They are ignored, as in a real controller: a client must use
+    the number that the controller sends in its answers.
     """
     row = _BY_COMMAND.get(octets[_COMMAND_AT])
     if octets[0] != START or octets[_END_AT] != END or row is None or model not in row.models:
@@ -117,13 +126,13 @@ def decode(octets: bytes, model: Model, pulses: int) -> Frame | None:
         case Command.SET:
             azimuth, elevation = octets[_AZIMUTH], octets[_ELEVATION]
             if model is Model.ROT1PROG:
-                # Three digits of whole degrees, then always 0: no pulses as in the other models.
+                # Three digits of whole degrees, then always 0. The other models count pulses.
                 return Frame(Command.SET, int(azimuth[:3]) - OFFSET_DEG) if azimuth.isdigit() else None
             if not (azimuth.isdigit() and elevation.isdigit()):
                 return None
             return Frame(Command.SET, int(azimuth) / pulses - OFFSET_DEG, int(elevation) / pulses - OFFSET_DEG)
         case Command.MOVE:
-            # The two bytes for the pulses hold random memory when Hamlib sends them.
+            # The bytes after the turn are not checked: Hamlib sends random memory in the two for the pulses.
             turn = Turn(octets[1])
             return Frame(Command.MOVE, turn=turn) if turn in TURNS else None
         case _:
@@ -131,7 +140,7 @@ def decode(octets: bytes, model: Model, pulses: int) -> Frame | None:
 
 
 def encode(frame: Frame, model: Model, pulses: int) -> bytes:
-    """A command as Hamlib writes it; angles are cut to the pulse below."""
+    """The 13 bytes of a command as Hamlib sends it. Angles are rounded down to a pulse. `pulses`: pulses per degree."""
     octets = bytearray(LENGTH)
     octets[0], octets[_COMMAND_AT], octets[_END_AT] = START, frame.command, END
     if frame.turn is not None:
@@ -146,15 +155,16 @@ def encode(frame: Frame, model: Model, pulses: int) -> bytes:
 
 
 def azimuth_reply(azimuth_deg: float) -> bytes:
-    """Rot1Prog's five bytes: whole degrees, three digits as values, not as characters."""
+    """A Rot1Prog's five bytes: whole degrees in three bytes. The byte of a digit is its value 0 to 9, not ASCII."""
     return bytes([START, *_digits(math.floor(azimuth_deg + 0.5))[:3], END])
 
 
 def position_reply(azimuth_deg: float, elevation_deg: float, pulses: int) -> bytes:
-    """The twelve bytes of the other models: tenths of a degree, for every number of pulses."""
+    """The 12 bytes of the other models. Angles are in tenths of a degree, also where `pulses` per degree is not 10."""
     return bytes([START, *_digits(azimuth_deg), pulses, *_digits(elevation_deg), pulses, END])
 
 
 def _digits(angle_deg: float) -> list[int]:
+    """The four digits of an angle in tenths of a degree, with the offset."""
     tenths = math.floor((angle_deg + OFFSET_DEG) * 10 + 0.5)
     return [int(digit) for digit in f"{min(max(tenths, 0), _MOST_TENTHS):04d}"]

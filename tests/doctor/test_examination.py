@@ -39,7 +39,7 @@ def test_a_healthy_pi_is_well(pi: Pi, file: Path) -> None:
     examination = examine(pi.machine, file)
     assert examination.exit_code == 0
     assert set(marks(examination).values()) <= {"✓", "–"}
-    assert verdict(examination.findings) == "✓ All well."
+    assert verdict(examination.findings) == "✓ No problem found, – 5 skipped."
 
 
 def test_every_check_is_told_in_order(pi: Pi, file: Path) -> None:
@@ -60,14 +60,14 @@ def test_one_fault_makes_it_1(pi: Pi, file: Path) -> None:
     pi.write("/sys/module/pinctrl_bcm2835/parameters/persist_gpio_outputs", "Y\n")
     examination = examine(pi.machine, file)
     assert examination.exit_code == 1
-    assert verdict(examination.findings) == "✗ 1 to mend."
+    assert verdict(examination.findings) == "✗ 1 to repair, – 5 skipped."
 
 
 def test_a_warning_leaves_it_0(pi: Pi, file: Path) -> None:
     pi.program("timedatectl", "echo no")
     examination = examine(pi.machine, file)
     assert examination.exit_code == 0
-    assert verdict(examination.findings) == "! 1 to think about."
+    assert verdict(examination.findings) == "! 1 warning, – 5 skipped."
 
 
 def test_without_a_usable_configuration_the_machine_is_still_looked_at(pi: Pi, file: Path) -> None:
