@@ -1,1 +1,1 @@
-"""Serial ports, pseudo-terminals and sockets: they move bytes and decide nothing."""
+"""Serial ports, pseudo-terminals, sockets and files: they move bytes and do not know what the bytes mean."""

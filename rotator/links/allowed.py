@@ -1,6 +1,6 @@
 """Which machines may connect to a link.
 
-Knows addresses and networks. Knows no link.
+Knows IPv4 and IPv6 addresses and networks. Does not know any link: a link asks with the address of its client.
 """
 
 from __future__ import annotations
@@ -12,10 +12,13 @@ Network = ipaddress.IPv4Network | ipaddress.IPv6Network
 
 
 class Allowed:
-    """`networks` such as "192.168.1.0/24", "fd00::/8" or one address; None: all machines. Raises ValueError."""
+    """The networks whose machines may connect, such as "192.168.1.0/24", "fd00::/8" or one address.
+
+    `networks` None: every machine may connect. Raises ValueError for a text that is no network.
+    """
 
     def __init__(self, networks: Sequence[str] | None = None) -> None:
-        # "192.168.1.5/24" names the network that this machine is in.
+        # Not strict: "192.168.1.5/24" stands for the whole network 192.168.1.0/24.
         self._networks = None if networks is None else [ipaddress.ip_network(text, strict=False) for text in networks]
 
     def __call__(self, host: str) -> bool:

@@ -1,7 +1,7 @@
-"""A connection to another program's server, which the box asks again and again.
+"""A TCP connection from the box to another program's server: the box sends a question at a fixed rate.
 
-Knows how to connect, how to ask at the right rate, and how to wait for a server that is not there: longer each time.
-Knows no protocol and decides nothing.
+Knows how to connect, when to ask, and how long to wait before it connects again: longer after each failure. Does not
+know the questions and the answers: an `Inquiry` does.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ log = logging.getLogger(__name__)
 
 READ_BYTES = 4096
 SILENCE_S = 3.0
-"""The longest time, in seconds, to connect or to answer: a rotctld gives up a slow controller after 1.8 s."""
+"""Longest time to connect, or to answer a question. A rotctld itself gives up on a slow controller after 1.8 s."""
 FIRST_RETRY_S = 1.0
 LONGEST_RETRY_S = 10.0
 
 
 class AskingLink:
-    """`inquiry` makes the conversation of one connection. `every_s`: the time between two questions."""
+    """`inquiry` makes the protocol's side of a new connection. `every_s`: seconds between two questions."""
 
     def __init__(
         self,
@@ -43,7 +43,8 @@ class AskingLink:
         self._every_s = every_s
         self._silence_s = silence_s
         self._first_retry_s = self._retry_s = retry_s
-        self._told: str | None = None
+        self._logged: str | None = None
+        """The trouble in the last log line; empty: that line said that the server answers."""
 
     async def open(self) -> None:
         """Nothing to do: `run` waits for the server."""
@@ -67,12 +68,12 @@ class AskingLink:
         """Nothing to do: `run` closes what it has opened."""
 
     async def _connect(self) -> tuple[str, str]:
-        """Connect and ask until the connection ends. Returns why it ended, and a detail for the log."""
+        """Connect and ask until the connection ends. Returns the reason, and a detail for the log."""
         try:
             async with asyncio.timeout(self._silence_s):
                 reader, writer = await asyncio.open_connection(self._host, self._port)
         except TimeoutError:
-            return "cannot be reached", ": nobody answers there"
+            return "cannot be reached", f": no answer within {self._silence_s:g} s"
         except (OSError, UnicodeError) as fault:
             return "cannot be reached", f": {reason(fault)}"
         try:
@@ -81,6 +82,7 @@ class AskingLink:
             writer.transport.abort()
 
     async def _keep_asking(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> tuple[str, str]:
+        """Ask until the connection ends. Returns the reason, and a detail for the log."""
         inquiry = self._inquiry()
         clock = asyncio.get_running_loop().time
         while True:
@@ -89,7 +91,7 @@ class AskingLink:
             try:
                 async with asyncio.timeout(self._silence_s):
                     writer.write(question)
-                    await self._hear_out(inquiry, reader)
+                    await self._read_answer(inquiry, reader)
             except TimeoutError:
                 return f"gives no answer within {self._silence_s:g} s", ""
             except EOFError:
@@ -102,20 +104,20 @@ class AskingLink:
             self._tell(inquiry.trouble, "")
             await asyncio.sleep(max(0.0, asked_s + self._every_s - clock()))
 
-    async def _hear_out(self, inquiry: Inquiry, reader: asyncio.StreamReader) -> None:
-        """Raises EOFError, OSError, NotUnderstood."""
-        whole = False
-        while not whole:
+    async def _read_answer(self, inquiry: Inquiry, reader: asyncio.StreamReader) -> None:
+        """Read until the answer is complete. Raises EOFError, OSError, NotUnderstood."""
+        complete = False
+        while not complete:
             data = await reader.read(READ_BYTES)
             if not data:
                 raise EOFError
-            whole = inquiry.receive(data)
+            complete = inquiry.receive(data)
 
     def _tell(self, trouble: str, detail: str) -> None:
-        """Log a trouble once when it begins, and once when it is over (empty text)."""
-        if trouble == self._told:
+        """Log a trouble once when it begins, and its end once. `trouble` empty: the server answers."""
+        if trouble == self._logged:
             return
-        self._told = trouble
+        self._logged = trouble
         if trouble:
             log.warning("%s: %s:%d %s%s", self.wire.name, self._host, self._port, trouble, detail)
         else:

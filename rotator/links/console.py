@@ -1,6 +1,7 @@
-"""The console's socket: several users at a time, each with a conversation of its own.
+"""The console's Unix socket: each connected user has a separate conversation.
 
-Knows its place, and what happens when there can be no console. Knows no words and decides nothing.
+Knows the socket's path, the most users at a time, and what to do when the socket cannot be opened. Does not know the
+console's commands.
 """
 
 from __future__ import annotations
@@ -21,15 +22,15 @@ MOST_CLIENTS = 32
 
 
 def console_path(monitor: Path) -> Path:
-    """The console's path, given the monitor's: beside it, and with another name for each monitor's name."""
+    """The console's path: in the folder of the monitor's socket, with a name made from the monitor's name."""
     return monitor.with_name("console" if monitor.name == "monitor" else f"{monitor.name}-console")
 
 
 class ConsoleSocket:
-    """`session` makes the conversation of one connection.
+    """`session` makes the protocol's side of a new connection.
 
-    A new user is always let in, because the word may be `stop`: the user who has been silent longest makes room. The
-    box runs without a console too: where the socket cannot be opened, there is a line in the log.
+    A new user is always accepted, because the first command may be `stop`: when the socket is full, the user who has
+    been silent longest is dropped. Without its socket the box still runs, and the log has the reason.
     """
 
     def __init__(self, path: Path, session: Callable[[], Session]) -> None:

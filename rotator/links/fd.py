@@ -15,7 +15,7 @@ READ_BYTES = 4096
 
 
 async def converse(fd: int, conversation: Conversation) -> str:
-    """Carry bytes both ways until the descriptor fails. Returns why, in the system's words."""
+    """Pass the descriptor's bytes to `conversation` until reading fails. Returns the system's text for the failure."""
     loop = asyncio.get_running_loop()
     ended: asyncio.Future[str] = loop.create_future()
 
@@ -41,10 +41,11 @@ async def converse(fd: int, conversation: Conversation) -> str:
 
 
 def writer(fd: int) -> Callable[[bytes], None]:
-    """A `write` for a conversation: one system call for each reply. Raises nothing: the reader notices a failure.
+    """The `write` of a conversation: one system call for each reply. Raises nothing: the reader notices a failure.
 
-    When the program at the other end does not read, the kernel's buffer fills. Then replies are dropped, as those of a
-    real unit are lost. A reply of which the kernel took only the beginning is completed before the next one.
+    When the program at the other end does not read, the kernel's buffer fills up. Then whole replies are dropped: a
+    real controller's replies are lost too. If the kernel takes only a part of a reply, the rest is sent before the next
+    reply.
     """
     rest = b""
 
@@ -59,6 +60,7 @@ def writer(fd: int) -> Callable[[bytes], None]:
 
 
 def _put(fd: int, data: bytes) -> int:
+    """Write what the kernel takes. Returns the number of bytes; 0 after an error."""
     try:
         return os.write(fd, data)
     except OSError:

@@ -1,8 +1,8 @@
 """A file that another program writes again and again: its content after each change is a message.
 
-Knows how to look at a file that may be missing, half written or on a network that hangs. Knows no protocol and decides
-nothing. It compares contents, not times of change: those are coarse on a memory card, and on a network share they come
-from another machine's clock.
+Knows how to read a file that may be missing, or on a network share that does not answer. Does not know the content's
+form: the protocol ignores a half-written one. It compares contents, not times of change: those are coarse on a memory
+card, and on a network share they come from another machine's clock.
 """
 
 from __future__ import annotations
@@ -20,10 +20,13 @@ from rotator.protocols.session import Session
 log = logging.getLogger(__name__)
 
 LOOK_EVERY_S = 0.5
+"""The time between two reads of the file, in seconds."""
 MOST_BYTES = 4096
 
 
 class FileLink:
+    """`session` makes the protocol's side of the link. `look_every_s`: the time between two reads, in seconds."""
+
     def __init__(
         self, wire: Wire, path: Path, session: Callable[[], Session], *, look_every_s: float = LOOK_EVERY_S
     ) -> None:
@@ -49,7 +52,7 @@ class FileLink:
                 conversation.received(what)
 
         def watch() -> None:
-            """Runs in a thread of its own: on a share whose server is gone, a read may not return."""
+            """Runs in a separate thread, because a read from a lost network share may never return."""
             before: bytes | str | None = None
             while not leaving.is_set():
                 now = _content(self._path)
@@ -71,7 +74,7 @@ class FileLink:
         """Nothing to do: `run` closes what it has opened."""
 
     def _tell(self, trouble: str) -> None:
-        """Log a trouble once when it begins, and once when it is over (empty text)."""
+        """Log a trouble once when it begins, and its end once. `trouble` empty: the file can be read."""
         self.wire.state = "waiting for it" if trouble else "open"
         if trouble == self._trouble:
             return
@@ -83,7 +86,7 @@ class FileLink:
 
 
 def _content(path: Path) -> bytes | str:
-    """The content of the file as bytes, or as text why it cannot be read."""
+    """The file's content as bytes; or, as text, the reason why it cannot be used."""
     try:
         with path.open("rb") as file:
             data = file.read(MOST_BYTES + 1)

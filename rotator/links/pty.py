@@ -1,6 +1,7 @@
 """A pseudo-terminal with a symlink: a serial port for programs on the same machine.
 
-Knows how to make one that stays up when programs open and close it. Knows no protocol.
+Knows how to make a pseudo-terminal that stays open while programs open and close it, and how to keep its symlink for
+one running box. Does not know what the bytes mean.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ SERIAL_GROUP = "dialout"
 
 
 class PtyLink:
-    """`path`: where the symlink to the terminal is made."""
+    """`path`: the symlink to the terminal. `session` makes the protocol's side of the link."""
 
     def __init__(self, wire: Wire, path: Path, session: Callable[[], Session]) -> None:
         self.wire = wire
@@ -36,7 +37,7 @@ class PtyLink:
     async def open(self) -> None:
         """Raises LinkError."""
         self._master, self._slave = os.openpty()
-        # The slave stays open here, so the line does not hang up when a client leaves. Raw, so nothing is echoed.
+        # The box keeps the slave open, so that the line does not hang up when a client leaves. Raw: without echo.
         tty.setraw(self._slave)
         os.set_blocking(self._master, False)
         self._name = os.ttyname(self._slave)
@@ -58,29 +59,29 @@ class PtyLink:
     async def run(self) -> None:
         try:
             await converse(self._master, Conversation(self._session(), self.wire, writer(self._master)))
-            # The box's own end does not fail. If it did, there would be nothing to open again.
+            # The master's end is not expected to fail. After a failure the link waits: it cannot be opened again.
             await asyncio.Event().wait()
         finally:
             self.close()
 
     def close(self) -> None:
         """Remove the symlink and the terminal. May be called twice."""
-        with suppress(OSError):  # the folder may be gone: the terminal is closed all the same
+        with suppress(OSError):  # the folder may be gone; the terminal is closed in any case
             if self._path.is_symlink() and os.readlink(self._path) == self._name:
                 self._path.unlink()
         self._close_fds()
         self.wire.state = "closed"
 
     def _share(self) -> None:
-        """Let the group of those who may use serial ports open the terminal: the programs run as other users."""
+        """Allow the group of serial ports to open the terminal, because the client programs run as other users."""
         with suppress(KeyError, OSError):
             os.chown(self._name, -1, grp.getgrnam(SERIAL_GROUP).gr_gid)
             os.chmod(self._name, 0o660)
 
     def _lock(self) -> None:
-        """Take the lock that says who has the symlink. Raises BlockingIOError when a running program has it.
+        """Take the lock for the symlink's path. Raises BlockingIOError when a running program has the lock.
 
-        A symlink without a lock was left by a program that died, and may be replaced.
+        A symlink without a lock is left over from a program that died, and may be replaced.
         """
         self._locked = os.open(self._path.with_name(f".{self._path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600)
         fcntl.flock(self._locked, fcntl.LOCK_EX | fcntl.LOCK_NB)

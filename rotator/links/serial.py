@@ -1,7 +1,7 @@
-"""A serial port, or any URL that pyserial opens. It may be unplugged and plugged in again at any time.
+"""A serial port, or any URL that pyserial opens. A USB port may be unplugged and plugged in again at any time.
 
-Knows how to open it, how to notice that it is gone, and how to wait for it. Ignores DTR and RTS. The only
-importer of pyserial.
+Knows how to open the port, how to notice that it is gone, and when to try again. Ignores DTR and RTS. Does not know
+what the bytes mean. The only file that imports pyserial.
 """
 
 from __future__ import annotations
@@ -26,6 +26,8 @@ URL_POLL_S = 0.1
 
 
 class SerialLink:
+    """`session` makes the protocol's side of the link. `retry_s`: the time between two attempts to open the port."""
+
     def __init__(
         self, wire: Wire, port: str, baud: int, session: Callable[[], Session], *, retry_s: float = RETRY_S
     ) -> None:
@@ -34,7 +36,8 @@ class SerialLink:
         self._baud = baud
         self._session = session
         self._retry_s = retry_s
-        self._told = ""
+        self._logged = ""
+        """The trouble in the last warning; empty while the port is open."""
 
     async def open(self) -> None:
         """Nothing to do: `run` waits for the port."""
@@ -47,7 +50,7 @@ class SerialLink:
                 self._tell(f"cannot be opened: {fault}")
             else:
                 self.wire.state = "open"
-                self._told = ""
+                self._logged = ""
                 log.info("%s: %s open at %d baud", self.wire.name, self._port, self._baud)
                 try:
                     why = await self._converse(port)
@@ -64,6 +67,7 @@ class SerialLink:
         return serial.serial_for_url(self._port, self._baud, timeout=0)
 
     async def _converse(self, port: Any) -> str:
+        """Carry bytes until the port fails. Returns the reason."""
         try:
             fd = port.fileno()
         except (AttributeError, NotImplementedError, OSError):
@@ -72,19 +76,19 @@ class SerialLink:
         return await converse(fd, Conversation(self._session(), self.wire, writer(fd)))
 
     async def _converse_by_thread(self, port: Any) -> str:
-        """For URLs without a descriptor (rfc2217://, loop://): a thread waits for their bytes."""
+        """As `_converse`, for URLs without a file descriptor (rfc2217://, loop://): a thread waits for the bytes."""
         loop = asyncio.get_running_loop()
         arrivals: asyncio.Queue[bytes | str] = asyncio.Queue()
         leaving = threading.Event()
 
-        # Once: over rfc2217:// every setting is negotiated anew with the other end.
+        # Set only once: over rfc2217:// every change of a setting is a negotiation with the other end.
         port.timeout = URL_POLL_S
 
         def listen() -> None:
             while not leaving.is_set():
                 try:
                     data = port.read(1)
-                    # What is there already comes at once; a timeout of None would wait for ever.
+                    # `in_waiting` bytes can be read at once. A timeout of None would make `read` wait for ever.
                     data += port.read(port.in_waiting) if data else b""
                 except (serial.SerialException, OSError, ValueError) as fault:
                     loop.call_soon_threadsafe(arrivals.put_nowait, str(fault))
@@ -108,9 +112,9 @@ class SerialLink:
 
     def _tell(self, text: str) -> None:
         """Log a trouble once when it begins."""
-        if text != self._told:
+        if text != self._logged:
             log.warning("%s: %s %s; waiting for it", self.wire.name, self._port, text)
-            self._told = text
+            self._logged = text
         self.wire.state = "waiting for it"
 
 

@@ -1,6 +1,7 @@
-"""The clients of a listening stream socket, TCP or Unix: each has a conversation of its own.
+"""The clients of a listening stream socket, TCP or Unix: each client has a separate conversation.
 
-Knows connections, and clients that are too many or that read nothing. Knows neither addresses nor protocols.
+Knows how many clients may connect, and when a client is refused or dropped. Does not know the socket's address, which
+machines are allowed, or what the bytes mean.
 """
 
 from __future__ import annotations
@@ -18,16 +19,17 @@ from rotator.runtime.log_limit import LogLimit
 log = logging.getLogger(__name__)
 
 UNREAD_LIMIT = 65_536
-"""A client that reads nothing is dropped when more than this many bytes would wait for it."""
+"""Most bytes of replies that may wait for one client. A client that reads nothing is dropped at this limit."""
 READ_BYTES = 512
-"""The most bytes read from one client before the others have their turn: a flood of commands delays no other's stop."""
+"""Most bytes read from one client in one turn, so that a flood of commands cannot delay another client's stop."""
 
 
 class Clients:
-    """`session` makes the conversation of one connection.
+    """`session` makes the protocol's side of a new connection.
 
-    `allowed` says whether the machine with an address may connect. When `most` clients are connected, a new one is
-    turned away; with `makes_room` it is let in, and the one that has been silent longest is dropped.
+    `allowed` takes a machine's address and returns whether that machine may connect. When `most` clients are connected,
+    a new client is refused. With `makes_room` the new client is accepted, and the client that has been silent longest
+    is dropped.
     """
 
     def __init__(
@@ -45,7 +47,7 @@ class Clients:
         self._allowed = allowed
         self._makes_room = makes_room
         self._connected: dict[_Client, None] = {}
-        """The client that has been silent longest comes first."""
+        """In the order of their last bytes: the client that has been silent longest comes first."""
         self._complaints = LogLimit(time.monotonic)
 
     def __len__(self) -> int:
@@ -61,7 +63,7 @@ class Clients:
             client.drop()
 
     def admit(self, client: _Client, host: str) -> bool:
-        """Whether a client that has just connected may stay."""
+        """Accept or refuse a client that has just connected. Returns whether it is accepted."""
         if not self._allowed(host):
             self.complain(f"{host} is not in allow: turned away")
             return False
@@ -77,7 +79,7 @@ class Clients:
         return True
 
     def heard(self, client: _Client) -> bool:
-        """Note that a client has said something. False: it has been dropped."""
+        """Note that a client has sent bytes. Returns False for a client that has been dropped."""
         if client not in self._connected:
             return False
         del self._connected[client]

@@ -1,6 +1,7 @@
 """A listening TCP socket.
 
-Knows its address, and who may connect. Knows no protocol and decides nothing. What its clients share is in `stream`.
+Knows the socket's address, and which machines may connect. Does not know what the bytes mean. The rules for the
+connected clients are in `stream`.
 """
 
 from __future__ import annotations
@@ -17,6 +18,8 @@ MOST_CLIENTS = 128
 
 
 class TcpLink:
+    """`session` makes the protocol's side of a new connection."""
+
     def __init__(
         self,
         wire: Wire,
@@ -46,7 +49,7 @@ class TcpLink:
     async def run(self) -> None:
         assert self._server is not None, "open() comes first"
         try:
-            # The server works since it was created. `serve_forever` would wait for its clients before it can end.
+            # The server already works. `serve_forever` is not used: on the way out it would wait for its clients.
             await asyncio.Event().wait()
         finally:
             self.close()

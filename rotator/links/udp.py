@@ -1,9 +1,9 @@
-"""A UDP socket: each datagram is a message, and each sender has a conversation of its own.
+"""A UDP socket: each datagram is a message, and each sender has a separate conversation.
 
-Knows datagrams and their senders. Knows no protocol and decides nothing.
+Knows datagrams, their senders, and where answers and reports go. Does not know what a datagram means.
 
-A sender is an address without its port: many programs send each datagram from another port, and a stop that silences a
-stream must hold for the next datagram too. UDP has no end of a connection, so a silent sender is forgotten.
+A sender is an address without its port: many programs send each datagram from another port, and a stop must also hold
+for the next datagram of the same program. UDP has no end of a connection, so a silent sender is forgotten.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ log = logging.getLogger(__name__)
 MOST_BYTES = 4096
 MOST_SENDERS = 64
 FORGOTTEN_AFTER_S = 60.0
-"""Longer than the pause that a stopped stream has to make: it must not move the antenna by being forgotten."""
+"""Longer than the pause after which a stopped stream may move the antenna again. A shorter time would cancel a stop."""
 LOOK_EVERY_S = 1.0
 """The time, in seconds, between two checks for a report that is due and for silent senders."""
 
 Address = tuple[Any, ...]
-"""Host and port; for IPv6 two numbers more."""
+"""(host, port); for IPv6 (host, port, flow, scope)."""
 
 
 @dataclass(slots=True)
@@ -42,14 +42,20 @@ class _Sender:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """What the box sends unasked. `due` is called once a second with the time, and returns a datagram, or None."""
+    """Datagrams that the box sends without a question.
+
+    `due` is called once a second with the time in seconds. It returns a datagram for the address `to`, or None.
+    """
 
     to: tuple[str, int]
     due: Callable[[float], bytes | None]
 
 
 class UdpLink:
-    """`answer_port`: the port on which senders listen for answers; None: the protocol has no answers."""
+    """`session` makes the protocol's side for a new sender.
+
+    `answer_port`: the port on which senders listen for answers; None: the protocol has no answers.
+    """
 
     def __init__(
         self,
@@ -81,7 +87,7 @@ class UdpLink:
             transport, _ = await asyncio.get_running_loop().create_datagram_endpoint(
                 lambda: _Socket(self.received, self._failed),
                 local_addr=(self._host, self._port),
-                # The programs know IPv4 only, but a name such as localhost may stand for both families.
+                # A name such as localhost may stand for both families; the programs that send here use IPv4 only.
                 family=socket.AF_INET6 if ":" in self._host else socket.AF_INET,
                 allow_broadcast=True,
             )
@@ -95,7 +101,7 @@ class UdpLink:
         try:
             while True:
                 self._forget_the_silent()
-                self._say_what_is_due()
+                self._send_report()
                 await asyncio.sleep(LOOK_EVERY_S)
         finally:
             self.close()
@@ -109,7 +115,7 @@ class UdpLink:
         self.wire.state = "closed"
 
     def received(self, data: bytes, address: Address) -> None:
-        """Take one datagram that came from this address."""
+        """Pass one datagram from `address` to its sender's conversation."""
         host = str(address[0])
         if not self._allowed(host):
             self._complain(f"{host} is not in allow: not heard")
@@ -132,10 +138,12 @@ class UdpLink:
         if self._transport is not None and self._answer_port is not None:
             self._transport.sendto(reply, (address[0], self._answer_port, *address[2:]))
 
-    def _say_what_is_due(self) -> None:
-        said = self._report.due(self._clock()) if self._report else None
-        if said and self._report and self._transport:
-            self._transport.sendto(said, self._report.to)
+    def _send_report(self) -> None:
+        """Send the report's datagram, if one is due."""
+        if self._report is None or self._transport is None:
+            return
+        if datagram := self._report.due(self._clock()):
+            self._transport.sendto(datagram, self._report.to)
 
     def _failed(self, fault: OSError) -> None:
         self._complain(f"cannot send: {reason(fault)}")
@@ -167,5 +175,5 @@ class _Socket(asyncio.DatagramProtocol):
 
     def error_received(self, exc: Exception) -> None:
         if isinstance(exc, OSError) and not isinstance(exc, ConnectionError):
-            # Refused: the other end does not listen for answers, which is its own affair.
+            # A ConnectionError is not logged: it only means that the sender does not listen for answers.
             self._failed(exc)

@@ -1,7 +1,7 @@
 """The path of a Unix socket, which belongs to one running box at a time.
 
-Knows how to claim the path, share it with the box's group, and remove it in the end. Does not know what goes over the
-socket.
+Knows how to claim the path, let the box's group use it, and remove it at the end. Does not know what the bytes on the
+socket mean.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from contextlib import contextmanager
 from pathlib import Path
 
 MODE = 0o660
-"""Owner and group may connect. There is no other check."""
+"""Owner and group may connect. The socket has no other access check."""
 
 
 @contextmanager
 def claimed(path: Path) -> Iterator[socket.socket]:
-    """A socket bound to `path`, not listening yet. Missing folders are made; afterwards the file is removed.
+    """A socket bound to `path`, not listening yet. Makes missing folders; removes the socket's file at the end.
 
-    The file of a box that died is replaced. Raises BlockingIOError when a running box has the path, OSError when no
-    socket can be made there.
+    Replaces a file that is left over from a box that died. Raises BlockingIOError when a running box has the path, and
+    OSError when no socket can be made there.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     locked = os.open(path.with_name(f".{path.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600)
@@ -33,7 +33,7 @@ def claimed(path: Path) -> Iterator[socket.socket]:
         with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as place:
             place.bind(str(path))
             try:
-                # Before it listens, so that no other user can connect in between.
+                # The mode is set before the socket listens, so that no other user can connect in between.
                 path.chmod(MODE)
                 yield place
             finally:

@@ -1,6 +1,7 @@
-"""One link as the terminal picture shows it, and the shell between a stream of bytes and a protocol.
+"""What all links share: the state that the terminal shows, the conversation with a protocol, and the error texts.
 
-Knows when a line has fallen silent, and the words for what is wrong with an address. Knows no device and no protocol.
+Knows when a line has been silent long enough, and the system's text for a failed address. Does not know any device or
+protocol.
 """
 
 from __future__ import annotations
@@ -17,19 +18,20 @@ from rotator.protocols.session import Session
 log = logging.getLogger(__name__)
 
 KEPT_BYTES = 64
+"""How many of the last bytes in each direction a Wire keeps."""
 
 
 class LinkError(Exception):
-    """A link cannot be opened. The text says which one, and what to do."""
+    """A link cannot be opened. The text names the link's address and the reason."""
 
 
 def reason(fault: OSError | UnicodeError) -> str:
-    """Why the box cannot listen at an address, or cannot reach it, in the system's words."""
+    """The system's text for an address at which the box cannot listen, or which it cannot reach."""
     match fault:
         case socket.gaierror():
             return fault.strerror or str(fault)
         case OSError(errno=int() as number):
-            # asyncio adds many words of its own to the system's.
+            # asyncio's own text is much longer than the system's.
             return os.strerror(number)
         case OSError():
             return str(fault)
@@ -39,7 +41,7 @@ def reason(fault: OSError | UnicodeError) -> str:
 
 @dataclass(slots=True)
 class Wire:
-    """One link as the terminal picture shows it: `state` is the link's to write, the last bytes are the tap's."""
+    """One link as the terminal shows it. The link sets `state`; the tap adds the bytes."""
 
     name: str
     protocol: str
@@ -56,9 +58,9 @@ class Wire:
 
 
 class Conversation:
-    """One connection: bytes in, replies out through `write`, which sends a reply in one go or not at all.
+    """One connection: passes bytes to `session` and the replies to `write`, one call for each reply.
 
-    `hang_up` is called when the client has asked to end the connection. A line that cannot hang up does nothing.
+    `hang_up` is called when the client has asked to end the connection. Links without connections leave it out.
     """
 
     def __init__(
@@ -75,14 +77,14 @@ class Conversation:
         self._silence: asyncio.TimerHandle | None = None
 
     def received(self, data: bytes) -> None:
-        """Take what has come, in any pieces. Raises nothing: a bug in the protocol is logged."""
+        """Take bytes as they arrive, in any pieces. Raises nothing: an exception in the protocol is logged."""
         self._reply(lambda: self._session.receive(data))
         if self._session.idle_s is not None:
             self._cancel()
             self._silence = asyncio.get_running_loop().call_later(self._session.idle_s, self._silent)
 
     def close(self) -> None:
-        """End it: silence is no longer waited for. May be called twice."""
+        """End the conversation and its timer for silence. May be called twice."""
         self._cancel()
 
     def _silent(self) -> None:
@@ -98,7 +100,7 @@ class Conversation:
         try:
             replies = ask()
         except Exception:
-            # A bug in one protocol must not end this link, nor the other links.
+            # An error in one protocol must not end this link or the other links.
             log.exception("%s: the protocol failed; the bytes are dropped", self._wire.name)
             return
         for reply in replies:

@@ -1,1 +1,1 @@
-"""What goes over the links, copied for a person to read."""
+"""A copy of all bytes on the links, as text for the operator."""

@@ -1,6 +1,7 @@
-"""The monitor's socket. A watcher that connects receives line after line; what it sends is ignored.
+"""The monitor's Unix socket: each connected watcher receives the transcript's lines as they are made.
 
-Knows Unix sockets, and watchers that read too slowly. Does not know what the lines mean.
+Knows how many watchers may connect, and what to do when one reads too slowly. Ignores what a watcher sends. Does not
+know what the lines mean.
 """
 
 from __future__ import annotations
@@ -18,13 +19,13 @@ log = logging.getLogger(__name__)
 
 MOST_WATCHERS = 8
 UNREAD_LIMIT = 262_144
-"""Bytes that may wait for a watcher. Lines beyond that are left out, and a remark says how many."""
+"""Most bytes that may wait for one watcher. Further lines are left out, and a remark gives their number."""
 
 
 class MonitorSocket:
-    """Each watcher adds itself to `listeners` while it is connected. `greeting` gives its first lines.
+    """`greeting` returns the first lines for a new watcher. `listeners` holds a callback for each connected watcher.
 
-    The box runs without a monitor too: where the socket cannot be opened, there is a line in the log.
+    Without its socket the box still runs, and the log has the reason.
     """
 
     def __init__(self, path: Path, listeners: list[Callable[[str], None]], greeting: Callable[[], list[str]]) -> None:

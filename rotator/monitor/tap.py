@@ -1,7 +1,7 @@
-"""The one place through which all bytes of all links go: for the terminal picture, and for the monitor's listeners.
+"""The tap: it copies all bytes of all links to the terminal picture and to the monitor's listeners.
 
-Knows sessions and inquiries by their shape, and the form of a transcript. Knows no socket and no file. A session does
-not notice that it is tapped.
+Knows the interfaces of sessions and inquiries, and which lines a transcript needs. Does not know sockets, files or what
+the bytes mean. It changes no bytes, and a session does not notice its tap.
 """
 
 from __future__ import annotations
@@ -18,29 +18,31 @@ from rotator.status import Status
 
 MOVED_DEG = 1.0
 MOVED_EVERY_S = 1.0
+"""A new position line needs a turn of at least MOVED_DEG, and MOVED_EVERY_S since the last such line."""
 
 
 class Tap:
-    """Notes the last bytes of each link, and makes transcript lines for `listeners`: none without listeners.
+    """Keeps the last bytes of each link, and makes transcript lines while there are `listeners`.
 
-    `clock` gives the time of day. A line says whose orders the antenna obeys, and where it points, when the first
-    changes, and once a second while the antenna turns. `status` is read only when there are listeners.
+    `clock` gives the time of day. A position line has the antenna's angles and the source whose orders the antenna
+    obeys. The tap adds one when that source changes, and about once a second while the antenna turns. It reads `status`
+    only while there are listeners.
     """
 
     def __init__(self, clock: Callable[[], datetime], status: Callable[[], Status]) -> None:
         self.listeners: list[Callable[[str], None]] = []
         self.on_data: Callable[[], None] = lambda: None
-        """Called when bytes have come over a link: the panel's data lamp."""
+        """Called after a link has received bytes: for the panel's data lamp."""
         self._clock = clock
         self._status = status
         self._wires: dict[str, Wire] = {}
         self._links: list[LinkNote] = []
         self._day = ""
         self._at: At | None = None
-        self._at_told = datetime.min
+        self._at_noted = datetime.min
 
     def link(self, wire: Wire, keys: Mapping[str, object]) -> None:
-        """Add a link, with the keys of its table in the configuration. A new listener hears of all links first."""
+        """Add a link, with the keys of its table in the configuration. The greeting of a listener has a line for it."""
         self._wires[wire.name] = wire
         self._links.append(LinkNote(wire.name, keys))
 
@@ -48,12 +50,12 @@ class Tap:
         """The first lines for a new listener."""
         moment, at = self._clock(), self._where()
         if not self.listeners:
-            self._at, self._at_told = at, moment
+            self._at, self._at_noted = at, moment
         lines = [f"# rotator {__version__}, {moment:%Y-%m-%d}", *map(encode_link, self._links)]
         return [*lines, encode_at(at)] if at else lines
 
     def note(self, source: Source, way: Way, data: bytes, *, text: bool) -> None:
-        """Bytes that came or went over the link of `source`. `text`: they are characters."""
+        """Note bytes on the link of `source`. `text`: the bytes are characters; else they are binary."""
         if not data:
             return
         wire = self._wires.get(source.link)
@@ -78,7 +80,7 @@ class Tap:
         self._day = day
         at = self._where()
         if at and self._is_news(at, moment):
-            self._at, self._at_told = at, moment
+            self._at, self._at_noted = at, moment
             lines.append(encode_at(at))
         return lines
 
@@ -96,11 +98,11 @@ class Tap:
             abs(at.azimuth_deg - self._at.azimuth_deg),
             abs(at.elevation_deg - self._at.elevation_deg),
         )
-        return moved_deg >= MOVED_DEG and (moment - self._at_told).total_seconds() >= MOVED_EVERY_S
+        return moved_deg >= MOVED_DEG and (moment - self._at_noted).total_seconds() >= MOVED_EVERY_S
 
 
 class TappedSession:
-    """A session whose bytes all go to `tap`. `text`: they are characters."""
+    """A session, with a copy of all its bytes for `tap`. `text`: the bytes are characters; else they are binary."""
 
     def __init__(self, session: Session, tap: Tap, source: Source, *, text: bool = True) -> None:
         self._session = session
@@ -118,19 +120,19 @@ class TappedSession:
 
     def receive(self, data: bytes) -> list[bytes]:
         self._tap.note(self._source, Way.IN, data, text=self._text)
-        return self._said(self._session.receive(data))
+        return self._noted(self._session.receive(data))
 
     def idle(self) -> list[bytes]:
-        return self._said(self._session.idle())
+        return self._noted(self._session.idle())
 
-    def _said(self, replies: list[bytes]) -> list[bytes]:
+    def _noted(self, replies: list[bytes]) -> list[bytes]:
         for reply in replies:
             self._tap.note(self._source, Way.OUT, reply, text=self._text)
         return replies
 
 
 class TappedInquiry:
-    """An inquiry whose bytes all go to `tap`: here the box speaks first."""
+    """An inquiry, with a copy of all its bytes for `tap`. Here the box sends first, always characters."""
 
     def __init__(self, inquiry: Inquiry, tap: Tap, source: Source) -> None:
         self._inquiry = inquiry

@@ -7,9 +7,11 @@ r"""The bytes of the links as text, one line for each piece, from which a progra
     18:03:22.301 gs232b#1 < AZ=235  EL=025\r\n
     18:03:22.377 md01#1 > \hex 57 00 00 00 00 00 00 00 00 00 00 1F 20
 
-`>` marks what came in, `<` what the box sent. The escapes are \\, \r, \n, \t, and \x with two hexadecimal digits. Bytes
-of a binary protocol are `\hex` and pairs of digits. A blank at the end is \x20, because editors remove it. Other lines
-that begin with # are remarks. Knows this form. Knows no link, no file and no clock.
+`>` marks bytes that the box received, `<` bytes that it sent. The escapes are \\, \r, \n, \t, and \x with two hex
+digits. Bytes of a binary protocol are `\hex` and pairs of digits. A blank at the end is \x20, because editors remove
+blanks there. Other lines that begin with # are remarks.
+
+Knows how to write and read this form. Does not know links, files or clocks.
 """
 
 from __future__ import annotations
@@ -31,7 +33,7 @@ class Way(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Bytes that came or went together."""
+    """Bytes that the box received or sent in one piece."""
 
     day_s: float
     """Seconds since midnight, local time."""
@@ -55,7 +57,7 @@ class At:
     azimuth_deg: float
     elevation_deg: float
     under: str = ""
-    """The source whose orders it obeyed; empty: none."""
+    """The source whose orders the antenna obeyed; empty: no source."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +69,7 @@ Entry = Piece | LinkNote | At | Remark
 
 
 class NotATranscript(ValueError):  # noqa: N818 - a fault of the text, not of the program
-    """A line has none of the forms. The text shows the line."""
+    """A line, or its bytes, cannot be read. The text shows the line."""
 
 
 _ESCAPES = {0x5C: "\\\\", 0x0D: "\\r", 0x0A: "\\n", 0x09: "\\t"}
@@ -97,8 +99,8 @@ def parse(line: str) -> Entry:
 
 def encode_piece(moment: datetime, source: Source, way: Way, data: bytes, *, text: bool = True) -> str:
     """The line for one piece. `text`: write characters; else pairs of hexadecimal digits, for a binary protocol."""
-    said = escape(data) if text else _HEX + data.hex(" ").upper()
-    return f"{moment:%H:%M:%S}.{moment.microsecond // 1000:03d} {source} {way.value} {said}"
+    written = escape(data) if text else _HEX + data.hex(" ").upper()
+    return f"{moment:%H:%M:%S}.{moment.microsecond // 1000:03d} {source} {way.value} {written}"
 
 
 def encode_link(note: LinkNote) -> str:
@@ -111,13 +113,13 @@ def encode_at(at: At) -> str:
 
 
 def escape(data: bytes) -> str:
-    """Bytes as one line of printable characters; `unescape` gives back the same bytes."""
+    """The bytes as printable characters on one line. `unescape` turns them back into the same bytes."""
     text = "".join(_ESCAPES.get(byte) or (chr(byte) if 0x20 <= byte < 0x7F else f"\\x{byte:02x}") for byte in data)
     return text[:-1] + "\\x20" if text.endswith(" ") else text
 
 
 def unescape(text: str) -> bytes:
-    """Raises NotATranscript."""
+    """The bytes of a text that `escape` or `\\hex` has written. Raises NotATranscript."""
     if text.startswith(_HEX):
         try:
             return bytes.fromhex(text.removeprefix(_HEX))
@@ -127,7 +129,7 @@ def unescape(text: str) -> bytes:
     while at < len(text):
         part = _PARTS.match(text, at)
         if part is None:
-            raise NotATranscript(f"{text!r}: what stands at character {at + 1} is no escape and not printable")
+            raise NotATranscript(f"{text!r}: character {at + 1} is no escape and not printable")
         escaped, plain = part.groups()
         data += (plain or _MEANT.get(escaped) or chr(int(escaped[1:], 16))).encode("latin-1")
         at = part.end()

@@ -1,7 +1,7 @@
-"""Flies a satellite pass in simulated time: orders through the protocol, the real drivers on simulated chips.
+"""A rehearsal: the box, or the emulated Arduino, follows a satellite pass in simulated time.
 
-Knows how a station runs on a simulated clock, and what is recorded. Decides nothing about pointing. Part of the
-composition root: it builds the same parts as the box, with another clock.
+Builds the same parts as the real box, but on simulated chips and a simulated clock; orders go through a protocol. Knows
+the order rate, what is recorded, and how the pointing error is summed up. Does not decide how the antenna is pointed.
 """
 
 from __future__ import annotations
@@ -32,12 +32,15 @@ from rotator.status import Status
 
 SAMPLE_S = 0.05
 SETTLING_S = 5.0
-"""Errors count from this moment on: the antenna has to start and catch up first."""
+"""Pointing errors in the first seconds of the pass do not count: the antenna has to start and catch up first."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """One row of the trace. Target: the true pass; antenna: where the boom points; drives: -1, 0, 1."""
+    """One row of the trace. `t` is in seconds, angles are in degrees.
+
+    Target: the satellite's true direction. Antenna: the boom's direction. Drive: -1, 0 or 1.
+    """
 
     t: float
     target_az: float
@@ -67,21 +70,21 @@ class Summary:
 
 
 class Plant(Protocol):
-    """What flies a pass: the box, or the emulated Arduino."""
+    """The controller that follows the pass: the box, or the emulated Arduino."""
 
     def order(self, azimuth_deg: float, elevation_deg: float) -> None: ...
 
     def run_until(self, moment_s: float) -> None: ...
 
     def pointing(self) -> tuple[float, float, int, int]:
-        """Boom azimuth and elevation, azimuth and elevation drive."""
+        """The boom's azimuth and elevation in degrees, then the drive of each axis: -1, 0 or 1."""
 
     def relay_starts(self) -> int | None:
         """None: there are no relays."""
 
 
 class BoxPlant:
-    """The product, from its protocol to its relays, on a simulated station."""
+    """The box, from its protocol to its relays, on simulated chips. `via`: "rotctld" or "gs232", as orders are sent."""
 
     def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float], via: str) -> None:
         self._clock = clock
@@ -97,7 +100,7 @@ class BoxPlant:
         self._encode = _rotctld_order if via == "rotctld" else _gs232_order
 
     def inject(self, at_s: float, name: str) -> None:
-        """The named fault begins at that moment of simulated time."""
+        """Let the named fault begin at this moment of simulated time."""
         pending = [at_s]
 
         def begin(_now_s: float) -> None:
@@ -124,7 +127,7 @@ class BoxPlant:
             self._loop.cycle()
 
     def pointing(self) -> tuple[float, float, int, int]:
-        # The simulated boom is on the rotor's own scale; the offset of the mount is added.
+        # The simulated boom has the rotor's own scale. The mount's offset makes it a true direction.
         azimuth_deg, elevation_deg = self.world.antenna()
         drives = self.world.drives()
         if self.world.relay_starts is None:
@@ -136,7 +139,7 @@ class BoxPlant:
 
 
 class ArduinoPlant:
-    """The emulated Arduino that the product replaces; motors and ranges come from the same configuration."""
+    """The emulated Arduino that the box replaces. Its motors and ranges come from the box's configuration."""
 
     def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float]) -> None:
         self._station = arduino_station(config, clock, clock.sleep, start_deg)
@@ -166,9 +169,9 @@ def no_faults(_world: SimRotor) -> Sequence[tuple[float, str]]:
 def plant_maker(
     config: Config, *, via: str = "gs232", arduino: bool = False, faults: Faults = no_faults
 ) -> Callable[[SimClock, Pass], Plant]:
-    """How to build what flies, given the clock and the pass. The rotor waits at the pass's first azimuth, horizontal.
+    """A function that builds the plant for a clock and a pass. The antenna starts at the pass's first azimuth, level.
 
-    The Arduino has no faults.
+    `via`: the protocol of the orders. `arduino`: build the emulated Arduino; it ignores `via` and `faults`.
     """
 
     def make(clock: SimClock, flown: Pass) -> Plant:
@@ -184,7 +187,7 @@ def plant_maker(
 
 
 def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Sample], Summary]:
-    """Fly the pass with one order a second, as a tracking program sends them. Returns the trace and its summary."""
+    """Follow the pass with one order a second, as from a tracking program. Returns the trace and its summary."""
     clock = SimClock()
     plant = make(clock, flown)
     trace: list[Sample] = []
@@ -206,6 +209,7 @@ def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Samp
 
 
 def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:
+    """The errors while the satellite is above the horizon, after SETTLING_S; the motors' time over the whole trace."""
     errors = sorted(sample.error_deg for sample in trace if sample.t >= SETTLING_S and sample.target_el >= 0)
     if not errors:
         errors = [0.0]

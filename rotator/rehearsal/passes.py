@@ -1,6 +1,6 @@
-"""A satellite pass from a file: `t,az,el` in seconds and degrees, in rows at any distance of time.
+"""A satellite pass from a CSV file with the columns `t,az,el`, in seconds and degrees; rows at any interval.
 
-Knows the file's form and how to interpolate. Does not know the rotor.
+Knows the file's form, and how to interpolate between rows. Does not know the rotor.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from rotator.control.sky.angles import turn_deg
 
 
 class PassError(Exception):
-    """The file does not hold a pass; the text says where and why."""
+    """The file does not hold a pass. The text has the file, the line and the reason."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pass:
-    """Rows (t_s, azimuth_deg, elevation_deg), time rising from 0."""
+    """Two or more rows (t_s, azimuth_deg, elevation_deg). The first time is 0, and times rise."""
 
     name: str
     rows: tuple[tuple[float, float, float], ...]
@@ -31,7 +31,7 @@ class Pass:
         return self.rows[-1][0]
 
     def at(self, t_s: float) -> tuple[float, float]:
-        """Azimuth (0 to 360) and elevation; azimuth goes the short way round between rows."""
+        """Azimuth (0 to 360) and elevation in degrees at this time. Between rows azimuth takes the shorter way."""
         after = min(max(bisect_right(self.rows, t_s, key=lambda row: row[0]), 1), len(self.rows) - 1)
         (t_a, az_a, el_a), (t_b, az_b, el_b) = self.rows[after - 1], self.rows[after]
         share = min(max((t_s - t_a) / (t_b - t_a), 0.0), 1.0)
@@ -39,7 +39,7 @@ class Pass:
 
 
 def read_pass(path: Path) -> Pass:
-    """Raises PassError."""
+    """The pass in a file, with its first time set to 0. Raises PassError."""
     try:
         with path.open(newline="", encoding="utf-8-sig") as file:
             reader = csv.DictReader(file)

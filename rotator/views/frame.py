@@ -1,6 +1,7 @@
-"""Rows in a frame, made to fit the terminal: whole rows are left out, and a table's columns, before any is cut.
+"""A frame of rows and tables that fits into the terminal.
 
-Knows widths, heights and which rows matter least. Knows nothing of rotors.
+On a small terminal whole rows and whole columns are left out before a text is cut. Knows widths, heights, and the ranks
+by which rows and columns are left out. Does not know what the rows show.
 """
 
 from __future__ import annotations
@@ -13,14 +14,14 @@ from rich.style import Style
 from rich.text import Text
 
 WIDTH = 88
-"""Cells, frame included, where the terminal has as many."""
+"""Greatest width in cells, with the frame."""
 _GAPS = (3, 2)
-"""Cells between two columns: the wider where there is room."""
+"""Cells between two columns: the first number if the table then fits, else the second."""
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """`rank`: rows of the highest rank are left out first when the terminal is too low, later ones before earlier."""
+    """One row. On a low terminal the rows with the highest `rank` are left out first; among equals, the last row."""
 
     text: Text
     rank: int
@@ -30,8 +31,9 @@ class Row:
 class Column:
     """One column of a table.
 
-    `least`: how many cells it may shrink to; None: as wide as its text. `rank`: columns of the highest rank above 0 are
-    left out first when the terminal is too narrow. `end`: the end of a long text is shown, not its beginning.
+    `right`: aligned to the right. `width`: cells of the texts, 0 for as many as the longest text needs. `least`: the
+    fewest cells to which the column may shrink; None: it does not shrink. `rank`: on a narrow terminal the columns with
+    the highest rank are left out first; rank 0 always stays. `end`: a text too long is cut at its beginning.
     """
 
     heading: str
@@ -44,7 +46,7 @@ class Column:
 
     @property
     def natural(self) -> int:
-        """Cells that it takes where there is room; `width` holds it still while its text changes."""
+        """The column's cells where there is room. A fixed `width` keeps the column in place while its text changes."""
         longest = max((cell.cell_len for cell in self.cells), default=0)
         return max(len(self.heading), self.width or longest)
 
@@ -58,7 +60,7 @@ class Column:
 
 
 class Framed:
-    """Something `rich` can print. `rows` is given the cells between the frame's sides."""
+    """A frame that `rich` can print. `rows` takes the number of cells inside the frame, and returns its rows."""
 
     def __init__(self, title: str, rows: Callable[[int], Iterable[Row]]) -> None:
         self._title = title
@@ -80,13 +82,13 @@ class Framed:
 
 
 def wrapped(text: str, width: int, style: str, rank: int) -> list[Row]:
-    """As many rows as it takes; broken between words where that is possible."""
+    """The text in as many rows as it needs, broken between words where possible."""
     words = Text(text, style=style)
     return [Row(line, rank) for line in words.wrap(Console(width=width), width)]
 
 
 def table(columns: Sequence[Column], width: int, *, rank: int, head_rank: int, rule_rank: int) -> list[Row]:
-    """A heading, a rule and the rows, in so many cells."""
+    """A heading, a rule and the rows of a table that is `width` cells wide at most."""
     columns, gap, widths = _fit(list(columns), width)
 
     def row(cells: Iterable[Text], row_rank: int) -> Row:
@@ -100,7 +102,7 @@ def table(columns: Sequence[Column], width: int, *, rank: int, head_rank: int, r
 
 
 def beside(left: Sequence[Text], right: Sequence[Text], gap: int = 2) -> list[Text]:
-    """Two blocks, the shorter filled up with empty rows."""
+    """Two blocks side by side, with `gap` cells between them. Blank rows fill up the shorter block."""
     width = max(row.cell_len for row in left)
     blank = Text(" " * width)
     height = max(len(left), len(right))
@@ -109,7 +111,7 @@ def beside(left: Sequence[Text], right: Sequence[Text], gap: int = 2) -> list[Te
 
 
 def boxed(rows: Sequence[Text], frame: Style) -> list[Text]:
-    """Rows of one width in a heavy frame."""
+    """A heavy frame around rows of equal width."""
     edge = "━" * rows[0].cell_len
     side = Text("┃", style=frame)
     return [
@@ -120,9 +122,10 @@ def boxed(rows: Sequence[Text], frame: Style) -> list[Text]:
 
 
 def _fit(columns: list[Column], width: int) -> tuple[list[Column], int, list[int]]:
-    """The columns that remain, the gap between them and their widths.
+    """The columns that are shown, the gap between them, and the width of each, in cells.
 
-    First the gaps become narrower, then the columns with a rank; then those are left out; the others shrink last.
+    Where the table is too wide: first the gap becomes narrower, then the columns with a rank shrink, then they are left
+    out. The columns with rank 0 shrink last.
     """
     while True:
         widths = [column.natural for column in columns]

@@ -1,6 +1,6 @@
-"""Two rows of sixteen characters: where the satellite is, where the antenna is.
+"""The text of the LCD, two rows of sixteen characters: the direction of the satellite, the direction of the antenna.
 
-Knows the layout, and the notices that replace the upper row for a moment. Does not know the display.
+Knows the layout, and the notices that replace the upper row in turn. Does not know the display's chip or bus.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from rotator.status import Status
 
 COLUMNS = 16
 ALTERNATE_S = 2.0
-"""Satellite and notices take the upper row in turn, for this long each."""
+"""The time for which the upper row shows the satellite, or one notice, before it changes."""
 _SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
 
 
@@ -35,7 +35,7 @@ def _notices(status: Status) -> list[str]:
     for axis in Axis:
         if missing := status.axis(axis).missing:
             notices.append(f"{_SHORT[axis]} {missing[0].lcd}")
-    # A notice without a text for the display would hide the satellite for good: the log has it.
+    # A notice without a text for the LCD is left out here. It is in the log.
     for axis in Axis:
         notices += [f"{_SHORT[axis]} {notice.lcd}" for notice in status.axis(axis).notices if notice.lcd]
     return list(dict.fromkeys(notices))

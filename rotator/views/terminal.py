@@ -1,6 +1,7 @@
-"""The box in a terminal: the display as it looks, both axes, the relays, the last bytes on each link.
+"""The picture of the box in a terminal: its LCD, both axes, the relays, and the last bytes on each link.
 
-Knows the layout. Pure: values in, something `rich` can print out.
+Knows the layout and the keys' names. Does not read keys, clocks or the terminal: it turns values into text, or into
+something that `rich` can print.
 """
 
 from __future__ import annotations
@@ -26,12 +27,14 @@ _BAR_CELLS = 14
 _GLASS = "bold #e8f4ff on #1040c0"
 _BEZEL = Style.parse("#708090")
 _TROUBLE, _ANGLE, _LINK, _NOTE, _FRAME, _HEAD, _RULE, _SPACE, _LOG = range(9)
-"""Ranks of rows: on a low terminal the highest go first. Log lines have one of their own each, from _LOG up."""
+"""Ranks of rows: on a low terminal the rows with the highest rank are left out first. The newest log line has the rank
+_LOG, and each older one the next higher rank.
+"""
 _BLANK = Row(Text(), _SPACE)
 
 
 class WireView(Protocol):
-    """What is shown of a link."""
+    """The properties of a link that the picture shows."""
 
     name: str
     protocol: str
@@ -42,13 +45,13 @@ class WireView(Protocol):
 
 
 def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str]:
-    """Where to connect, in plain lines."""
+    """The version, and the address of each link, in plain lines."""
     what = "a SIMULATED rotor" if hardware == "sim" else "the rotor on this Pi"
     return [f"rotator {version}: {what}", *(f"  {wire.protocol:<11} {wire.where}  ({wire.state})" for wire in wires)]
 
 
 def line(status: Status) -> str:
-    """The status in one plain line, without anything that changes when nothing does."""
+    """The status in one plain line. It has no time and no counter, so equal lines mean that nothing has changed."""
     parts = [_axis_words(status, axis) for axis in Axis]
     if status.latched:
         parts.append(f"STOPPED by {status.latched}")
@@ -60,7 +63,7 @@ def line(status: Status) -> str:
 def picture(
     version: str, status: Status, glass: Sequence[str], wires: Sequence[WireView], log_rows: Sequence[str]
 ) -> RenderableType:
-    """Everything, as far as the terminal has room: trouble, keys and angles first, log lines last."""
+    """The whole picture. On a low terminal log lines are left out first; faults, keys and angles stay longest."""
 
     def rows(width: int) -> Iterator[Row]:
         yield from _top(glass, _relays(status))
@@ -83,7 +86,7 @@ def picture(
 
 
 def sketch_picture(glass: Sequence[str], drives: tuple[int, int], wires: Sequence[WireView]) -> RenderableType:
-    """The emulated Arduino: its display, its relays, its serial line."""
+    """The picture of the emulated Arduino: its LCD, its relays, its serial line. `drives`: -1, 0 or 1 for each axis."""
     relays = _relay_lamps({Axis.AZIMUTH: Direction(drives[0]), Axis.ELEVATION: Direction(drives[1])})
 
     def rows(width: int) -> Iterator[Row]:
@@ -96,12 +99,12 @@ def sketch_picture(glass: Sequence[str], drives: tuple[int, int], wires: Sequenc
 
 
 def _newest_last(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
-    """Each line with its age in lines: the oldest are left out first."""
+    """Each line with its age: the number of newer lines."""
     return ((len(lines) - 1 - at, line) for at, line in enumerate(lines))
 
 
 def _top(glass: Sequence[str], relays: Sequence[Text]) -> Iterator[Row]:
-    """The display as it looks, and the relays beside it."""
+    """The LCD in its frame, and the relays beside it."""
     display = boxed([Text(f" {row} ", style=_GLASS) for row in glass], _BEZEL)
     for at, text in enumerate(beside(display, relays)):
         yield Row(text, _FRAME if at in (0, len(display) - 1) else _ANGLE)
@@ -116,7 +119,7 @@ def _relays(status: Status) -> list[Text]:
 
 
 def _relay_lamps(drives: Mapping[Axis, Direction]) -> list[Text]:
-    """The upper edge of the display's frame, then a row an axis."""
+    """A blank row beside the upper edge of the LCD's frame, then a row for each axis."""
     rows = [Text()]
     for axis in Axis:
         row = Text()
@@ -143,7 +146,7 @@ def _axes(status: Status, width: int) -> Iterator[Row]:
 
 
 def _links(wires: Sequence[WireView], width: int) -> Iterator[Row]:
-    """Where each link is stays readable; the bytes have what room is left, and always as much."""
+    """The table of links. Names and addresses come first; the last bytes get the remaining width."""
     columns = [
         Column("link", [Text(wire.name) for wire in wires]),
         Column("where", [Text(wire.where) for wire in wires], least=16),
@@ -160,7 +163,7 @@ def _notes(status: Status) -> list[str]:
 
 
 def _bar(axis: AxisStatus) -> Text:
-    """The range from end to end, with the antenna (█) and its target (│) on it."""
+    """The axis's range as a line of cells, with marks for the antenna (█) and its target (│)."""
     cells = ["─"] * _BAR_CELLS
     for angle_deg, mark in ((axis.target_deg, "│"), (axis.angle_deg, "█")):
         if angle_deg is not None:
@@ -184,10 +187,10 @@ def _axis_words(status: Status, axis: Axis) -> str:
 
 
 def _degrees(angle_deg: float | None, digits: int = 1) -> str:
-    # Adding zero turns the minus zero of a noisy pot at its stop into zero.
+    # Adding zero turns -0.0, from a noisy pot at its stop, into 0.0.
     return "---" if angle_deg is None else f"{round(angle_deg, digits) + 0.0:.{digits}f}°"
 
 
 def _bytes(data: bytes) -> str:
-    """Bytes as a person reads them: printable as they are, the rest escaped."""
+    """Bytes as text for the operator: printable characters, and escapes for the other bytes."""
     return data.decode("latin-1").encode("unicode_escape").decode("ascii")
