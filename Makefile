@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests test-kernel test-install test-gpredict test-rotors bench fuzz picture picture-gpredict drawings clean
+.PHONY: run test check tests test-hamlib test-kernel test-install test-gpredict test-rotors bench fuzz picture picture-gpredict drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -23,6 +23,10 @@ check: $(VENV)/.dev
 # More at once than there are cores, for many tests wait for a foreign program's own pauses.
 tests: $(VENV)/.dev
 	$(BIN)/pytest -n 4 --dist worksteal $(TESTS)
+
+# Debian's Hamlib: each of its models that can drive the box, and a dummy rotator that the box follows.
+test-hamlib: $(VENV)/.dev
+	$(BIN)/pytest -n 4 --dist worksteal tests/foreign tests/foreign/test_hamlib.py tests/foreign/test_rotctld_follow.py
 
 # Every kind of rotor: one contract, every fault by name, finding north; then twelve real passes on each.
 test-rotors: $(VENV)/.dev

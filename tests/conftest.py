@@ -14,13 +14,17 @@ PASSES = sorted((Path(__file__).parent / "passes").glob("*.csv"))
 collect_ignore = [] if "GS232_KERNEL" in os.environ else ["kernel"]
 """Tests that need a kernel of their own run in it: `make test-kernel`."""
 
-ROTORS = ("rotors", "flights", "calibrating/test_north.py", "cli/test_calibrate_north.py")
-"""Every kind of rotor, all its faults, whole passes: minutes, so only where they are named: `make test-rotors`."""
+SLOW = (
+    *("rotors", "flights", "calibrating/test_north.py", "cli/test_calibrate_north.py"),
+    *("foreign/test_hamlib.py", "foreign/test_rotctld_follow.py"),
+)
+"""Tests of minutes, run only where they are named: `make test-rotors` has every kind of rotor, all its faults and whole
+passes; `make test-hamlib` has every model of Hamlib that can drive the box, at Hamlib's own pace."""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     here = Path(__file__).parent
-    slow = [here / name for name in ROTORS if collection_path.is_relative_to(here / name)]
+    slow = [here / name for name in SLOW if collection_path.is_relative_to(here / name)]
     named = [Path(argument.split("::")[0]).resolve() for argument in config.args]
     return True if slow and not any(name.is_relative_to(slow[0]) for name in named) else None
 
