@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import sys
 import threading
 import time
 from pathlib import Path
@@ -16,7 +17,8 @@ from typing import Protocol
 from rich.console import RenderableType
 
 from rotator.assembly.simulation import arduino_station
-from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals
+from rotator.cli.output import LINES, PICTURES, Output
+from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals, terminal_console
 from rotator.config.load import load
 from rotator.links.pty import PtyLink
 from rotator.links.wire import Wire
@@ -86,10 +88,11 @@ async def _run(sketch: Sketch, pty: Path, *, plain: bool) -> None:
         if pressed == "q":
             stop.set()
 
+    screen = Output(sys.stdout, LINES if plain else PICTURES)
     watching = (
-        print_lines(lambda: [f"F1EFW sketch on an emulated UNO: {pty} ({wire.state})"], line)
+        print_lines(lambda: [f"F1EFW sketch on an emulated UNO: {pty} ({wire.state})"], line, screen)
         if plain
-        else draw(render, key)
+        else draw(render, key, terminal_console(screen))
     )
     tasks = [asyncio.create_task(watching), asyncio.create_task(link.run())]
     try:
@@ -100,3 +103,4 @@ async def _run(sketch: Sketch, pty: Path, *, plain: bool) -> None:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
         await asyncio.to_thread(board.join, JOIN_S)
+        screen.close()

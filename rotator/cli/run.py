@@ -7,15 +7,19 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import sys
 import time
+from functools import partial
 from pathlib import Path
+from typing import TextIO, cast
 
 from rich.console import RenderableType
 
 from rotator import __version__
 from rotator.app import App
 from rotator.cli.faults import parse_faults
-from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals
+from rotator.cli.output import LINES, PICTURES, Output
+from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals, terminal_console
 from rotator.config.load import load
 from rotator.orders import Park, Release, Stop
 from rotator.views import terminal
@@ -25,11 +29,17 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     config = load(path)
     app = App(config, path)
     recent = LogRows()
-    log_to(logging.StreamHandler() if plain else recent)  # before a thread of the app can log above the picture
-    asyncio.run(run_app(app, parse_faults(faults, app.station.world), None if plain else recent))
+    screen, errors = Output(sys.stdout, LINES if plain else PICTURES), Output(sys.stderr)
+    # Before a thread of the app can log above the picture.
+    log_to(logging.StreamHandler(cast(TextIO, errors)) if plain else recent)
+    try:
+        asyncio.run(run_app(app, parse_faults(faults, app.station.world), screen, None if plain else recent))
+    finally:
+        screen.close()
+        errors.close()
 
 
-async def run_app(app: App, faults: list[tuple[float, str]], recent: LogRows | None) -> None:
+async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, recent: LogRows | None) -> None:
     """Run until a signal or a key ends it.
 
     `faults`: seconds after the start, and the simulator's name of each. `recent`: the log rows of the picture; None:
@@ -39,7 +49,7 @@ async def run_app(app: App, faults: list[tuple[float, str]], recent: LogRows | N
     for at_s, name in faults:
         assert app.station.world is not None, "faults are for the simulator"
         asyncio.get_running_loop().call_later(at_s, app.station.world.inject, name)
-    watcher = asyncio.create_task(_plain(app) if recent is None else _picture(app, stop, recent))
+    watcher = asyncio.create_task(_plain(app, screen) if recent is None else _picture(app, stop, screen, recent))
     try:
         await app.run(stop)
     finally:
@@ -47,13 +57,14 @@ async def run_app(app: App, faults: list[tuple[float, str]], recent: LogRows | N
         await asyncio.gather(watcher, return_exceptions=True)
 
 
-async def _plain(app: App) -> None:
+async def _plain(app: App, screen: Output) -> None:
     wires = [link.wire for link in app.links]
     hardware = app.config.rotor.hardware
-    await print_lines(lambda: terminal.greeting(__version__, hardware, wires), lambda: terminal.line(app.loop.status))
+    greeting = partial(terminal.greeting, __version__, hardware, wires)
+    await print_lines(greeting, lambda: terminal.line(app.loop.status), screen)
 
 
-async def _picture(app: App, stop: asyncio.Event, recent: LogRows) -> None:
+async def _picture(app: App, stop: asyncio.Event, screen: Output, recent: LogRows) -> None:
     wires = [link.wire for link in app.links]
 
     def glass() -> tuple[str, ...]:
@@ -75,4 +86,4 @@ async def _picture(app: App, stop: asyncio.Event, recent: LogRows) -> None:
             case "q":
                 stop.set()
 
-    await draw(render, key)
+    await draw(render, key, terminal_console(screen))

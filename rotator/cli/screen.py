@@ -15,9 +15,12 @@ import tty
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import IO, cast
 
 from rich.console import Console, RenderableType
 from rich.live import Live
+
+from rotator.cli.output import Output
 
 PICTURE_HZ = 5
 LOG_ROWS = 6
@@ -47,26 +50,29 @@ def stop_on_signals() -> asyncio.Event:
     return stop
 
 
-async def draw(
-    render: Callable[[], RenderableType], key: Callable[[str], None], console: Console | None = None
-) -> None:
+def terminal_console(output: Output) -> Console:
+    """A console for `draw` whose terminal may stop reading."""
+    return Console(file=cast(IO[str], output))
+
+
+async def draw(render: Callable[[], RenderableType], key: Callable[[str], None], console: Console) -> None:
     """Draw until cancelled, and pass single keys to `key`. Text printed on `console` stays above the picture."""
-    with _keys(key), Live(console=console or Console(), auto_refresh=False) as live:
+    with _keys(key), Live(console=console, auto_refresh=False) as live:
         while True:
             live.update(render(), refresh=True)
             await asyncio.sleep(1 / PICTURE_HZ)
 
 
-async def print_lines(greeting: Callable[[], list[str]], line: Callable[[], str]) -> None:
+async def print_lines(greeting: Callable[[], list[str]], line: Callable[[], str], output: Output) -> None:
     """For output that is no terminal: print a greeting, then each line that differs from the one before."""
     # After this pause the links are open, and the greeting can name their ports.
     await asyncio.sleep(0.1)
     last = ""
-    print(*greeting(), sep="\n", flush=True)  # noqa: T201 - this is the output
+    output.write("\n".join((*greeting(), "")))
     while True:
         now = line()
         if now != last:
-            print(now, flush=True)  # noqa: T201
+            output.write(f"{now}\n")
             last = now
         await asyncio.sleep(1.0)
 
@@ -85,4 +91,5 @@ def _keys(handle: Callable[[str], None]) -> Iterator[None]:
         yield
     finally:
         events.remove_reader(fd)
-        termios.tcsetattr(fd, termios.TCSADRAIN, before)
+        # Not after the last output (TCSADRAIN): after Ctrl-S that would be never.
+        termios.tcsetattr(fd, termios.TCSANOW, before)

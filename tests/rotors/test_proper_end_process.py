@@ -30,12 +30,13 @@ import asyncio, sys, time
 from pathlib import Path
 from rotator.app import App
 from rotator.assembly.station import Station
+from rotator.cli.output import Output
 from rotator.cli.run import run_app
 from rotator.config.load import load
 path = Path(sys.argv[1])
 config = load(path)
 station = Station(config, time.monotonic, time.sleep, counts=Path(sys.argv[2]))
-asyncio.run(run_app(App(config, path, station), [], None))
+asyncio.run(run_app(App(config, path, station), [], Output(sys.stdout), None))
 """
 """`rotator run`, but for the counts, which are kept for real hardware only."""
 
