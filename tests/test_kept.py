@@ -45,5 +45,5 @@ def test_it_stands_where_caches_do(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", "/somewhere")
     assert kept("roots") == Path("/somewhere/gs232-rotator/roots")
     monkeypatch.delenv("XDG_CACHE_HOME")
-    monkeypatch.setenv("HOME", "/root")
-    assert kept("roots") == Path("/root/.cache/gs232-rotator/roots")
+    monkeypatch.setenv("HOME", "/home/ham")
+    assert kept("roots") == Path("/home/ham/.cache/gs232-rotator/roots")

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 
 from hw.chips.mcp41010 import Mcp41010
 from hw.drives.control_box import BoxSpec, ControlBox
-from hw.drives.positioned import DriveAngle
+from hw.drives.positioned import DriveAngle, wait_until
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 
@@ -108,10 +108,7 @@ class DigipotDrive:
     def wait_until_due(self, patience_s: float) -> None:
         """For the guard's thread: sleep until `enforce` is due, an order came, or `patience_s` seconds have passed."""
         with self._changed:
-            due_s = self.due_s()
-            left_s = patience_s if due_s is None else min(patience_s, due_s - self._clock())
-            if left_s > 0:
-                self._changed.wait(left_s)
+            wait_until(self._changed, self.due_s(), self._clock, patience_s)
 
     # --- state
 

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from contextlib import suppress
 
 from hw.chips.pca9685 import Pca9685
-from hw.drives.positioned import DriveAngle
+from hw.drives.positioned import DriveAngle, wait_until
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.drives.servo_axis import ServoAxis, ServoSpec
 from hw.ports import AngleSource, Axis, HardwareError, OutputLines
@@ -127,10 +127,7 @@ class ServoDrive:
     def wait_until_due(self, patience_s: float) -> None:
         """For the guard's thread: sleep until `enforce` is due, an order came, or `patience_s` seconds have passed."""
         with self._changed:
-            due_s = self._due_s()
-            left_s = patience_s if due_s is None else min(patience_s, due_s - self._clock())
-            if left_s > 0:
-                self._changed.wait(left_s)
+            wait_until(self._changed, self._due_s(), self._clock, patience_s)
 
     # --- state
 

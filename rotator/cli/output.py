@@ -1,4 +1,4 @@
-"""A text stream that never holds up its writer, whatever the terminal or the pipe behind it does.
+"""A text stream that never holds up its writer, even when the terminal or the pipe behind it takes nothing.
 
 After Ctrl-S, on a stalled ssh, or into a full pipe a write blocks. The threads that serve links and motors must not
 wait for that: a thread of its own writes, and what it cannot write in time is dropped. Knows a file descriptor. Knows
