@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests test-hamlib test-kernel test-install test-gpredict test-rotors bench fuzz picture picture-gpredict drawings clean
+.PHONY: run test check tests test-hamlib test-kernel test-install test-gpredict test-rotors test-machines bench fuzz picture picture-gpredict drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -32,6 +32,10 @@ test-hamlib: $(VENV)/.dev
 test-rotors: $(VENV)/.dev
 	$(BIN)/pytest -n 3 --dist worksteal tests/rotors tests/calibrating/test_north.py tests/cli/test_calibrate_north.py
 	$(BIN)/pytest -n 2 --dist loadfile tests/flights
+
+# The five machines as their builders have them, in real time: processes, threads, files, clients, power cuts.
+test-machines: $(VENV)/.dev
+	$(BIN)/pytest -n 5 --dist worksteal tests/machines
 
 # install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in ~/.cache/gs232-rotator.
 test-install: $(VENV)/.dev

@@ -15,11 +15,12 @@ collect_ignore = [] if "GS232_KERNEL" in os.environ else ["kernel"]
 """Tests that need a kernel of their own run in it: `make test-kernel`."""
 
 SLOW = (
-    *("rotors", "flights", "calibrating/test_north.py", "cli/test_calibrate_north.py"),
+    *("machines", "rotors", "flights", "calibrating/test_north.py", "cli/test_calibrate_north.py"),
     *("foreign/test_hamlib.py", "foreign/test_rotctld_follow.py"),
 )
 """Tests of minutes, run only where they are named: `make test-rotors` has every kind of rotor, all its faults and whole
-passes; `make test-hamlib` has every model of Hamlib that can drive the box, at Hamlib's own pace."""
+passes; `make test-machines` has the five machines in real time; `make test-hamlib` has every model of Hamlib that can
+drive the box, at Hamlib's own pace."""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
