@@ -31,8 +31,8 @@ def strict(box: BenchBox) -> Gs232Session:
 @pytest.mark.parametrize("line", [b"", b"  ", b"\0", b"\xff", b";"])
 def test_an_empty_line_is_a_mistake_where_asked_for(box: BenchBox, dialect: Dialect, line: bytes) -> None:
     session = Gs232Session(box, dialect, empty_line=WRONG)
-    assert session.receive(line + b"\r") == [WRONG]
     assert session.receive(line + b"\n" + line + b"\n") == [WRONG, WRONG]
+    assert session.receive(line + b"\r" + line + b"\r") == [WRONG, WRONG]
 
 
 def test_cr_lf_is_one_end_and_its_lf_no_mistake(box: BenchBox) -> None:
