@@ -133,3 +133,59 @@ def test_z_moves_no_angle(box: BenchBox, strict: Gs232Session) -> None:
     assert strict.receive(b"P36\rZ\rC2\r")[-1] == b"AZ=235  EL=025\r\n"
     strict.receive(b"W100 020\r")
     assert box.orders == [Aim(100, 20)]
+
+
+class Cosmos:
+    """HSFL COSMOS's gs232b_lib: how it reads and what makes it give up, on a port without delay."""
+
+    def __init__(self, session: Gs232Session) -> None:
+        self._session = session
+        self._heard = b""
+
+    def _write(self, data: bytes) -> None:
+        self._heard += b"".join(self._session.receive(data))
+
+    def _line(self) -> bytes:
+        """Up to a line feed, or what half a second brings."""
+        line, end, self._heard = self._heard.partition(b"\n")
+        return line + end
+
+    def send(self, command: bytes) -> bool:
+        self._write(b"\r")
+        if not self._line().startswith(b"?>"):
+            return False
+        self._write(command)
+        return True
+
+    def connect(self) -> bool:
+        return self.send(b"\r") and self._line() == WRONG and self.send(b"\r") and self._line() == WRONG
+
+    def where(self) -> bytes:
+        return self._line() if self.send(b"C2\r") else b""
+
+
+def test_cosmos_connects_points_asks_and_stops_where_an_empty_line_is_a_mistake(box: BenchBox) -> None:
+    cosmos = Cosmos(Gs232Session(box, Dialect.B, empty_line=WRONG))
+    assert cosmos.connect()
+    assert cosmos.where() == b"AZ=235  EL=025\r\n"
+    assert cosmos.send(b"X2\r")
+    assert cosmos.send(b"W100 020\r")
+    assert cosmos.where() == b"AZ=235  EL=025\r\n"
+    assert box.driven == {Axis.AZIMUTH: Direction.MINUS, Axis.ELEVATION: Direction.MINUS}
+    assert cosmos.send(b"S\r")
+    assert set(box.driven.values()) == {Direction.OFF}
+
+
+def test_cosmos_never_says_a_word_to_a_link_as_shipped(box: BenchBox) -> None:
+    cosmos = Cosmos(Gs232Session(box, Dialect.B))
+    assert not cosmos.connect()
+    assert not cosmos.send(b"S\r")
+
+
+def test_a_cr_after_commands_costs_cosmos_the_next_one(box: BenchBox) -> None:
+    """Why docs/protocols.md names `empty_line` for it, and not `strict`: after each order one command is lost."""
+    cosmos = Cosmos(Gs232Session(box, Dialect.B, ack=b"\r", empty_line=WRONG))
+    assert cosmos.connect()
+    assert cosmos.send(b"W100 020\r")
+    assert not cosmos.send(b"S\r")
+    assert cosmos.send(b"S\r")
