@@ -59,6 +59,8 @@ class Settings:
     simulated: bool = False
     park_after_s: float = 0.0
     """Park when no order has moved the antenna for so long; 0: never."""
+    on_sky: bool = True
+    """Whether the tolerance is on the sky; False: in degrees of each axis."""
     mode: Mode = Mode.AUTO
     """The mode until a front panel reports its switch. With a mode switch it is PARK: nothing moves before that."""
 
@@ -78,7 +80,7 @@ class Controller:
         self._axes, self._switched = axes, switched
         self._authority = Authority(settings.mode)
         tolerances_deg = settings.azimuth.tolerance_deg, settings.elevation.tolerance_deg
-        self._aiming = Aiming(settings.mount, axes, Pointing(settings.mount, *tolerances_deg))
+        self._aiming = Aiming(settings.mount, axes, Pointing(settings.mount, *tolerances_deg, on_sky=settings.on_sky))
         self._homing = HomingQueue({name: axis for name, axis in switched.items() if axis.settings.homing is not None})
         self._timed = TimedList()
         self._speed_level = 4
