@@ -32,6 +32,7 @@ from rotator.runtime.client import Client
 from rotator.runtime.closing import Part, closing
 from rotator.runtime.display import DisplayThread
 from rotator.runtime.engine import Engine, process_end
+from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
 from rotator.store import counts, knobs
@@ -57,6 +58,7 @@ class App:
         self.config = config
         self.station = station or open_station(config)
         self._service_manager = ServiceManager(os.environ, time.monotonic)
+        self._events = EventWatch(time.monotonic)
         mount = build_mount(config)
         learnt = build_learnt(config)
         self.loop = ControlLoop(
@@ -65,6 +67,7 @@ class App:
             time.monotonic,
             1 / config.control.rate_hz,
             after_good_step=self._sign_of_life,
+            events=self._events,
         )
         self.console = Client(self.loop, mount, Source("console"))
         numbers = itertools.count(1)
@@ -140,6 +143,7 @@ class App:
         for name, work in (("monitor", self._monitor_socket.run()), ("console", self._console_socket.run())):
             self._side_tasks.append(asyncio.create_task(work, name=name))
         self._tasks.append(asyncio.create_task(self._autosave.run(), name="autosave"))
+        self._tasks.append(asyncio.create_task(self._events.run(), name="the event loop's watch"))
         return motion_ended
 
     async def _end_motion(self) -> None:
