@@ -20,8 +20,8 @@ from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
 from rotator.assembly.station import Station
 from rotator.config.model import Config
-from rotator.links.console import ConsoleSocket, console_path
-from rotator.monitor.places import monitor_path
+from rotator.config.places import console_path, monitor_path
+from rotator.links.console import ConsoleSocket
 from rotator.monitor.socket import MonitorSocket
 from rotator.monitor.tap import Tap
 from rotator.orders import Source
@@ -71,13 +71,14 @@ class App:
         )
         self.console = Client(self.loop, mount, Source("console"))
         numbers = itertools.count(1)
+        monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
         self._console_socket = ConsoleSocket(
-            console_path(monitor_path(config, os.environ)),
+            console_path(monitor),
             lambda: ConsoleSession(Client(self.loop, mount, Source("console", next(numbers)))),
         )
         self._tap = Tap(datetime.now, lambda: self.loop.status)
         self.links = build_links(config.link, self.loop, mount, self._tap)
-        self._monitor_socket = MonitorSocket(monitor_path(config, os.environ), self._tap.listeners, self._tap.greeting)
+        self._monitor_socket = MonitorSocket(monitor, self._tap.listeners, self._tap.greeting)
         self._panel = self._fit_panel()
         display = self.station.display
         self._display = DisplayThread(display, self.lcd_rows, time.monotonic) if display else None

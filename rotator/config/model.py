@@ -24,6 +24,7 @@ from rotator.config.kinds.relay_pulse import Pulses, RelayPulse
 from rotator.config.kinds.servo import Servo, ServoKind
 from rotator.config.links import Link, is_same_place
 from rotator.config.panel import LimitsTable, PanelTable
+from rotator.config.places import STATE
 from rotator.config.rotors import Rotor, with_usual
 from rotator.config.sensors import CompassTable
 from rotator.config.sim import Sim
@@ -66,7 +67,7 @@ class MountTable(Table):
 
 
 class StateTable(Table):
-    path: str = Field("run/state.json", min_length=1)
+    path: str = Field(STATE, min_length=1)
     """The file with the learnt speed and coast of the motors; on a Pi `/var/lib/rotator/state.json`."""
 
 
