@@ -76,7 +76,7 @@ class ClearTimed:
 
 @dataclass(frozen=True, slots=True)
 class RunTimed:
-    """Run the timed list from its present point."""
+    """Run the timed list: turn to its next point now."""
 
 
 @dataclass(frozen=True, slots=True)

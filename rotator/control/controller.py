@@ -192,7 +192,8 @@ class Controller:
                 self._move(order, source, now_s)
 
     def _move(self, order: Order, source: Source, now_s: float) -> None:
-        self._timed.halt()
+        if not isinstance(order, RunTimed):
+            self._timed.halt()
         if not isinstance(order, Home):
             self._homing.clear()
         match order:
