@@ -11,14 +11,16 @@ import asyncio
 import contextlib
 import errno
 import logging
+import math
 import threading
+import time
 from collections.abc import Awaitable
 from typing import Any
 
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import CanChannel, SerialPort, library
 from hw.moteus.wire import Wire
-from hw.ports import HardwareError
+from hw.ports import Axis, HardwareError
 
 log = logging.getLogger(__name__)
 
@@ -28,8 +30,12 @@ EXCHANGE_S = 0.15
 """The longest time for one request and its answer, in seconds."""
 SILENCE_S = 2.0
 """After so many seconds without any answer the connection is opened again."""
-BACK_OFF_S = (0.1, 2.0)
+BACK_OFF_S = (0.03, 2.0)
 """The shortest and the longest pause before the next attempt to connect, in seconds."""
+FIRST_ANSWER_S = 0.7
+"""`start` waits for the first answers up to so many seconds: a healthy bus needs a tenth of that."""
+SAID_EVERY_S = 10.0
+"""A bad cable gets one line in the log in so many seconds."""
 COMING_TO_REST_S = 2.0
 """The longest time, in seconds, for the motors to stop when the program ends."""
 
@@ -43,14 +49,20 @@ class MoteusBus:
         self._drive = drive
         self._port = port
         self._closing = threading.Event()
+        self._met = threading.Event()
+        """Both controllers have answered, or the first try has failed."""
+        self._said_s, self._unsaid = -math.inf, 0
         self._lock = threading.Lock()
         self._waker: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
         self._thread = threading.Thread(target=self._run, name=MOTEUS_THREAD, daemon=True)
         drive.on_news = self._wake
+        drive.on_return = self._log_return
 
     def start(self) -> None:
+        """Returns when both controllers have answered, so that a start begins without a fault; or after a moment."""
         self._drive.lost(f"moteus: {self._port}: not connected yet")
         self._thread.start()
+        self._met.wait(FIRST_ANSWER_S)
 
     def close(self) -> None:
         """Let both axes come to rest and hold, then end the thread; the controllers' watchdogs guard them from then on.
@@ -69,6 +81,15 @@ class MoteusBus:
             if self._waker:
                 self._waker[0].call_soon_threadsafe(self._waker[1].set)
 
+    def _log_return(self, axis: Axis, gap_s: float) -> None:
+        now_s = time.monotonic()
+        if now_s - self._said_s < SAID_EVERY_S:
+            self._unsaid += 1
+            return
+        more = f"; {self._unsaid} more since the last such line" if self._unsaid else ""
+        log.warning("%s: moteus answers again, after %.2f s of silence%s", axis.value, gap_s, more)
+        self._said_s, self._unsaid = now_s, 0
+
     def _run(self) -> None:
         wait_s = BACK_OFF_S[0]
         while not self._closing.is_set():
@@ -82,6 +103,7 @@ class MoteusBus:
             wait_s = BACK_OFF_S[0] if lively else min(2 * wait_s, BACK_OFF_S[1])
             log.debug("moteus: %s: %s; next try in %.1f s", self._port, reason, wait_s)
             self._drive.lost(f"moteus: {self._port}: {reason}")
+            self._met.set()
             self._closing.wait(wait_s)
 
     async def _connection(self) -> bool:
@@ -123,6 +145,8 @@ class MoteusBus:
             news.clear()
             if await wire.serve(_patiently):
                 heard_s, lively = loop.time(), True
+                if not self._met.is_set() and all(self._drive.answer(axis) for axis in Axis):
+                    self._met.set()
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(news.wait(), self._drive.next_order_in_s())
         return lively
