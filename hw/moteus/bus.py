@@ -51,6 +51,8 @@ class MoteusBus:
         self._closing = threading.Event()
         self._met = threading.Event()
         """Both controllers have answered, or the first try has failed."""
+        self._lively = False
+        """A controller has answered on the present connection."""
         self._said_s, self._unsaid = -math.inf, 0
         self._lock = threading.Lock()
         self._waker: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
@@ -93,24 +95,22 @@ class MoteusBus:
     def _run(self) -> None:
         wait_s = BACK_OFF_S[0]
         while not self._closing.is_set():
+            self._lively = False
             try:
-                lively = asyncio.run(self._connection())
+                asyncio.run(self._connection())
                 reason = "no controller answers: check their supply and the CAN wires"
             except (Exception, SystemExit) as failure:  # the library calls sys.exit when one of its handlers fails
-                lively, reason = False, _explain(failure)
+                reason = _explain(failure)
             if self._closing.is_set():
                 break
-            wait_s = BACK_OFF_S[0] if lively else min(2 * wait_s, BACK_OFF_S[1])
+            wait_s = BACK_OFF_S[0] if self._lively else min(2 * wait_s, BACK_OFF_S[1])
             log.debug("moteus: %s: %s; next try in %.1f s", self._port, reason, wait_s)
             self._drive.lost(f"moteus: {self._port}: {reason}")
             self._met.set()
             self._closing.wait(wait_s)
 
-    async def _connection(self) -> bool:
-        """Exchange orders and answers until the line fails (raises), all controllers are silent, or `close` is called.
-
-        Returns whether any controller answered.
-        """
+    async def _connection(self) -> None:
+        """Exchange orders and answers until the line fails (raises), all controllers are silent, or `close` is called."""
         loop, news, broken = asyncio.get_running_loop(), asyncio.Event(), asyncio.Event()
         me = asyncio.current_task()
         failures: list[BaseException] = []
@@ -126,7 +126,7 @@ class MoteusBus:
         with self._lock:
             self._waker = (loop, news)
         try:
-            return await self._talk(Wire(self._moteus, transport, self._drive), news)
+            await self._talk(Wire(self._moteus, transport, self._drive), news)
         except asyncio.CancelledError:
             raise failures[0] if failures else OSError("the connection was cut") from None
         finally:
@@ -134,9 +134,9 @@ class MoteusBus:
                 self._waker = None
             transport.close()
 
-    async def _talk(self, wire: Wire, news: asyncio.Event) -> bool:
+    async def _talk(self, wire: Wire, news: asyncio.Event) -> None:
         loop = asyncio.get_running_loop()
-        heard_s, lively, rested_by_s = loop.time(), False, None
+        heard_s, rested_by_s = loop.time(), None
         while loop.time() - heard_s < SILENCE_S:
             if self._closing.is_set():
                 rested_by_s = rested_by_s or loop.time() + COMING_TO_REST_S
@@ -144,12 +144,11 @@ class MoteusBus:
                     break
             news.clear()
             if await wire.serve(_patiently):
-                heard_s, lively = loop.time(), True
+                heard_s, self._lively = loop.time(), True
                 if not self._met.is_set() and all(self._drive.answer(axis) for axis in Axis):
                     self._met.set()
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(news.wait(), self._drive.next_order_in_s())
-        return lively
 
 
 async def _patiently(call: Awaitable[Any]) -> Any:

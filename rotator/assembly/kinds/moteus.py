@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from firmware_sim.moteus.motor import MoteusSettings
 from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
@@ -22,6 +23,10 @@ from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.config.kinds.moteus import Moteus
 from rotator.config.model import Config
 from rotator.rotors.moteus import MoteusRotor
+
+
+SIMULATED_GEAR = 10.0
+"""Turns of the simulated motor for one turn of the antenna."""
 
 
 def moteus_drive(config: Config, clock: Callable[[], float], *, look_only: bool = False) -> MoteusDrive:
@@ -70,6 +75,7 @@ def _served(parts: Assembly, drive: MoteusDrive) -> MoteusBus | MoteusInStep:
 def simulate(axes: SimulatedAxes) -> SimMoteusRotor:
     def spec(axis: Axis) -> MoteusAxisSpec:
         table = axes.config.moteus.of(axis)
-        return MoteusAxisSpec(table.id, axes.start_deg(axis), table.rev_per_turn, table.zero_rev)
+        settings = MoteusSettings(rotor_turns=SIMULATED_GEAR / abs(table.rev_per_turn) if table.geared else 1.0)
+        return MoteusAxisSpec(table.id, axes.start_deg(axis), table.rev_per_turn, table.zero_rev, settings)
 
     return SimMoteusRotor(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), axes.clock, axes.bus_sleep)
