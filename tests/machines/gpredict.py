@@ -29,6 +29,11 @@ class Gpredict:
         self._ask("S\n")
         assert self._lines.readline().strip() == "RPRT 0"
 
+    def park(self) -> None:
+        """Not Gpredict's: `rotctl` has it."""
+        self._ask("K\n")
+        assert self._lines.readline().strip() == "RPRT 0"
+
     def read(self) -> tuple[float, float]:
         self._ask("p\n")
         return float(self._lines.readline()), float(self._lines.readline())

@@ -72,7 +72,7 @@ def test_a_day(
         points = [(azimuth + 1.3 * second, elevation + 1.1 * second) for second in range(6)]
         fly(gpredict.send, points, every_s=1.0)
         machine.arrives(*_turn(shown, *points[-1]), NEAR_DEG)
-        machine.rotator("tell", "park")
+        box.park()
         machine.until(lambda world: world.antenna_deg[1] < 1.0, "it goes to its park position")
 
         # A power cut in mid-move; the antenna is turned; both controllers forget.
