@@ -20,8 +20,8 @@ MOVING_EVERY_S = 0.02
 PARKED_EVERY_S = 0.08
 """Seconds between two orders to an axis at rest: much shorter than the controller's watchdog time."""
 STALE_S = 0.3
-"""An answer older than so many seconds is not used. A shorter silence stops nothing: the controller carries out its last
-order meanwhile."""
+"""An answer older than so many seconds is not used. A shorter silence stops nothing: meanwhile the controller carries
+out its last order."""
 FORGIVEN_S = 2.0
 """After a silence up to this long the axis takes the next order without an acknowledgement: the controller stood and
 held meanwhile, and still knows its place."""
@@ -114,8 +114,8 @@ class MoteusAxis:
             raise HardwareError(f"{self._name}: {angle_deg}° is no angle")
         if not exactly and self._placing.contradicts(answer, angle_deg):
             raise HardwareError(
-                f"{self._name}: by its encoder it points to {self.spec.degrees(answer.position_rev) % 360:.0f}°, and not "
-                f"to {angle_deg:g}°: look again, or correct zero_rev"
+                f"{self._name}: its encoder shows {self.spec.degrees(answer.position_rev) % 360:.0f}°, which is not "
+                f"{angle_deg:g}°: look again, or correct zero_rev"
             )
         self.hold()
         self._placing.doubt()

@@ -110,7 +110,7 @@ class MoteusBus:
             self._closing.wait(wait_s)
 
     async def _connection(self) -> None:
-        """Exchange orders and answers until the line fails (raises), all controllers are silent, or `close` is called."""
+        """Exchange orders and answers until the line fails (raises), all are silent, or `close` is called."""
         loop, news, broken = asyncio.get_running_loop(), asyncio.Event(), asyncio.Event()
         me = asyncio.current_task()
         failures: list[BaseException] = []

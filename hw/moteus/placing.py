@@ -1,11 +1,11 @@
-"""In which turn an axis stands: what a controller's position is worth after power-on, after silence, and after a restart.
+"""In which turn an axis stands: what a controller's position is worth after power-on, after silence, after a restart.
 
 Knows home states, the two kinds of encoder, and the range of the axis. Knows no orders: the caller gives the controller
 the position that `see` returns.
 
 After power-on a controller knows its angle within one turn at most, of the motor or of the antenna: 270° comes back as
--90°. The angle is taken for the one turn that lies in the axis's range. Where two turns lie in it (45° and 405° of 450°),
-or none does, a person has to say which.
+-90°. The angle is taken for the one turn that lies in the axis's range. Where two turns lie in it (45° and 405° of
+450°), or none does, a person has to say which.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Placing:
         return self.given_rev
 
     def doubt(self) -> None:
-        """A person or a sensor says where it stands: an angle that the controller has not been given yet is not given."""
+        """A person or a sensor says where it stands: a turn that the controller was not given yet is forgotten."""
         if self.given_rev is not None:
             self._lose(LOST)
 
@@ -113,10 +113,8 @@ class Placing:
             self._lose(self._outside(shown_deg))
 
     def _outside(self, shown_deg: float) -> str:
-        least_deg, most_deg = self._spec.min_deg, self._spec.max_deg
-        return (
-            f"shows {shown_deg:.0f}°, outside of {least_deg:g}° to {most_deg:g}°: look at the antenna and confirm its angle"
-        )
+        spec = self._spec
+        return f"shows {shown_deg:.0f}°, outside of {spec.min_deg:g}° to {spec.max_deg:g}°: look, and confirm its angle"
 
     def _lose(self, why: str) -> None:
         self.unknown, self.given_rev, self._shift_rev = why, None, 0.0

@@ -47,9 +47,7 @@ def own_faults(machine: Shack) -> list[str]:
     return [line for line in machine.faults() if "position unknown" not in line]
 
 
-def test_a_day(
-    shack: Callable[..., Shack], chance: random.Random, need_program: Callable[[str, str], str]
-) -> None:
+def test_a_day(shack: Callable[..., Shack], chance: random.Random, need_program: Callable[[str, str], str]) -> None:
     rotctld, port = need_program("rotctld", "libhamlib-utils"), free_port()
     machine = shack("isel", keys(port))
     place = somewhere(chance)

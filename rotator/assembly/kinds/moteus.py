@@ -24,7 +24,6 @@ from rotator.config.kinds.moteus import Moteus
 from rotator.config.model import Config
 from rotator.rotors.moteus import MoteusRotor
 
-
 SIMULATED_GEAR = 10.0
 """Turns of the simulated motor for one turn of the antenna."""
 
