@@ -11,14 +11,19 @@ import itertools
 import logging
 import os
 import time
+from collections.abc import Coroutine
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from rotator.assembly.calibration import compass_path, open_compass
 from rotator.assembly.links import build_links
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
 from rotator.assembly.station import Station
+from rotator.calibrating.at_start import CompassAtStart, watch
+from rotator.calibrating.compass import CompassReader
+from rotator.calibrating.facts import north_facts
 from rotator.config.model import Config
 from rotator.config.places import console_path, monitor_path
 from rotator.links.console import ConsoleSocket
@@ -36,6 +41,7 @@ from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
 from rotator.store import counts, knobs
+from rotator.store.compass import CompassFile
 from rotator.views import lcd
 
 log = logging.getLogger(__name__)
@@ -141,7 +147,10 @@ class App:
             self._display.start()
         if self._panel:
             self._panel.start()
-        for name, work in (("monitor", self._monitor_socket.run()), ("console", self._console_socket.run())):
+        side = [("monitor", self._monitor_socket.run()), ("console", self._console_socket.run())]
+        if self.config.compass.at_start:
+            side.append(("compass", self._compass_at_start()))
+        for name, work in side:
             self._side_tasks.append(asyncio.create_task(work, name=name))
         self._tasks.append(asyncio.create_task(self._autosave.run(), name="autosave"))
         self._tasks.append(asyncio.create_task(self._events.run(), name="the event loop's watch"))
@@ -164,6 +173,15 @@ class App:
             log.error("another task failed: %s", failure)
         if failed:
             raise failed[0]
+
+    def _compass_at_start(self) -> Coroutine[Any, Any, None]:
+        """What settles an azimuth that does not know its angle after power-on."""
+        corrections = compass_path(self.config)
+        compass = open_compass(self.config, self.station.board)
+        reader = CompassReader(compass, time.monotonic, CompassFile(corrections) if corrections else None)
+        start = CompassAtStart(north_facts(self.config, has_file=corrections is not None))
+        source = Source("compass")
+        return watch(reader, start, lambda: self.loop.status, lambda order: self.loop.post(source, order))
 
     def _fit_panel(self) -> PanelThread | None:
         parts, source = self.station.panel, Source("panel")

@@ -133,6 +133,7 @@ class Config(Table):
         faults = [*self._pins_twice(), *self._chips_twice(), *self._places_twice(), *self._follows_itself()]
         faults += self.adc.faults() if self.uses_adc else []
         faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
+        faults += self._compass_faults()
         if self.azimuth.sensor.kind == "mpu6050":
             faults.append('azimuth.sensor.kind = "mpu6050": gravity tells no azimuth; it is for the elevation')
         if faults:
@@ -208,6 +209,16 @@ class Config(Table):
         used = self.adc.chips() if self.uses_adc else []
         used += [chip for axis in Axis for chip in self.axis(axis).sensor.chips(f"{axis.value}.sensor.address")]
         return used + self.kind.chips() + self.panel.chips() + self.compass.chips() + self.lcd.chips()
+
+    def _compass_faults(self) -> list[str]:
+        if not self.compass.at_start:
+            return []
+        faults = [] if self.compass.kind != "none" else ['compass.at_start needs a compass: kind = "bno055"']
+        if not self.kind.confirmable:
+            faults.append("compass.at_start is for a rotor that may not know its angle: rotor.type = moteus")
+        if self.mount.north == "true" and self.mount.declination_deg is None:
+            faults.append("compass.at_start needs mount.declination_deg: a compass shows magnetic north")
+        return faults
 
     def _pins_twice(self) -> list[str]:
         users: dict[int, list[str]] = {}
