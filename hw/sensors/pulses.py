@@ -124,6 +124,11 @@ class PulseCounter:
         return self._count.changes
 
     @property
+    def in_closure(self) -> bool:
+        """The contact is closed since the last counted change, or the last `place`."""
+        return self._count.zone % 2 == 0
+
+    @property
     def at_rest(self) -> bool:
         """No relay is on, and the motor has stopped coasting."""
         return self._count.at_rest and not self._waiting

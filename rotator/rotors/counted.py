@@ -81,6 +81,7 @@ class CountedAxis:
                 lost=why,
                 scale=self._scale,
                 changes=self._counter.changes,
+                closed=self._counter.in_closure,
                 ends=ends,
             )
 

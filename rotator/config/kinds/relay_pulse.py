@@ -98,4 +98,5 @@ class RelayPulse(Kind):
 
     def end_stop(self, axis: Axis) -> EndStop | None:
         cam = self.pulses.of(axis)
-        return EndStop(cam.spacing_deg, cam.coast_s, cam.home_deg)
+        mostly_closed = cam.closed_deg > cam.spacing_deg / 2
+        return EndStop(cam.spacing_deg, cam.coast_s + self.pulses.debounce_s, cam.home_deg, mostly_closed)
