@@ -44,8 +44,8 @@ RELAY_LINES = "relay-lines.json"
 
 
 def open_station(config: Config) -> Station:
-    """The hardware, in real time. Axes that count pulses on real hardware start with the counts of the last run."""
-    counts_file = None if config.rotor.hardware == "sim" else Path(config.state.path).with_name(counts.FILE_NAME)
+    """The hardware, in real time. Where the rotor outlives the program, axes that count start with the kept counts."""
+    counts_file = Path(config.state.path).with_name(counts.FILE_NAME) if config.keeps_files else None
     return Station(config, time.monotonic, time.sleep, counts=counts_file)
 
 
@@ -164,14 +164,13 @@ class App:
         parts, source = self.station.panel, Source("panel")
         if parts is None:
             return None
-        simulated = self.config.rotor.hardware == "sim"
         panel = panel_thread(
             self.config,
             parts,
             lambda: self.loop.status,
             lambda order: self.loop.post(source, order),
             time.monotonic,
-            knobs=None if simulated else Path(self.config.state.path).with_name(knobs.FILE_NAME),
+            knobs=Path(self.config.state.path).with_name(knobs.FILE_NAME) if self.config.keeps_files else None,
             pulses=self.station.rotor.closed_contacts,
         )
         self._tap.on_data = panel.data_received

@@ -75,8 +75,8 @@ class SimMoteusMotor:
         self.fault_code = 0
         self.set_point = SetPoint(shaft_rev, 0.0, clock(), arrived=True)
         self._clock = clock
-        self._scale_rev = 0.0
-        """The controller's position minus the shaft's."""
+        self.scale_rev = 0.0
+        """The controller's position minus the shaft's: its own count of turns, lost at power-off."""
         self._mode = Mode.STOPPED
         self._enabled_at_s = 0.0
         self._expires_s = math.inf
@@ -96,7 +96,7 @@ class SimMoteusMotor:
         self._become(Mode.STOPPED)
         self.fault_code = 0
         turn_rev = 1 / self.settings.rotor_turns
-        self._scale_rev = math.remainder(self.shaft_rev, turn_rev) - self.shaft_rev
+        self.scale_rev = math.remainder(self.shaft_rev, turn_rev) - self.shaft_rev
         self.home = Home.ROTOR
 
     # --- commands
@@ -113,7 +113,7 @@ class SimMoteusMotor:
     @property
     def position_rev(self) -> float:
         """The position that the controller reports, in revolutions of the output."""
-        return self.shaft_rev + self._scale_rev
+        return self.shaft_rev + self.scale_rev
 
     def obey(self, mode: Mode) -> None:
         """A write to the mode register, with the command registers as they are."""
@@ -145,7 +145,7 @@ class SimMoteusMotor:
         if not exactly:
             turn_rev = 1 / self.settings.rotor_turns
             by_rev = round(by_rev / turn_rev) * turn_rev
-        self._scale_rev += by_rev  # the set point stays: a motor that holds then turns there, as with older firmware
+        self.scale_rev += by_rev  # the set point stays: a motor that holds then turns there, as with older firmware
         self.home = Home.OUTPUT
 
     def _aim(self) -> None:
@@ -210,7 +210,7 @@ class SimMoteusMotor:
             self.fault_code = AT_BOUNDS if held_back else 0
         if self.jammed:
             return
-        self.shaft_rev = self.set_point.position_rev - self._scale_rev
+        self.shaft_rev = self.set_point.position_rev - self.scale_rev
 
     def _bounds(self) -> tuple[float, float]:
         if self.command[Register.COMMAND_IGNORE_BOUNDS]:

@@ -11,9 +11,10 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from firmware_sim.rotors.rotor import SimRotor
+from firmware_sim.world_file import WorldWriter
 from hw.buses.gpio import GpioOutputs
 from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780
-from hw.ports import CharacterDisplay
+from hw.ports import CharacterDisplay, HardwareError
 from hw.safety.heartbeat import Heartbeat
 from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel import Sentinel
@@ -73,6 +74,8 @@ class Station:
         self.sentinel = None
         # If a later part is missing, the parts opened so far are closed again, in the opposite order.
         with ExitStack() as opened:
+            if self.world and config.sim.world and add_alarm is None:
+                opened.callback(self._keep_world(self.world, Path(config.sim.world), clock))
             self._board = Board(self.world, opened, clock, sleep, chip=config.relays.chip)
             self.lines = off_lines(config, self._board.chip)
             outputs = self._open_lines(opened, self.lines) if self.lines else None
@@ -111,6 +114,16 @@ class Station:
         # Only now: if a line cannot be switched off, the sentinel must try as soon as the lines are given back.
         if self.sentinel:
             self.sentinel.dismiss()
+
+    @staticmethod
+    def _keep_world(world: SimRotor, path: Path, clock: Callable[[], float]) -> Callable[[], None]:
+        """Begin to keep the simulated world in a file. Returns what ends it. Raises HardwareError."""
+        writer = WorldWriter(path, world, clock)
+        try:
+            writer.start()
+        except OSError as fault:
+            raise HardwareError(f"sim.world: {fault}") from fault
+        return writer.stop
 
     def _open_lines(self, opened: ExitStack, lines: RelayLines) -> GpioOutputs:
         outputs = GpioOutputs(

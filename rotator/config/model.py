@@ -139,6 +139,11 @@ class Config(Table):
         return self
 
     @property
+    def keeps_files(self) -> bool:
+        """Whether the rotor outlives the program, so that kept angles stay true: a real or a kept one."""
+        return self.rotor.hardware != "sim" or self.sim.world is not None
+
+    @property
     def kind(self) -> Kind:
         """The kind of rotor that the file names, with its tables."""
         match self.rotor.type:

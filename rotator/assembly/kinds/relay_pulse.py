@@ -15,7 +15,7 @@ from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.rotors.counted import CountedAxis, CountedRotor
 from rotator.rotors.counts_writer import CountsWriter, at_once
-from rotator.store.counts import CountsFile, Place, Standing
+from rotator.store.counts import NEVER, CountsFile, Place, Standing
 
 SIM_BOUNCE_S = 0.005
 
@@ -31,10 +31,15 @@ def build(parts: Assembly, lines: OutputLines | None) -> CountedRotor:
         counts_writer = CountsWriter(CountsFile(parts.counts, cams), at_once if parts.in_step else None)
     kept = counts_writer.load() if counts_writer else {}
     axes: dict[Axis, CountedAxis] = {}
+
+    def first(axis: Axis) -> Place:
+        """A rotor that outlives the program is unknown until it is homed. A simulation begins where the rotor is."""
+        return NEVER if config.keeps_files else Place(Standing.KNOWN, parts.start_deg(axis))
+
     for axis in counting:
         counter = _counter(parts, axis, tapped)
         axes[axis] = CountedAxis(axis, counter, counts_writer, clock, master=config.relays.master is not None)
-        axes[axis].begin(kept.get(axis, Place(Standing.KNOWN, parts.start_deg(axis))))
+        axes[axis].begin(kept.get(axis, first(axis)))
     return CountedRotor(
         relay_bank(parts, tapped),
         parts.sensors(axes),
