@@ -30,6 +30,9 @@ from rotator.config.sim import Sim
 from rotator.config.spi import SpiUse, spi_lines
 from rotator.config.table import Point, Table
 
+SWITCH_ROOM_DEG = 2.0
+"""How far above the place where homing ends at a limit switch the range may begin."""
+
 
 class MountTable(Table):
     flip: Literal["off", "over-top"] = "off"
@@ -132,6 +135,7 @@ class Config(Table):
         faults = [*self._pins_twice(), *self._chips_twice(), *self._places_twice(), *self._follows_itself()]
         faults += self.adc.faults() if self.uses_adc else []
         faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
+        faults += self._switches_in_the_way()
         if self.azimuth.sensor.kind == "mpu6050":
             faults.append('azimuth.sensor.kind = "mpu6050": gravity tells no azimuth; it is for the elevation')
         if faults:
@@ -207,6 +211,16 @@ class Config(Table):
         used = self.adc.chips() if self.uses_adc else []
         used += [chip for axis in Axis for chip in self.axis(axis).sensor.chips(f"{axis.value}.sensor.address")]
         return used + self.kind.chips() + self.panel.chips() + self.compass.chips() + self.lcd.chips()
+
+    def _switches_in_the_way(self) -> list[str]:
+        """Homing ends just below a low limit switch: the range must begin above it."""
+        stops = {axis: stop for axis in Axis if (stop := self.end_stop(axis))}
+        return [
+            f"limits.{axis.value}_low opens a little above pulses.{axis.value}.home_deg ({stop.home_deg:g}), where "
+            f"homing ends: {axis.value}.min_deg must be {stop.home_deg + SWITCH_ROOM_DEG:g} at least, or home_deg less"
+            for axis, stop in stops.items()
+            if f"{axis.value}_low" in self.limits.switches and self.axis(axis).min_deg < stop.home_deg + SWITCH_ROOM_DEG
+        ]
 
     def _pins_twice(self) -> list[str]:
         users: dict[int, list[str]] = {}
