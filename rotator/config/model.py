@@ -31,6 +31,9 @@ from rotator.config.sim import Sim
 from rotator.config.spi import SpiUse, spi_lines
 from rotator.config.table import Point, Table
 
+SWITCH_ROOM_DEG = 2.0
+"""How far above the place where homing ends at a limit switch the range may begin."""
+
 
 class MountTable(Table):
     flip: Literal["off", "over-top"] = "off"
@@ -134,6 +137,7 @@ class Config(Table):
         faults += self.adc.faults() if self.uses_adc else []
         faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
         faults += self._compass_faults()
+        faults += self._switches_in_the_way()
         if self.azimuth.sensor.kind == "mpu6050":
             faults.append('azimuth.sensor.kind = "mpu6050": gravity tells no azimuth; it is for the elevation')
         if faults:
@@ -219,6 +223,16 @@ class Config(Table):
         if self.mount.north == "true" and self.mount.declination_deg is None:
             faults.append("compass.at_start needs mount.declination_deg: a compass shows magnetic north")
         return faults
+
+    def _switches_in_the_way(self) -> list[str]:
+        """Homing ends just below a low limit switch: the range must begin above it."""
+        stops = {axis: stop for axis in Axis if (stop := self.end_stop(axis))}
+        return [
+            f"limits.{axis.value}_low opens a little above pulses.{axis.value}.home_deg ({stop.home_deg:g}), where "
+            f"homing ends: {axis.value}.min_deg must be {stop.home_deg + SWITCH_ROOM_DEG:g} at least, or home_deg less"
+            for axis, stop in stops.items()
+            if f"{axis.value}_low" in self.limits.switches and self.axis(axis).min_deg < stop.home_deg + SWITCH_ROOM_DEG
+        ]
 
     def _pins_twice(self) -> list[str]:
         users: dict[int, list[str]] = {}
