@@ -77,6 +77,10 @@ class SwitchedAxis:
         return self._goal is not None
 
     @property
+    def jogging(self) -> bool:
+        return isinstance(self._goal, JogGoal)
+
+    @property
     def homing(self) -> bool:
         return isinstance(self._goal, HomeGoal)
 
@@ -263,6 +267,7 @@ class SwitchedAxis:
             fault=self.fault,
             homing=self.homing,
             notices=self._notices(),
+            noise_deg=self._watch.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
         )
