@@ -22,7 +22,9 @@ from rotator.status import AxisStatus, Status
 class Standing:
     """A box whose axes read these angles."""
 
-    def __init__(self, azimuth_deg: float, elevation_deg: float, noise_deg: float = 0.1, max_deg: float = 360.0) -> None:
+    def __init__(
+        self, azimuth_deg: float, elevation_deg: float, noise_deg: float = 0.1, max_deg: float = 360.0
+    ) -> None:
         self._status = Status(
             0.0,
             AxisStatus(0.0, max_deg, angle_deg=azimuth_deg, noise_deg=noise_deg),
