@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import Aim, Jog, Leave, LoadTimed, Order, Park, Source, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -32,6 +33,16 @@ def test_a_jog_for_a_time_ends_at_its_time(desk: Any) -> None:
     desk.step(Leave(), by=LINK)
     assert desk.run(2.5) == {(AZ, PLUS)}
     desk.run(1.0)
+    assert desk.at_rest()
+
+
+def test_a_press_on_an_axis_that_is_not_commissioned_ends_by_itself(new_desk: Any) -> None:
+    """`printf 'R\\r' > run/bench`, as the page on calibration has it: 2 s."""
+    desk = new_desk(missing={AZ: (Missing.DIRECTION_CHECK,)})
+    desk.step(Jog(AZ, PLUS), by=LINK)
+    desk.step(Leave(), by=LINK)
+    assert desk.run(1.8) == {(AZ, PLUS)}
+    desk.run(0.5)
     assert desk.at_rest()
 
 

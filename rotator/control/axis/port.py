@@ -34,8 +34,8 @@ class ControlledAxis(Protocol):
         """Whether the axis has a goal: it aims, jogs or homes."""
 
     @property
-    def jogging(self) -> bool:
-        """Whether the axis turns until it is stopped, or for a time."""
+    def jogs_without_end(self) -> bool:
+        """Whether the axis turns until it is stopped, or at its limit: a jog without a time."""
 
     @property
     def driven(self) -> bool:
