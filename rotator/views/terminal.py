@@ -77,7 +77,7 @@ def picture(
             yield from wrapped(held, width, "bold white on red", _TROUBLE)
         uncalibrated = {axis: status.axis(axis).uncalibrated for axis in Axis}
         notes = [f"{axis.value} UNCALIBRATED: {missing}" for axis, missing in uncalibrated.items() if missing]
-        for note in notes + _notes(status):
+        for note in (*status.notices, *notes, *_notes(status)):
             yield from wrapped(note, width, "bold yellow", _NOTE)
         yield from (Row(Text(line, style="dim"), _LOG + age) for age, line in _newest_last(log_rows))
         yield Row(Text("space STOP   p storm park   r release   q quit", style="bold"), _TROUBLE)
@@ -159,7 +159,7 @@ def _links(wires: Sequence[WireView], width: int) -> Iterator[Row]:
 
 
 def _notes(status: Status) -> list[str]:
-    return [*status.notices, *(f"{axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices)]
+    return [f"{axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
 
 
 def _bar(axis: AxisStatus) -> Text:
