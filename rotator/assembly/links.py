@@ -140,7 +140,8 @@ class _Connections:
     def session(self) -> Session:
         source, client = self._client()
         session = session_maker(self._link, client, self._remark)
-        return TappedSession(session, self._tap, source, text=self._link.protocol not in _BINARY)
+        text = self._link.protocol not in _BINARY
+        return TappedSession(session, self._tap, source, text=text, ended=client.left)
 
     def follower(self) -> Inquiry:
         source, client = self._client()
