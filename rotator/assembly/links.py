@@ -133,6 +133,7 @@ class _Connections:
         self._numbers = itertools.count(1)
         self._rights = Rights(link.read_only, link.most_per_s)
         self._complaints = LogLimit(time.monotonic)
+        self._ranges = LogLimit(time.monotonic, most=1)
         self._remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
 
     def session(self) -> Session:
@@ -146,7 +147,14 @@ class _Connections:
 
     def _client(self) -> tuple[Source, Client]:
         source = Source(self._name, next(self._numbers))
-        return source, Client(self._loop, self._mount, source, rights=self._rights, complaints=self._complaints)
+        return source, Client(
+            self._loop,
+            self._mount,
+            source,
+            rights=self._rights,
+            complaints=self._complaints,
+            ranges=self._ranges,
+        )
 
     def _remark(self, text: str) -> None:
         if line := self._remarks.admit(text):

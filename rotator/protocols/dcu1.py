@@ -135,6 +135,5 @@ class Dcu1Session:
         return b""
 
     def _go(self) -> None:
-        order = aim(self._target_deg, None)
-        if self._target_deg is not None and order is not None:
-            self._box.order(order)
+        if self._target_deg is not None:
+            self._box.order(aim(self._target_deg, None))

@@ -139,9 +139,7 @@ class PstRotatorSession:
         angles_deg = {axis: degrees(_SLIP.sub(r"\1", text)) for axis, text in angles.items()}
         if not angles_deg or None in angles_deg.values():
             return
-        order = aim(angles_deg.get("AZIMUTH"), angles_deg.get("ELEVATION"))
-        if order is not None:
-            self._box.order(order)
+        self._box.order(aim(angles_deg.get("AZIMUTH"), angles_deg.get("ELEVATION")))
 
     def _answer(self, question: str) -> Iterator[bytes]:
         """No answer while the position is not known."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from rotator.protocols.aiming import aim
+from rotator.protocols.aiming import aim, may_be_sent
 from rotator.protocols.lines import LineReader
 from rotator.protocols.rotctld import BadRequest, Request, encode, number
 from rotator.protocols.session import Box, NotUnderstood
@@ -70,7 +70,7 @@ class RotctldFollower:
 
     def _follow(self, azimuth_deg: float, elevation_deg: float) -> None:
         order = aim(azimuth_deg, elevation_deg)
-        if order is None:
+        if not may_be_sent(azimuth_deg, elevation_deg):
             self.trouble = "answers with angles that are no direction"
             return
         self.trouble = ""

@@ -13,8 +13,10 @@ from rotator.assembly.settings import build_controller, build_mount
 from rotator.assembly.station import Station
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.config.load import parse
+from rotator.control.admission import refusal
+from rotator.control.sky.mount import Mount, Range
 from rotator.monitor.tap import Tap
-from rotator.orders import Aim, Order
+from rotator.orders import Aim, Order, Refusal
 from rotator.protocols.reference.gs232 import Example
 from rotator.runtime.loop import ControlLoop
 
@@ -65,8 +67,9 @@ class Listener(Example):
     def __init__(self) -> None:
         self.orders: list[Order] = []
 
-    def order(self, order: Order) -> None:
+    def order(self, order: Order) -> Refusal | None:
         self.orders.append(order)
+        return None
 
 
 @pytest.mark.parametrize(("keys", "asked", "answer"), DIALOGUES)
@@ -89,6 +92,40 @@ def test_what_gives_orders_and_hears_nothing(keys: str, sent: list[bytes], order
     session = session_maker(link(keys), box)
     assert [session.receive(each) for each in sent] == [[] for _ in sent]
     assert box.orders == orders
+
+
+class Strict(Listener):
+    """A 450° rotor's box that keeps why it refuses."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.refused: list[Refusal] = []
+
+    def order(self, order: Order) -> Refusal | None:
+        refused = refusal(order, self.status(), Mount(Range(0, 450), Range(0, 180)))
+        if refused:
+            self.refused.append(refused)
+        return refused
+
+
+OUT_OF_RANGE = [
+    ('protocol = "rotctld"', b"P 999 20\n"),
+    ('protocol = "easycomm2"', b"AZ20.0 EL200.0\n"),
+    ('protocol = "md01"', bytes.fromhex("57 31 31 39 30 02 30 37 37 30 02 2F 20")),
+    ('protocol = "rot2prog"', bytes.fromhex("57 30 30 39 30 02 30 37 37 30 02 2F 20")),
+    ('protocol = "rot1prog"', bytes.fromhex("57 39 39 39 30 00 30 30 30 30 00 2F 20")),
+    ('protocol = "pstrotator"', b"<PST><AZIMUTH>600</AZIMUTH></PST>"),
+    ('protocol = "macdoppler"', b"[AzEl Rotor Report:Azimuth:39.00, Elevation:-95.00]"),
+]
+
+
+@pytest.mark.parametrize(("keys", "said"), OUT_OF_RANGE)
+def test_an_order_out_of_range_is_refused_by_the_box_which_logs_it(keys: str, said: bytes) -> None:
+    box = Strict()
+    session_maker(link(keys), box).receive(said)
+    (refused,) = box.refused
+    assert refused.out_of_range
+    assert " is outside " in refused.reason
 
 
 def test_what_it_does_not_know_it_remarks() -> None:

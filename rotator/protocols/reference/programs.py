@@ -22,6 +22,8 @@ class Program:
     says: tuple[bytes, ...]
     """What it is known to send, to the byte; the tests see that the box understands each."""
     known: str
+    keys: tuple[tuple[str, int], ...] = ()
+    """What else the link must have."""
 
 
 PROGRAMS = (
@@ -72,6 +74,27 @@ PROGRAMS = (
         "serial, or TCP",
         "GS-232, not the A form: it reads that ten times too small",
         (b"W235 025\r\n", b"M235\r\n", b"C2\r\n"),
+        "its source",
+    ),
+    Program(
+        "SDRangel, its SPID mode",
+        ("md01",),
+        "serial, with `pulses_per_degree = 2`",
+        "SPID; it waits for an answer to each order, which only `md01` gives",
+        (
+            bytes.fromhex("57 00 00 00 00 00 00 00 00 00 00 1F 20"),
+            bytes.fromhex("57 31 31 39 30 02 30 37 37 30 02 2F 20"),
+        ),
+        "its source",
+        (("pulses_per_degree", 2),),
+    ),
+    Program(
+        "predict",
+        ("easycomm2",),
+        "pty or serial",
+        "`-a` and the port, of at most 13 characters, which it cuts silently: "
+        "[a short name](#predict-cuts-its-ports-name)",
+        (b"AZ235.0 EL25.0 \r\n",),
         "its source",
     ),
     Program(
@@ -130,7 +153,7 @@ PROGRAMS = (
         ("wsjtx",),
         "its file `azel.dat`",
         "View, Astronomical data: keep it open",
-        (b"18:03:22,123.4,045.6,Moon\n",),
+        (b"02:59:48,198.9, 61.9,Moon\n",),
         "its source",
     ),
     Program(

@@ -20,7 +20,7 @@ PLACES: dict[str, dict[str, str]] = {
     "macdoppler": {"udp": "127.0.0.1:9932"},
     "wsjtx": {"file": "azel.dat"},
 }
-QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B")
+QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B", b"W\0")
 
 
 class Notebook:
@@ -56,9 +56,9 @@ def test_what_it_says_is_understood(program: Program) -> None:
     for said in program.says:
         box = Notebook()
         place = PLACES.get(protocol, {"pty": "run/test"})
-        session = session_maker(Link.model_validate({"protocol": protocol, **place}), box)
+        session = session_maker(Link.model_validate({"protocol": protocol, **place, **dict(program.keys)}), box)
         if protocol == "wsjtx":
-            session.receive(b"18:03:21,123.4,045.6,Moon\n")  # only a file that goes on is followed
+            session.receive(b"02:59:47,198.8, 61.8,Moon\n")  # only a file that goes on is followed
         replies = b"".join([*session.receive(said), *session.idle()])
         assert b"?>" not in replies
         assert b"RPRT -" not in replies
