@@ -95,7 +95,7 @@ def shown(answer: bytes) -> str:
     if len(answer) > LONGEST_SHOWN:
         return f"{len(answer.splitlines())} lines"
     # The page must not change with each release.
-    text = answer.decode().replace(__version__, "VERSION").encode("unicode_escape").decode()
+    text = answer.decode("latin-1").replace(__version__, "VERSION").encode("unicode_escape").decode()
     return f"`{text}`"
 
 

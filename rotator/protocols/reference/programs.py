@@ -29,7 +29,10 @@ class Program:
 PROGRAMS = (
     Program(
         "Hamlib `rotctl`, `rotctld`",
-        ("gs232b", "gs232a", "rotctld", "easycomm2", "rot2prog", "md01", "dcu1"),
+        (
+            *("gs232b", "gs232a", "rotctld", "easycomm2", "rot2prog", "md01", "dcu1"),
+            *("prosistel-d", "prosistel-c", "rc2800", "lx200"),
+        ),
         "",
         "the model that goes with the protocol: [see below](#hamlib-in-one-line)",
         (b"W235 025\r", b"C2\r", b"S\r"),
@@ -126,7 +129,12 @@ PROGRAMS = (
         ("pstrotator",),
         "UDP `0.0.0.0:12000`",
         "PstRotator, the Pi's address, port 12000; answers come back at 12001",
-        (b"<PST><AZIMUTH>85</AZIMUTH></PST>", b"<PST>AZ?</PST>", b"<PST><STOP>1</STOP></PST>"),
+        (
+            b"<PST><AZIMUTH>85</AZIMUTH></PST>",
+            b"<PST>AZ?</PST>",
+            b"<PST><STOP>1</STOP></PST>",
+            b"<PST><LLH>54.02523,20.89581,1</LLH></PST>",
+        ),
         "PstRotator's manual, some programs' sources",
     ),
     Program(
@@ -147,6 +155,34 @@ PROGRAMS = (
         "UDP broadcast on",
         (b"00000001 mac [AzEl Rotor Report:Azimuth:39.00, Elevation:0.00, SatName:XW-2C]",),
         "bridges from it to rotors",
+    ),
+    Program(
+        "Stellarium",
+        ("stellarium",),
+        "TCP `0.0.0.0:10001`, and [`[station]`](configuration.md#station)",
+        "Telescope Control plug-in: external software or a remote computer, the Pi's address, port 10001, J2000: "
+        "[see below](#stellarium-and-other-telescope-programs)",
+        (bytes.fromhex("1400 0000 0040075fda650600 00000040 72efff3f"),),
+        "its source",
+    ),
+    Program(
+        "SkySafari, KStars and other telescope programs",
+        ("lx200",),
+        "TCP or serial, and [`[station]`](configuration.md#station)",
+        "Meade LX200 Classic, alt-az; JNow",
+        (b"#:Q#", b":GR#", b"#:GD#", b"\x06"),
+        "Meade's protocol",
+    ),
+    Program(
+        "FM-DX Webserver, its plug-in *PST Rotator*",
+        ("pstrotatoraz",),
+        "TCP `0.0.0.0:8080`",
+        "`PSTRotatorUrl` in pstrotator.json: `http://192.168.1.20:8080`, the Pi's address",
+        (
+            b"GET /PstRotatorAz.htm HTTP/1.1\r\nHost: 192.168.1.20:8080\r\n\r\n",
+            b"GET /PstRotatorAz.htm?az=85 HTTP/1.1\r\nHost: 192.168.1.20:8080\r\n\r\n",
+        ),
+        "its source",
     ),
     Program(
         "WSJT-X",
