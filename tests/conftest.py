@@ -44,6 +44,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--hardware", action="store_true", help="run tests/contract on this machine's pins and I2C bus")
     group.addoption("--hardware-config", metavar="FILE", help="the rotator.toml with the pins and addresses")
     group.addoption("--motors-are-unplugged", action="store_true", help="relays may close")
+    group = parser.getgroup("machines", "tests/machines: the five machines in real time")
+    group.addoption("--times", type=int, help="days of each machine")
+    group.addoption("--seed", type=int, help="seed of the first day")
 
 
 @pytest.fixture

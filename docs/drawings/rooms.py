@@ -49,6 +49,7 @@ CAPTIONS = {
     "firmware_sim.panel": "switches, lamps",
     "firmware_sim.rotors": "one file a kind",
     "firmware_sim.arduino": "the F1EFW sketch",
+    "firmware_sim.world_file": "kept angles",
 }
 ABOUT = {
     "rotator": "the program",

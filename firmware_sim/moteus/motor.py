@@ -59,6 +59,8 @@ class MoteusSettings:
     default_accel_limit_rev_s2: float = 50.0
     rotor_turns: float = 1.0
     """Turns of the rotor for one turn of the output. The encoder is on the rotor."""
+    output_encoder: bool = False
+    """A second encoder is on the output: after power-on the position is right within one turn of the output."""
 
 
 class SimMoteusMotor:
@@ -75,8 +77,8 @@ class SimMoteusMotor:
         self.fault_code = 0
         self.set_point = SetPoint(shaft_rev, 0.0, clock(), arrived=True)
         self._clock = clock
-        self._scale_rev = 0.0
-        """The controller's position minus the shaft's."""
+        self.scale_rev = 0.0
+        """The controller's position minus the shaft's: its own count of turns, lost at power-off."""
         self._mode = Mode.STOPPED
         self._enabled_at_s = 0.0
         self._expires_s = math.inf
@@ -95,9 +97,14 @@ class SimMoteusMotor:
         self.command = dict(COMMAND_DEFAULTS)
         self._become(Mode.STOPPED)
         self.fault_code = 0
-        turn_rev = 1 / self.settings.rotor_turns
-        self._scale_rev = math.remainder(self.shaft_rev, turn_rev) - self.shaft_rev
-        self.home = Home.ROTOR
+        on_output = self.settings.output_encoder
+        turn_rev = 1.0 if on_output else 1 / self.settings.rotor_turns
+        self.scale_rev = math.remainder(self.shaft_rev, turn_rev) - self.shaft_rev
+        self.home = Home.OUTPUT if on_output else Home.ROTOR
+
+    def time_out(self) -> None:
+        """The program that commanded it has gone, and its watchdog has expired."""
+        self._become(Mode.TIMEOUT)
 
     # --- commands
 
@@ -113,7 +120,7 @@ class SimMoteusMotor:
     @property
     def position_rev(self) -> float:
         """The position that the controller reports, in revolutions of the output."""
-        return self.shaft_rev + self._scale_rev
+        return self.shaft_rev + self.scale_rev
 
     def obey(self, mode: Mode) -> None:
         """A write to the mode register, with the command registers as they are."""
@@ -145,7 +152,7 @@ class SimMoteusMotor:
         if not exactly:
             turn_rev = 1 / self.settings.rotor_turns
             by_rev = round(by_rev / turn_rev) * turn_rev
-        self._scale_rev += by_rev  # the set point stays: a motor that holds then turns there, as with older firmware
+        self.scale_rev += by_rev  # the set point stays: a motor that holds then turns there, as with older firmware
         self.home = Home.OUTPUT
 
     def _aim(self) -> None:
@@ -210,7 +217,7 @@ class SimMoteusMotor:
             self.fault_code = AT_BOUNDS if held_back else 0
         if self.jammed:
             return
-        self.shaft_rev = self.set_point.position_rev - self._scale_rev
+        self.shaft_rev = self.set_point.position_rev - self.scale_rev
 
     def _bounds(self) -> tuple[float, float]:
         if self.command[Register.COMMAND_IGNORE_BOUNDS]:

@@ -64,6 +64,11 @@ class SimMotor:
         self._contacts = (False, False)
         self._moving_contacts: deque[tuple[float, tuple[bool, bool]]] = deque()
 
+    @property
+    def rests_deg(self) -> float:
+        """Where the shaft comes to rest if the current ends now: the coast ends at a stop at the latest."""
+        return self._stopped(self.shaft_deg + self.speed_dps * self.spec.lag_s)
+
     def coils(self, plus: bool, minus: bool, now_s: float) -> None:
         """Switch the coils at `now_s`. The contacts follow after the relay's delay."""
         self.advance(now_s)

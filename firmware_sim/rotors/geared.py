@@ -39,6 +39,17 @@ class GearedRotor(SimRotor):
             self._advance()
             return self.azimuth.motor.shaft_deg, self.elevation.motor.shaft_deg
 
+    @property
+    def shorted_s(self) -> float:
+        with self._lock:
+            self._advance()
+            return self.azimuth.motor.shorted_s + self.elevation.motor.shorted_s
+
+    def rests(self) -> tuple[float, float]:
+        with self._lock:
+            self._advance()
+            return self.azimuth.motor.rests_deg, self.elevation.motor.rests_deg
+
     def _advance(self) -> None:
         now_s = self._clock()
         self.azimuth.motor.advance(now_s)

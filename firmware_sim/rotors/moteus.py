@@ -6,7 +6,7 @@ name. Knows no driver: it offers a transport in the shape of the library's own, 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -15,7 +15,7 @@ from firmware_sim.faults import SimFault
 from firmware_sim.moteus.bus import SimCan, SimTransport
 from firmware_sim.moteus.controller import SimController
 from firmware_sim.moteus.lines import LineServer
-from firmware_sim.moteus.motor import MoteusSettings, SimMoteusMotor
+from firmware_sim.moteus.motor import Home, Mode, MoteusSettings, SimMoteusMotor
 from firmware_sim.moteus.terminal import SimAdapter
 from firmware_sim.rotors.rotor import SimRotor
 
@@ -107,6 +107,25 @@ class SimMoteusRotor(SimRotor):
     def antenna(self) -> tuple[float, float]:
         azimuth_deg, elevation_deg = (self._antenna_deg(name) for name in self._specs)
         return azimuth_deg, elevation_deg
+
+    def kept(self) -> dict[str, float]:
+        with self._lock:
+            kept: dict[str, float] = {}
+            for name, controller in self._controllers.items():
+                kept[f"{name}_scale_rev"] = controller.motor.scale_rev
+                kept[f"{name}_home"] = controller.motor.home
+                kept[f"{name}_moved"] = controller.motor.mode in (Mode.POSITION, Mode.TIMEOUT)
+            return kept
+
+    def put_back(self, kept: Mapping[str, float]) -> None:
+        with self._lock:
+            for name, controller in self._controllers.items():
+                controller.motor.power_cycle()
+                if f"{name}_scale_rev" in kept:
+                    controller.motor.scale_rev = kept[f"{name}_scale_rev"]
+                    controller.motor.home = Home(int(kept[f"{name}_home"]))
+                if kept.get(f"{name}_moved"):
+                    controller.motor.time_out()
 
     def _antenna_deg(self, name: str) -> float:
         spec = self._specs[name]

@@ -76,6 +76,22 @@ class SimRotor(Fallible):
         """How often a motor relay has closed; None: there are no relays."""
         return None
 
+    @property
+    def shorted_s(self) -> float:
+        """How long both directions of a motor had current at once. Must stay 0."""
+        return 0.0
+
+    def rests(self) -> tuple[float, float]:
+        """Where the shafts come to rest, in degrees, if all current ends now."""
+        return self.shafts()
+
+    def kept(self) -> dict[str, float]:
+        """What the parts keep while they have power, beside the angles of the shafts: a number by name."""
+        return {}
+
+    def put_back(self, kept: Mapping[str, float]) -> None:
+        """Give the parts what they kept. Empty: the power was off, and each part has lost it."""
+
     def wire_lcd(self, spec: LcdSpec) -> None:
         """Connect a display of two rows of sixteen characters."""
         if spec.address is not None:

@@ -68,8 +68,11 @@ def open_compass(config: Config, board: Board) -> Compass:
 
 
 def compass_path(config: Config) -> Path | None:
-    """The file with the compass's own corrections. None for a simulated compass: a real chip must never get those."""
-    return None if config.rotor.hardware == "sim" else Path(config.state.path).with_name(COMPASS_FILE)
+    """The file with the compass's own corrections. None for a simulated compass: a real chip must never get those.
+
+    A simulated world that is kept has a state file of its own.
+    """
+    return Path(config.state.path).with_name(COMPASS_FILE) if config.keeps_files else None
 
 
 def _reach_deg(config: Config, axis: Axis) -> tuple[float, float]:

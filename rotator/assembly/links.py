@@ -33,7 +33,7 @@ from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.f1efw import F1efwSession
-from rotator.protocols.gs232 import Dialect
+from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.locator import from_locator
 from rotator.protocols.lx200_session import Lx200Session
@@ -93,7 +93,9 @@ def session_maker(
             return Gs232Session(
                 box,
                 Dialect.A if link.protocol == "gs232a" else Dialect.B,
-                ack=b"\r" if link.ack == "cr" else b"",
+                ack=b"\r" if link.acknowledges else b"",
+                empty_line=INVALID if link.rejects_empty_lines else b"",
+                strict=link.strict,
                 may_calibrate=link.may_calibrate,
             )
         case "gs232-f1efw":

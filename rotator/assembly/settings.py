@@ -169,4 +169,6 @@ def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | None:
         travel_s=(table.max_deg - table.min_deg) / table.speed_dps,
         coast_s=stop.coast_s,
         home_deg=stop.home_deg + shift.of(axis),
+        mostly_closed=stop.mostly_closed,
+        switch=f"{axis.value}_low" in config.limits.switches,
     )

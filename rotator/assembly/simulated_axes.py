@@ -15,6 +15,7 @@ from hw.ports import Axis
 from rotator.config.axes import AxisTable
 from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
+from rotator.config.table import Point
 
 SIM_CALIBRATION_RAW = (0.05, 0.95)
 """The simulated pot's reading at each end of the range. End resistors keep it away from 0 and 1."""
@@ -33,11 +34,16 @@ class SimulatedAxes:
     clock: Callable[[], float]
     bus_sleep: Callable[[float], None] | None
     first_deg: tuple[float, float]
+    kept_deg: tuple[float, float] | None = None
+    """Where the shafts of a kept world stand. It comes before the file, and may be beyond the range."""
 
     def start_deg(self, axis: Axis) -> float:
         """The start angle, on the rotor's own scale."""
         table, said = self.config.axis(axis), self.sim(axis).start_deg
-        first_deg = self.first_deg[0 if axis is Axis.AZIMUTH else 1]
+        place = 0 if axis is Axis.AZIMUTH else 1
+        if self.kept_deg is not None:
+            return self.kept_deg[place]
+        first_deg = self.first_deg[place]
         return min(max(first_deg if said is None else said, table.min_deg), table.max_deg)
 
     def sim(self, axis: Axis) -> SimAxisTable:
@@ -47,14 +53,24 @@ class SimulatedAxes:
         return motor_spec(self.config.axis(axis), self.sim(axis), stop_low_deg)
 
     def pot(self, axis: Axis) -> PotSpec:
-        table, sim = self.config.axis(axis), self.sim(axis)
+        sim = self.sim(axis)
+        (low_raw, low_deg), (high_raw, high_deg) = self._pot_line(axis)
         return PotSpec(
-            table.min_deg,
-            table.max_deg,
-            *SIM_CALIBRATION_RAW,
+            low_deg,
+            high_deg,
+            low_raw,
+            high_raw,
             noise_deg=sim.pot_noise_deg,
             bow_deg=sim.pot_bow_deg,
         )
+
+    def _pot_line(self, axis: Axis) -> tuple[Point, Point]:
+        """Reading and angle of the pot at both ends: in a kept world those of the file, as on the builder's mast."""
+        table = self.config.axis(axis)
+        if self.config.keeps_files and table.calibration:
+            return table.calibration[0], table.calibration[-1]
+        low_raw, high_raw = SIM_CALIBRATION_RAW
+        return (low_raw, table.min_deg), (high_raw, table.max_deg)
 
 
 def motor_spec(table: AxisTable, sim: SimAxisTable, stop_low_deg: float | None = None) -> MotorSpec:

@@ -7,14 +7,17 @@ rotors themselves are in `rotator.assembly.kinds`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
+from firmware_sim import world_file
 from firmware_sim.arduino.station import ArduinoStation
 from firmware_sim.panel import PanelSpec
 from firmware_sim.parts.pot import PotSpec
 from firmware_sim.rotors.rotor import LcdSpec, SimRotor
+from firmware_sim.world_file import WorldState
 from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS
-from hw.ports import Axis
+from hw.ports import Axis, HardwareError
 from rotator.assembly.adc import simulate_adc
 from rotator.assembly.kinds import KINDS
 from rotator.assembly.simulated_axes import SimulatedAxes, motor_spec
@@ -23,7 +26,7 @@ from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
 
 LIMIT_BEYOND_DEG = 1.0
-"""A limit switch opens between the end of the range and the stop."""
+"""A limit switch opens between the end of the range and the stop; a low one of an axis that counts above `home_deg`."""
 AUTO = 2
 """The position AUTO of the simulated mode switch: 2 × MSB + LSB."""
 
@@ -39,11 +42,15 @@ class SimulatedStation:
         start_deg: tuple[float, float],
     ) -> None:
         self._config = config
-        self._axes = SimulatedAxes(config, clock, bus_sleep, start_deg)
+        self._kept = kept_world(config)
+        rests_deg = self._kept.rests_deg if self._kept else None
+        self._axes = SimulatedAxes(config, clock, bus_sleep, start_deg, rests_deg)
 
     def build(self) -> SimRotor:
         config = self._config
         rotor = KINDS[config.rotor.type].simulate(self._axes)
+        if self._kept:
+            rotor.put_back(self._kept.parts)
         if (lcd := _lcd(config)) is not None:
             rotor.wire_lcd(lcd)
         self._wire_sensors(rotor)
@@ -100,7 +107,19 @@ class SimulatedStation:
             name, end = key.split("_")
             limits = config.axis(Axis(name))
             at_deg = limits.min_deg - LIMIT_BEYOND_DEG if end == "low" else limits.max_deg + LIMIT_BEYOND_DEG
+            if end == "low" and (stop := config.end_stop(Axis(name))):
+                at_deg = stop.home_deg + LIMIT_BEYOND_DEG
             rotor.wire_limit(key, pin, name, at_deg, high=end == "high")
+
+
+def kept_world(config: Config) -> WorldState | None:
+    """The simulated world as the last run left it; None: it begins anew. Raises HardwareError for a damaged file."""
+    if config.rotor.hardware != "sim" or config.sim.world is None:
+        return None
+    try:
+        return world_file.read(Path(config.sim.world))
+    except (OSError, ValueError) as fault:
+        raise HardwareError(f"sim.world: {fault}; remove the file, then the simulation begins anew") from fault
 
 
 def simulated_rotor(

@@ -37,5 +37,8 @@ class Sim(PerAxis, Table):
     """The simulated azimuth motor and pot."""
     elevation: SimElevation = SimElevation()
     """The simulated elevation motor and pot."""
+    world: str | None = Field(None, min_length=1)
+    """A file with the true angles of the simulated rotor: it stands there again in the next run. The box then keeps its
+    own files (counts, knobs, compass) as on a Pi. Left out: each run begins at start_deg."""
     bus_takes_time: bool = True
     """Transfers on the simulated I2C bus take as long as on a real one."""

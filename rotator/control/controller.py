@@ -114,6 +114,16 @@ class Controller:
                 self.errands.append(Place(axis, decision.homed_deg))
         return commands
 
+    def links_lost(self) -> None:
+        """No order arrives from links and consoles, a stop neither: what they ordered ends.
+
+        The panel has a thread of its own, and goes on. So does a storm park: a person wants the antenna down.
+        """
+        if self._authority.latched or self._authority.mode in (Mode.MANUAL, Mode.JOG):
+            return
+        self._homing.clear()
+        self._halt(BOTH)
+
     def note_driven(self, now_s: float, driven: Mapping[Axis, Direction]) -> None:
         """After the cycle: the direction in which each axis's relays are really closed (OFF where it has none)."""
         for axis, control in self._axes.items():
@@ -182,7 +192,8 @@ class Controller:
                 self._move(order, source, now_s)
 
     def _move(self, order: Order, source: Source, now_s: float) -> None:
-        self._timed.halt()
+        if not isinstance(order, RunTimed):
+            self._timed.halt()
         if not isinstance(order, Home):
             self._homing.clear()
         match order:

@@ -83,6 +83,8 @@ class Pointing:
             self._track.clear()
             self._way = Way(axis_azimuth_deg, flipped=False)
             return AimGoal(axis_azimuth_deg, self._standing_tolerance_deg(elevation_deg)), None
+        if aim.place:
+            self._track.clear()
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
         moving = self._track.moving(now_s)
         if self._way is not None and moving:
