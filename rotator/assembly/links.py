@@ -82,11 +82,13 @@ def session_maker(
     *,
     sky: Sky | None = None,
     notice: Callable[[str], None] = lambda _text: None,
+    refused: Callable[[str], None] = lambda _reason: None,
 ) -> Session:
     """A new conversation in the link's protocol.
 
     `remark` takes texts for the log that are worth saying once: what is asked and not supported; `notice` those on what
-    has happened. `sky`: None where the configuration does not say where the station is.
+    has happened; `refused` why a protocol itself refuses an order: it is out of range. `sky`: None where the
+    configuration does not say where the station is.
     """
     match link.protocol:
         case "gs232a" | "gs232b":
@@ -97,9 +99,10 @@ def session_maker(
                 empty_line=INVALID if link.rejects_empty_lines else b"",
                 strict=link.strict,
                 may_calibrate=link.may_calibrate,
+                refused=refused,
             )
         case "gs232-f1efw":
-            return F1efwSession(box)
+            return F1efwSession(box, refused)
         case "rotctld":
             return RotctldSession(box)
         case "rotctld-follow":
@@ -114,7 +117,7 @@ def session_maker(
         case "md01":
             return SpidSession(box, Model.MD01, link.pulses_per_degree)
         case "dcu1":
-            return Dcu1Session(box)
+            return Dcu1Session(box, refused)
         case "pstrotator":
             return PstRotatorSession(box, remark, sky.site if sky else None)
         case "pstrotatoraz":
@@ -131,7 +134,7 @@ def session_maker(
         case "rc2800":
             return Rc2800Session(box)
         case "n1mm":
-            return N1mmSession(box, link.rotor_name, remark)
+            return N1mmSession(box, link.rotor_name, remark, refused)
         case "macdoppler":
             return MacDopplerSession(box)
         case "wsjtx":
@@ -195,7 +198,9 @@ class _Connections:
 
     def session(self) -> Session:
         source, client = self._client()
-        session = session_maker(self._link, client, self._remark, sky=self._shared.sky, notice=self._notice)
+        session = session_maker(
+            self._link, client, self._remark, sky=self._shared.sky, notice=self._notice, refused=client.note_refused
+        )
         return TappedSession(session, self._shared.tap, source, text=self._link.protocol not in _BINARY)
 
     def follower(self) -> Inquiry:

@@ -74,6 +74,10 @@ class Client:
             self._loop.post(self._source, order, can_wait=self._is_too_much(order))
         return refused
 
+    def note_refused(self, reason: str) -> None:
+        """Log that the protocol itself refused an order: it names an angle that the protocol does not have."""
+        self._complain(f"refused: {reason}", self._ranges)
+
     def _forbidden(self, order: Order) -> Refusal | None:
         if not self._rights.read_only:
             return None

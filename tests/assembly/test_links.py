@@ -145,6 +145,25 @@ def test_an_order_out_of_range_is_refused_by_the_box_which_logs_it(keys: str, sa
     assert " is outside " in refused.reason
 
 
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        ('protocol = "gs232a"', b"W470 020\r"),
+        ('protocol = "gs232b"', b"W100 200\r"),
+        ('protocol = "gs232b"', b"P36\rM400\r"),
+        ('protocol = "gs232-f1efw"', b"W470 020\r"),
+        ('protocol = "dcu1"', b"AP1400;AM1;"),
+        ('protocol = "n1mm"', go("mast").replace(b"55.0", b"361")),
+    ],
+)
+def test_an_order_out_of_the_protocol_s_own_range_is_logged_too(keys: str, said: bytes) -> None:
+    box, reasons = Listener(), list[str]()
+    session_maker(link(keys), box, refused=reasons.append).receive(said)
+    assert box.orders == []
+    (reason,) = reasons
+    assert " is outside " in reason
+
+
 def test_what_it_does_not_know_it_remarks() -> None:
     remarks: list[str] = []
     session_maker(link('protocol = "pstrotator"'), Example(), remarks.append).receive(b"<PST>FAVLIST?</PST>")

@@ -142,6 +142,14 @@ def test_a_target_out_of_range_is_in_the_log_once_a_minute(
     assert all(line.startswith("link#1: refused: ") and range_named in line for line in lines)
 
 
+def test_what_a_protocol_refuses_itself_shares_that_line(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    client = bench.client()
+    client.note_refused("azimuth 470 is outside 0 to 450 degrees")
+    client.order(Aim(-500, 10))
+    (record,) = caplog.records
+    assert record.message == "link#1: refused: azimuth 470 is outside 0 to 450 degrees"
+
+
 # --- most_per_s
 
 
