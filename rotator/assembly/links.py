@@ -201,7 +201,8 @@ class _Connections:
         session = session_maker(
             self._link, client, self._remark, sky=self._shared.sky, notice=self._notice, refused=client.note_refused
         )
-        return TappedSession(session, self._shared.tap, source, text=self._link.protocol not in _BINARY)
+        text = self._link.protocol not in _BINARY
+        return TappedSession(session, self._shared.tap, source, text=text, ended=client.left)
 
     def follower(self) -> Inquiry:
         source, client = self._client()

@@ -44,6 +44,9 @@ class MountTable(Table):
     """The north on which the azimuth scale was aligned; orders and reports always use true north."""
     declination_deg: float | None = Field(None, ge=-180, le=180)
     """How far a compass at your place points east of true north (west: minus); `magnetic` needs it."""
+    tolerance: Literal["sky", "axis"] = "sky"
+    """What `tolerance_deg` means: degrees on the sky, with a moving target followed ahead of time; or `axis`, as an
+    Arduino does it: plain degrees of each axis, compared with the latest order. For motors on relays."""
     park_azimuth_deg: float = Field(0.0, ge=0, le=450)
     """The azimuth of the park position, on the rotor's own scale."""
     park_elevation_deg: float = Field(0.0, ge=0, le=180)
@@ -144,6 +147,8 @@ class Config(Table):
         faults += self._switches_in_the_way()
         if self.azimuth.sensor.kind == "mpu6050":
             faults.append('azimuth.sensor.kind = "mpu6050": gravity tells no azimuth; it is for the elevation')
+        if self.mount.tolerance == "axis" and not self.rotor.switched:
+            faults.append('mount.tolerance = "axis" is for motors on relays: these go to every angle, however near')
         if faults:
             raise ValueError("; ".join(faults))
         return self

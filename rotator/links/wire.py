@@ -13,7 +13,7 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.protocols.session import Beating, Session
+from rotator.protocols.session import Beating, Ending, Session
 
 log = logging.getLogger(__name__)
 
@@ -75,6 +75,7 @@ class Conversation:
         self._write = write
         self._hang_up = hang_up
         self._silence: asyncio.TimerHandle | None = None
+        self._over = False
         self._beating: asyncio.TimerHandle | None = None
         self._wait_for_beat()
 
@@ -86,10 +87,14 @@ class Conversation:
             self._silence = asyncio.get_running_loop().call_later(self._session.idle_s, self._silent)
 
     def close(self) -> None:
-        """End the conversation and its timers. May be called twice."""
+        """End the conversation and its timers, and tell the session. May be called twice."""
         self._cancel()
         if self._beating is not None:
             self._beating.cancel()
+        if not self._over:
+            self._over = True
+            if isinstance(self._session, Ending):
+                self._session.ended()
 
     def _silent(self) -> None:
         self._silence = None

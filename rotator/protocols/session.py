@@ -40,6 +40,14 @@ class Session(Protocol):
 
 
 @runtime_checkable
+class Ending(Protocol):
+    """A session that has something to do when its connection ends."""
+
+    def ended(self) -> None:
+        """The connection has ended: the client has left, or its cable is out."""
+
+
+@runtime_checkable
 class Beating(Protocol):
     """A session that also works without bytes from its program: it sends unasked, or follows a moving target."""
 

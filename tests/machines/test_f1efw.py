@@ -13,6 +13,7 @@ from collections.abc import Callable
 
 import pytest
 
+from firmware_sim.world_file import WorldState
 from tests.machines.shack import Shack, Terminal, fly
 
 PARK = (180.0, 0.0)
@@ -55,6 +56,22 @@ def obeys(machine: Shack, terminal: Terminal, azimuth: int, elevation: int, chan
     assert terminal.answer(patience_s=0.2) == "", "the sketch never answers"
 
 
+def comes_to_rest(machine: Shack, azimuth: int, elevation: int) -> None:
+    """After a stream: the box follows for 3 s more, past the target too, and then rests within the tolerance."""
+    since_s: float | None = None
+
+    def rests(world: WorldState) -> bool:
+        nonlocal since_s
+        off_deg = abs(world.antenna_deg[0] - azimuth), abs(world.antenna_deg[1] - elevation)
+        if world.drives != (0, 0) or off_deg[0] > near_deg(elevation) or off_deg[1] > near_deg(0):
+            since_s = None
+        elif since_s is None:
+            since_s = world.at_s
+        return since_s is not None and world.at_s - since_s > 4
+
+    machine.until(rests, f"the antenna rests near {azimuth}/{elevation}")
+
+
 def close_to(place: tuple[float, float], chance: random.Random) -> tuple[int, int]:
     """A direction some seconds of travel away, whole degrees, above the horizon."""
     azimuth = place[0] + chance.choice([-1, 1]) * chance.uniform(5, 45)
@@ -84,7 +101,7 @@ def test_a_day(shack: Callable[..., Shack], chance: random.Random) -> None:
     points = [(azimuth + 2 * step, min(max(elevation, 1) + step, 89)) for step in range(8)]
     fly(lambda az, el: terminal.send(f"W{az:03.0f} {el:03.0f}\r"), points, every_s=1.0)
     last = points[-1]
-    machine.arrives(*last, near_deg(last[1]) + 1.5)
+    comes_to_rest(machine, *last)
 
     # At the horizon both motors stop at once, wherever they are.
     far = (last[0] + 180) % 360

@@ -24,7 +24,8 @@ PLACES: dict[str, dict[str, str]] = {
     "pstrotatoraz": {"tcp": "127.0.0.1:8080"},
 }
 SKY = Sky(Site(54.0, 20.0), lambda: 1.8e9)
-QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B", b"W\0", b":G", b"#:G", b"\x06", b"GET /PstRotatorAz.htm ")
+QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B", b"P45", b"W\0", b":G", b"#:G", b"\x06", b"GET /PstRotatorAz.htm ")
+"""What moves nothing."""
 
 
 class Notebook:
