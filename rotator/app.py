@@ -25,8 +25,8 @@ from rotator.calibrating.at_start import CompassAtStart, watch
 from rotator.calibrating.compass import CompassReader
 from rotator.calibrating.facts import north_facts
 from rotator.config.model import Config
-from rotator.links.console import ConsoleSocket, console_path
-from rotator.monitor.places import monitor_path
+from rotator.config.places import console_path, monitor_path
+from rotator.links.console import ConsoleSocket
 from rotator.monitor.socket import MonitorSocket
 from rotator.monitor.tap import Tap
 from rotator.orders import Source
@@ -37,6 +37,7 @@ from rotator.runtime.client import Client
 from rotator.runtime.closing import Part, closing
 from rotator.runtime.display import DisplayThread
 from rotator.runtime.engine import Engine, process_end
+from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
 from rotator.store import counts, knobs
@@ -63,6 +64,7 @@ class App:
         self.config = config
         self.station = station or open_station(config)
         self._service_manager = ServiceManager(os.environ, time.monotonic)
+        self._events = EventWatch(time.monotonic)
         mount = build_mount(config)
         learnt = build_learnt(config)
         self.loop = ControlLoop(
@@ -71,16 +73,18 @@ class App:
             time.monotonic,
             1 / config.control.rate_hz,
             after_good_step=self._sign_of_life,
+            events=self._events,
         )
         self.console = Client(self.loop, mount, Source("console"))
         numbers = itertools.count(1)
+        monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
         self._console_socket = ConsoleSocket(
-            console_path(monitor_path(config, os.environ)),
+            console_path(monitor),
             lambda: ConsoleSession(Client(self.loop, mount, Source("console", next(numbers)))),
         )
         self._tap = Tap(datetime.now, lambda: self.loop.status)
         self.links = build_links(config.link, self.loop, mount, self._tap)
-        self._monitor_socket = MonitorSocket(monitor_path(config, os.environ), self._tap.listeners, self._tap.greeting)
+        self._monitor_socket = MonitorSocket(monitor, self._tap.listeners, self._tap.greeting)
         self._panel = self._fit_panel()
         display = self.station.display
         self._display = DisplayThread(display, self.lcd_rows, time.monotonic) if display else None
@@ -149,6 +153,7 @@ class App:
         for name, work in side:
             self._side_tasks.append(asyncio.create_task(work, name=name))
         self._tasks.append(asyncio.create_task(self._autosave.run(), name="autosave"))
+        self._tasks.append(asyncio.create_task(self._events.run(), name="the event loop's watch"))
         return motion_ended
 
     async def _end_motion(self) -> None:
