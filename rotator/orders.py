@@ -144,10 +144,15 @@ class LetGo:
     """Motors without torque. A person orders it, for an antenna that is out of balance turns."""
 
 
+@dataclass(frozen=True, slots=True)
+class Leave:
+    """The sender's connection has ended: its jog without a time and its stream end with it."""
+
+
 Personal = SetMode | Nudge | Home | Confirm | LetGo
 """Orders that only a person at the panel or on the console may give."""
 
-Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Personal
+Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,3 +173,5 @@ class Refusal:
     reason: str
     forbidden: bool = False
     """The sender may give no orders at all."""
+    out_of_range: bool = False
+    """The order names an angle outside a range. A program that tracks repeats such an order for a long time."""

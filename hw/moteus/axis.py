@@ -112,7 +112,8 @@ class MoteusAxis:
         answer = self._must_answer(now_s)
         if not math.isfinite(angle_deg):
             raise HardwareError(f"{self._name}: {angle_deg}° is no angle")
-        if not exactly and self._placing.contradicts(answer, angle_deg):
+        agreed_deg = angle_deg if exactly else self._placing.agreed_deg(answer, angle_deg)
+        if agreed_deg is None:
             raise HardwareError(
                 f"{self._name}: its encoder shows {self.spec.degrees(answer.position_rev) % 360:.0f}°, which is not "
                 f"{angle_deg:g}°: look again, or correct zero_rev"
@@ -120,7 +121,7 @@ class MoteusAxis:
         self.hold()
         self._placing.doubt()
         # First take the torque away: a controller that holds would turn the motor by as much as its scale shifts.
-        self._send_first(now_s + ERRAND_S, Stop(), SetOutput(self.spec.revolutions(angle_deg), exactly))
+        self._send_first(now_s + ERRAND_S, Stop(), SetOutput(self.spec.revolutions(agreed_deg), exactly))
 
     def _want(self, wish: Wish) -> None:
         self.wish = wish

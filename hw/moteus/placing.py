@@ -16,6 +16,8 @@ from hw.moteus.orders import Answer, Home, Mode, MoteusSpec
 
 BEYOND_DEG = 5.0
 """An antenna without power may be pushed this far beyond its range. So near an end, both ends of a full circle fit."""
+CONTRADICTS_DEG = 90.0
+"""A person's eye is better than this."""
 SAME_TURN_REV = 0.5
 """Two answers in a row that differ by less, in turns of the antenna, are in the same turn: none is driven so fast."""
 MOVED = (Mode.POSITION, Mode.TIMEOUT)
@@ -64,11 +66,15 @@ class Placing:
         """The controller has taken the angle that a person or a sensor gave it. Its next position is right."""
         self.unknown, self.given_rev, self._shift_rev, self._last_rev = "", None, 0.0, math.nan
 
-    def contradicts(self, answer: Answer, angle_deg: float) -> bool:
-        """Whether the encoder, which knows the angle within a turn, is certain that it is another one."""
-        within_turn = not self._spec.geared and answer.home != Home.RELATIVE
+    def agreed_deg(self, answer: Answer, angle_deg: float) -> float | None:
+        """The angle meant by a person who sees the antenna at `angle_deg`; None: the encoder contradicts.
+
+        An encoder that knows the angle within a turn needs the turn only.
+        """
+        if self._spec.geared or answer.home == Home.RELATIVE or not math.isfinite(answer.position_rev):
+            return angle_deg
         off_deg = math.remainder(self._spec.degrees(answer.position_rev) - angle_deg, 360.0)
-        return within_turn and abs(off_deg) > 90.0
+        return None if abs(off_deg) > CONTRADICTS_DEG else angle_deg + off_deg
 
     def _goes_on(self, answer: Answer) -> bool:
         """Whether this position and the last one are on the same turn of the same scale."""
@@ -87,19 +93,15 @@ class Placing:
         """The first answer since power-on, or since the program began."""
         shown_deg = self._spec.degrees(answer.position_rev)
         fitting = self._spec.turns_deg(shown_deg, BEYOND_DEG)
-        self._lose(LOST)
         if answer.home == Home.RELATIVE or (answer.home == Home.ROTOR and self._spec.geared):
-            return
-        if self._first and answer.home == Home.OUTPUT and (self._spec.geared or answer.mode in MOVED):
-            # Before this run a person has confirmed it, or a program has moved it.
-            if shown_deg in fitting:
-                self.unknown = ""
-            else:
-                self._lose(self._outside(shown_deg))
-        elif self._spec.geared:  # in this run it has come back elsewhere: it lost its supply
-            return
-        elif len(fitting) == 1:
+            self._lose(LOST)
+        elif self._first and shown_deg in fitting and self._settled_before(answer):
             self.unknown = ""
+        elif self._spec.geared:
+            # At first: a place that it cannot have. Later: it has come back elsewhere, for it lost its supply.
+            self._lose(self._outside(shown_deg) if self._first else self.unknown or LOST)
+        elif len(fitting) == 1:
+            self._lose("")
             if answer.home != Home.OUTPUT or fitting[0] != shown_deg:
                 self.given_rev = self._spec.revolutions(fitting[0])
                 self._shift_rev = self.given_rev - answer.position_rev
@@ -111,6 +113,10 @@ class Placing:
             )
         else:
             self._lose(self._outside(shown_deg))
+
+    def _settled_before(self, answer: Answer) -> bool:
+        """Whether before this run of the program a person has confirmed the angle, or a program has moved the axis."""
+        return answer.home == Home.OUTPUT and (self._spec.geared or answer.mode in MOVED)
 
     def _outside(self, shown_deg: float) -> str:
         spec = self._spec

@@ -47,9 +47,8 @@ class SpidSession:
             case Frame(Command.STOP):
                 self._box.order(Stop())
             case Frame(Command.SET, azimuth_deg, elevation_deg):
-                order = aim(azimuth_deg, elevation_deg)
-                if order is not None:
-                    self._box.order(order)
+                if azimuth_deg is not None:
+                    self._box.order(aim(azimuth_deg, elevation_deg))
             case Frame(Command.MOVE, turn=Turn() as turn):
                 for part, jog in _TURNS.items():
                     if part in turn:
@@ -59,7 +58,7 @@ class SpidSession:
     def _position(self) -> bytes:
         """No answer while the position is not known: the client then reports a controller without power."""
         status = self._box.status()
-        azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
+        azimuth_deg, elevation_deg = status.azimuth.shown_deg, status.elevation.shown_deg
         if azimuth_deg is None:
             return b""
         if self._model is Model.ROT1PROG:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import re
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +17,7 @@ if TYPE_CHECKING:
     from tests.foreign.conftest import RunningBox
 
 Start = Callable[..., "RunningBox"]
+FAST_ROTOR = Path(__file__).parents[1] / "fast_rotor.toml"
 TOLERANCE_DEG = 4.5
 """What the box promises, and half a degree for whole-degree replies."""
 DIALECTS = {
@@ -26,6 +30,10 @@ DIALECTS = {
     902: "rot1prog",
     903: "md01",
     **dict.fromkeys((401, 403, 404, 405), "dcu1"),
+    1001: "rc2800",
+    **dict.fromkeys((1701, 1702), "prosistel-d"),
+    1703: "prosistel-c",
+    1801: "lx200",
 }
 SPEEDS = {903: ("-s", "9600")}
 """The MD-01 model's own default, 460800, is one that this Hamlib cannot set."""
@@ -51,6 +59,16 @@ def rotctl(need_program: Callable[[str, str], str]) -> Callable[..., str]:
         return done.stdout
 
     return run
+
+
+@contextlib.contextmanager
+def left_open(port: Path) -> Iterator[None]:
+    """Another program keeps the port open meanwhile: else a jog ends with the rotctl that ordered it."""
+    kept = os.open(port, os.O_RDWR | os.O_NOCTTY)
+    try:
+        yield
+    finally:
+        os.close(kept)
 
 
 def position(output: str) -> tuple[float, float]:
@@ -87,7 +105,7 @@ def rest(rotctl: Callable[..., str], model: int, where: Path | str) -> tuple[flo
     pytest.fail("the antenna does not come to rest")
 
 
-@pytest.mark.parametrize("model", [601, 602, 603, 202, 204, 901, 903])
+@pytest.mark.parametrize("model", [601, 602, 603, 202, 204, 901, 903, 1001, 1703])
 @pytest.mark.parametrize("over", ["pty", "tcp"])
 def test_set_read_and_stop(start_box: Start, rotctl: Callable[..., str], model: int, over: str) -> None:
     box = start_box(DIALECTS[model])
@@ -95,15 +113,19 @@ def test_set_read_and_stop(start_box: Start, rotctl: Callable[..., str], model: 
     assert position(rotctl(model, where, "p")) == pytest.approx((0, 0), abs=0.2)
     rotctl(model, where, "P", "75", "25")
     arrive(rotctl, model, where, (75, 25))
-    # Hamlib itself lets EasyComm go no farther than 360.
-    rotctl(model, where, "P", "360" if model in (202, 204) else "440", "25")
+    # Hamlib itself lets EasyComm and others go no farther than 360.
+    rotctl(model, where, "P", "360" if model in (202, 204, 1001, 1703) else "440", "25")
     rotctl(model, where, "S")
     assert rest(rotctl, model, where)[0] < 350
     assert box.stop() == 0
 
 
 @pytest.mark.parametrize(
-    ("model", "over"), [(902, "pty"), (902, "tcp"), (401, "pty"), (404, "pty"), (405, "pty"), (405, "tcp")]
+    ("model", "over"),
+    [
+        *((902, "pty"), (902, "tcp"), (401, "pty"), (404, "pty"), (405, "pty"), (405, "tcp")),
+        *((1701, "pty"), (1701, "tcp")),
+    ],
 )
 def test_azimuth_only(start_box: Start, rotctl: Callable[..., str], model: int, over: str) -> None:
     box = start_box(DIALECTS[model])
@@ -136,35 +158,38 @@ def test_easycomm_parks_moves_and_resets(start_box: Start, rotctl: Callable[...,
     arrive(rotctl, model, box.pty, (75, 25))
     rotctl(model, box.pty, "K")
     arrive(rotctl, model, box.pty, (0, 0))
-    rotctl(model, box.pty, "M", "16", "50")
-    rotctl(model, box.pty, "M", "2", "50")
-    arrive(rotctl, model, box.pty, (450, 180))
-    rotctl(model, box.pty, "M", "8", "50")
-    give_up_s = time.monotonic() + PATIENCE_S
-    while position(rotctl(model, box.pty, "p"))[0] > 440 and time.monotonic() < give_up_s:
-        pass  # a motor rests before it is reversed
+    with left_open(box.pty):
+        rotctl(model, box.pty, "M", "16", "50")
+        rotctl(model, box.pty, "M", "2", "50")
+        arrive(rotctl, model, box.pty, (450, 180))
+        rotctl(model, box.pty, "M", "8", "50")
+        give_up_s = time.monotonic() + PATIENCE_S
+        while position(rotctl(model, box.pty, "p"))[0] > 440 and time.monotonic() < give_up_s:
+            pass  # a motor rests before it is reversed
     rotctl(model, box.pty, "R", "1")
     assert 50 < rest(rotctl, model, box.pty)[0] < 440
 
 
 def test_md_01_moves_one_way_at_a_time(start_box: Start, rotctl: Callable[..., str]) -> None:
     box = start_box(DIALECTS[903])
-    rotctl(903, box.pty, "M", "16", "50")
-    arrive(rotctl, 903, box.pty, (450, 0))
-    rotctl(903, box.pty, "M", "2", "50")
-    arrive(rotctl, 903, box.pty, (450, 180))
+    with left_open(box.pty):
+        rotctl(903, box.pty, "M", "16", "50")
+        arrive(rotctl, 903, box.pty, (450, 0))
+        rotctl(903, box.pty, "M", "2", "50")
+        arrive(rotctl, 903, box.pty, (450, 180))
 
 
 @pytest.mark.parametrize("model", [601, 603])
 def test_move(start_box: Start, rotctl: Callable[..., str], model: int) -> None:
     """M 16: clockwise, M 2: up; both until stopped, here by the end of the range."""
     box = start_box(DIALECTS[model])
-    rotctl(model, box.pty, "M", "16", "-1")
-    rotctl(model, box.pty, "M", "2", "100")
-    arrive(rotctl, model, box.pty, (450, 180))
-    rotctl(model, box.pty, "M", "8", "-1")
-    rotctl(model, box.pty, "M", "4", "-1")
-    rotctl(model, box.pty, "S")
+    with left_open(box.pty):
+        rotctl(model, box.pty, "M", "16", "-1")
+        rotctl(model, box.pty, "M", "2", "100")
+        arrive(rotctl, model, box.pty, (450, 180))
+        rotctl(model, box.pty, "M", "8", "-1")
+        rotctl(model, box.pty, "M", "4", "-1")
+        rotctl(model, box.pty, "S")
     azimuth_deg, elevation_deg = position(rotctl(model, box.pty, "p"))
     assert 0 <= azimuth_deg <= 450
     assert 0 <= elevation_deg <= 180
@@ -193,3 +218,31 @@ def test_a_stop_on_one_link_silences_the_stream_on_another(start_box: Start, rot
     assert position(rotctl(603, box.pty, "p")) == pytest.approx(stopped, abs=1)
     rotctl(2, tcp, "P", "120", "20")
     arrive(rotctl, 2, tcp, (120, 20))
+
+
+def test_prosistel_s_elevation_box(start_box: Start, rotctl: Callable[..., str]) -> None:
+    box = start_box(DIALECTS[1702])
+    rotctl(1702, box.pty, "P", "0", "40")
+    arrive(rotctl, 1702, box.pty, (0, 40))
+    rotctl(1702, box.pty, "P", "0", "85")
+    rotctl(1702, box.pty, "S")
+    assert rest(rotctl, 1702, box.pty)[1] < 80
+
+
+@pytest.mark.parametrize("over", ["pty", "tcp"])
+def test_a_telescope(
+    start_box: Start, need_program: Callable[[str, str], str], rotctl: Callable[..., str], over: str
+) -> None:
+    """Model 1801 stops the antenna when it disconnects: one rotctl goes on, and rotctld tells when it has arrived."""
+    box = start_box(DIALECTS[1801], FAST_ROTOR.read_text(encoding="utf-8") + '[station]\nlocator = "JO62qm"\n')
+    command = [need_program("rotctl", "libhamlib-utils"), "-m", "1801", "-r", str(place(box, over)), "-"]
+    rotctld = f"127.0.0.1:{box.rotctld_port}"
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as telescope:
+        assert telescope.stdin is not None
+        telescope.stdin.write("P 75 25\n")
+        telescope.stdin.flush()
+        arrive(rotctl, 2, rotctld, (75, 25))
+        said, _ = telescope.communicate("p\nP 350 25\n", timeout=PATIENCE_S)
+    assert [float(number) for number in re.findall(r"\d+\.\d+", said)] == pytest.approx([75, 25], abs=TOLERANCE_DEG)
+    assert rest(rotctl, 2, rotctld)[0] < 340, "the end of the connection stops it"
+    assert box.stop() == 0

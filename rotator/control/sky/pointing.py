@@ -66,6 +66,10 @@ class Pointing:
         kept = self.wanted
         self.wanted = Aim(None if azimuth else kept.azimuth_deg, None if elevation else kept.elevation_deg)
 
+    def end_stream(self) -> None:
+        """The target stands at the direction last ordered."""
+        self._track.end()
+
     def show(self, aim: Aim) -> None:
         """Show a direction without following it."""
         self.forget()
