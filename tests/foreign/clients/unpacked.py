@@ -6,11 +6,13 @@ it was built for. Knows none of the programs.
 
 from __future__ import annotations
 
+import fcntl
 import os
 import platform
 import shutil
 import subprocess
 import tempfile
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,6 +22,8 @@ from tests.kept import keep, kept
 
 KEYS = Path("/usr/share/keyrings/debian-archive-keyring.gpg")
 DEADLINE_S = 600.0
+STALE_S = 86_400.0
+"""A release may have a newer version of a package after a day."""
 
 
 class NotHereError(Exception):
@@ -31,7 +35,6 @@ class Unpacked:
     """`folder` holds the files of a package and of all that it depends on, down to the C library."""
 
     folder: Path
-    version: str
 
     def command(self, program: str) -> list[str]:
         """The words that run one of its programs, by the path below the folder."""
@@ -42,7 +45,7 @@ class Unpacked:
 
 
 def unpacked(package: str, release: str) -> Unpacked:
-    """The package as `release` has it today, with its dependencies; kept for the next run under its version.
+    """The package as `release` has it today, with its dependencies; kept for the next runs.
 
     Raises NotHereError without apt, Debian's keys or the network.
     """
@@ -50,11 +53,17 @@ def unpacked(package: str, release: str) -> Unpacked:
         raise NotHereError("it needs apt and Debian's keys: sudo apt install debian-archive-keyring")
     clients = kept("clients")
     clients.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=clients) as scratch:
-        apt = _Apt(Path(scratch), release)
-        version = apt.version(package)
-        name = f"{package}-{version}-{release}-{platform.machine()}"
-        return Unpacked(keep(clients / name, lambda half: apt.unpack(package, half)), version)
+    newest = clients / f"{package}-{release}-{platform.machine()}.newest"
+    with (clients / ".lock").open("w") as lock:
+        # Of several tests at once, one asks the mirror.
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not newest.exists() or time.time() - newest.stat().st_mtime > STALE_S:
+            with tempfile.TemporaryDirectory(dir=clients) as scratch:
+                apt = _Apt(Path(scratch), release)
+                name = f"{package}-{apt.version(package)}-{release}-{platform.machine()}"
+                keep(clients / name, lambda half: apt.unpack(package, half))
+            newest.write_text(name, encoding="utf-8")
+    return Unpacked(clients / newest.read_text(encoding="utf-8"))
 
 
 class _Apt:
