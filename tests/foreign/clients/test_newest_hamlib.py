@@ -33,6 +33,8 @@ class Model:
     stops: bool = True
     far_deg: tuple[int, int] = (440, 25)
     """A direction far away that this model itself lets through."""
+    may_crash: bool = False
+    """Its own thread sometimes ends rotctl with a segmentation fault, after the order (4.7.2)."""
 
 
 EASYCOMM: dict[str, Any] = {"far_deg": (350, 25)}
@@ -40,7 +42,7 @@ AZIMUTH: dict[str, Any] = {"axes": "azimuth", "far_deg": (350, 0)}
 ELEVATION: dict[str, Any] = {"axes": "elevation", "far_deg": (0, 170)}
 MODELS = {
     2: Model("rotctld"),
-    3: Model("pstrotator", reads=False, stops=False),
+    3: Model("pstrotator", reads=False, stops=False, may_crash=True),
     4: Model("rotctld", stops=False),
     201: Model("easycomm1", reads=False, **EASYCOMM),
     202: Model("easycomm2", **EASYCOMM),
@@ -86,9 +88,9 @@ def version(command: list[str]) -> int:
     return int(found[1])
 
 
-def run(*command: str) -> str:
+def run(*command: str, may_crash: bool = False) -> str:
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
-    assert done.returncode == 0, f"{command[1:]}: {done.stdout}{done.stderr}"
+    assert done.returncode == 0 or (may_crash and done.returncode < 0), f"{command[1:]}: {done.stdout}{done.stderr}"
     return done.stdout
 
 
@@ -106,7 +108,7 @@ def test_it_points_reads_and_stops(box_with: Callable[..., Shack], rotctl: list[
     words = [*rotctl, "-m", str(number), "-r", where]
 
     first = FIRST_DEG[model.axes]
-    run(*words, "P", *map(str, first))
+    run(*words, "P", *map(str, first), may_crash=model.may_crash)
     stood = box.arrives(*first, within_deg=NEAR_DEG)
     if model.reads:
         said = [float(angle) for angle in run(*words, "p").split()]
