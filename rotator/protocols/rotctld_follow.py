@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from rotator.protocols.aiming import aim
+from rotator.protocols.aiming import aim, may_be_sent
 from rotator.protocols.lines import LineReader
 from rotator.protocols.rotctld import BadRequest, Request, encode, number
 from rotator.protocols.session import Box, NotUnderstood
@@ -69,7 +69,7 @@ class RotctldFollower:
 
     def _follow(self, azimuth_deg: float, elevation_deg: float) -> None:
         direction = aim(azimuth_deg, elevation_deg)
-        if direction is None:
+        if not may_be_sent(azimuth_deg, elevation_deg):
             self.trouble = "answers with angles that are no direction"
             return
         self.trouble = ""
