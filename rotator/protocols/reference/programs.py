@@ -134,6 +134,15 @@ PROGRAMS = (
         "its source",
     ),
     Program(
+        "satnogs-client",
+        ("rotctld", "gs232b"),
+        "TCP or serial",
+        "`SATNOGS_ROT_MODEL` ROT_MODEL_NETROTCTL or ROT_MODEL_GS232B; address or port as "
+        "`SATNOGS_ROT_PORT`, and `SATNOGS_ROT_BAUD` 9600",
+        (),
+        VERIFIED,
+    ),
+    Program(
         "Termite, or any terminal",
         ("gs232b", "gs232-f1efw"),
         "serial",
