@@ -25,9 +25,10 @@ def build(parts: Assembly, lines: OutputLines | None) -> PositionedRotor:
     spi = parts.board.spi(use)
 
     def box(axis: Axis) -> tuple[Mcp41010, BoxSpec]:
-        table, speed_dps = config.digipot.of(axis), config.axis(axis).speed_dps
+        table, limits = config.digipot.of(axis), config.axis(axis)
         start_deg = parts.first_deg(axis, table.start_deg)
-        spec = BoxSpec(tuple(table.steps), start_deg, speed_dps, table.dead_band_deg)
+        range_deg = (limits.min_deg, limits.max_deg)
+        spec = BoxSpec(tuple(table.steps), start_deg, limits.speed_dps, table.dead_band_deg, range_deg)
         return Mcp41010(spi, f"{axis.value}.select"), spec
 
     drive = DigipotDrive(box(Axis.AZIMUTH), box(Axis.ELEVATION), parts.board.clock, enable=lines)
