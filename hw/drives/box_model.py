@@ -24,20 +24,27 @@ LEARNING = 0.5
 class BoxModel:
     """The rotor is assumed at `angle_deg`. Until a full travel is over it may be anywhere from `low` to `high`."""
 
-    def __init__(self, angle_deg: float, low_deg: float, high_deg: float, speed_dps: float) -> None:
+    def __init__(
+        self, angle_deg: float, low_deg: float, high_deg: float, speed_dps: float, dead_band_deg: float
+    ) -> None:
         self.angle_deg = angle_deg
         self.known = False
         """The bounds have met within the dead band once, or the rotor was measured."""
         self._bounds_deg: tuple[float, float] | None = (low_deg, high_deg)
         """None: the model is exact."""
         self._speed_dps = speed_dps
+        self._dead_band_deg = dead_band_deg
+        self._turns = False
 
     def found(self, angle_deg: float) -> None:
         """The rotor was measured there."""
         self.angle_deg, self.known, self._bounds_deg = angle_deg, True, None
 
     def advance(self, wiper_deg: float, down_deg: float, up_deg: float, past_s: float) -> None:
-        """Turn towards the wiper for `past_s` seconds; rest `up_deg` below it, or `down_deg` above it."""
+        """Turn towards the wiper for `past_s` seconds; rest `up_deg` below it, or `down_deg` above it.
+
+        The motor starts only where the error is beyond the dead band. It rests within it, because it coasts.
+        """
 
         def turned(angle_deg: float, up_pace: float, down_pace: float) -> float:
             most_deg = self._speed_dps * past_s
@@ -47,7 +54,11 @@ class BoxModel:
                 return max(wiper_deg + down_deg, angle_deg - most_deg * down_pace)
             return angle_deg
 
-        self.angle_deg = turned(self.angle_deg, 1.0, 1.0)
+        if past_s <= 0:
+            return
+        if self._turns or abs(wiper_deg - self.angle_deg) > self._dead_band_deg:
+            before_deg, self.angle_deg = self.angle_deg, turned(self.angle_deg, 1.0, 1.0)
+            self._turns = self.angle_deg != before_deg
         if self._bounds_deg is None:
             return
         low_deg = turned(self._bounds_deg[0], SLOW, FAST)
@@ -76,12 +87,14 @@ class BoxModel:
 
 @dataclass(slots=True)
 class RestLead:
-    """How far before the wiper the rotor rests, for each direction: the file's dead band, until a pot shows better.
+    """How far before the wiper the rotor rests, for each direction: what the file says, until a pot shows better.
 
-    Never less than nothing, never more than twice the file's band: a stalled motor rests too.
+    Never less than nothing, never more than twice the file's dead band: a stalled motor rests too.
     """
 
     dead_band_deg: float
+    coast_deg: float
+    """How far the motor turns on after the box has switched it off."""
     _learnt: dict[int, float] = field(default_factory=dict)
     _aim: tuple[float, int] | None = None
     """The wiper's angle and the direction of the move."""
@@ -91,7 +104,7 @@ class RestLead:
     """The last angle that was another one, and when it was measured first."""
 
     def of(self, way: int) -> float:
-        return self._learnt.get(way, self.dead_band_deg)
+        return self._learnt.get(way, max(0.0, self.dead_band_deg - self.coast_deg))
 
     def ordered(self, wiper_deg: float, way: int, now_s: float) -> None:
         """The wiper was sent there for a move in that direction."""
@@ -117,7 +130,7 @@ class RestLead:
         if now_s - self._last[1] < RESTS_S or (angle_deg - self._came_from_deg) * way < MOVED_DEG:
             return
         short_deg = (wiper_deg - angle_deg) * way
-        if -self.dead_band_deg <= short_deg <= 2 * self.dead_band_deg:
+        if -self.coast_deg - TIGHT_DEG <= short_deg <= 2 * self.dead_band_deg:
             before_deg = self.of(way)
             self._learnt[way] = max(0.0, before_deg + LEARNING * (short_deg - before_deg))
         self._came_from_deg = angle_deg

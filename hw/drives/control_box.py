@@ -1,9 +1,8 @@
 """One control box that follows a knob, with a digital potentiometer in place of the knob: one axis.
 
 Knows the chip's steps, and a model of the box: it turns at one speed, and stays still while the error is within its
-dead band. The wiper leads by that band, so that the rotor rests at the ordered angle and not at the band's edge. Does
-not know the rotor's real angle unless a pot is read: `box_model` says how far the model may be wrong. Knows no lease,
-no thread and no other axis.
+dead band. The wiper leads by that band less the coast, so that the rotor rests at the ordered angle. Does not know the
+real angle unless a pot is read: `box_model` says how far the model may be wrong. Knows no lease, thread or other axis.
 """
 
 from __future__ import annotations
@@ -26,8 +25,12 @@ class BoxSpec:
     steps: tuple[tuple[float, float], ...] = ((0.0, 0.0), (360.0, 256.0))
     start_deg: float = 0.0
     """The model's angle when the program starts."""
+    start_known: bool = False
+    """The rotor stands there for certain: in a simulation that begins anew."""
     speed_dps: float = 6.0
     dead_band_deg: float = 2.0
+    coast_deg: float = 1.0
+    """How far the motor turns on after the box has switched it off."""
     range_deg: tuple[float, float] | None = None
     """The axis's own limits, beyond which the wiper never leads; None: the ends of the table."""
 
@@ -40,14 +43,17 @@ class ControlBox:
         self.scale.check(spec.start_deg)
         if self.scale.values[0] < 0 or self.scale.values[1] > STEPS:
             raise HardwareError(f"{name}: the calibration table has steps outside 0 to {STEPS}")
-        self.model = BoxModel(spec.start_deg, self.scale.low_deg, self.scale.high_deg, spec.speed_dps)
-        self.lead = RestLead(spec.dead_band_deg)
+        ends_deg = self.scale.low_deg, self.scale.high_deg
+        self.model = BoxModel(spec.start_deg, *ends_deg, spec.speed_dps, spec.dead_band_deg)
+        if spec.start_known:
+            self.model.found(spec.start_deg)
+        self.lead = RestLead(spec.dead_band_deg, spec.coast_deg)
         self.until_s: float | None = None
         """When the present command expires; None: there is no command."""
         self.deaf = False
         """The supply was cut under its command by a stop of the other axis: no aim counts before its own stop."""
         self._chip = chip
-        self._range_deg = spec.range_deg or (self.scale.low_deg, self.scale.high_deg)
+        self._range_deg = spec.range_deg or ends_deg
         self._way = 0
         """The direction in which the wiper leads: that of the last move, -1 or 1; 0 before the first one."""
         self._step: int | None = None
@@ -82,7 +88,7 @@ class ControlBox:
         self.lead.seen(angle_deg, now_s)
 
     def order(self, angle_deg: float) -> None:
-        """Go to the angle: the wiper leads by the dead band in the direction of the move, within the axis's limits.
+        """Go to the angle: the wiper leads in the direction of the move, within the axis's limits.
 
         Raises HardwareError: outside the table, or the bus fails.
         """
