@@ -15,7 +15,7 @@ from rotator.faults import Notice
 from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.positioned import PositionedRotor
 
-ASSUMED = Notice("angle assumed: known when it has followed orders for as long as its full travel takes")
+ASSUMED = Notice("angle assumed until a full travel is over")
 
 
 class BoxRotor(PositionedRotor):
