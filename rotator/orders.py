@@ -18,12 +18,14 @@ class Aim:
     """Point there. An axis that is None keeps what it was doing.
 
     Azimuth above 360 names the turn of the overlap; elevation above 90 is an antenna flipped by the program that sends
-    it. Not `engaged`: show the target, but stop the motors.
+    it. Not `engaged`: show the target, but stop the motors. `place`: rest there; without it the orders of a stream are
+    points of a path, which the antenna follows between them.
     """
 
     azimuth_deg: float | None
     elevation_deg: float | None
     engaged: bool = True
+    place: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +78,7 @@ class ClearTimed:
 
 @dataclass(frozen=True, slots=True)
 class RunTimed:
-    """Run the timed list from its present point."""
+    """Run the timed list: turn to its next point now."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,10 +144,15 @@ class LetGo:
     """Motors without torque. A person orders it, for an antenna that is out of balance turns."""
 
 
+@dataclass(frozen=True, slots=True)
+class Leave:
+    """The sender's connection has ended: its jog without a time and its stream end with it."""
+
+
 Personal = SetMode | Nudge | Home | Confirm | LetGo
 """Orders that only a person at the panel or on the console may give."""
 
-Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Personal
+Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal
 
 
 @dataclass(frozen=True, slots=True)

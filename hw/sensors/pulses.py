@@ -110,18 +110,25 @@ class PulseCounter:
         driven = [(event.at_s, event.direction) for event in self._waiting if isinstance(event, _Driven)]
         return self._count.ahead_deg(driven, now_s)
 
-    def place(self, angle_deg: float) -> bool:
+    def place(self, angle_deg: float, within_deg: float = 0.0) -> bool:
         """The axis stands at that angle: a stored count, or an end stop. False: the contact's state contradicts it.
 
-        Only at rest. Forgets the count so far. Raises HardwareError when the contact cannot be read.
+        `within_deg`: the angle may be wrong by so much, and the contact decides. Only at rest. Forgets the count so
+        far. Raises HardwareError when the contact cannot be read.
         """
         self.read()
-        return self._count.place(self._clock() - self._debounce_s, angle_deg, closed=self._contact.closed())
+        closed = self._contact.closed()
+        return self._count.place(self._clock() - self._debounce_s, angle_deg, closed=closed, within_deg=within_deg)
 
     @property
     def changes(self) -> int:
         """How many changes of the contact there were so far; two of them make one pulse."""
         return self._count.changes
+
+    @property
+    def in_closure(self) -> bool:
+        """The contact is closed since the last counted change, or the last `place`."""
+        return self._count.zone % 2 == 0
 
     @property
     def at_rest(self) -> bool:

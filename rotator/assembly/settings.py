@@ -80,6 +80,7 @@ def build_controller(
             period_s=1 / config.control.rate_hz,
             simulated=config.rotor.hardware == "sim",
             park_after_s=config.mount.park_after_s,
+            on_sky=config.mount.tolerance == "sky",
             mode=Mode.PARK if config.panel.has_mode_switch else Mode.AUTO,
         )
     )
@@ -169,4 +170,6 @@ def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | None:
         travel_s=(table.max_deg - table.min_deg) / table.speed_dps,
         coast_s=stop.coast_s,
         home_deg=stop.home_deg + shift.of(axis),
+        mostly_closed=stop.mostly_closed,
+        switch=f"{axis.value}_low" in config.limits.switches,
     )

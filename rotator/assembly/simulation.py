@@ -26,7 +26,7 @@ from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
 
 LIMIT_BEYOND_DEG = 1.0
-"""A limit switch opens between the end of the range and the stop."""
+"""A limit switch opens between the end of the range and the stop; a low one of an axis that counts above `home_deg`."""
 AUTO = 2
 """The position AUTO of the simulated mode switch: 2 × MSB + LSB."""
 
@@ -107,6 +107,8 @@ class SimulatedStation:
             name, end = key.split("_")
             limits = config.axis(Axis(name))
             at_deg = limits.min_deg - LIMIT_BEYOND_DEG if end == "low" else limits.max_deg + LIMIT_BEYOND_DEG
+            if end == "low" and (stop := config.end_stop(Axis(name))):
+                at_deg = stop.home_deg + LIMIT_BEYOND_DEG
             rotor.wire_limit(key, pin, name, at_deg, high=end == "high")
 
 

@@ -5,7 +5,7 @@ Knows how a protocol sees the box, and how a link sees a protocol. Does not know
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from rotator.orders import Order, Refusal
 from rotator.status import Status
@@ -37,6 +37,14 @@ class Session(Protocol):
 
     def idle(self) -> list[bytes]:
         """The line has been silent for `idle_s`: the buffered bytes are all that will come."""
+
+
+@runtime_checkable
+class Ending(Protocol):
+    """A session that has something to do when its connection ends."""
+
+    def ended(self) -> None:
+        """The connection has ended: the client has left, or its cable is out."""
 
 
 class NotUnderstood(Exception):  # noqa: N818 - a fact about the other end; the program has not failed

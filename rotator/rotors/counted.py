@@ -30,7 +30,7 @@ class CountedAxis:
     """A pulse counter as an angle sensor, with the reason why its count may be wrong.
 
     Two threads use it: the sensor thread reads, and the control thread places. `master`: a relay switches the motors'
-    supply.
+    supply. `within_deg`: how exactly its homing ends at the angle that is placed then.
     """
 
     source = AngleSource.COUNTED
@@ -43,7 +43,9 @@ class CountedAxis:
         clock: Callable[[], float],
         *,
         master: bool = False,
+        within_deg: float = 0.0,
     ) -> None:
+        self._within_deg = within_deg
         self._axis = axis
         self._counter = counter
         self._counts_writer = counts_writer
@@ -81,6 +83,7 @@ class CountedAxis:
                 lost=why,
                 scale=self._scale,
                 changes=self._counter.changes,
+                closed=self._counter.in_closure,
                 ends=ends,
             )
 
@@ -99,12 +102,12 @@ class CountedAxis:
         Raises HardwareError.
         """
         with self._lock:
-            self._place(angle_deg)
+            self._place(angle_deg, self._within_deg)
             if self._counts_writer and not self._counter.trouble:
-                self._counts_writer.homed(self._axis, angle_deg)
+                self._counts_writer.homed(self._axis, self._counter.read())
 
-    def _place(self, angle_deg: float) -> None:
-        self._counter.place(angle_deg)
+    def _place(self, angle_deg: float, within_deg: float = 0.0) -> None:
+        self._counter.place(angle_deg, within_deg)
         self._doubt, self._reported_lost = "", False
         self._scale += 1
 

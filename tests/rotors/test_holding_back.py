@@ -19,6 +19,8 @@ MINUS, OFF, PLUS = Direction
 NewBox = Callable[..., Box]
 EACH_AXIS = pytest.mark.parametrize("axis", list(Axis), ids=lambda axis: axis.value)
 LIMITS = {"azimuth_low": 5, "azimuth_high": 6, "elevation_low": 12, "elevation_high": 13}
+BELOW = {"azimuth": {"home_deg": -2.0}, "elevation": {"home_deg": -2.0}}
+"""A low limit switch of an axis that counts is below its range."""
 NO_DISPLAY = {"kind": "none"}
 
 
@@ -154,7 +156,7 @@ def test_acknowledged_it_moves_again(box: Box, order: Order) -> None:
 
 @EACH_AXIS
 def test_a_limit_switch_stops_that_way_and_not_the_other(kind: Kind, new_box: NewBox, axis: Axis) -> None:
-    box = new_box(kind, limits=LIMITS, lcd=NO_DISPLAY)
+    box = new_box(kind, limits=LIMITS, pulses=BELOW, lcd=NO_DISPLAY)
     box.run(1.0)
     box.order(Aim(100.0, 40.0))
     box.until_it_stands()
@@ -181,7 +183,7 @@ def test_a_limit_switch_stops_that_way_and_not_the_other(kind: Kind, new_box: Ne
 
 
 def test_closed_limit_switches_are_in_nobody_s_way(kind: Kind, new_box: NewBox) -> None:
-    box = new_box(kind, limits=LIMITS, lcd=NO_DISPLAY)
+    box = new_box(kind, limits=LIMITS, pulses=BELOW, lcd=NO_DISPLAY)
     box.run(1.0)
     for azimuth_deg, elevation_deg in ((0.0, 0.0), (30.0, 20.0)):
         box.order(Aim(azimuth_deg, elevation_deg))

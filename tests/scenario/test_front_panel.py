@@ -50,6 +50,9 @@ lamp_auto = 4
 lamp_jog = 5
 lamp_motor = 6
 lamp_stop = 7
+[pulses.elevation]
+home_deg = -2.0
+closes_at_deg = 0.5
 [limits]
 azimuth_high = 8
 elevation_low = 7
@@ -261,7 +264,7 @@ def test_the_calibrate_switch_leads_through_homing() -> None:
     shack.turn_mode(AUTO)
     assert shack.wait(60.0, lambda: shack.loop.status.elevation.homing)
     assert shack.wait(180.0, lambda: not shack.loop.status.elevation.homing and shack.stands)
-    assert shack.shafts == pytest.approx((0.0, 0.0), abs=0.5)
+    assert shack.shafts == pytest.approx((0.0, -2.0), abs=0.5), "the elevation at its limit switch"
     shack.turn_mode(JOG)
     shack.turn_mode(AUTO)
     shack.pc("W120 045")

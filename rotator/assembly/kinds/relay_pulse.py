@@ -12,11 +12,13 @@ from hw.sensors.cam import Cam
 from hw.sensors.pulses import PulseCounter, TappedLines
 from rotator.assembly.kinds.relay_pot import relay_bank
 from rotator.assembly.rotors import Assembly
-from rotator.assembly.simulated_axes import SimulatedAxes
+from rotator.assembly.simulated_axes import STOP_BEYOND_DEG, SimulatedAxes
 from rotator.rotors.counted import CountedAxis, CountedRotor
 from rotator.rotors.counts_writer import CountsWriter, at_once
 from rotator.store.counts import NEVER, CountsFile, Place, Standing
 
+SWITCH_WITHIN_DEG = 1.0
+"""How exactly an axis rests at the same place after its low limit switch: the switch, a cycle, and the coast vary."""
 SIM_BOUNCE_S = 0.005
 
 
@@ -37,8 +39,9 @@ def build(parts: Assembly, lines: OutputLines | None) -> CountedRotor:
         return NEVER if config.keeps_files else Place(Standing.KNOWN, parts.start_deg(axis))
 
     for axis in counting:
-        counter = _counter(parts, axis, tapped)
-        axes[axis] = CountedAxis(axis, counter, counts_writer, clock, master=config.relays.master is not None)
+        counter, master = _counter(parts, axis, tapped), config.relays.master is not None
+        within_deg = SWITCH_WITHIN_DEG if f"{axis.value}_low" in config.limits.switches else 0.0
+        axes[axis] = CountedAxis(axis, counter, counts_writer, clock, master=master, within_deg=within_deg)
         axes[axis].begin(kept.get(axis, first(axis)))
     return CountedRotor(
         relay_bank(parts, tapped),
@@ -79,7 +82,8 @@ def simulate(axes: SimulatedAxes) -> SimRelayPulseRotor:
     def spec(axis: Axis) -> RelayPulseAxisSpec:
         table = pulses.of(axis)
         cam = ContactSpec(table.spacing_deg, table.closed_deg, table.closes_at_deg, table.play_deg, SIM_BOUNCE_S)
-        motor = axes.motor(axis, stop_low_deg=table.home_deg)
+        beyond_deg = STOP_BEYOND_DEG if f"{axis.value}_low" in axes.config.limits.switches else 0.0
+        motor = axes.motor(axis, stop_low_deg=table.home_deg - beyond_deg)
         return RelayPulseAxisSpec(*relays.turning(axis), table.contact, motor, cam, axes.start_deg(axis))
 
     return SimRelayPulseRotor(

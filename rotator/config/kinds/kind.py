@@ -39,11 +39,14 @@ class OffLine:
 
 @dataclass(frozen=True, slots=True)
 class EndStop:
-    """What homing needs of an axis that counts pulses: the cam, and the angle of the low end stop."""
+    """What homing needs of an axis that counts pulses: its cam, and the angle at which homing ends."""
 
     spacing_deg: float
     coast_s: float
+    """The time after which it stands, and the last change of its contact has come through the debounce."""
     home_deg: float
+    mostly_closed: bool
+    """The contact is closed for more of the spacing than it is open."""
 
 
 class Kind:

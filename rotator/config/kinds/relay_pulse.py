@@ -35,7 +35,7 @@ class PulseAxisTable(Table):
     play_deg: float = Field(0.0, ge=0, le=10)
     """The play of the gear: after a reversal the contact changes this much later."""
     home_deg: float = Field(0.0, ge=-360, le=720)
-    """The angle of the low end stop, where homing ends."""
+    """Where homing ends: the angle of the low end stop, or where the axis rests after its low limit switch opened."""
 
     @model_validator(mode="after")
     def _opens(self) -> PulseAxisTable:
@@ -98,4 +98,5 @@ class RelayPulse(Kind):
 
     def end_stop(self, axis: Axis) -> EndStop | None:
         cam = self.pulses.of(axis)
-        return EndStop(cam.spacing_deg, cam.coast_s, cam.home_deg)
+        mostly_closed = cam.closed_deg > cam.spacing_deg / 2
+        return EndStop(cam.spacing_deg, cam.coast_s + self.pulses.debounce_s, cam.home_deg, mostly_closed)

@@ -1,9 +1,10 @@
-"""Finding the low end stop of an axis that counts pulses. A person orders it, and watches.
+"""Finding the low end stop, or the low limit switch, of an axis that counts pulses. A person orders it, and watches.
 
-Down until no pulse comes for three periods: that is the stop, or a dead contact. So up again until a pulse has come,
-and down once more: the same pulses must come back before the contact is quiet again. Then the axis stands at its stop.
-Knows what the relays do and how often the contact has changed. Knows no angle, and cannot tell a stop from a branch in
-which the antenna hangs: the person who watches can.
+Down until the end shows: the limit switch opens, or, without one, no pulse comes for three periods. A dead contact and
+a branch look the same. So up again until pulses have come, and down once more: when the same number comes back, the
+axis is home; else it tries again. Changes are counted only while the shaft stands, for a shaft that coasts over an edge
+of the contact and turns back there changes it at any moment. Knows what the relays do, the contact and the switch. Does
+not know an angle, and cannot tell a stop from a branch that holds the antenna: the person can.
 """
 
 from __future__ import annotations
@@ -12,12 +13,19 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import Direction
+from rotator.control.axis.sensing import Condition
 
 QUIET_PERIODS = 3.0
 PROOF = 2
 """Changes of the contact on the way up that prove it alive: it has closed and opened."""
 ALIKE = 1
-"""Changes that may be missing on the way back, or be too many: the stop may be at an edge of the contact."""
+"""Changes that may be missing on the way back, or be too many: the end may be at an edge of the contact."""
+TRIES = 3
+"""Times that the way up and back is tried. A shaft that trembles on an edge changes the contact more often."""
+STUCK = 8
+"""Changes of the contact on the way up after which a limit switch that is still open does not work."""
+READ_S = 0.2
+"""The time after which a change of the contact has been read for certain."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,16 +37,28 @@ class HomingSettings:
     travel_s: float
     """From end to end."""
     coast_s: float
-    """From the relay's opening until the motor stands for certain."""
+    """From the relay's opening until the motor stands for certain, and the contact's debounce."""
     home_deg: float
-    """The angle of the low end stop."""
+    """The angle at which the axis stands when it is homed."""
+    mostly_closed: bool = False
+    """The contact is closed for more of a period than it is open."""
+    switch: bool = False
+    """A limit switch is at the low end."""
 
 
 class _Phase(Enum):
     DOWN = "down"
+    BOTTOM = "resting at the end"
     UP = "up"
-    DOWN_AGAIN = "down again"
-    SETTLE = "settle"
+    TOP = "resting above the end"
+
+
+_MOTOR = {
+    _Phase.DOWN: Direction.MINUS,
+    _Phase.BOTTOM: Direction.OFF,
+    _Phase.UP: Direction.PLUS,
+    _Phase.TOP: Direction.OFF,
+}
 
 
 class Homing:
@@ -49,62 +69,75 @@ class Homing:
         self.homed = False
         self.failure = ""
         """Why homing has given up; empty: it has not."""
+        self._settings = settings
         self._quiet_after_s = QUIET_PERIODS * settings.period_s
         self._longest_s = 1.5 * settings.travel_s + 2.0 * self._quiet_after_s
-        self._coast_s = settings.coast_s
         self._phase = _Phase.DOWN
-        self._began_s: float | None = None
+        self._since_s: float | None = None
+        """Since when it has been in this phase; None: it has not begun."""
         self._still_s = 0.0
         """Since when neither the contact nor the relays have changed."""
         self._driven = Direction.OFF
         self._changes = 0
         self._base = 0
-        self._up = 0
+        """The changes of the contact at the latest rest."""
+        self._up: int | None = None
+        """How many changes came on the way up; None: it has not been up yet."""
+        self._tries = 0
 
-    def step(self, now_s: float, driven: Direction, changes: int) -> Direction:
-        """The direction to drive now.
-
-        `driven`: what the relays really do, for a reversal takes its dead time; `changes`: of the contact, so far.
-        """
-        if self._began_s is None:
-            self._began_s, self._still_s, self._changes = now_s, now_s, changes
+    def step(self, now_s: float, driven: Direction, condition: Condition) -> Direction:
+        """The direction to drive now. `driven`: what the relays really do, for a reversal takes its dead time."""
+        changes = condition.changes
+        if self._since_s is None:
+            self._since_s, self._still_s, self._changes = now_s, now_s, changes
         if driven is not self._driven or changes != self._changes:
-            turning_back = driven is Direction.MINUS and self._driven is not Direction.MINUS
-            if self._phase is _Phase.DOWN_AGAIN and turning_back:
-                self._up, self._base = changes - self._base, changes
             self._driven, self._changes, self._still_s = driven, changes, now_s
         if self.homed or self.failure:
             return Direction.OFF
-        if now_s - self._began_s > self._longest_s:
+        if now_s - self._since_s > self._longest_s:
             return self._fail("it was driven for longer than its whole travel takes, and pulses still come")
         still_s = now_s - self._still_s
-        wanted = self._wanted()
-        quiet = driven is wanted and still_s > self._quiet_after_s
+        quiet = driven is _MOTOR[self._phase] and still_s > self._quiet_after_s
+        stands = driven is Direction.OFF and still_s >= self._settings.coast_s + READ_S
+        at_switch = Direction.MINUS in condition.ends
         match self._phase:
+            case _Phase.DOWN if at_switch or (quiet and not self._settings.switch):
+                self._enter(_Phase.BOTTOM, now_s)
             case _Phase.DOWN if quiet:
-                self._phase, self._base = _Phase.UP, changes
-            case _Phase.UP if changes - self._base >= PROOF:
-                self._phase = _Phase.DOWN_AGAIN
+                return self._fail("it stands at its stop, and the low limit switch has not opened: look at the switch")
+            case _Phase.BOTTOM if stands:
+                self._judge(now_s, changes)
             case _Phase.UP if quiet:
                 return self._fail("no pulse came in either direction: look at the contact, its wires and the motor")
-            case _Phase.DOWN_AGAIN if quiet:
-                back = changes - self._base
-                if abs(back - self._up) > ALIKE:
-                    return self._fail(f"{self._up} edges came on the way up and {back} on the way back")
-                self._phase = _Phase.SETTLE
-            case _Phase.SETTLE if driven is Direction.OFF and still_s >= self._coast_s:
-                self.homed = True
-        return self._wanted()
+            case _Phase.UP if at_switch and changes - self._base >= STUCK:
+                return self._fail("the low limit switch stays open: look at its wires")
+            case _Phase.UP if self._well_above(condition, at_switch=at_switch):
+                self._enter(_Phase.TOP, now_s)
+            case _Phase.TOP if stands:
+                self._up, self._base = changes - self._base, changes
+                self._enter(_Phase.DOWN, now_s)
+        return Direction.OFF if self.homed or self.failure else _MOTOR[self._phase]
 
-    def _wanted(self) -> Direction:
-        match self._phase:
-            case _Phase.DOWN | _Phase.DOWN_AGAIN:
-                return Direction.MINUS
-            case _Phase.UP:
-                return Direction.PLUS
-            case _Phase.SETTLE:
-                return Direction.OFF
+    def _well_above(self, condition: Condition, *, at_switch: bool) -> bool:
+        """Pulses have come, and the contact has just entered the wider part of its period: away from its edges."""
+        proved = condition.changes - self._base >= PROOF
+        return proved and not at_switch and condition.closed is self._settings.mostly_closed
+
+    def _judge(self, now_s: float, changes: int) -> None:
+        """The axis stands at an end: at home, where as many changes came on the way back as on the way up."""
+        back = changes - self._base
+        if self._up is not None and abs(back - self._up) <= ALIKE:
+            self.homed = True
+        elif self._up is not None and self._tries >= TRIES:
+            self._fail(f"{self._up} edges came on the way up and {back} on the way back, in the last of {TRIES} tries")
+        else:
+            self._tries += 1
+            self._base = changes
+            self._enter(_Phase.UP, now_s)
+
+    def _enter(self, phase: _Phase, now_s: float) -> None:
+        self._phase, self._since_s = phase, now_s
 
     def _fail(self, why: str) -> Direction:
-        self.failure = f"not homed: {why}"
+        self.failure = why
         return Direction.OFF

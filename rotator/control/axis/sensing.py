@@ -44,6 +44,8 @@ class Condition:
     """The axis does not follow yet, for a reason that passes by itself."""
     changes: int = 0
     """How often its contact has changed."""
+    closed: bool = False
+    """Its contact is closed since the last of these changes."""
     ends: frozenset[Direction] = frozenset()
     """The directions that a limit switch forbids."""
 

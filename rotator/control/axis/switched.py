@@ -77,6 +77,10 @@ class SwitchedAxis:
         return self._goal is not None
 
     @property
+    def jogs_without_end(self) -> bool:
+        return isinstance(self._goal, JogGoal) and self._goal.until_s is None
+
+    @property
     def homing(self) -> bool:
         return isinstance(self._goal, HomeGoal)
 
@@ -218,7 +222,7 @@ class SwitchedAxis:
 
     def _home(self, now_s: float, homing: Homing) -> Run:
         assert self._condition is not None, "an axis homes only after its first reading"
-        direction = homing.step(now_s, self._relays.direction, self._condition.changes)
+        direction = homing.step(now_s, self._relays.direction, self._condition)
         if homing.failure:
             self._goal = None
             self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, homing.failure))
@@ -263,6 +267,7 @@ class SwitchedAxis:
             fault=self.fault,
             homing=self.homing,
             notices=self._notices(),
+            noise_deg=self._watch.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
         )

@@ -5,6 +5,8 @@ Knows how it is wired. Does not know what a test checks.
 
 from __future__ import annotations
 
+import math
+
 from firmware_sim.clock import SimClock
 from firmware_sim.parts.contact import ContactSpec
 from firmware_sim.parts.motor import MotorSpec
@@ -47,6 +49,8 @@ class PulseRig:
         )
         self.rotor.azimuth.motor.pace = pace
         self.cam = cam
+        self.switch_deg = -math.inf
+        """Where its low limit switch opens."""
         self._lines = GpioOutputs(self.rotor.gpio, PATH, RELAYS, consumer="rotator-relays")
         self.tapped = TappedLines(self._lines, self.clock)
         self.bank = RelayBank(self.tapped, self.clock, dead_time_s=0.5)
@@ -54,6 +58,10 @@ class PulseRig:
         self.contact = GpioContact(self.rotor.gpio, PATH, CONTACT_PIN, consumer="rotator-azimuth")
         self.counter = PulseCounter(AZ, self.contact, self.tapped, cam, self.clock)
         self.placed = self.counter.place(start_deg)
+
+    def ends(self) -> frozenset[Direction]:
+        """The directions that a limit switch blocks: its shaft is below `switch_deg`."""
+        return frozenset({Direction.MINUS}) if self.shaft_deg <= self.switch_deg else frozenset()
 
     @property
     def shaft_deg(self) -> float:
