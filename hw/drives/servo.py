@@ -79,14 +79,12 @@ class ServoDrive:
 
     def hold(self, axis: Axis) -> None:
         with self._changed:
-            self._axes[axis].hold(self._clock())
-            self._changed.notify_all()
+            self._hold(self._axes[axis])
 
     def off(self) -> None:
         with self._changed:
             for axis in self._axes.values():
-                axis.hold(self._clock())
-            self._changed.notify_all()
+                self._hold(axis)
 
     def release(self) -> None:
         """No pulses: the servos are limp. The next aim starts with a jump, as after power-on. Raises HardwareError."""
@@ -131,6 +129,13 @@ class ServoDrive:
         with self._changed:
             wait_until(self._changed, self._due_s(), self._clock, patience_s)
 
+    def finish(self) -> None:
+        """After the guard has ended: a stop in a first jump that it has not carried out. Raises HardwareError."""
+        with self._changed:
+            jumps = any(axis.limp for axis in self._axes.values())
+        if jumps:
+            self.enforce(self._clock())
+
     # --- state
 
     def sensor(self, axis: Axis) -> DriveAngle:
@@ -152,6 +157,11 @@ class ServoDrive:
         """Why the axes cannot move, one sentence for each; empty when the board answers."""
         with self._changed:
             return dict.fromkeys(self._axes, self._failure) if self._failure else {}
+
+    def _hold(self, axis: ServoAxis) -> None:
+        axis.hold(self._clock())
+        if axis.limp:
+            self._changed.notify_all()  # the guard's thread takes its pulses away
 
     # --- the board, with `_wire` held
 

@@ -148,6 +148,14 @@ def test_short_presses_add_up_until_the_jump_is_over() -> None:
     assert bench.rotor.board.pulse_us(0) is not None, "now a stop is a hold"
 
 
+def test_a_stop_in_the_jump_is_carried_out_although_the_guard_has_ended() -> None:
+    bench = Bench()
+    bench.follow(AZ, 120.0, 0.2)
+    bench.drive.off()
+    bench.drive.finish()
+    assert bench.rotor.board.pulse_us(0) is None
+
+
 def test_one_servo_that_stops_in_its_jump_leaves_the_other_its_pulses() -> None:
     bench = Bench()
     bench.follow(EL, 10.0, SETTLED_S)
