@@ -83,6 +83,8 @@ class Status:
     wanted_elevation_deg: float | None = None
     latched: str = ""
     """The source of a stop that only a person releases; empty: there is none."""
+    storm: bool = False
+    """The stop that is latched is a storm park, and the antenna is at it."""
     controlled_by: str = ""
     timed_point: int = 0
     timed_points: int = 0

@@ -5,6 +5,7 @@ Knows sources and moments. Of an order it knows whether it stops, releases or mo
 
 from __future__ import annotations
 
+from rotator.control.rights import AT_MODE, Deed, State, hindrance
 from rotator.control.senders import PAUSE_S, Pair, Senders
 from rotator.orders import Mode, Source
 
@@ -19,6 +20,8 @@ class Authority:
     def __init__(self, mode: Mode = Mode.AUTO, agree_deg: float = AGREE_DEG) -> None:
         self.latched = ""
         """The source of a stop that only a person releases; empty: there is none."""
+        self.storm = False
+        """The latch is a storm park that goes on."""
         self.mode = mode
         self.controlled_by: Source | None = None
         self._panel: Source | None = None
@@ -31,17 +34,23 @@ class Authority:
         """`source` stopped the antenna. Other sources that send have no effect until they pause or reconnect."""
         self._senders.stop(source, now_s)
         self.controlled_by = None
+        self.end_storm(source)
         if latch:
             self.latched = str(source)
 
-    def take(self, source: Source, why: str) -> None:
-        """A person takes the antenna; no order interrupts that until a person releases it."""
-        self.latched = f"{source}: {why}"
+    def begin_storm(self, source: Source) -> None:
+        """A person parks the antenna before a storm: only a stop or the mode switch ends that."""
+        self.latched, self.storm = f"{source}: storm park", True
         self.controlled_by = source
+
+    def end_storm(self, source: Source) -> None:
+        """`source` has stopped an axis. What a storm park has latched stays so, and says that it is no park now."""
+        if self.storm:
+            self.latched, self.storm = f"{source}, in a storm park", False
 
     def released(self) -> None:
         """A person lets the box move again. No source stays silenced."""
-        self.latched = ""
+        self.latched, self.storm = "", False
         self._senders.free_all()
         self._ignored.clear()
 
@@ -49,6 +58,7 @@ class Authority:
         """A person turns the mode switch."""
         self.mode, self._panel = mode, panel
         self.controlled_by = None
+        self.end_storm(panel)
 
     def left(self, source: Source, now_s: float) -> bool:
         """The connection of `source` has ended. Returns whether the stream that moved the antenna ended with it."""
@@ -59,21 +69,30 @@ class Authority:
             self._ignored[source.link] = ignored
         return streamed
 
-    def may_move(self, source: Source, now_s: float, aims: Pair | None = None, *, held: str = "") -> bool:
+    def may_move(
+        self, source: Source, now_s: float, aims: Pair | None = None, *, deed: Deed = Deed.AIM, homing: bool = False
+    ) -> bool:
         """Whether an order from `source` that moves an axis has an effect now. The source counts as sending.
 
         `aims`: where the order points; None: it is no order for a direction. When it has an effect, the streams of
-        other sources that point elsewhere lose the antenna. `held`: what goes on that the order may not interrupt.
+        other sources that point elsewhere lose the antenna. `homing`: an axis homes for another source.
         """
         self._senders.note(source, now_s, aims)
-        self._ignored.pop(str(source), None)
-        if why := self._obstacle(source) or held:
-            self._ignored.pop(source.link, None)
-            self._ignored[str(source)] = (why, now_s)
+        if not self.allows(source, now_s, deed, homing=homing):
             return False
         self._senders.take(source, now_s)
         self.controlled_by = source
         return True
+
+    def allows(self, source: Source, now_s: float, deed: Deed, *, homing: bool = False) -> bool:
+        """Whether this order from `source` has an effect now; if not, `ignored` tells why."""
+        self._ignored.pop(str(source), None)
+        held = self._holds(source) | ({State.HOMING: "an axis looks for its end stop"} if homing else {})
+        if (state := hindrance(held, deed)) is None:
+            return True
+        self._ignored.pop(source.link, None)
+        self._ignored[str(source)] = (held[state], now_s)
+        return False
 
     def ignored(self, now_s: float) -> tuple[str, ...]:
         """A sentence for each source whose orders have had no effect lately: which source, why, and what ends that."""
@@ -81,15 +100,15 @@ class Authority:
         self._ignored = {name: self._ignored[name] for name, _ in lately}
         return tuple(f"orders from {name} are ignored: {why}" for name, why in reversed(lately[-MOST_SHOWN:]))
 
-    def _obstacle(self, source: Source) -> str:
-        """Why an order of `source` has no effect; empty: it has."""
+    def _holds(self, source: Source) -> dict[State, str]:
+        """The states that hold the antenna back from `source`, the strongest first, and the words for each."""
+        held = {}
         if self.latched:
-            return f"stopped by {self.latched} until released"
-        match self.mode:
-            case Mode.AUTO:
-                return self._senders.silence(source)
-            case Mode.MANUAL | Mode.JOG if source == self._panel:
-                # A stop that comes over a link never silences the person at the panel.
-                return ""
-            case mode:
-                return f"the panel's switch is at {mode.name}"
+            held[State.STORM if self.storm else State.STOPPED] = f"stopped by {self.latched} until released"
+        at_panel = source == self._panel and self.mode in (Mode.MANUAL, Mode.JOG)
+        if self.mode is not Mode.AUTO and not at_panel:
+            held[AT_MODE[self.mode]] = f"the panel's switch is at {self.mode.name}"
+        # A stop that comes over a link never silences the person at the panel.
+        if self.mode is Mode.AUTO and (silence := self._senders.silence(source)):
+            held[State.SILENCED] = silence
+        return held

@@ -1,8 +1,7 @@
 """The controller: orders and readings in, what the drives are to do and the status out.
 
 Decides who may move the antenna and where it goes; each axis decides how. Knows both axes, the mount, the authority
-over orders, homing, parking and timed lists. Pure: no I/O, no clock, no thread. The same inputs give the same outputs,
-so an hour at the mast is a second in a test.
+over orders, homing, parking and timed lists. Pure: no I/O, no clock, no thread.
 """
 
 from __future__ import annotations
@@ -21,6 +20,7 @@ from rotator.control.axis.switched import SwitchedAxis
 from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.homing_queue import HomingQueue
 from rotator.control.jogs import Jogs
+from rotator.control.rights import deed_of
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
 from rotator.control.sky.mount import Unreachable
@@ -126,6 +126,7 @@ class Controller:
             wanted_azimuth_deg=self._aiming.wanted.azimuth_deg,
             wanted_elevation_deg=self._aiming.wanted.elevation_deg,
             latched=self._authority.latched,
+            storm=self._authority.storm,
             controlled_by=str(self._authority.controlled_by or ""),
             timed_point=self._timed.point,
             timed_points=len(self._timed.points),
@@ -145,6 +146,7 @@ class Controller:
                 control.fail(late(axis, gap_s, self._settings.period_s))
 
     def _take(self, source: Source, order: Order, now_s: float) -> None:
+        deed, homing = deed_of(order), self._homing.holds_back(source)
         match order:
             case Stop(axes, latch):
                 self._stop(source, axes, latch=latch, now_s=now_s)
@@ -155,10 +157,14 @@ class Controller:
                 self._timed.clear()
             case Speed(level):
                 self._speed_level = level
+            case Park(storm=True) | Confirm() if deed and not self._authority.allows(
+                source, now_s, deed, homing=homing
+            ):
+                pass
             case Park(storm=True):
-                self._authority.take(source, "storm park")
                 self._homing.clear()
                 self._halt(BOTH)
+                self._authority.begin_storm(source)
                 self._park(now_s)
             case Calibrate(axis, high_end):
                 self._calibrate(axis, now_s, high_end=high_end)
@@ -179,7 +185,7 @@ class Controller:
                 self._jogs.end(source)
                 if self._authority.left(source, now_s):
                     self._aiming.end_stream()
-            case _ if self._authority.may_move(source, now_s, aims_of(order), held=self._homing.holds_back(source)):
+            case _ if deed and self._authority.may_move(source, now_s, aims_of(order), deed=deed, homing=homing):
                 self._move(order, source, now_s)
 
     def _move(self, order: Order, source: Source, now_s: float) -> None:
@@ -239,8 +245,7 @@ class Controller:
         if not self._axes[axis].confirmable:
             self.troubles.append(f"{axis.value} measures where it stands: there is nothing to confirm")
             return
-        self._axes[axis].halt()
-        self._aiming.forget((axis,))
+        self._halt((axis,))
         self.errands.append(Place(axis, angle_deg))
 
     def _park(self, now_s: float) -> None:
@@ -261,7 +266,8 @@ class Controller:
 
     def _stop(self, source: Source, axes: tuple[Axis, ...], *, latch: bool, now_s: float) -> None:
         self._homing.clear()
-        self._halt(axes)
+        self._halt(BOTH if self._authority.storm else axes)
+        self._authority.end_storm(source)
         if len(axes) == len(self._axes):
             self._authority.stopped(source, now_s, latch=latch)
             if not latch and not self._authority.latched:

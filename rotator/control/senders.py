@@ -92,7 +92,8 @@ class Senders:
 
     def silence(self, source: Source) -> str:
         """Why the orders of `source` have no effect, and what ends that; empty: they have an effect."""
-        sender = self._senders[source]
+        if (sender := self._senders.get(source)) is None:
+            return ""
         again = f"they count again after {sender.pause_s:g} s without one"
         if (by := sender.taken_by) is not None:
             if (other := self._senders.get(by)) is not None and other.streams:

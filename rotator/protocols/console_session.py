@@ -6,8 +6,10 @@ Knows what each command makes the box do, and how the status is written. Does no
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from hw.ports import Axis
+from rotator.control.rights import deed_of, hindrance, holds
 from rotator.orders import Aim, Home, Jog, Mode, Order, Release
 from rotator.protocols.console import TURN_WORDS, VERBS, Ask, parse
 from rotator.protocols.lines import LineReader
@@ -53,23 +55,25 @@ class ConsoleSession:
                 return self._obey(command)
 
     def _obey(self, order: Order) -> bytes:
+        if reason := self._blocked(order):
+            return _error(reason)
         match order:
             case Aim() | Jog() | Home():
-                if reason := self._blocked():
-                    return _error(reason)
+                pass
             case _:
                 self._resumed = isinstance(order, Release)
         refused = self._box.order(order)
         return _error(refused.reason) if refused else _reply(OK)
 
-    def _blocked(self) -> str:
-        """Why nothing may move; empty: it may."""
+    def _blocked(self, order: Order) -> str:
+        """Why this order would have no effect; empty: it has one."""
         status = self._box.status()
         if not status.latched:
             self._resumed = False
-        if status.latched and not self._resumed:
-            return f"stopped by {status.latched}: nothing moves until resume"
-        return f"the panel's switch is at {status.mode.name}" if status.mode is not Mode.AUTO else ""
+        held = holds(replace(status, latched="") if self._resumed else status)
+        deed = deed_of(order)
+        state = hindrance(held, deed) if deed else None
+        return held[state] if state else ""
 
 
 def report(status: Status) -> list[str]:

@@ -280,7 +280,7 @@ def test_each_reason_is_said_and_forgotten_ten_seconds_later(authority: Authorit
     authority.may_move(PST, 12.0)
     assert authority.ignored(12.0) == ("orders from gs232b#1 are ignored: the panel's switch is at PARK",)
     authority.switch(Source("panel"), Mode.AUTO)
-    authority.may_move(PST, 13.0, held="an axis looks for its end stop")
+    authority.may_move(PST, 13.0, homing=True)
     assert authority.ignored(13.0) == ("orders from gs232b#1 are ignored: an axis looks for its end stop",)
     authority.may_move(PST, 14.0)
     assert authority.ignored(14.0) == ()

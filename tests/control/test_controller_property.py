@@ -98,16 +98,16 @@ Script = list[tuple[float, list[tuple[Source, Order]], tuple[float | None, float
 
 
 def drives(desk: Any, script: Script) -> Any:
-    """Play a script; after every step yields the orders it held."""
+    """Play a script; after every step yields its order, and who gave it."""
     for seconds, orders, raw in script:
         desk.instead = {} if raw is None else dict(zip(Axis, raw, strict=True))
         # Orders of several links in one step: all but the last at no distance in time.
         for count, (link, order) in enumerate(orders):
             desk.step(order, by=link, seconds=0.0 if count else seconds)
-            yield order
+            yield link, order
         if not orders:
             desk.step(seconds=seconds)
-            yield None
+            yield LINKS[0], None
 
 
 class Rules:
@@ -115,18 +115,28 @@ class Rules:
 
     def __init__(self) -> None:
         self.ordered = self.latched = self.storm = False
+        self._mode, self._panel = Mode.AUTO, LINKS[0]
 
-    def note(self, order: Order | None) -> None:
+    def note(self, source: Source, order: Order | None) -> None:
         self.ordered = self.ordered or isinstance(order, Aim | Jog | Park | LoadTimed | Home)
         match order:
             case Stop(axes, True) if len(axes) == len(Axis):
                 self.latched, self.storm = True, False
             case LetGo():
                 self.latched, self.storm = True, False
-            case Park(storm=True):
+            case Stop():
+                self.storm = False
+            case SetMode(mode):
+                self._mode, self._panel, self.storm = mode, source, False
+            case Park(storm=True) if self._may_park(source):
                 self.latched = self.storm = True
             case Release():
                 self.latched = self.storm = False
+
+    def _may_park(self, source: Source) -> bool:
+        """Neither another's stop nor the panel's switch is opened by a storm park."""
+        at_panel = source == self._panel and self._mode in (Mode.MANUAL, Mode.JOG)
+        return (self.storm or not self.latched) and (self._mode is Mode.AUTO or at_panel)
 
     def check_driven(self, desk: Any) -> None:
         for axis, run in desk.runs.items():
@@ -156,8 +166,8 @@ def test_nothing_is_driven_against_a_rule(
 ) -> None:
     desk = new_desk(missing={Axis.AZIMUTH: azimuth, Axis.ELEVATION: elevation})
     rules = Rules()
-    for order in drives(desk, script):
-        rules.note(order)
+    for source, order in drives(desk, script):
+        rules.note(source, order)
         rules.check(desk)
 
 
@@ -177,7 +187,7 @@ def test_homing_ends_only_by_an_order_a_stop_found_or_a_fault(
     rules = Rules()
     for person, order, then_s in visits:
         desk.step(order, by=person)
-        rules.note(order)
+        rules.note(person, order)
         for _ in range(1 + round(then_s / 0.05)):
             homing = [axis for axis in Axis if desk.status.axis(axis).homing]
             assert not (rules.latched and homing), "homes while a person holds the antenna"

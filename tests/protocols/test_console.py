@@ -232,6 +232,7 @@ def test_transcript_of_a_stop_at_the_box(box: BenchBox) -> None:
     assert person.receive(b"point 300 25\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
     assert person.receive(b"jog cw 1\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
     assert person.receive(b"home azimuth\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
+    assert person.receive(b"park\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
     assert not turns_within(20)
     assert person.receive(b"resume\n") == [b"ok\n"]
     assert not turns_within(20)

@@ -1,0 +1,260 @@
+"""Who may do what in which state: every cell of the table, tried on a controller and judged by what the motors do.
+
+A twin that is not given the order shows what goes on without it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.commands import Place
+from rotator.control.rights import TABLE, Deed, Effect, State
+from rotator.orders import (
+    Aim,
+    Confirm,
+    Home,
+    Jog,
+    LetGo,
+    LoadTimed,
+    Mode,
+    Order,
+    Park,
+    Release,
+    RunTimed,
+    SetMode,
+    Source,
+    Stop,
+)
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+MINUS, OFF, PLUS = Direction
+LINK, OTHER = Source("gs232b", 1), Source("rotctld", 1)
+CONSOLE, PERSON, PANEL = Source("console", 1), Source("console", 2), Source("panel")
+PARKED, FARTHER = (60.0, 20.0), (300.0, 90.0)
+AIMED, JOGGED = Aim(200.0, 30.0), Jog(EL, MINUS)
+
+
+def tracking(desk: Any) -> None:
+    desk.step(Aim(*FARTHER), by=OTHER)
+
+
+def jogging(desk: Any) -> None:
+    desk.step(Jog(AZ, PLUS), Jog(EL, PLUS), by=OTHER)
+
+
+def timed(desk: Any) -> None:
+    desk.step(LoadTimed(2.0, (FARTHER, (310.0, 95.0), (320.0, 100.0))), RunTimed(), by=OTHER)
+
+
+def idle_park(desk: Any) -> None:
+    desk.step(Aim(145.0, 30.0), by=OTHER)
+    desk.run(14.6)
+    assert desk.status.azimuth.target_deg == PARKED[0]
+
+
+def homing(desk: Any) -> None:
+    desk.step(Home(AZ), by=CONSOLE)
+
+
+def silenced(desk: Any) -> None:
+    for _ in range(6):
+        desk.step(Aim(*FARTHER), by=LINK)
+        desk.run(0.5)
+    desk.step(Stop(), by=OTHER)
+    desk.run(1.0)
+
+
+def storm(desk: Any) -> None:
+    desk.step(Park(storm=True), by=CONSOLE)
+
+
+def stopped(desk: Any) -> None:
+    desk.step(Aim(*FARTHER), by=OTHER)
+    desk.step(Stop(latch=True), by=CONSOLE)
+
+
+def switched(mode: Mode) -> Callable[[Any], None]:
+    def switch(desk: Any) -> None:
+        desk.step(Aim(*FARTHER), by=OTHER)
+        desk.step(SetMode(mode), by=PANEL)
+
+    return switch
+
+
+def fault(desk: Any) -> None:
+    desk.step(Aim(*FARTHER), by=OTHER)
+    desk.instead = {AZ: None}
+    desk.run(0.5)
+    desk.instead = {}
+    desk.run(0.5)
+    assert desk.status.azimuth.fault is not None
+    assert desk.driven == {AZ: OFF, EL: PLUS}
+
+
+SET_UP: dict[State, Callable[[Any], None]] = {
+    State.TRACKING: tracking,
+    State.JOGGING: jogging,
+    State.TIMED: timed,
+    State.IDLE_PARK: idle_park,
+    State.HOMING: homing,
+    State.SILENCED: silenced,
+    State.STORM: storm,
+    State.STOPPED: stopped,
+    State.AT_PARK: switched(Mode.PARK),
+    State.AT_MANUAL: switched(Mode.MANUAL),
+    State.AT_JOG: switched(Mode.JOG),
+    State.FAULT: fault,
+}
+ORDERS: dict[Deed, tuple[Source, Order]] = {
+    Deed.AIM: (LINK, AIMED),
+    Deed.JOG: (LINK, JOGGED),
+    Deed.PARK: (LINK, Park()),
+    Deed.S: (LINK, Stop()),
+    Deed.STOP: (PERSON, Stop(latch=True)),
+    Deed.RESUME: (PERSON, Release()),
+    Deed.STORM: (PERSON, Park(storm=True)),
+    Deed.HOME: (PERSON, Home(EL)),
+    Deed.CONFIRM: (PERSON, Confirm(EL, 12.0)),
+    Deed.MODE: (PANEL, SetMode(Mode.AUTO)),
+    Deed.LET_GO: (PERSON, LetGo()),
+}
+
+
+def in_state(new_desk: Any, state: State) -> Any:
+    desk = new_desk(counted=True, at=(150.0, 35.0), park=PARKED, park_after_s=12.0)
+    desk.step()
+    SET_UP[state](desk)
+    desk.run(1.0)
+    desk.controller.errands.clear()
+    return desk
+
+
+def targets(desk: Any) -> tuple[float | None, float | None]:
+    return desk.status.azimuth.target_deg, desk.status.elevation.target_deg
+
+
+def goes_on(desk: Any, seconds: float) -> list[Any]:
+    seen = []
+    for _ in range(round(seconds / 0.05)):
+        desk.step()
+        seen.append((dict(desk.driven), targets(desk), desk.status.azimuth.homing, desk.status.elevation.homing))
+    return seen
+
+
+def did_its_own(desk: Any, deed: Deed, state: State) -> bool:
+    """Whether the order itself took effect, beside what became of the rest."""
+    status, errands = desk.status, desk.controller.errands
+    goes_to = (None, targets(desk)[1]) if state is State.FAULT else targets(desk)  # an axis with a fault stands
+    match deed:
+        case Deed.AIM:
+            return goes_to == (None if state is State.FAULT else AIMED.azimuth_deg, AIMED.elevation_deg)
+        case Deed.JOG:
+            return status.elevation.target_deg is None and desk.driven[EL] is MINUS
+        case Deed.PARK | Deed.STORM:
+            return goes_to == (None if state is State.FAULT else PARKED[0], PARKED[1]) and bool(status.storm) == (
+                deed is Deed.STORM
+            )
+        case Deed.S:
+            return not status.faults
+        case Deed.STOP:
+            return str(status.latched) == str(PERSON)
+        case Deed.RESUME:
+            return status.latched == "" and not status.faults
+        case Deed.HOME:
+            return bool(status.elevation.homing)
+        case Deed.CONFIRM:
+            return Place(EL, 12.0) in errands
+        case Deed.MODE:
+            return status.mode is Mode.AUTO
+        case Deed.LET_GO:
+            return LetGo() in errands and bool(status.latched)
+
+
+@pytest.mark.parametrize("deed", Deed, ids=lambda deed: deed.name)
+@pytest.mark.parametrize("state", State, ids=lambda state: state.name)
+def test_each_cell(new_desk: Any, state: State, deed: Deed) -> None:
+    effect = TABLE[state][deed]
+    desk, twin = in_state(new_desk, state), in_state(new_desk, state)
+    source, order = ORDERS[deed]
+    if state in (State.AT_PARK, State.AT_MANUAL, State.AT_JOG) and deed is Deed.MODE:
+        assert desk.status.mode is not Mode.AUTO
+    desk.step(order, by=source)
+    twin.step()
+    if deed in (Deed.JOG, Deed.HOME):
+        desk.run(3.0)  # a motor rests before it is reversed
+        twin.run(3.0)
+    own = did_its_own(desk, deed, state)
+    axes = (EL,) if deed is Deed.CONFIRM else tuple(Axis)
+    match effect:
+        case Effect.NONE:
+            assert not own
+            assert desk.status.latched == twin.status.latched
+            assert goes_on(desk, 3.0) == goes_on(twin, 3.0)
+            assert any(str(source) in notice for notice in desk.status.notices), "and it is said"
+        case Effect.BESIDE:
+            assert own
+            assert goes_on(desk, 3.0) == goes_on(twin, 3.0)
+        case Effect.STOPS:
+            assert own
+            desk.run(1.0)
+            for _ in range(60):
+                desk.step()
+                assert all(desk.driven[axis] is OFF and targets(desk)[axis is EL] is None for axis in axes)
+                assert not any(desk.status.axis(axis).homing for axis in axes)
+        case Effect.ACTS:
+            assert own
+            desk.run(1.0)
+            assert did_its_own(desk, deed, state), "and it stays so"
+
+
+def test_every_state_and_order_has_its_cell() -> None:
+    assert set(TABLE) == set(State) == set(SET_UP)
+    assert set(ORDERS) == set(Deed)
+    assert all(set(row) == set(Deed) for row in TABLE.values())
+
+
+# --- what the display says is true
+
+
+@pytest.mark.parametrize("order", [Stop(), Stop((AZ,)), Stop((EL,)), SetMode(Mode.PARK)], ids=str)
+def test_a_storm_park_that_was_stopped_is_not_said_to_go_on(new_desk: Any, order: Stop | SetMode) -> None:
+    desk = in_state(new_desk, State.STORM)
+    desk.step(order, by=PANEL)
+    assert desk.status.latched == "panel, in a storm park"
+    assert not desk.status.storm
+    desk.run(1.0)
+    stood = dict(desk.angle_deg)
+    desk.step(Aim(*FARTHER), by=LINK)
+    desk.run(5.0)
+    for axis in Axis:
+        assert desk.angle_deg[axis] == pytest.approx(stood[axis], abs=0.05), "a person has to release it"
+
+
+def test_a_second_park_does_not_open_another_s_stop(new_desk: Any) -> None:
+    desk = in_state(new_desk, State.STOPPED)
+    for person in (PERSON, CONSOLE, Source("terminal")):
+        desk.step(Park(storm=True), by=person)
+        assert desk.run(2.0) == set()
+    assert desk.status.latched == "console#1"
+    desk.step(Release(), by=CONSOLE)
+    desk.step(Park(storm=True), by=PERSON)
+    assert desk.run(2.0)
+
+
+def test_at_park_the_switch_obeys_no_console(new_desk: Any) -> None:
+    desk = in_state(new_desk, State.AT_PARK)
+    desk.step(Park(storm=True), Home(AZ), Confirm(AZ, 3.0), by=PERSON)
+    assert desk.run(5.0) == set()
+    assert desk.status.latched == ""
+
+
+@pytest.mark.parametrize("mode", [Mode.MANUAL, Mode.JOG])
+def test_the_person_at_the_panel_moves_it_in_manual_and_jog(new_desk: Any, mode: Mode) -> None:
+    desk = in_state(new_desk, State.AT_MANUAL if mode is Mode.MANUAL else State.AT_JOG)
+    desk.step(JOGGED, by=PANEL)
+    desk.run(3.0)
+    assert desk.driven[EL] is MINUS
