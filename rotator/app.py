@@ -15,6 +15,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from rotator.assembly.hands import hands
 from rotator.assembly.links import build_links
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
@@ -70,7 +71,9 @@ class App:
         numbers = itertools.count(1)
         self._console_socket = ConsoleSocket(
             console_path(monitor_path(config, os.environ)),
-            lambda: ConsoleSession(Client(self.loop, mount, Source("console", next(numbers)))),
+            lambda: ConsoleSession(
+                Client(self.loop, mount, Source("console", next(numbers))), hands(self.station.world)
+            ),
         )
         self._tap = Tap(datetime.now, lambda: self.loop.status)
         self.links = build_links(config.link, self.loop, mount, self._tap)

@@ -142,7 +142,17 @@ class LetGo:
     """Motors without torque. A person orders it, for an antenna that is out of balance turns."""
 
 
-Personal = SetMode | Nudge | Home | Confirm | LetGo
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """The panel has something to say of this axis that stops nothing, as a notice of its status. No text: no more."""
+
+    axis: Axis
+    text: str = ""
+    lcd: str = ""
+    """13 characters at most."""
+
+
+Personal = SetMode | Nudge | Home | Confirm | LetGo | Remark
 """Orders that only a person at the panel or on the console may give."""
 
 Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Personal

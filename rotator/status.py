@@ -74,6 +74,8 @@ class Status:
     speed_level: int = 4
     mode: Mode = Mode.AUTO
     """The position of the front panel's mode switch; without one, AUTO."""
+    mode_switch: bool = False
+    """A front panel has such a switch."""
     cycle_late_s: float = 0.0
     """How late the last control cycle was."""
 

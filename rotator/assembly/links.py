@@ -34,6 +34,7 @@ from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.macdoppler import MacDopplerSession
+from rotator.protocols.move_report import MoveReport
 from rotator.protocols.n1mm import N1mmReport, N1mmSession
 from rotator.protocols.pstrotator import ANSWERS_ABOVE, PstRotatorSession
 from rotator.protocols.rotctld_follow import RotctldFollower
@@ -138,6 +139,8 @@ class _Connections:
     def session(self) -> Session:
         source, client = self._client()
         session = session_maker(self._link, client, self._remark)
+        if self._link.report_moves:
+            session = MoveReport(session, client)
         return TappedSession(session, self._tap, source, text=self._link.protocol not in _BINARY)
 
     def follower(self) -> Inquiry:

@@ -66,6 +66,8 @@ class Link(Table):
     """GS-232: the reply to a command that is no question; old Hamlib (3.x) needs the CR."""
     may_calibrate: bool = False
     """GS-232: let O, F, O2 and F2 take the present reading as an end of the range."""
+    report_moves: bool = False
+    """GS-232: a line `AZ = 235, EL = 25` after each move, unasked, as KO6TH's controller prints it."""
     easycomm_answer: Literal["named", "pstrotator"] = "named"
     """EasyComm: the reply to AZ EL: AZ235.0 EL25.0, or +235.0 25.0 (reported to be what PstRotator needs)."""
     pulses_per_degree: Literal[1, 2, 4, 10] | None = None
@@ -107,6 +109,12 @@ class Link(Table):
             raise ValueError("status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name")
         if self.udp and _is_here(address(self.udp)[0]) and not _is_here(address(self.status_to)[0]):
             raise ValueError(f'udp = "{self.udp}" reaches this machine only, and status_to is not on it: use 0.0.0.0')
+        return self
+
+    @model_validator(mode="after")
+    def _moves_are_told_in_text(self) -> Link:
+        if self.report_moves and self.protocol not in ("gs232a", "gs232b"):
+            raise ValueError(f"report_moves is for gs232a and gs232b, not for {self.protocol}")
         return self
 
     @model_validator(mode="after")

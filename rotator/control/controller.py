@@ -8,7 +8,7 @@ so an hour at the mast is a second in a test.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hw.ports import Axis, Direction
 from rotator.control.aiming import Aiming
@@ -24,6 +24,7 @@ from rotator.control.homing_queue import HomingQueue
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.timed import TimedList
+from rotator.faults import Notice
 from rotator.orders import (
     BOTH,
     Aim,
@@ -39,13 +40,14 @@ from rotator.orders import (
     Order,
     Park,
     Release,
+    Remark,
     RunTimed,
     SetMode,
     Source,
     Speed,
     Stop,
 )
-from rotator.status import Status
+from rotator.status import AxisStatus, Status
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +84,8 @@ class Controller:
         self._homing = HomingQueue({name: axis for name, axis in switched.items() if axis.settings.homing is not None})
         self._timed = TimedList()
         self._speed_level = 4
+        self._remarks: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
+        """What the panel has to say of each axis."""
         self._moved_s: float | None = None
         """When an order last moved the antenna; None: none has, or it is parked."""
         self._stepped_s: float | None = None
@@ -124,8 +128,8 @@ class Controller:
         source = self._authority.controlled_by
         return Status(
             at_s=now_s,
-            azimuth=self._axes[Axis.AZIMUTH].status(now_s),
-            elevation=self._axes[Axis.ELEVATION].status(now_s),
+            azimuth=self._axis_status(Axis.AZIMUTH, now_s),
+            elevation=self._axis_status(Axis.ELEVATION, now_s),
             wanted_azimuth_deg=self._aiming.wanted.azimuth_deg,
             wanted_elevation_deg=self._aiming.wanted.elevation_deg,
             latched=self._authority.latched,
@@ -135,8 +139,13 @@ class Controller:
             simulated=self._settings.simulated,
             speed_level=self._speed_level,
             mode=self._authority.mode,
+            mode_switch=self._settings.mode is not Mode.AUTO,
             cycle_late_s=late_s,
         )
+
+    def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
+        status = self._axes[axis].status(now_s)
+        return replace(status, notices=status.notices + self._remarks[axis]) if self._remarks[axis] else status
 
     def _note_lateness(self, now_s: float) -> None:
         """A motor ran for longer than a cycle unwatched: the guard has opened its relay, and a person should know."""
@@ -176,6 +185,8 @@ class Controller:
             case LetGo():
                 self._stop(source, BOTH, latch=True, now_s=now_s)
                 self.errands.append(LetGo())
+            case Remark(axis, text, lcd):
+                self._remarks[axis] = (Notice(text, lcd),) if text else ()
             case _ if self._homing.active and not self._homing.belongs_to(source):
                 pass
             case _ if self._authority.may_move(source, now_s):

@@ -13,7 +13,7 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.protocols.session import Session
+from rotator.protocols.session import Session, Waits
 
 log = logging.getLogger(__name__)
 
@@ -90,6 +90,9 @@ class Conversation:
     def _silent(self) -> None:
         self._silence = None
         self._reply(self._session.idle)
+        waits = isinstance(self._session, Waits) and self._session.waits and not self._session.closed
+        if waits and self._session.idle_s is not None:
+            self._silence = asyncio.get_running_loop().call_later(self._session.idle_s, self._silent)
 
     def _cancel(self) -> None:
         if self._silence is not None:

@@ -13,7 +13,7 @@ from rotator import __version__
 from rotator.links.wire import Wire
 from rotator.monitor.transcript import At, LinkNote, Way, encode_at, encode_link, encode_piece
 from rotator.orders import Source
-from rotator.protocols.session import Inquiry, Session
+from rotator.protocols.session import Inquiry, Session, Waits
 from rotator.status import Status
 
 MOVED_DEG = 1.0
@@ -113,6 +113,10 @@ class TappedSession:
     @property
     def idle_s(self) -> float | None:
         return self._session.idle_s
+
+    @property
+    def waits(self) -> bool:
+        return isinstance(self._session, Waits) and self._session.waits
 
     @property
     def closed(self) -> bool:

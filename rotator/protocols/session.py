@@ -5,7 +5,7 @@ Knows how a protocol sees the box, and how a link sees a protocol. Does not know
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from rotator.orders import Order, Refusal
 from rotator.status import Status
@@ -37,6 +37,15 @@ class Session(Protocol):
 
     def idle(self) -> list[bytes]:
         """The line has been silent for `idle_s`: the buffered bytes are all that will come."""
+
+
+@runtime_checkable
+class Waits(Protocol):
+    """A session that may have something to send later, unasked."""
+
+    @property
+    def waits(self) -> bool:
+        """While this holds the link calls `idle` again and again, every `idle_s`."""
 
 
 class NotUnderstood(Exception):  # noqa: N818 - a fact about the other end; the program has not failed

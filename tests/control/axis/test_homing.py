@@ -87,7 +87,7 @@ def cams(draw: st.DrawFn) -> Cam:
     bounce_s=st.sampled_from([0.0, 0.005, 0.015]),
     seed=st.integers(0, 10_000),
 )
-def test_wherever_a_coast_ends_it_is_homed(
+def test_wherever_a_coast_ends_it_is_homed(  # noqa: PLR0917 - hypothesis calls it by keyword
     cam: Cam, start_deg: float, lag_s: float, pace: float, bounce_s: float, seed: int
 ) -> None:
     """The speed and the coast decide where it turns back: also on an edge of the contact, and where the stop is one."""
