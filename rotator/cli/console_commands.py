@@ -9,8 +9,6 @@ from pathlib import Path
 import click
 
 from hw.ports import Axis
-from rotator.orders import Mode
-from rotator.protocols.panel_words import LONGEST_THROW_S, TURNS, StopButton, ThrowJog, TurnKnob, TurnMode
 
 CONFIG = click.option(
     "--config", "path", type=click.Path(path_type=Path, dir_okay=False), help="Configuration file (TOML)."
@@ -89,51 +87,26 @@ def let_go(path: Path | None, yes: bool) -> None:
     console.let_go(path, yes=yes)
 
 
-@click.group()
-def panel() -> None:
-    """Move the switches and knobs of a simulated box's front panel. A real one has its own."""
-
-
-@panel.command()
+@click.command(context_settings=MINUS_IS_A_NUMBER)
 @CONFIG
-@click.argument("position", type=click.Choice([mode.value for mode in Mode]))
-def mode(path: Path | None, position: str) -> None:
-    """Turn the mode switch. The box believes it a second later."""
+@click.argument("words", nargs=-1, required=True, metavar="mode|knob|jog|stop ...")
+def panel(path: Path | None, words: tuple[str, ...]) -> None:
+    """Move a part of a simulated box's front panel: its switches have no other hands.
+
+    \b
+    mode auto|manual|jog|park
+    knob azimuth|elevation SHARE     of its travel, 0 to 1
+    jog cw|ccw|up|down SECONDS       held for so long
+    stop press|release
+    """
     from rotator.cli import console
+    from rotator.protocols.panel_words import parse_hand
 
-    console.hand(path, TurnMode(Mode(position)))
-
-
-@panel.command()
-@CONFIG
-@AXIS
-@click.argument("share", type=click.FloatRange(0, 1))
-def knob(path: Path | None, axis: str, share: float) -> None:
-    """Turn a knob to this SHARE of its travel, 0 to 1."""
-    from rotator.cli import console
-
-    console.hand(path, TurnKnob(Axis(axis), share))
-
-
-@panel.command()
-@CONFIG
-@click.argument("turn", type=click.Choice(list(TURNS)))
-@click.argument("seconds", type=click.FloatRange(0, LONGEST_THROW_S, min_open=True))
-def jog(path: Path | None, turn: str, seconds: float) -> None:
-    """Hold a jog switch for SECONDS."""
-    from rotator.cli import console
-
-    console.hand(path, ThrowJog(*TURNS[turn], seconds))
-
-
-@panel.command(name="stop")
-@CONFIG
-@click.option("--release", is_flag=True, help="Pull the button out again.")
-def stop_button(path: Path | None, release: bool) -> None:
-    """Press the stop button, which latches."""
-    from rotator.cli import console
-
-    console.hand(path, StopButton(not release))
+    try:
+        hand = parse_hand([word.lower() for word in words])
+    except ValueError as mistake:
+        raise click.UsageError(str(mistake)) from None
+    console.hand(path, hand)
 
 
 CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, let_go, panel)
