@@ -1,5 +1,21 @@
-"""`python -m rotator` is the command `rotator`."""
+"""The command `rotator`, also as `python -m rotator`: a stop goes the short way, all else loads what it needs."""
 
-from rotator.cli.main import main
+from __future__ import annotations
 
-main()
+import sys
+
+
+def main() -> None:
+    if sys.argv[1:2] == ["stop"]:
+        from rotator.cli.stop import STOPPED, stop_at_once  # noqa: PLC0415 - a command loads what it needs and no more
+
+        if stop_at_once(sys.argv[2:]):
+            sys.stdout.write(f"{STOPPED}\n")
+            return
+    from rotator.cli import main as commands  # noqa: PLC0415 - loads click and the model
+
+    commands.main()
+
+
+if __name__ == "__main__":
+    main()

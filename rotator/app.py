@@ -11,18 +11,23 @@ import itertools
 import logging
 import os
 import time
+from collections.abc import Coroutine
 from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from rotator.assembly.calibration import compass_path, open_compass
 from rotator.assembly.hands import hands
 from rotator.assembly.links import build_links
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
 from rotator.assembly.station import Station
+from rotator.calibrating.at_start import CompassAtStart, watch
+from rotator.calibrating.compass import CompassReader
+from rotator.calibrating.facts import north_facts
 from rotator.config.model import Config
-from rotator.links.console import ConsoleSocket, console_path
-from rotator.monitor.places import monitor_path
+from rotator.config.places import console_path, monitor_path
+from rotator.links.console import ConsoleSocket
 from rotator.monitor.socket import MonitorSocket
 from rotator.monitor.tap import Tap
 from rotator.orders import Source
@@ -33,9 +38,11 @@ from rotator.runtime.client import Client
 from rotator.runtime.closing import Part, closing
 from rotator.runtime.display import DisplayThread
 from rotator.runtime.engine import Engine, process_end
+from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
 from rotator.store import counts, knobs
+from rotator.store.compass import CompassFile
 from rotator.views import lcd
 
 log = logging.getLogger(__name__)
@@ -58,6 +65,7 @@ class App:
         self.config = config
         self.station = station or open_station(config)
         self._service_manager = ServiceManager(os.environ, time.monotonic)
+        self._events = EventWatch(time.monotonic)
         mount = build_mount(config)
         learnt = build_learnt(config)
         self.loop = ControlLoop(
@@ -66,18 +74,20 @@ class App:
             time.monotonic,
             1 / config.control.rate_hz,
             after_good_step=self._sign_of_life,
+            events=self._events,
         )
         self.console = Client(self.loop, mount, Source("console"))
         numbers = itertools.count(1)
+        monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
         self._console_socket = ConsoleSocket(
-            console_path(monitor_path(config, os.environ)),
+            console_path(monitor),
             lambda: ConsoleSession(
                 Client(self.loop, mount, Source("console", next(numbers))), hands(self.station.world)
             ),
         )
         self._tap = Tap(datetime.now, lambda: self.loop.status)
         self.links = build_links(config.link, self.loop, mount, self._tap)
-        self._monitor_socket = MonitorSocket(monitor_path(config, os.environ), self._tap.listeners, self._tap.greeting)
+        self._monitor_socket = MonitorSocket(monitor, self._tap.listeners, self._tap.greeting)
         self._panel = self._fit_panel()
         display = self.station.display
         self._display = DisplayThread(display, self.lcd_rows, time.monotonic) if display else None
@@ -140,9 +150,13 @@ class App:
             self._display.start()
         if self._panel:
             self._panel.start()
-        for name, work in (("monitor", self._monitor_socket.run()), ("console", self._console_socket.run())):
+        side = [("monitor", self._monitor_socket.run()), ("console", self._console_socket.run())]
+        if self.config.compass.at_start:
+            side.append(("compass", self._compass_at_start()))
+        for name, work in side:
             self._side_tasks.append(asyncio.create_task(work, name=name))
         self._tasks.append(asyncio.create_task(self._autosave.run(), name="autosave"))
+        self._tasks.append(asyncio.create_task(self._events.run(), name="the event loop's watch"))
         return motion_ended
 
     async def _end_motion(self) -> None:
@@ -162,6 +176,15 @@ class App:
             log.error("another task failed: %s", failure)
         if failed:
             raise failed[0]
+
+    def _compass_at_start(self) -> Coroutine[Any, Any, None]:
+        """What settles an azimuth that does not know its angle after power-on."""
+        corrections = compass_path(self.config)
+        compass = open_compass(self.config, self.station.board)
+        reader = CompassReader(compass, time.monotonic, CompassFile(corrections) if corrections else None)
+        start = CompassAtStart(north_facts(self.config, has_file=corrections is not None))
+        source = Source("compass")
+        return watch(reader, start, lambda: self.loop.status, lambda order: self.loop.post(source, order))
 
     def _fit_panel(self) -> PanelThread | None:
         parts, source = self.station.panel, Source("panel")

@@ -18,12 +18,14 @@ class Aim:
     """Point there. An axis that is None keeps what it was doing.
 
     Azimuth above 360 names the turn of the overlap; elevation above 90 is an antenna flipped by the program that sends
-    it. Not `engaged`: show the target, but stop the motors.
+    it. Not `engaged`: show the target, but stop the motors. `place`: rest there; without it the orders of a stream are
+    points of a path, which the antenna follows between them.
     """
 
     azimuth_deg: float | None
     elevation_deg: float | None
     engaged: bool = True
+    place: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +78,7 @@ class ClearTimed:
 
 @dataclass(frozen=True, slots=True)
 class RunTimed:
-    """Run the timed list from its present point."""
+    """Run the timed list: turn to its next point now."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,10 +154,15 @@ class Remark:
     """13 characters at most."""
 
 
+@dataclass(frozen=True, slots=True)
+class Leave:
+    """The sender's connection has ended: its jog without a time and its stream end with it."""
+
+
 Personal = SetMode | Nudge | Home | Confirm | LetGo | Remark
 """Orders that only a person at the panel or on the console may give."""
 
-Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Personal
+Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal
 
 
 @dataclass(frozen=True, slots=True)

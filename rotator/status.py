@@ -21,6 +21,11 @@ class LearntMotor:
     """How far it goes on when switched off at full speed."""
 
 
+AT_END_NOISES, AT_END_MOST_DEG = 5.0, 1.0
+"""A reading beyond an end of the range by up to so many times the noise, and by so much at most, is that end. Five
+times: one reading in three million is further off."""
+
+
 @dataclass(frozen=True, slots=True)
 class AxisStatus:
     min_deg: float
@@ -48,8 +53,19 @@ class AxisStatus:
     """It looks for its end stop."""
     notices: tuple[Notice, ...] = ()
     """What a person should know of this axis though it stops nothing."""
+    noise_deg: float = 0.1
+    """Scatter of the readings, rms, as seen so far."""
     learnt: tuple[LearntMotor, LearntMotor] | None = None
     """Its motor as learnt, clockwise or up first, then the other way; None: the drive has nothing to learn."""
+
+    @property
+    def shown_deg(self) -> float | None:
+        """`angle_deg` as programs and people are told it: at an end stop without the noise that reads beyond it."""
+        if self.angle_deg is None:
+            return None
+        nearest_deg = min(max(self.angle_deg, self.min_deg), self.max_deg)
+        margin_deg = min(AT_END_NOISES * self.noise_deg, AT_END_MOST_DEG)
+        return nearest_deg if abs(self.angle_deg - nearest_deg) <= margin_deg else self.angle_deg
 
     @property
     def uncalibrated(self) -> str:
@@ -76,6 +92,8 @@ class Status:
     """The position of the front panel's mode switch; without one, AUTO."""
     mode_switch: bool = False
     """A front panel has such a switch."""
+    notices: tuple[str, ...] = ()
+    """Whose orders have no effect, and why. The same trouble has the same text for as long as it lasts."""
     cycle_late_s: float = 0.0
     """How late the last control cycle was."""
 

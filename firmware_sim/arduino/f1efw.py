@@ -4,10 +4,11 @@ Knows the sketch as its author describes it, with its faults. Of the rotor it kn
 does not know the end stops, that 359 and 1 degrees are neighbours, that a motor coasts, or that a reversal needs a
 pause.
 
-The sketch's text is not public, so this is a model. The author describes: the pins; `W` or `w` anywhere in the received
-text, then azimuth and elevation; no reply, and any other text ignored; angle = ADC x coefficient; a relay on while
-target and pot differ by more than `marge`, 4 degrees; both motors stopped at zero or negative elevation; the two LCD
-rows.
+F1EFW publishes his sketches with articles on his radio club's site (f6kmf.org, f6kmf.fr). The article on V4 (June 2026)
+was read, its program text was not: this is a model made from the description, and where the article is silent it may
+differ from the sketch. The article says: the pins; `W` or `w` anywhere in the received text, then azimuth and
+elevation; no reply, and any other text ignored; angle = ADC x coefficient; a relay on while target and pot differ by
+more than `marge`, 4 degrees; both motors stopped at zero or negative elevation; the two LCD rows.
 
 Assumed:
 

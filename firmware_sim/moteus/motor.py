@@ -59,6 +59,8 @@ class MoteusSettings:
     default_accel_limit_rev_s2: float = 50.0
     rotor_turns: float = 1.0
     """Turns of the rotor for one turn of the output. The encoder is on the rotor."""
+    output_encoder: bool = False
+    """A second encoder is on the output: after power-on the position is right within one turn of the output."""
 
 
 class SimMoteusMotor:
@@ -95,9 +97,14 @@ class SimMoteusMotor:
         self.command = dict(COMMAND_DEFAULTS)
         self._become(Mode.STOPPED)
         self.fault_code = 0
-        turn_rev = 1 / self.settings.rotor_turns
+        on_output = self.settings.output_encoder
+        turn_rev = 1.0 if on_output else 1 / self.settings.rotor_turns
         self.scale_rev = math.remainder(self.shaft_rev, turn_rev) - self.shaft_rev
-        self.home = Home.ROTOR
+        self.home = Home.OUTPUT if on_output else Home.ROTOR
+
+    def time_out(self) -> None:
+        """The program that commanded it has gone, and its watchdog has expired."""
+        self._become(Mode.TIMEOUT)
 
     # --- commands
 

@@ -15,7 +15,7 @@ from firmware_sim.faults import SimFault
 from firmware_sim.moteus.bus import SimCan, SimTransport
 from firmware_sim.moteus.controller import SimController
 from firmware_sim.moteus.lines import LineServer
-from firmware_sim.moteus.motor import Home, MoteusSettings, SimMoteusMotor
+from firmware_sim.moteus.motor import Home, Mode, MoteusSettings, SimMoteusMotor
 from firmware_sim.moteus.terminal import SimAdapter
 from firmware_sim.rotors.rotor import SimRotor
 
@@ -114,6 +114,7 @@ class SimMoteusRotor(SimRotor):
             for name, controller in self._controllers.items():
                 kept[f"{name}_scale_rev"] = controller.motor.scale_rev
                 kept[f"{name}_home"] = controller.motor.home
+                kept[f"{name}_moved"] = controller.motor.mode in (Mode.POSITION, Mode.TIMEOUT)
             return kept
 
     def put_back(self, kept: Mapping[str, float]) -> None:
@@ -123,6 +124,8 @@ class SimMoteusRotor(SimRotor):
                 if f"{name}_scale_rev" in kept:
                     controller.motor.scale_rev = kept[f"{name}_scale_rev"]
                     controller.motor.home = Home(int(kept[f"{name}_home"]))
+                if kept.get(f"{name}_moved"):
+                    controller.motor.time_out()
 
     def _antenna_deg(self, name: str) -> float:
         spec = self._specs[name]

@@ -12,6 +12,7 @@ from enum import Enum
 
 from hw.moteus.faults import LIMITS, Limit, explain
 from hw.moteus.orders import WATCHDOG_S, Answer, Home, Mode, MoteusSpec, Move, Order, Query, SetOutput, Stop
+from hw.moteus.placing import Placing
 from hw.ports import Axis, HardwareError
 
 MOVING_EVERY_S = 0.02
@@ -19,7 +20,11 @@ MOVING_EVERY_S = 0.02
 PARKED_EVERY_S = 0.08
 """Seconds between two orders to an axis at rest: much shorter than the controller's watchdog time."""
 STALE_S = 0.3
-"""An answer older than so many seconds is not used."""
+"""An answer older than so many seconds is not used. A shorter silence stops nothing: meanwhile the controller carries
+out its last order."""
+FORGIVEN_S = 2.0
+"""After a silence up to this long the axis takes the next order without an acknowledgement: the controller stood and
+held meanwhile, and still knows its place."""
 ERRAND_S = 2.0
 """An operator's request is dropped when it cannot be delivered to the controller within so many seconds."""
 
@@ -38,8 +43,10 @@ class MoteusAxis:
     (`missed`).
     """
 
-    def __init__(self, axis: Axis, spec: MoteusSpec) -> None:
+    def __init__(self, axis: Axis, spec: MoteusSpec, *, look_only: bool = False) -> None:
+        """`look_only`: asks, and gives the controller nothing, its turn included."""
         self.spec = spec
+        self._look_only = look_only
         self.fault: str | None = None
         """What stopped this axis, in a sentence. None: no fault, or the operator has acknowledged it."""
         self.answer: Answer | None = None
@@ -49,7 +56,12 @@ class MoteusAxis:
         self.until_s = -math.inf
         """When the present aim expires."""
         self.wish = Wish.NOTHING
+        self.gap_s = 0.0
+        """How long it had been silent before the latest answer."""
+        self.came_back = False
+        """The order before the latest answer was not answered."""
         self._name = f"{axis.value}: moteus {spec.can_id}"
+        self._placing = Placing(spec)
         self._aim = (0.0, 0.0, 0.0)  # angle_deg, rate_dps, and the moment of the command
         self._errands: deque[Stop | SetOutput] = deque()
         self._errands_until_s = math.inf
@@ -97,12 +109,19 @@ class MoteusAxis:
         """The operator or a sensor has found the axis at `angle_deg`: `exactly`, or at the nearest angle that agrees
         with the encoder. Raises HardwareError: no answer, or no finite angle.
         """
-        self._must_answer(now_s)
+        answer = self._must_answer(now_s)
         if not math.isfinite(angle_deg):
             raise HardwareError(f"{self._name}: {angle_deg}° is no angle")
+        agreed_deg = angle_deg if exactly else self._placing.agreed_deg(answer, angle_deg)
+        if agreed_deg is None:
+            raise HardwareError(
+                f"{self._name}: its encoder shows {self.spec.degrees(answer.position_rev) % 360:.0f}°, which is not "
+                f"{angle_deg:g}°: look again, or correct zero_rev"
+            )
         self.hold()
+        self._placing.doubt()
         # First take the torque away: a controller that holds would turn the motor by as much as its scale shifts.
-        self._send_first(now_s + ERRAND_S, Stop(), SetOutput(self.spec.revolutions(angle_deg), exactly))
+        self._send_first(now_s + ERRAND_S, Stop(), SetOutput(self.spec.revolutions(agreed_deg), exactly))
 
     def _want(self, wish: Wish) -> None:
         self.wish = wish
@@ -133,8 +152,11 @@ class MoteusAxis:
 
     @property
     def position_known(self) -> bool:
-        home = self.answer.home if self.answer else Home.RELATIVE
-        return home == Home.OUTPUT or (home == Home.ROTOR and not self.spec.geared)
+        return self.answer is not None and not self._placing.unknown
+
+    def silent_s(self, now_s: float) -> float:
+        """How long ago it answered last; infinite: never."""
+        return now_s - self.heard_s
 
     @property
     def limited_by(self) -> Limit | None:
@@ -144,17 +166,12 @@ class MoteusAxis:
     def angle_deg(self, now_s: float) -> float:
         """The angle in degrees on the rotor's own scale. Raises HardwareError: no answer, or an unknown position."""
         answer = self._must_answer(now_s)
-        if not self.position_known:
-            raise HardwareError(
-                f"{self._name} was switched on and does not know which way the antenna points: "
-                "look at the antenna and confirm its angle"
-            )
-        if not math.isfinite(answer.position_rev):
-            raise HardwareError(f"{self._name} has no position: check its encoder")
-        return self.spec.degrees(answer.position_rev)
+        if self._placing.unknown:
+            raise HardwareError(f"{self._name} {self._placing.unknown}")
+        return self._placing.angle_deg(answer)
 
     def _must_answer(self, now_s: float) -> Answer:
-        if self.answer is None or now_s - self.heard_s > STALE_S:
+        if self.answer is None or self.silent_s(now_s) > STALE_S:
             raise HardwareError(f"{self._name} does not answer: check its supply, the CAN wires and its id")
         return self.answer
 
@@ -196,12 +213,24 @@ class MoteusAxis:
 
     def heard(self, order: Order, answer: Answer, now_s: float) -> None:
         """The answer to `order`."""
+        self.came_back = self._missed and self.answer is not None
+        self.gap_s = self.silent_s(now_s)
         self.answer, self.heard_s, self._missed = answer, now_s, False
         self._ordered_to_hold = isinstance(order, Move) and math.isnan(order.position_rev)
+        if self._errands and self._placing.given_rev is None:
+            self._run_errand(order, answer)
+            return
+        given_rev = self._placing.see(answer)
+        if given_rev is not None and not self._errands and not self._look_only:
+            # The same as in `confirm`; only a person clears a fault.
+            loosen = [] if answer.mode in (Mode.STOPPED, Mode.FAULT) else [Stop()]
+            self._send_first(math.inf, *loosen, SetOutput(given_rev, exactly=False))
         if self._errands:
             self._run_errand(order, answer)
             return
-        if self.fault is None:
+        if self._timed_out(answer) and self.gap_s <= FORGIVEN_S:
+            self._send_first(math.inf, Stop())
+        elif self.fault is None:
             self.fault = self._judge(answer)
             if self.fault and self.wish is Wish.AIM:
                 self.wish = Wish.HOLD
@@ -212,16 +241,21 @@ class MoteusAxis:
                 done = order == Stop() and answer.mode == Mode.STOPPED
                 self._engaged = self._engaged and not done
             case SetOutput():
-                done = isinstance(order, SetOutput) and answer.home == Home.OUTPUT
+                done = isinstance(order, SetOutput) and answer.home == Home.OUTPUT and self._placing.given_rev is None
+                if done:
+                    self._placing.confirmed()
         if done:
             self._errands.popleft()
             self._next_s = -math.inf
+
+    def _timed_out(self, answer: Answer) -> bool:
+        return answer.mode == Mode.TIMEOUT and self._engaged
 
     def _judge(self, answer: Answer) -> str | None:
         if answer.mode == Mode.FAULT:
             fault = explain(answer.fault)
             return f"{self._name}: {fault.name} ({answer.fault}): {fault.remedy}, then acknowledge it"
-        if answer.mode == Mode.TIMEOUT and self._engaged:
+        if self._timed_out(answer):
             return (
                 f"{self._name} heard nothing for {WATCHDOG_S} s and stopped by itself: "
                 "look for a loose cable or a frozen computer, then acknowledge it"

@@ -11,14 +11,16 @@ import asyncio
 import contextlib
 import errno
 import logging
+import math
 import threading
+import time
 from collections.abc import Awaitable
 from typing import Any
 
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.library import CanChannel, SerialPort, library
 from hw.moteus.wire import Wire
-from hw.ports import HardwareError
+from hw.ports import Axis, HardwareError
 
 log = logging.getLogger(__name__)
 
@@ -28,8 +30,12 @@ EXCHANGE_S = 0.15
 """The longest time for one request and its answer, in seconds."""
 SILENCE_S = 2.0
 """After so many seconds without any answer the connection is opened again."""
-BACK_OFF_S = (0.1, 2.0)
+BACK_OFF_S = (0.03, 2.0)
 """The shortest and the longest pause before the next attempt to connect, in seconds."""
+FIRST_ANSWER_S = 0.7
+"""`start` waits for the first answers up to so many seconds: a healthy bus needs a tenth of that."""
+SAID_EVERY_S = 10.0
+"""A bad cable gets one line in the log in so many seconds."""
 COMING_TO_REST_S = 2.0
 """The longest time, in seconds, for the motors to stop when the program ends."""
 
@@ -43,14 +49,22 @@ class MoteusBus:
         self._drive = drive
         self._port = port
         self._closing = threading.Event()
+        self._met = threading.Event()
+        """Both controllers have answered, or the first try has failed."""
+        self._lively = False
+        """A controller has answered on the present connection."""
+        self._said_s, self._unsaid = -math.inf, 0
         self._lock = threading.Lock()
         self._waker: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
         self._thread = threading.Thread(target=self._run, name=MOTEUS_THREAD, daemon=True)
         drive.on_news = self._wake
+        drive.on_return = self._log_return
 
     def start(self) -> None:
+        """Returns when both controllers have answered, so that a start begins without a fault; or after a moment."""
         self._drive.lost(f"moteus: {self._port}: not connected yet")
         self._thread.start()
+        self._met.wait(FIRST_ANSWER_S)
 
     def close(self) -> None:
         """Let both axes come to rest and hold, then end the thread; the controllers' watchdogs guard them from then on.
@@ -69,26 +83,34 @@ class MoteusBus:
             if self._waker:
                 self._waker[0].call_soon_threadsafe(self._waker[1].set)
 
+    def _log_return(self, axis: Axis, gap_s: float) -> None:
+        now_s = time.monotonic()
+        if now_s - self._said_s < SAID_EVERY_S:
+            self._unsaid += 1
+            return
+        more = f"; {self._unsaid} more since the last such line" if self._unsaid else ""
+        log.warning("%s: moteus answers again, after %.2f s of silence%s", axis.value, gap_s, more)
+        self._said_s, self._unsaid = now_s, 0
+
     def _run(self) -> None:
         wait_s = BACK_OFF_S[0]
         while not self._closing.is_set():
+            self._lively = False
             try:
-                lively = asyncio.run(self._connection())
+                asyncio.run(self._connection())
                 reason = "no controller answers: check their supply and the CAN wires"
             except (Exception, SystemExit) as failure:  # the library calls sys.exit when one of its handlers fails
-                lively, reason = False, _explain(failure)
+                reason = _explain(failure)
             if self._closing.is_set():
                 break
-            wait_s = BACK_OFF_S[0] if lively else min(2 * wait_s, BACK_OFF_S[1])
+            wait_s = BACK_OFF_S[0] if self._lively else min(2 * wait_s, BACK_OFF_S[1])
             log.debug("moteus: %s: %s; next try in %.1f s", self._port, reason, wait_s)
             self._drive.lost(f"moteus: {self._port}: {reason}")
+            self._met.set()
             self._closing.wait(wait_s)
 
-    async def _connection(self) -> bool:
-        """Exchange orders and answers until the line fails (raises), all controllers are silent, or `close` is called.
-
-        Returns whether any controller answered.
-        """
+    async def _connection(self) -> None:
+        """Exchange orders and answers until the line fails (raises), all are silent, or `close` is called."""
         loop, news, broken = asyncio.get_running_loop(), asyncio.Event(), asyncio.Event()
         me = asyncio.current_task()
         failures: list[BaseException] = []
@@ -104,7 +126,7 @@ class MoteusBus:
         with self._lock:
             self._waker = (loop, news)
         try:
-            return await self._talk(Wire(self._moteus, transport, self._drive), news)
+            await self._talk(Wire(self._moteus, transport, self._drive), news)
         except asyncio.CancelledError:
             raise failures[0] if failures else OSError("the connection was cut") from None
         finally:
@@ -112,9 +134,9 @@ class MoteusBus:
                 self._waker = None
             transport.close()
 
-    async def _talk(self, wire: Wire, news: asyncio.Event) -> bool:
+    async def _talk(self, wire: Wire, news: asyncio.Event) -> None:
         loop = asyncio.get_running_loop()
-        heard_s, lively, rested_by_s = loop.time(), False, None
+        heard_s, rested_by_s = loop.time(), None
         while loop.time() - heard_s < SILENCE_S:
             if self._closing.is_set():
                 rested_by_s = rested_by_s or loop.time() + COMING_TO_REST_S
@@ -122,10 +144,11 @@ class MoteusBus:
                     break
             news.clear()
             if await wire.serve(_patiently):
-                heard_s, lively = loop.time(), True
+                heard_s, self._lively = loop.time(), True
+                if not self._met.is_set() and all(self._drive.answer(axis) for axis in Axis):
+                    self._met.set()
             with contextlib.suppress(TimeoutError):
                 await asyncio.wait_for(news.wait(), self._drive.next_order_in_s())
-        return lively
 
 
 async def _patiently(call: Awaitable[Any]) -> Any:

@@ -11,32 +11,37 @@ from collections.abc import Callable
 
 from hw.drives.positioned import DriveAngle
 from hw.drives.relays import LONGEST_LEASE_S
-from hw.moteus.axis import MoteusAxis, Wish
+from hw.moteus.axis import FORGIVEN_S, STALE_S, MoteusAxis, Wish
 from hw.moteus.faults import Limit
 from hw.moteus.orders import Answer, MoteusSpec, Order
 from hw.ports import AngleSource, Axis, HardwareError
 
 
 class MoteusDrive:
-    """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock.
+    """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock. `look_only`: the
+    controllers are only asked.
 
     Raises HardwareError where both axes have one CAN id.
     """
 
     angle_source = AngleSource.MEASURED
 
-    def __init__(self, azimuth: MoteusSpec, elevation: MoteusSpec, clock: Callable[[], float]) -> None:
+    def __init__(
+        self, azimuth: MoteusSpec, elevation: MoteusSpec, clock: Callable[[], float], *, look_only: bool = False
+    ) -> None:
         if azimuth.can_id == elevation.can_id:
             raise HardwareError(f"azimuth and elevation both have CAN id {azimuth.can_id}: give one another with tview")
         self._clock = clock
         self._lock = threading.RLock()
         self._axes = {
-            Axis.AZIMUTH: MoteusAxis(Axis.AZIMUTH, azimuth),
-            Axis.ELEVATION: MoteusAxis(Axis.ELEVATION, elevation),
+            Axis.AZIMUTH: MoteusAxis(Axis.AZIMUTH, azimuth, look_only=look_only),
+            Axis.ELEVATION: MoteusAxis(Axis.ELEVATION, elevation, look_only=look_only),
         }
         self._offline: str | None = None
         self.on_news: Callable[[], None] = lambda: None
         """The drive calls this when an order must be sent at once. The bus sets it."""
+        self.on_return: Callable[[Axis, float], None] = lambda _axis, _seconds: None
+        """The drive calls this when a controller answers again, with the seconds of silence. The bus sets it."""
 
     # --- hw.ports.PositionedDrive
 
@@ -46,8 +51,7 @@ class MoteusDrive:
             if until_s <= now_s:
                 self._axes[axis].hold()
             else:
-                self._check_online()
-                self._axes[axis].aim(angle_deg, rate_dps, min(until_s, now_s + LONGEST_LEASE_S), now_s)
+                self._reached(axis).aim(angle_deg, rate_dps, min(until_s, now_s + LONGEST_LEASE_S), now_s)
         self.on_news()
 
     def hold(self, axis: Axis) -> None:
@@ -88,13 +92,17 @@ class MoteusDrive:
     def angle_deg(self, axis: Axis) -> float:
         """Degrees on the rotor's own scale. Raises HardwareError: no answer, or its position is unknown."""
         with self._lock:
-            self._check_online()
-            return self._axes[axis].angle_deg(self._clock())
+            return self._reached(axis).angle_deg(self._clock())
 
     def position_known(self, axis: Axis) -> bool:
-        """False after power-on where the only encoder is before a gear. `confirm` makes the position known."""
+        """False where the encoder cannot tell the turn after power-on. `confirm` makes the position known."""
         with self._lock:
             return self._axes[axis].position_known
+
+    def forgiven(self, axis: Axis) -> bool:
+        """Whether the axis, silent now, would obey without an acknowledgement if it answered at once."""
+        with self._lock:
+            return self._axes[axis].silent_s(self._clock()) <= FORGIVEN_S
 
     def faults(self) -> dict[Axis, str]:
         """For each stopped axis: what stopped it, in a sentence. A fault stays until `acknowledge`."""
@@ -116,8 +124,7 @@ class MoteusDrive:
     def acknowledge(self, axis: Axis) -> None:
         """Clear the axis's fault; a fault whose cause is still there comes back. Raises HardwareError: no answer."""
         with self._lock:
-            self._check_online()
-            self._axes[axis].acknowledge(self._clock())
+            self._reached(axis).acknowledge(self._clock())
         self.on_news()
 
     def confirm(self, axis: Axis, angle_deg: float, *, exactly: bool = False) -> None:
@@ -127,8 +134,7 @@ class MoteusDrive:
         Raises HardwareError: no answer, or no finite angle.
         """
         with self._lock:
-            self._check_online()
-            self._axes[axis].confirm(angle_deg, exactly, self._clock())
+            self._reached(axis).confirm(angle_deg, exactly, self._clock())
         self.on_news()
 
     # --- for the bus
@@ -157,7 +163,11 @@ class MoteusDrive:
         """The controller answered that order."""
         with self._lock:
             self._offline = None
-            self._axes[axis].heard(order, answer, self._clock())
+            found = self._axes[axis]
+            found.heard(order, answer, self._clock())
+            gap_s = found.gap_s if found.came_back else 0.0
+        if gap_s:
+            self.on_return(axis, gap_s)
 
     def missed(self, axis: Axis) -> None:
         """The latest order to this axis was not answered."""
@@ -177,6 +187,9 @@ class MoteusDrive:
         with self._lock:
             return all(axis.at_rest for axis in self._axes.values())
 
-    def _check_online(self) -> None:
-        if self._offline:
+    def _reached(self, axis: Axis) -> MoteusAxis:
+        """The axis. Raises HardwareError where the connection is lost, and for longer than an answer is used."""
+        found = self._axes[axis]
+        if self._offline and found.silent_s(self._clock()) > STALE_S:
             raise HardwareError(self._offline)
+        return found

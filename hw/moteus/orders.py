@@ -45,6 +45,9 @@ class MoteusSpec:
     """NaN: as configured in the controller."""
     geared: bool = True
     """The only encoder is before a gear: at power-on the controller does not know in which turn of the gear it is."""
+    min_deg: float = 0.0
+    max_deg: float = 360.0
+    """The axis's range: it shows in which turn the antenna stands."""
 
     def revolutions(self, angle_deg: float) -> float:
         """The controller's position at that angle."""
@@ -53,6 +56,12 @@ class MoteusSpec:
     def degrees(self, position_rev: float) -> float:
         """The angle at that position of the controller."""
         return (position_rev - self.zero_rev) / self.rev_per_turn * 360
+
+    def turns_deg(self, angle_deg: float, beyond_deg: float) -> list[float]:
+        """Every angle in the range, and so far beyond its ends, at which the antenna points as at `angle_deg`."""
+        least = math.ceil((self.min_deg - beyond_deg - angle_deg) / 360)
+        most = math.floor((self.max_deg + beyond_deg - angle_deg) / 360)
+        return [angle_deg + 360 * turn for turn in range(least, most + 1)]
 
     def span_rev(self, degrees: float) -> float:
         """A distance, a speed or an acceleration of the antenna in the controller's unit, without its sign."""

@@ -82,7 +82,7 @@ BOOTED_S = 2.0
 
 def ask_controllers(config: Config) -> dict[Axis, Heard]:
     """Over the adapter, in real time. Raises HardwareError where the library is missing."""
-    drive = moteus_drive(config.moteus, time.monotonic)
+    drive = moteus_drive(config, time.monotonic, look_only=True)
     bus = moteus_bus(config.moteus, drive)
     bus.start()
     try:
@@ -96,7 +96,7 @@ def ask_controllers(config: Config) -> dict[Axis, Heard]:
 
 def ask_in_step(config: Config, transport: Any, clock: Callable[[], float]) -> dict[Axis, Heard]:
     """On a transport that answers at once. Raises HardwareError where the library is missing."""
-    drive = moteus_drive(config.moteus, clock)
+    drive = moteus_drive(config, clock, look_only=True)
     MoteusInStep(drive, transport).serve(clock())
     return {axis: heard(drive, axis) for axis in Axis}
 

@@ -31,7 +31,7 @@ from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.f1efw import F1efwSession
-from rotator.protocols.gs232 import Dialect
+from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.macdoppler import MacDopplerSession
 from rotator.protocols.move_report import MoveReport
@@ -73,7 +73,9 @@ def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _
             return Gs232Session(
                 box,
                 Dialect.A if link.protocol == "gs232a" else Dialect.B,
-                ack=b"\r" if link.ack == "cr" else b"",
+                ack=b"\r" if link.acknowledges else b"",
+                empty_line=INVALID if link.rejects_empty_lines else b"",
+                strict=link.strict,
                 may_calibrate=link.may_calibrate,
             )
         case "gs232-f1efw":
@@ -141,7 +143,8 @@ class _Connections:
         session = session_maker(self._link, client, self._remark)
         if self._link.report_moves:
             session = MoveReport(session, client)
-        return TappedSession(session, self._tap, source, text=self._link.protocol not in _BINARY)
+        text = self._link.protocol not in _BINARY
+        return TappedSession(session, self._tap, source, text=text, ended=client.left)
 
     def follower(self) -> Inquiry:
         source, client = self._client()

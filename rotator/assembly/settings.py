@@ -80,6 +80,7 @@ def build_controller(
             period_s=1 / config.control.rate_hz,
             simulated=config.rotor.hardware == "sim",
             park_after_s=config.mount.park_after_s,
+            on_sky=config.mount.tolerance == "sky",
             mode=Mode.PARK if config.panel.has_mode_switch else Mode.AUTO,
         )
     )

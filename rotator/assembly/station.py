@@ -54,6 +54,8 @@ class Station:
     """None in a simulation, and where no line stops the motors."""
     lines: RelayLines | None
     panel: PanelParts | None
+    board: Board
+    """For chips that are opened later, such as the compass."""
 
     def __init__(
         self,
@@ -76,21 +78,21 @@ class Station:
         with ExitStack() as opened:
             if self.world and config.sim.world and add_alarm is None:
                 opened.callback(self._keep_world(self.world, Path(config.sim.world), clock))
-            self._board = Board(self.world, opened, clock, sleep, chip=config.relays.chip)
-            self.lines = off_lines(config, self._board.chip)
+            self.board = Board(self.world, opened, clock, sleep, chip=config.relays.chip)
+            self.lines = off_lines(config, self.board.chip)
             outputs = self._open_lines(opened, self.lines) if self.lines else None
             beats = config.rotor.switched and config.relays.heartbeat is not None
             self.heartbeat = Heartbeat(outputs) if outputs and beats else None
             parts = Assembly(
                 config,
-                self._board,
+                self.board,
                 self.sentinel,
                 start_deg=simulated.start_deg,
                 counts=counts,
                 in_step=add_alarm is not None,
             )
             self.rotor = KINDS[config.rotor.type].build(parts, outputs)
-            self.panel = panel_parts(config, self._board) if config.panel.fitted else None
+            self.panel = panel_parts(config, self.board) if config.panel.fitted else None
             self.display = self._open_display()
             opened.callback(self._end_motion)
             self._opened = opened.pop_all()
@@ -127,7 +129,7 @@ class Station:
 
     def _open_lines(self, opened: ExitStack, lines: RelayLines) -> GpioOutputs:
         outputs = GpioOutputs(
-            self._board.gpio,
+            self.board.gpio,
             lines.chip,
             lines.offsets,
             consumer="rotator-relays",
@@ -147,12 +149,12 @@ class Station:
         table = self._config.lcd
         match table.kind:
             case "gpio":
-                lines = self._board.outputs("rotator-lcd", table.lines)
+                lines = self.board.outputs("rotator-lcd", table.lines)
                 return Hd44780(GpioPort(lines, self._sleep), self._sleep)
             case "pcf8574":
                 board = table.backpack
                 port = BackpackPort(
-                    self._board.bus(table.bus),
+                    self.board.bus(table.bus),
                     table.address,
                     BACKPACKS[board],
                     backlight_active_low=board in BACKLIGHT_ACTIVE_LOW,

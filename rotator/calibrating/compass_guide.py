@@ -13,6 +13,7 @@ from hw.ports import Axis, CompassCalibration
 from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import FULL_TURN_DEG, UNCALIBRATED, CompassReading, HeadingSample
 from rotator.calibrating.entries import Entry, Press, StopNow
+from rotator.calibrating.facts import NorthFacts
 from rotator.calibrating.guide import CONFIRM_S, ORDER_TAKEN_S, Abandoned, Guide, Steps
 from rotator.control.sky.angles import turn_deg
 from rotator.orders import Aim, Confirm, Jog, Stop
@@ -35,21 +36,6 @@ PATIENCE_S = 600.0
 RAISED_DEG = 60.0
 """How far above level the antenna is raised while the compass learns."""
 KEYS = "r and l turn it clockwise and back, u and d up and down; s stops it; y, n, numbers and Enter answer; q leaves."
-
-
-@dataclass(frozen=True, slots=True)
-class NorthFacts:
-    """What the configuration says about north."""
-
-    offset_deg: float
-    """The present `azimuth.offset_deg`."""
-    shift_deg: float
-    """Added to the rotor's own scale this gives the angle that the box reports: the offset and `[mount] north`."""
-    declination_deg: float | None
-    """Added to the compass's heading; 0 where the scale is magnetic. None: the file does not say."""
-    compass_offset_deg: float = 0.0
-    has_file: bool = True
-    """There is a file for the compass's corrections."""
 
 
 @dataclass(frozen=True, slots=True)

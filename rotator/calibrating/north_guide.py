@@ -18,8 +18,9 @@ from rotator.calibrating.bearing import (
     find_north,
     possible_angles_deg,
 )
-from rotator.calibrating.compass_guide import KEYS, LEAST_PLACES, PAUSE_S, CompassGuide, CompassReady, NorthFacts
+from rotator.calibrating.compass_guide import KEYS, LEAST_PLACES, PAUSE_S, CompassGuide, CompassReady
 from rotator.calibrating.entries import NUMBER_FORM, Enter, No, Number, Yes
+from rotator.calibrating.facts import NorthFacts
 from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Steps
 from rotator.calibrating.results import AngleConfirmed, NorthFound
 from rotator.control.sky.angles import turn_deg

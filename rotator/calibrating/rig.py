@@ -15,13 +15,13 @@ from typing import Protocol
 from hw.ports import Axis, HardwareError
 from rotator.assembly.board import Board
 from rotator.assembly.calibration import SCALES_DEG, calibration_controller, calibration_traits, open_compass
-from rotator.assembly.settings import build_controller, build_offsets
+from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
 from rotator.calibrating.compass import CompassReader
-from rotator.calibrating.compass_guide import NorthFacts
 from rotator.calibrating.degrees_guide import DegreesGuide
 from rotator.calibrating.entries import Entry
+from rotator.calibrating.facts import north_facts
 from rotator.calibrating.guide import Guide
 from rotator.calibrating.north_guide import NorthGuide
 from rotator.calibrating.readings import DEGREES
@@ -106,16 +106,7 @@ class NorthRig:
         compass = open_compass(config, Board(station.world, self._opened, clock, sleep))
         self.compass = CompassReader(compass, clock, CompassFile(corrections) if corrections else None)
         self.loop = _control_loop(config, build_controller(config), station, clock)
-        self.guide = NorthGuide(
-            NorthFacts(
-                config.azimuth.offset_deg,
-                build_offsets(config).azimuth_deg,
-                # With a magnetic scale the mount adds the declination itself.
-                0.0 if config.mount.north == "magnetic" else config.mount.declination_deg,
-                config.compass.offset_deg,
-                has_file=corrections is not None,
-            )
-        )
+        self.guide = NorthGuide(north_facts(config, has_file=corrections is not None))
 
     @property
     def result(self) -> NorthFound | AngleConfirmed | None:

@@ -26,11 +26,11 @@ from rotator.calibrating.rig import Rig
 from rotator.calibrating.session import CalibrationSession
 from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.cli.faults import parse_faults
-from rotator.cli.reach import monitor_places, reach
+from rotator.cli.reach import monitors, reach
 from rotator.cli.screen import draw, log_to, stop_on_signals
 from rotator.config.load import load
 from rotator.config.model import Config
-from rotator.links.console import console_path
+from rotator.config.places import console_path
 from rotator.links.wire import LinkError
 
 
@@ -116,7 +116,7 @@ def _inject(faults: tuple[str, ...], station: Station) -> None:
 def _refuse_beside_running_box(path: Path | None) -> None:
     """Raises LinkError if the box is running: two programs could open the same serial port or I2C chip."""
     try:
-        box = reach([console_path(place) for place in monitor_places(path)], "console")
+        box = reach([console_path(place) for place in monitors(path)], "console")
     except LinkError:
         return
     box.close()

@@ -16,8 +16,9 @@ from typing import Self
 import click
 
 from hw.ports import Axis
-from rotator.cli.reach import monitor_places, reach
-from rotator.links.console import console_path
+from rotator.cli.reach import monitors, reach
+from rotator.cli.stop import STOPPED
+from rotator.config.places import console_path
 from rotator.links.wire import LinkError
 from rotator.orders import Confirm, Home, LetGo, Release, Stop
 from rotator.protocols.console import Ask, ConsoleCommand, encode
@@ -45,7 +46,7 @@ class ConsoleClient:
     """One connection to the console. Raises ConfigError; LinkError when no box answers."""
 
     def __init__(self, path: Path | None) -> None:
-        self._box = reach([console_path(each) for each in monitor_places(path)], "console")
+        self._box = reach([console_path(each) for each in monitors(path)], "console")
         self._box.settimeout(ANSWER_S)
         self._answers = self._box.makefile(encoding="utf-8", errors="replace", newline="\n")
 
@@ -99,7 +100,7 @@ def where(path: Path | None) -> None:
 def stop(path: Path | None) -> None:
     with ConsoleClient(path) as box:
         box.send(Stop(latch=True))
-    click.echo("Stopped. Nothing moves until `rotator resume`.")
+    click.echo(STOPPED)
 
 
 def resume(path: Path | None) -> None:

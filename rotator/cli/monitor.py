@@ -13,7 +13,7 @@ from pathlib import Path
 
 import click
 
-from rotator.cli.reach import monitor_places, reach
+from rotator.cli.reach import monitors, reach
 from rotator.links.wire import LinkError
 from rotator.monitor.transcript import LinkNote, Piece, Remark, parse
 
@@ -22,7 +22,7 @@ BYTES_PER_MB = 1_000_000
 
 def watch(path: Path | None, to: Path | None, links: Sequence[str], limit_mb: float) -> None:
     """Show or record until Ctrl-C, until the box ends, or until the file is full. Raises ConfigError, LinkError."""
-    with reach(monitor_places(path), "monitor") as box:
+    with reach(monitors(path), "monitor") as box:
         signal.signal(signal.SIGTERM, signal.default_int_handler)
         lines = _only(links, _lines(box))
         if to is None:

@@ -1,6 +1,5 @@
 """Connects a command to a socket of the running box.
 
-Knows where the socket may be: at the path of the configuration, beside the state file, or in the service's folder.
 Knows the error texts. Does not know what goes over the sockets.
 """
 
@@ -12,17 +11,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rotator.config.load import load
+from rotator.config.places import monitor_places
 from rotator.links.wire import LinkError
-from rotator.monitor.places import monitor_path
-
-MONITOR_OF_THE_SERVICE = Path("/run/rotator/monitor")
 
 
-def monitor_places(path: Path | None) -> list[Path]:
+def monitors(path: Path | None) -> list[Path]:
     """The paths at which the box with this configuration may have its monitor. Raises ConfigError."""
     config = load(path)
-    beside = monitor_path(config, os.environ)
-    return [beside] if config.monitor.path else [beside, MONITOR_OF_THE_SERVICE]
+    return monitor_places(config.state.path, config.monitor.path, os.environ)
 
 
 def reach(places: Sequence[Path], what: str) -> socket.socket:

@@ -9,6 +9,7 @@ import asyncio
 import logging
 import sys
 import time
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TextIO, cast
@@ -19,9 +20,10 @@ from rotator import __version__
 from rotator.app import App
 from rotator.cli.faults import parse_faults
 from rotator.cli.output import LINES, PICTURES, Output
-from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals, terminal_console
+from rotator.cli.screen import LogRows, draw, log_to, print_lines, terminal_console
 from rotator.config.load import load
 from rotator.orders import Park, Release, Stop
+from rotator.runtime.signals import SignalThread
 from rotator.views import terminal
 
 
@@ -33,7 +35,8 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     # Before a thread of the app can log above the picture.
     log_to(logging.StreamHandler(cast(TextIO, errors)) if plain else recent)
     try:
-        asyncio.run(run_app(app, parse_faults(faults, app.station.world), screen, None if plain else recent))
+        chosen = parse_faults(faults, app.station.world)
+        asyncio.run(run_app(app, chosen, screen, None if plain else recent))
     finally:
         screen.close()
         errors.close()
@@ -45,13 +48,20 @@ async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, rec
     `faults`: seconds after the start, and the simulator's name of each. `recent`: the log rows of the picture; None:
     print plain lines.
     """
-    stop = stop_on_signals()
+    stop, events = asyncio.Event(), asyncio.get_running_loop()
+
+    def ended() -> None:
+        app.loop.stop()  # at once, for the event loop may be stuck
+        with suppress(RuntimeError):  # the event loop has ended already
+            events.call_soon_threadsafe(stop.set)
+
     for at_s, name in faults:
         assert app.station.world is not None, "faults are for the simulator"
-        asyncio.get_running_loop().call_later(at_s, app.station.world.inject, name)
+        events.call_later(at_s, app.station.world.inject, name)
     watcher = asyncio.create_task(_plain(app, screen) if recent is None else _picture(app, stop, screen, recent))
     try:
-        await app.run(stop)
+        with SignalThread(ended):
+            await app.run(stop)
     finally:
         watcher.cancel()
         await asyncio.gather(watcher, return_exceptions=True)

@@ -62,8 +62,14 @@ class Link(Table):
     """n1mm: the PC that shows the antenna's angle, "address:13010"; 255.255.255.255 for all PCs. Needs rotor_name."""
     baud: int | None = Field(None, ge=50, le=4_000_000)
     """Serial ports only; always 8N1. Left out, 9600; rot1prog 1200, rot2prog 600, dcu1 4800."""
-    ack: Literal["none", "cr"] = "none"
-    """GS-232: the reply to a command that is no question; old Hamlib (3.x) needs the CR."""
+    ack: Literal["none", "cr"] | None = None
+    """GS-232: the reply to a command that is no question; old Hamlib (3.x) needs the CR. Left out, none, or cr with
+    strict."""
+    empty_line: Literal["none", "?>"] | None = None
+    """GS-232: the reply to an empty line; COSMOS waits for ?>. Left out, none, or ?> with strict."""
+    strict: bool = False
+    """GS-232: answer as Yaesu's manual says where most programs are better served otherwise: a CR to commands, ?> to an
+    empty line; GS-232B also: O and F wait for a Y, Z changes the centre that H3 shows."""
     may_calibrate: bool = False
     """GS-232: let O, F, O2 and F2 take the present reading as an end of the range."""
     report_moves: bool = False
@@ -163,6 +169,16 @@ class Link(Table):
     @property
     def serial_baud(self) -> int:
         return self.baud or _BAUDS.get(self.protocol, USUAL_BAUD)
+
+    @property
+    def acknowledges(self) -> bool:
+        """Whether a GS-232 command that asks nothing is answered by a CR."""
+        return (self.ack or ("cr" if self.strict else "none")) == "cr"
+
+    @property
+    def rejects_empty_lines(self) -> bool:
+        """Whether an empty line on a GS-232 link is a mistake."""
+        return (self.empty_line or ("?>" if self.strict else "none")) == "?>"
 
     @property
     def where(self) -> str:

@@ -24,6 +24,7 @@ from rotator.config.kinds.relay_pulse import Pulses, RelayPulse
 from rotator.config.kinds.servo import Servo, ServoKind
 from rotator.config.links import Link, is_same_place
 from rotator.config.panel import LimitsTable, PanelTable
+from rotator.config.places import STATE
 from rotator.config.rotors import Rotor, with_usual
 from rotator.config.sensors import CompassTable
 from rotator.config.sim import Sim
@@ -42,6 +43,9 @@ class MountTable(Table):
     """The north on which the azimuth scale was aligned; orders and reports always use true north."""
     declination_deg: float | None = Field(None, ge=-180, le=180)
     """How far a compass at your place points east of true north (west: minus); `magnetic` needs it."""
+    tolerance: Literal["sky", "axis"] = "sky"
+    """What `tolerance_deg` means: degrees on the sky, with a moving target followed ahead of time; or `axis`, as an
+    Arduino does it: plain degrees of each axis, compared with the latest order. For motors on relays."""
     park_azimuth_deg: float = Field(0.0, ge=0, le=450)
     """The azimuth of the park position, on the rotor's own scale."""
     park_elevation_deg: float = Field(0.0, ge=0, le=180)
@@ -69,7 +73,7 @@ class MountTable(Table):
 
 
 class StateTable(Table):
-    path: str = Field("run/state.json", min_length=1)
+    path: str = Field(STATE, min_length=1)
     """The file with the learnt speed and coast of the motors; on a Pi `/var/lib/rotator/state.json`."""
 
 
@@ -135,9 +139,12 @@ class Config(Table):
         faults = [*self._pins_twice(), *self._chips_twice(), *self._places_twice(), *self._follows_itself()]
         faults += self.adc.faults() if self.uses_adc else []
         faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
+        faults += self._compass_faults()
         faults += self._switches_in_the_way()
         if self.azimuth.sensor.kind == "mpu6050":
             faults.append('azimuth.sensor.kind = "mpu6050": gravity tells no azimuth; it is for the elevation')
+        if self.mount.tolerance == "axis" and not self.rotor.switched:
+            faults.append('mount.tolerance = "axis" is for motors on relays: these go to every angle, however near')
         if faults:
             raise ValueError("; ".join(faults))
         return self
@@ -211,6 +218,16 @@ class Config(Table):
         used = self.adc.chips() if self.uses_adc else []
         used += [chip for axis in Axis for chip in self.axis(axis).sensor.chips(f"{axis.value}.sensor.address")]
         return used + self.kind.chips() + self.panel.chips() + self.compass.chips() + self.lcd.chips()
+
+    def _compass_faults(self) -> list[str]:
+        if not self.compass.at_start:
+            return []
+        faults = [] if self.compass.kind != "none" else ['compass.at_start needs a compass: kind = "bno055"']
+        if not self.kind.confirmable:
+            faults.append("compass.at_start is for a rotor that may not know its angle: rotor.type = moteus")
+        if self.mount.north == "true" and self.mount.declination_deg is None:
+            faults.append("compass.at_start needs mount.declination_deg: a compass shows magnetic north")
+        return faults
 
     def _switches_in_the_way(self) -> list[str]:
         """Homing ends just below a low limit switch: the range must begin above it."""

@@ -13,6 +13,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
+from rotator.config.descriptions import describe
 from rotator.config.model import Config
 from rotator.config.rotors import USUAL
 from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus
@@ -41,6 +42,7 @@ _AXES = ("azimuth", "elevation")
 
 def reference() -> str:
     """A legend; a heading, a sentence and a table of keys for each table of the file; the defaults of each kind."""
+    describe(Config)
     return "\n\n".join([_LEGEND, *_tables([("", Config)]), _usual()]) + "\n"
 
 
@@ -133,7 +135,7 @@ def _allowed(kind: Any, limits: list[Any], field: FieldInfo) -> str:
 def _described(what: str, field: FieldInfo) -> str:
     if not field.description:
         raise ValueError(f"{what} has no description: write a docstring below it")
-    return " ".join(field.description.split())
+    return field.description
 
 
 def _bare(kind: Any, limits: list[Any]) -> tuple[Any, list[Any]]:

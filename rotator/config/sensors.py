@@ -68,7 +68,7 @@ class SensorTable(Table):
 
 class CompassTable(Table):
     kind: Literal["none", "bno055"] = "none"
-    """A BNO055 on the boom finds north for `rotator calibrate north`; it never steers."""
+    """A BNO055 on the boom finds north for `rotator calibrate north` and `at_start`; it never steers."""
     bus: I2CBus = 3
     """On a Pi before the 5 a bus of dtoverlay=i2c-gpio: on the header's bus 1 this chip's clock stretching spoils the
     answers."""
@@ -78,6 +78,9 @@ class CompassTable(Table):
     """How the board is mounted, as in the data sheet; P1: flat, chip up."""
     offset_deg: float = Field(0.0, ge=-180, le=180)
     """The boom's direction, clockwise from the forward arrow of the compass."""
+    at_start: bool = False
+    """A moteus that does not know its azimuth after power-on takes it from the compass, without a question. Only after
+    `rotator calibrate north` has found the offset, and only within min_deg and max_deg."""
 
     def chips(self) -> list[I2CChip]:
         """The compass chip; empty without a compass."""

@@ -22,7 +22,12 @@ class Table(BaseModel):
     """A table of the file. Unknown keys are faults, and no value changes after loading."""
 
     model_config = ConfigDict(
-        extra="forbid", frozen=True, allow_inf_nan=False, strict=True, use_attribute_docstrings=True
+        extra="forbid",
+        frozen=True,
+        allow_inf_nan=False,
+        strict=True,
+        # Built at first use: else every table builds the schemas of all tables in it again, at every start.
+        defer_build=True,
     )
 
 

@@ -77,6 +77,10 @@ class Aiming:
         """The order in force is not to be repeated."""
         self._asked = None
 
+    def end_stream(self) -> None:
+        """No more orders come from that sender: the target stands at the last one."""
+        self._pointing.end_stream()
+
     def halt(self, axes: tuple[Axis, ...]) -> None:
         """Stop these axes and forget what they were asked for."""
         for axis in axes:

@@ -21,6 +21,8 @@ from rotator.control.axis.settings import AxisSettings, PositionedSettings, Swit
 from rotator.control.axis.switched import SwitchedAxis
 from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.homing_queue import HomingQueue
+from rotator.control.jogs import Jogs
+from rotator.control.senders import aims_of
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.timed import TimedList
@@ -33,6 +35,7 @@ from rotator.orders import (
     Confirm,
     Home,
     Jog,
+    Leave,
     LetGo,
     LoadTimed,
     Mode,
@@ -61,6 +64,8 @@ class Settings:
     simulated: bool = False
     park_after_s: float = 0.0
     """Park when no order has moved the antenna for so long; 0: never."""
+    on_sky: bool = True
+    """Whether the tolerance is on the sky; False: in degrees of each axis."""
     mode: Mode = Mode.AUTO
     """The mode until a front panel reports its switch. With a mode switch it is PARK: nothing moves before that."""
 
@@ -78,11 +83,12 @@ class Controller:
                 case PositionedSettings():
                     axes[each.axis] = PositionedAxis(each, lease_s=settings.lease_s)
         self._axes, self._switched = axes, switched
-        self._authority = Authority(settings.mode)
         tolerances_deg = settings.azimuth.tolerance_deg, settings.elevation.tolerance_deg
-        self._aiming = Aiming(settings.mount, axes, Pointing(settings.mount, *tolerances_deg))
+        self._authority = Authority(settings.mode, max(tolerances_deg))
+        self._aiming = Aiming(settings.mount, axes, Pointing(settings.mount, *tolerances_deg, on_sky=settings.on_sky))
         self._homing = HomingQueue({name: axis for name, axis in switched.items() if axis.settings.homing is not None})
         self._timed = TimedList()
+        self._jogs = Jogs(axes)
         self._speed_level = 4
         self._remarks: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         """What the panel has to say of each axis."""
@@ -104,8 +110,7 @@ class Controller:
                 control.see(readings[axis], now_s)
         for source, order in orders:
             self._take(source, order, now_s)
-        point = self._timed.due(now_s)
-        if point is not None:
+        if (point := self._timed.due(now_s)) is not None:
             self._point_at(Aim(*point), now_s)
         self._home_next(now_s)
         self._park_when_idle(now_s)
@@ -118,6 +123,16 @@ class Controller:
                 self.errands.append(Place(axis, decision.homed_deg))
         return commands
 
+    def links_lost(self) -> None:
+        """No order arrives from links and consoles, a stop neither: what they ordered ends.
+
+        The panel has a thread of its own, and goes on. So does a storm park: a person wants the antenna down.
+        """
+        if self._authority.latched or self._authority.mode in (Mode.MANUAL, Mode.JOG):
+            return
+        self._homing.clear()
+        self._halt(BOTH)
+
     def note_driven(self, now_s: float, driven: Mapping[Axis, Direction]) -> None:
         """After the cycle: the direction in which each axis's relays are really closed (OFF where it has none)."""
         for axis, control in self._axes.items():
@@ -125,7 +140,6 @@ class Controller:
 
     def status(self, now_s: float, late_s: float = 0.0) -> Status:
         """The state of the box at this moment. `late_s`: how late the last cycle was."""
-        source = self._authority.controlled_by
         return Status(
             at_s=now_s,
             azimuth=self._axis_status(Axis.AZIMUTH, now_s),
@@ -133,13 +147,14 @@ class Controller:
             wanted_azimuth_deg=self._aiming.wanted.azimuth_deg,
             wanted_elevation_deg=self._aiming.wanted.elevation_deg,
             latched=self._authority.latched,
-            controlled_by=str(source) if source else "",
+            controlled_by=str(self._authority.controlled_by or ""),
             timed_point=self._timed.point,
             timed_points=len(self._timed.points),
             simulated=self._settings.simulated,
             speed_level=self._speed_level,
             mode=self._authority.mode,
             mode_switch=self._settings.mode is not Mode.AUTO,
+            notices=self._authority.ignored(now_s),
             cycle_late_s=late_s,
         )
 
@@ -187,13 +202,17 @@ class Controller:
                 self.errands.append(LetGo())
             case Remark(axis, text, lcd):
                 self._remarks[axis] = (Notice(text, lcd),) if text else ()
-            case _ if self._homing.active and not self._homing.belongs_to(source):
-                pass
-            case _ if self._authority.may_move(source, now_s):
+            case Leave():
+                # What has an end of its own goes on: a jog with a time, a standing target, a timed list.
+                self._jogs.end(source)
+                if self._authority.left(source, now_s):
+                    self._aiming.end_stream()
+            case _ if self._authority.may_move(source, now_s, aims_of(order), held=self._homing.holds_back(source)):
                 self._move(order, source, now_s)
 
     def _move(self, order: Order, source: Source, now_s: float) -> None:
-        self._timed.halt()
+        if not isinstance(order, RunTimed):
+            self._timed.halt()
         if not isinstance(order, Home):
             self._homing.clear()
         match order:
@@ -202,9 +221,9 @@ class Controller:
             case Park():
                 self._park(now_s)
                 return
-            case Jog(axis, direction, seconds):
+            case Jog(axis):
                 self._aiming.forget((axis,))
-                self._axes[axis].jog(direction, seconds, now_s)
+                self._jogs.begin(order, source, now_s)
             case Home(axis):
                 self._home(axis, source)
             case LoadTimed(interval_s, points):
@@ -293,8 +312,7 @@ class Controller:
             self.troubles.append(f"{axis.value} is not calibrated while the antenna moves")
             return
         if axis not in self._switched:
-            end = "upper" if high_end else "lower"
-            self.troubles.append(f"{axis.value} knows its own angles: there is no {end} end to be set")
+            self.troubles.append(f"{axis.value} knows its own angles: there is no end to be set")
             return
         self._axes[axis].halt()
         self._aiming.forget((axis,))

@@ -26,8 +26,9 @@ class HomingQueue:
         """An axis homes, or waits to."""
         return bool(self._waiting) or self._homing
 
-    def belongs_to(self, source: Source) -> bool:
-        return source == self._asked_by
+    def holds_back(self, source: Source) -> str:
+        """Why an order of `source` has no effect meanwhile; empty: it has."""
+        return "an axis looks for its end stop" if self.active and source != self._asked_by else ""
 
     def ask(self, axis: Axis, source: Source) -> None:
         """Raises ValueError where the axis has no end stop to be found."""

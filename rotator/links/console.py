@@ -21,11 +21,6 @@ log = logging.getLogger(__name__)
 MOST_CLIENTS = 32
 
 
-def console_path(monitor: Path) -> Path:
-    """The console's path: in the folder of the monitor's socket, with a name made from the monitor's name."""
-    return monitor.with_name("console" if monitor.name == "monitor" else f"{monitor.name}-console")
-
-
 class ConsoleSocket:
     """`session` makes the protocol's side of a new connection.
 

@@ -1,7 +1,7 @@
 """A pseudo-terminal with a symlink: a serial port for programs on the same machine.
 
-Knows how to make a pseudo-terminal that stays open while programs open and close it, and how to keep its symlink for
-one running box. Does not know what the bytes mean.
+Knows how to keep its symlink for one running box, and that a program which opens the port after the last one has closed
+it is a new connection. Does not know what the bytes mean.
 """
 
 from __future__ import annotations
@@ -9,74 +9,144 @@ from __future__ import annotations
 import asyncio
 import fcntl
 import grp
+import logging
 import os
-import tty
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from rotator.links.fd import converse, writer
+from rotator.links.fd import writer
+from rotator.links.terminal import MOST_READS, Terminal
 from rotator.links.wire import Conversation, LinkError, Wire
 from rotator.protocols.session import Session
 
+log = logging.getLogger(__name__)
+
 SERIAL_GROUP = "dialout"
+LOOK_EVERY_S = 0.25
+"""The time between two looks for a program, where the kernel does not say when one opens the terminal."""
 
 
 class PtyLink:
-    """`path`: the symlink to the terminal. `session` makes the protocol's side of the link."""
+    """`path`: the symlink to the terminal. `session` makes the protocol's side of a new connection."""
 
     def __init__(self, wire: Wire, path: Path, session: Callable[[], Session]) -> None:
         self.wire = wire
         self._path = path
         self._session = session
-        self._master = -1
-        self._slave = -1
+        self._terminal: Terminal | None = None
         self._locked = -1
-        self._name = ""
 
     async def open(self) -> None:
         """Raises LinkError."""
-        self._master, self._slave = os.openpty()
-        # The box keeps the slave open, so that the line does not hang up when a client leaves. Raw: without echo.
-        tty.setraw(self._slave)
-        os.set_blocking(self._master, False)
-        self._name = os.ttyname(self._slave)
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
             self._lock()
-            if self._path.is_symlink():
-                self._path.unlink()
-            self._path.symlink_to(self._name)
-            self._share()
+            self._make()
         except BlockingIOError as fault:
             self._close_fds()
             raise LinkError(f"{self._path}: another program of this kind has it") from fault
         except OSError as fault:
             self._close_fds()
             raise LinkError(f"{self._path}: cannot be made a link to a terminal: {fault.strerror}") from fault
-        self.wire.state = f"→ {self._name}"
 
     async def run(self) -> None:
+        assert self._terminal is not None, "open() comes first"
+        if self._terminal.blind:
+            log.warning("%s: a program that opens the port at once after another is not noticed: %s",
+                        self.wire.name, self._terminal.blind)  # fmt: skip
+        begun = b""
         try:
-            await converse(self._master, Conversation(self._session(), self.wire, writer(self._master)))
-            # The master's end is not expected to fail. After a failure the link waits: it cannot be opened again.
-            await asyncio.Event().wait()
+            while True:
+                if not begun:
+                    await self._program(self._terminal)
+                begun = await self._conversation(self._terminal, begun)
+                if not self._terminal.clear():
+                    self._remove()
+                    self._make()
         finally:
             self.close()
 
     def close(self) -> None:
         """Remove the symlink and the terminal. May be called twice."""
-        with suppress(OSError):  # the folder may be gone; the terminal is closed in any case
-            if self._path.is_symlink() and os.readlink(self._path) == self._name:
-                self._path.unlink()
+        self._remove()
         self._close_fds()
         self.wire.state = "closed"
 
-    def _share(self) -> None:
-        """Allow the group of serial ports to open the terminal, because the client programs run as other users."""
+    async def _program(self, terminal: Terminal) -> None:
+        """Wait until a program opens the terminal."""
+        loop = asyncio.get_running_loop()
+        while not terminal.wanted:
+            if terminal.openings is None:
+                await asyncio.sleep(LOOK_EVERY_S)
+                continue
+            opened = asyncio.Event()
+            loop.add_reader(terminal.openings.fd, opened.set)
+            try:
+                await opened.wait()
+            finally:
+                loop.remove_reader(terminal.openings.fd)
+            terminal.changed_hands()
+
+    async def _conversation(self, terminal: Terminal, begun: bytes) -> bytes:
+        """Carry the bytes of the programs that have the terminal open, until the last one closes it.
+
+        `begun`: the first bytes, which have been read already. Returns those of the next conversation.
+        """
+        loop = asyncio.get_running_loop()
+        conversation = Conversation(self._session(), self.wire, writer(terminal.master))
+        over: asyncio.Future[bytes] = loop.create_future()
+
+        def look() -> None:
+            if over.done():
+                return
+            data, free = terminal.read()
+            changed = terminal.changed_hands()
+            if changed and not free:
+                more, free = terminal.read(MOST_READS)
+                data += more
+            if changed and not free:
+                # Of one program or of the next one: it has no answer yet, so no answer of its own is dropped.
+                over.set_result(data)
+                return
+            if data:
+                conversation.received(data)
+            if free:
+                over.set_result(b"")
+
+        fds = [terminal.master, *([terminal.openings.fd] if terminal.openings else [])]
+        for fd in fds:
+            loop.add_reader(fd, look)
+        try:
+            if begun:
+                conversation.received(begun)
+            return await over
+        finally:
+            for fd in fds:
+                loop.remove_reader(fd)
+            conversation.close()
+
+    def _make(self) -> None:
+        """A terminal, and the symlink to it. Raises OSError."""
+        self._terminal = Terminal()
+        if self._path.is_symlink():
+            self._path.unlink()
+        self._path.symlink_to(self._terminal.name)
         with suppress(KeyError, OSError):
-            os.chown(self._name, -1, grp.getgrnam(SERIAL_GROUP).gr_gid)
-            os.chmod(self._name, 0o660)
+            # The group of serial ports may open the terminal, because the client programs run as other users.
+            os.chown(self._terminal.name, -1, grp.getgrnam(SERIAL_GROUP).gr_gid)
+            os.chmod(self._terminal.name, 0o660)
+        self.wire.state = f"→ {self._terminal.name}"
+
+    def _remove(self) -> None:
+        """Close the terminal; remove the symlink if it still leads there."""
+        if self._terminal is None:
+            return
+        with suppress(OSError):  # the folder may be gone; the terminal is closed in any case
+            if self._path.is_symlink() and os.readlink(self._path) == self._terminal.name:
+                self._path.unlink()
+        self._terminal.close()
+        self._terminal = None
 
     def _lock(self) -> None:
         """Take the lock for the symlink's path. Raises BlockingIOError when a running program has the lock.
@@ -87,8 +157,9 @@ class PtyLink:
         fcntl.flock(self._locked, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
     def _close_fds(self) -> None:
-        fds = (self._master, self._slave, self._locked)
-        self._master = self._slave = self._locked = -1
-        for fd in fds:
-            if fd >= 0:
-                os.close(fd)
+        if self._terminal is not None:
+            self._terminal.close()
+            self._terminal = None
+        if self._locked >= 0:
+            os.close(self._locked)
+            self._locked = -1

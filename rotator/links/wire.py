@@ -13,7 +13,7 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.protocols.session import Session, Waits
+from rotator.protocols.session import Ending, Session, Waits
 
 log = logging.getLogger(__name__)
 
@@ -75,6 +75,7 @@ class Conversation:
         self._write = write
         self._hang_up = hang_up
         self._silence: asyncio.TimerHandle | None = None
+        self._over = False
 
     def received(self, data: bytes) -> None:
         """Take bytes as they arrive, in any pieces. Raises nothing: an exception in the protocol is logged."""
@@ -84,8 +85,12 @@ class Conversation:
             self._silence = asyncio.get_running_loop().call_later(self._session.idle_s, self._silent)
 
     def close(self) -> None:
-        """End the conversation and its timer for silence. May be called twice."""
+        """The connection has ended: end the timer for silence, and say so to the session. May be called twice."""
         self._cancel()
+        if not self._over:
+            self._over = True
+            if isinstance(self._session, Ending):
+                self._session.ended()
 
     def _silent(self) -> None:
         self._silence = None

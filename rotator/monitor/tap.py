@@ -102,9 +102,21 @@ class Tap:
 
 
 class TappedSession:
-    """A session, with a copy of all its bytes for `tap`. `text`: the bytes are characters; else they are binary."""
+    """A session, with a copy of all its bytes for `tap`. `text`: the bytes are characters; else they are binary.
 
-    def __init__(self, session: Session, tap: Tap, source: Source, *, text: bool = True) -> None:
+    `ended` is called when the connection has ended.
+    """
+
+    def __init__(
+        self,
+        session: Session,
+        tap: Tap,
+        source: Source,
+        *,
+        text: bool = True,
+        ended: Callable[[], None] = lambda: None,
+    ) -> None:
+        self.ended = ended
         self._session = session
         self._tap = tap
         self._source = source

@@ -103,6 +103,7 @@ def report(status: Status) -> list[str]:
         lines.append(f"stopped by: {status.latched}; nothing moves until resume")
     lines += [f"fault: {fault}" for fault in status.faults]
     lines += [f"missing: {axis.value} needs {what}" for axis in Axis if (what := status.axis(axis).uncalibrated)]
+    lines += [f"note: {notice}" for notice in status.notices]
     lines += [f"note: {axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
     if status.simulated:
         lines.append("simulated: nothing real turns")
@@ -111,7 +112,7 @@ def report(status: Status) -> list[str]:
 
 def _stands(status: Status, axis: Axis) -> str:
     now = status.axis(axis)
-    words = ["not known" if now.angle_deg is None else f"{_shown(now.angle_deg)} {now.source.value}"]
+    words = ["not known" if now.shown_deg is None else f"{_shown(now.shown_deg)} {now.source.value}"]
     if now.target_deg is not None:
         words.append(f"to {_shown(now.target_deg)}")
     if now.homing:

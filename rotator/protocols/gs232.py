@@ -1,8 +1,8 @@
 """The GS-232A and GS-232B command set, as a table, with its codec.
 
 Knows every command, how clients really write it, and every byte of a real unit's answer. Does not know what the box
-does with a command: `gs232_session` does. Sources: the command lists of the GS-232A manual, and captures of real units
-and of Hamlib, OscarWatch, SDRangel, WispDDE and SatPC32 (see docs/protocols.md).
+does with a command: `gs232_session` does. Sources: Yaesu's manuals of the GS-232A (2000) and GS-232B (2004), pages 8 to
+20, and captures of real units and of Hamlib, OscarWatch, SDRangel, WispDDE and SatPC32 (see docs/protocols.md).
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ import re
 from dataclasses import dataclass
 from enum import Enum
 
+LEAST_AZIMUTHS = 2
+"""In a timed list. The manual says so, and a program that adds an elevation to an M must not turn to it."""
 MAX_AZIMUTHS = 3800
 MAX_PAIRS = 1900
 MAX_LINE = 16_384
@@ -21,6 +23,9 @@ AZIMUTH_TOP_450_DEG = 450
 ELEVATION_TOP_DEG = 180
 
 INVALID = b"?>\r\n"
+SURE = b"are you sure?\r\n"
+"""A GS-232B's answer to O and O2; it stores after Y."""
+STORED = b"Completed.\r\n"
 
 
 class Dialect(Enum):
@@ -34,41 +39,44 @@ class Verb:
 
     text: str
     help: str
-    screen: int
-    """The help list that shows it: H, H2 or H3."""
+    screens: tuple[int, ...] = ()
+    """The help lists that show it: H, H2, H3."""
     only_b: bool = False
 
 
 VERBS = (
-    Verb("R", "Turn clockwise", 1),
-    Verb("L", "Turn counter-clockwise", 1),
-    Verb("A", "Stop azimuth", 1),
-    Verb("C", "Read azimuth", 1),
-    Verb("M", "Maaa: go to azimuth; Msss aaa aaa ...: timed list", 1),
-    Verb("T", "Run the timed list", 1),
-    Verb("N", "Read point number and number of points", 1),
-    Verb("X1", "Azimuth speed low", 1),
-    Verb("X2", "Azimuth speed middle 1", 1),
-    Verb("X3", "Azimuth speed middle 2", 1),
-    Verb("X4", "Azimuth speed high", 1),
-    Verb("S", "Stop everything", 1),
-    Verb("O", "Azimuth stands at its zero: calibrate", 1),
-    Verb("F", "Azimuth stands at its full scale: calibrate", 1),
-    Verb("H", "This list", 1),
-    Verb("U", "Turn up", 2),
-    Verb("D", "Turn down", 2),
-    Verb("E", "Stop elevation", 2),
-    Verb("B", "Read elevation", 2),
-    Verb("C2", "Read azimuth and elevation", 2),
-    Verb("W", "Waaa eee: go there; Wsss aaa eee aaa eee ...: timed list", 2),
-    Verb("O2", "Elevation stands at its zero: calibrate", 2),
-    Verb("F2", "Elevation stands at its full scale: calibrate", 2),
-    Verb("H2", "This list", 2),
-    Verb("P36", "Azimuth 0 to 360 degrees", 3, only_b=True),
-    Verb("P45", "Azimuth 0 to 450 degrees", 3, only_b=True),
-    Verb("Z", "Which way the middle of the travel points", 3, only_b=True),
-    Verb("H3", "This list", 3, only_b=True),
+    Verb("R", "Turn clockwise", (1,)),
+    Verb("L", "Turn counter-clockwise", (1,)),
+    Verb("A", "Stop azimuth", (1,)),
+    Verb("C", "Read azimuth", (1,)),
+    Verb("M", "Maaa: go to azimuth; Msss aaa aaa ...: timed list", (1,)),
+    Verb("U", "Turn up", (2,)),
+    Verb("D", "Turn down", (2,)),
+    Verb("E", "Stop elevation", (2,)),
+    Verb("C2", "Read azimuth and elevation", (2,)),
+    Verb("W", "Waaa eee: go there; Wsss aaa eee aaa eee ...: timed list", (2,)),
+    Verb("T", "Run the timed list", (1, 2)),
+    Verb("N", "Read point number and number of points", (1, 2)),
+    Verb("X1", "Azimuth speed low", (1,)),
+    Verb("X2", "Azimuth speed middle 1", (1,)),
+    Verb("X3", "Azimuth speed middle 2", (1,)),
+    Verb("X4", "Azimuth speed high", (1,)),
+    Verb("S", "Stop everything", (1, 2)),
+    Verb("O", "Azimuth stands at its zero: calibrate", (1,)),
+    Verb("F", "Azimuth stands at its full scale: calibrate", (1,)),
+    Verb("O2", "Elevation stands at its zero: calibrate", (2,)),
+    Verb("F2", "Elevation stands at its full scale: calibrate", (2,)),
+    Verb("B", "Read elevation", (2,)),
+    Verb("P45", "Azimuth 0 to 450 degrees", (3,), only_b=True),
+    Verb("P36", "Azimuth 0 to 360 degrees", (3,), only_b=True),
+    Verb("Z", "Which way the middle of the travel points", (3,), only_b=True),
+    Verb("H", "Azimuth commands"),
+    Verb("H2", "Elevation commands"),
+    Verb("H3", "Modes", only_b=True),
 )
+"""In the order of the A manual's lists; the B manual has X1 to X4 last."""
+_TITLES = {1: "COMMAND LIST 1", 2: "HELP COMMAND 2", 3: "HELP COMMAND 3"}
+_RULE = "-" * 10
 _BY_TEXT = {verb.text: verb for verb in VERBS}
 
 
@@ -87,6 +95,14 @@ class NotACommand(ValueError):  # noqa: N818 - it is an answer, not a failure of
     """The line is no command; the unit answers `?>`."""
 
 
+class NoOrder(NotACommand):
+    """An M or W without numbers, or with numbers that are no order. It clears the timed list like any other M or W."""
+
+
+_NOISE = "".join(map(chr, (*range(0x21), *range(0x7F, 0x100))))
+_PASSED_OVER = " ;\0"
+"""What may follow a command: GS232-Remote ends each one with `;`, and plugging in a cable can add a NUL."""
+_PADDED = re.compile(r"[MW] *\d{3}(?: *\d{3})*")
 _NUMBER = r"\d{1,3}(?:[.,]\d{1,6})?"
 _GLUED = re.compile(r"(\d{3})(\d{3})")
 _BLANK_BETWEEN = re.compile(rf"({_NUMBER}) +({_NUMBER})")
@@ -99,37 +115,35 @@ _LIST = re.compile(r"\d{1,3}(?: +\d{1,3})+")
 def parse(line: bytes, dialect: Dialect) -> Command | None:
     """From one line, without its end, to a command; None for an empty line. Raises NotACommand.
 
-    Noise before a command (a plug, a break) is skipped. Noise within or after a command makes it invalid, so that a
-    damaged digit can never make a different order.
+    Noise before a command (a plug, a break) is skipped, and `;` or NUL after it. Other noise makes it invalid, so that
+    a damaged digit can never make a different order. Only a stop may be damaged: any line that begins with S and holds
+    no digit is one, because the person who sent it saw something go wrong.
     """
-    text = line.decode("latin-1").replace("\t", " ")
-    text = text.lstrip("".join(map(chr, (*range(0x20), *range(0x7F, 0x100)))) + " ").rstrip(" ").upper()
-    if not text:
-        # A line that holds only noise is treated as empty: no answer.
+    text = line.decode("latin-1").replace("\t", " ").lstrip(_NOISE).rstrip(" ")
+    body = text.rstrip(_PASSED_OVER).upper()
+    if not body:
         return None
-    verb = _BY_TEXT.get(text)
-    if verb is not None and text not in ("W", "M"):
-        if verb.only_b and dialect is Dialect.A:
-            raise NotACommand(text)
-        return Command(text)
-    match text[0], text[1:].strip(" "):
-        case "M", "":
-            return Command("M")
-        case "M", rest:
-            return _parse_m(rest)
-        case "W", rest:
-            return _parse_w(rest)
-    raise NotACommand(text)
+    if body[0] == "S" and not any(digit in body for digit in "0123456789"):
+        return Command("S")
+    if body[0] in "MW":
+        # The last digit may be what has become a `;` or a NUL: then only the manual's three digits are sure.
+        if len(body) < len(text) and not _PADDED.fullmatch(body):
+            raise NoOrder(body)
+        return (_parse_m if body[0] == "M" else _parse_w)(body[1:].strip(" "))
+    verb = _BY_TEXT.get(body)
+    if verb is None or (verb.only_b and dialect is Dialect.A):
+        raise NotACommand(body)
+    return Command(body)
 
 
 def _parse_m(rest: str) -> Command:
     if one := _ONE.fullmatch(rest):
         return Command("M", azimuth_deg=_azimuth(one[1]))
     if not _LIST.fullmatch(rest):
-        raise NotACommand(rest)
+        raise NoOrder(rest)
     interval, *azimuths = rest.split()
-    if len(azimuths) > MAX_AZIMUTHS:
-        raise NotACommand(rest)
+    if not LEAST_AZIMUTHS <= len(azimuths) <= MAX_AZIMUTHS:
+        raise NoOrder(rest)
     return Command("M", interval_s=_interval(interval), points=tuple((_azimuth(a), None) for a in azimuths))
 
 
@@ -138,10 +152,10 @@ def _parse_w(rest: str) -> Command:
     if pair:
         return Command("W", azimuth_deg=_azimuth(pair[1]), elevation_deg=_elevation(pair[2]))
     if not _LIST.fullmatch(rest):
-        raise NotACommand(rest)
+        raise NoOrder(rest)
     interval, *angles = rest.split()
     if len(angles) % 2 or len(angles) > 2 * MAX_PAIRS:
-        raise NotACommand(rest)
+        raise NoOrder(rest)
     pairs = zip(angles[::2], angles[1::2], strict=True)
     points = tuple((_azimuth(azimuth), _elevation(elevation)) for azimuth, elevation in pairs)
     return Command("W", interval_s=_interval(interval), points=points)
@@ -158,13 +172,13 @@ def _elevation(digits: str) -> float:
 def _angle(digits: str, top_deg: int) -> float:
     angle_deg = float(digits.replace(",", "."))
     if angle_deg > top_deg:
-        raise NotACommand(digits)
+        raise NoOrder(digits)
     return angle_deg
 
 
 def _interval(digits: str) -> int:
     if int(digits) < 1:
-        raise NotACommand(digits)
+        raise NoOrder(digits)
     return int(digits)
 
 
@@ -206,7 +220,26 @@ def count_reply(point: int, points: int) -> bytes:
     return f"+{point:04d}+{points:04d}\r\n".encode()
 
 
-def help_reply(screen: int, dialect: Dialect) -> bytes:
-    rows = [f"--- COMMAND LIST {screen} ---"]
-    rows += [f"{v.text:<4}{v.help}" for v in VERBS if v.screen == screen and not (v.only_b and dialect is Dialect.A)]
+def mode_reply(top_deg: int) -> bytes:
+    """The answer to P36 and P45 that clones give and programs know; the manual has none."""
+    return f"Mode {top_deg} degree\r\n".encode()
+
+
+def centre_reply(*, north: bool) -> bytes:
+    """The answer to Z, likewise."""
+    return f"{_centre(north=north)}\r\n".encode()
+
+
+def help_reply(screen: int, dialect: Dialect, top_deg: int, *, north: bool) -> bytes:
+    """A help list, with titles and order as in the manuals, and in the words of this table. H3 shows the modes too."""
+    verbs = [verb for verb in VERBS if screen in verb.screens]
+    if dialect is Dialect.B:
+        verbs.sort(key=lambda verb: verb.text.startswith("X"))
+    rows = [f"{_RULE} {_TITLES[screen]} {_RULE}", *(f"{verb.text:<4}{verb.help}" for verb in verbs)]
+    if screen == 3:
+        rows += [f"{_RULE} MODE {_RULE}", f"mode {top_deg} Degree", _centre(north=north)]
     return "".join(row + "\r\n" for row in rows).encode()
+
+
+def _centre(*, north: bool) -> str:
+    return "N Center" if north else "S Center"

@@ -8,7 +8,7 @@ from __future__ import annotations
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Calibrate, ClearTimed, Jog, LoadTimed, Order, RunTimed, Speed, Stop
 from rotator.protocols import gs232
-from rotator.protocols.gs232 import Command, Dialect, NotACommand
+from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand
 from rotator.protocols.lines import LineReader
 from rotator.protocols.session import Box
 
@@ -35,15 +35,31 @@ _HELP = {"H": 1, "H2": 2, "H3": 3}
 
 
 class Gs232Session:
-    """GS-232 on one connection. `ack` is the answer to a command that asks no question: b"" or b"\\r"."""
+    """GS-232 on one connection.
+
+    `ack` is the answer to a command that asks no question, b"" or b"\\r"; `empty_line` that to an empty line, b"" or
+    `?>`. `strict` follows the GS-232B's manual where programs know a clone's way: O and F store only after Y, Z changes
+    the centre that H3 shows, and neither Z nor P36 nor P45 has a text as its answer.
+    """
 
     idle_s = None
     closed = False
 
-    def __init__(self, box: Box, dialect: Dialect, *, ack: bytes = b"", may_calibrate: bool = False) -> None:
+    def __init__(
+        self,
+        box: Box,
+        dialect: Dialect,
+        *,
+        ack: bytes = b"",
+        empty_line: bytes = b"",
+        strict: bool = False,
+        may_calibrate: bool = False,
+    ) -> None:
         self._box = box
         self._dialect = dialect
         self._ack = ack
+        self._empty_line = empty_line
+        self._strict = strict and dialect is Dialect.B
         self._may_calibrate = may_calibrate
         self._lines = LineReader(gs232.MAX_LINE)
         azimuth = box.status().azimuth
@@ -52,7 +68,11 @@ class Gs232Session:
             if azimuth.max_deg - azimuth.min_deg > gs232.AZIMUTH_TOP_360_DEG
             else gs232.AZIMUTH_TOP_360_DEG
         )
+        # Where the middle of the first turn points. A stop in the southern half has north in its middle.
+        self._north = 90 < azimuth.min_deg % 360 < 270
         self._points = 0
+        self._asked: Calibrate | None = None
+        """What a Y as the next line stores."""
 
     def receive(self, data: bytes) -> list[bytes]:
         replies = [self._answer(line) for line in self._lines.feed(data)]
@@ -64,11 +84,17 @@ class Gs232Session:
     def _answer(self, line: bytes | None) -> bytes:
         if line is None:
             return gs232.INVALID
+        asked, self._asked = self._asked, None
+        if asked is not None and line.strip().upper() in (b"Y", b""):
+            return self._store(asked) if line.strip() else self._ack
         try:
             command = gs232.parse(line, self._dialect)
+        except NoOrder:
+            self._clear_list()
+            return gs232.INVALID
         except NotACommand:
             return gs232.INVALID
-        return b"" if command is None else self._obey(command)
+        return self._empty_line if command is None else self._obey(command)
 
     def _obey(self, command: Command) -> bytes:
         match command.verb:
@@ -82,17 +108,15 @@ class Gs232Session:
                 status = self._box.status()
                 return gs232.count_reply(status.timed_point if status.timed_points == points else 1, points)
             case "H" | "H2" | "H3" as verb:
-                return gs232.help_reply(_HELP[verb], self._dialect)
+                return gs232.help_reply(_HELP[verb], self._dialect, self._top_deg, north=self._north)
             case "P36":
-                self._top_deg = gs232.AZIMUTH_TOP_360_DEG
-                return b"Mode 360 degree\r\n"
+                return self._mode(gs232.AZIMUTH_TOP_360_DEG)
             case "P45":
-                self._top_deg = gs232.AZIMUTH_TOP_450_DEG
-                return b"Mode 450 degree\r\n"
+                return self._mode(gs232.AZIMUTH_TOP_450_DEG)
             case "Z":
                 return self._centre()
             case "O" | "F" | "O2" | "F2" as verb if self._may_calibrate and not self._box.status().moving:
-                return self._order(_CALIBRATIONS[verb])
+                return self._calibrate(_CALIBRATIONS[verb])
             case verb if verb in _PLAIN_ORDERS:
                 return self._order(_PLAIN_ORDERS[verb])
         return gs232.INVALID
@@ -101,22 +125,23 @@ class Gs232Session:
         return gs232.INVALID if self._box.order(order) else self._ack
 
     def _go(self, command: Command) -> bytes:
+        # Any M or W clears the list, as the manuals say, and before anything can make it invalid.
+        self._clear_list()
         azimuths_deg = [azimuth for azimuth, _ in command.points]
         if command.azimuth_deg is not None:
             azimuths_deg.append(command.azimuth_deg)
         if any(azimuth > self._top_deg for azimuth in azimuths_deg):
             return gs232.INVALID
-        if command.verb == "M":
-            # Every M clears the old list. An M without numbers does only that, and a real unit answers `?>`.
-            self._points = 0
-            self._box.order(ClearTimed())
         if command.interval_s is not None:
             reply = self._order(LoadTimed(float(command.interval_s), command.points))
             self._points = 0 if reply == gs232.INVALID else len(command.points)
             return reply
-        if command.azimuth_deg is None:
-            return gs232.INVALID
         return self._order(Aim(command.azimuth_deg, command.elevation_deg))
+
+    def _clear_list(self) -> None:
+        if self._list_length():
+            self._points = 0
+            self._box.order(ClearTimed())
 
     def _list_length(self) -> int:
         """The length of the box's list, or of one just sent on this connection that the box has not taken yet."""
@@ -141,8 +166,28 @@ class Gs232Session:
         axis_deg = min(max(axis_deg, azimuth.min_deg), azimuth.max_deg)
         return axis_deg if 0 <= gs232.whole(axis_deg) <= self._top_deg else axis_deg % 360
 
+    def _mode(self, top_deg: int) -> bytes:
+        self._top_deg = top_deg
+        return self._ack if self._strict else gs232.mode_reply(top_deg)
+
     def _centre(self) -> bytes:
-        """Where the middle of the first turn points. It depends on the mast, so a client can only read it."""
-        low_deg = self._box.status().azimuth.min_deg % 360
-        north = 90 < low_deg < 270  # a stop in the southern half has north in its middle
-        return b"N Center\r\n" if north else b"S Center\r\n"
+        """A unit ignores Z in its 450° mode. Angles stay compass angles: the mast decides where the stop is."""
+        if not self._strict:
+            return gs232.centre_reply(north=self._north)
+        if self._top_deg == gs232.AZIMUTH_TOP_360_DEG:
+            self._north = not self._north
+        return self._ack
+
+    def _calibrate(self, order: Calibrate) -> bytes:
+        if not self._strict:
+            return self._order(order)
+        self._asked = order
+        if not order.high_end:
+            return gs232.SURE
+        # As a unit does, F shows the reading first; F2 shows both.
+        return self._position("C" if order.axis is Axis.AZIMUTH else "C2") + gs232.SURE
+
+    def _store(self, order: Calibrate) -> bytes:
+        if self._box.status().moving or self._box.order(order):
+            return gs232.INVALID
+        return gs232.STORED

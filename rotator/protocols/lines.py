@@ -1,6 +1,7 @@
 """Cuts a stream of bytes into lines, in bounded memory.
 
-Knows the line ends CR, LF and CR LF. Does not know what the lines mean.
+Knows the line ends CR, LF and CR LF; CR LF is one end, also where a pause separates the two. Does not know what the
+lines mean.
 """
 
 from __future__ import annotations
@@ -19,15 +20,19 @@ class LineReader:
     """Longest line in bytes. A longer line is dropped to its end and returned as None."""
     _buffer: bytearray = field(default_factory=bytearray)
     _overlong: bool = False
+    _after_cr: bool = False
+    """The last byte was a CR: an LF now is the second half of the same end."""
 
     def feed(self, data: bytes) -> list[bytes | None]:
         lines: list[bytes | None] = []
         start = 0
         for index, byte in enumerate(data):
+            second_half, self._after_cr = byte == LF and self._after_cr, byte == CR
             if byte not in (CR, LF):
                 continue
-            self._take(data[start:index])
-            lines.append(self.flush())
+            if not second_half:
+                self._take(data[start:index])
+                lines.append(self.flush())
             start = index + 1
         self._take(data[start:])
         return lines

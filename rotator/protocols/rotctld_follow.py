@@ -2,14 +2,16 @@
 
 Knows the question `p`, its answers, and which of them become orders. Time is counted in answers, `every_s` apart.
 
-The first answer is no order: it is only the angle at which the other rotor stands. After that every change is an order.
-Orders go out as from a tracking program: twice a second at most. The last order is repeated a few times, so that the
-box does not take a target at rest for a broken stream. Then no more orders follow.
+The first answer is no order: it is only the angle at which the other rotor stands. After that every change is an order
+for that place. It is no point of a path: a rotor turns in ramps with corners, and a path drawn on beyond a corner leads
+past it. The last order is repeated a few times, for a box that could not obey at that moment. Then no more orders
+follow, and others may move the antenna.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from rotator.protocols.aiming import aim
 from rotator.protocols.lines import LineReader
@@ -18,10 +20,8 @@ from rotator.protocols.session import Box, NotUnderstood
 
 MAX_LINE = 128
 SHOWN_BYTES = 40
-CHANGE_S = 0.5
-"""The least time between two orders. A rotor that turns has a new angle in every answer."""
 AGAIN_S = 1.2
-"""The time between repeats: longer than the second between two orders of a tracking program."""
+"""The time between repeats."""
 TIMES_AGAIN = 4
 _REPORT = b"RPRT "
 
@@ -34,9 +34,8 @@ class RotctldFollower:
         self._lines = LineReader(MAX_LINE)
         self._angles: list[float] = []
         self._ordered: tuple[float, float] | None = None
-        self._until_change = math.ceil(CHANGE_S / every_s)
         self._until_again = math.ceil(AGAIN_S / every_s)
-        self._since_order = self._until_change
+        self._since_order = 0
         self._times_left = 0
         self.trouble = ""
 
@@ -69,16 +68,17 @@ class RotctldFollower:
         return True
 
     def _follow(self, azimuth_deg: float, elevation_deg: float) -> None:
-        order = aim(azimuth_deg, elevation_deg)
-        if order is None:
+        direction = aim(azimuth_deg, elevation_deg)
+        if direction is None:
             self.trouble = "answers with angles that are no direction"
             return
         self.trouble = ""
+        order = replace(direction, place=True)
         self._since_order += 1
         points_to = (azimuth_deg, elevation_deg)
         if self._ordered is None:
             self._ordered = points_to
-        elif points_to != self._ordered and self._since_order >= self._until_change:
+        elif points_to != self._ordered:
             self._ordered, self._since_order, self._times_left = points_to, 0, TIMES_AGAIN
             self._box.order(order)
         elif points_to == self._ordered and self._times_left and self._since_order >= self._until_again:

@@ -48,6 +48,14 @@ class Waits(Protocol):
         """While this holds the link calls `idle` again and again, every `idle_s`."""
 
 
+@runtime_checkable
+class Ending(Protocol):
+    """A session that has something to do when its connection ends."""
+
+    def ended(self) -> None:
+        """The connection has ended: the client has left, or its cable is out."""
+
+
 class NotUnderstood(Exception):  # noqa: N818 - a fact about the other end; the program has not failed
     """The other end does not speak this protocol; the text shows its bytes."""
 

@@ -87,6 +87,6 @@ class MoteusRotor(PlainRotor):
             if self._drive.answer(axis) is None:
                 return Fault(FaultKind.CONTROLLER_SILENT, axis, str(reason), passing=True)
             if self._drive.position_known(axis):
-                return Fault(FaultKind.CONTROLLER_SILENT, axis, str(reason))
+                return Fault(FaultKind.CONTROLLER_SILENT, axis, str(reason), passing=self._drive.forgiven(axis))
             return Fault(FaultKind.POSITION_UNKNOWN, axis, str(reason), passing=True)
         return None

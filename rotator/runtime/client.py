@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount
-from rotator.orders import Order, Refusal, Source, Stop
+from rotator.orders import Leave, Order, Refusal, Source, Stop
 from rotator.runtime.log_limit import LogLimit
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
@@ -57,6 +57,7 @@ class Client:
         self._clock = clock
         self._allowance = float(rights.most_per_s)
         self._counted_s = clock()
+        self._has_ordered = False
 
     def status(self) -> Status:
         """The latest status. Never waits."""
@@ -68,8 +69,14 @@ class Client:
         if refused:
             self._complain(f"refused: {refused.reason}")
         else:
+            self._has_ordered = True
             self._loop.post(self._source, order, can_wait=self._is_too_much(order))
         return refused
+
+    def left(self) -> None:
+        """The connection has ended: what it began and left without an end ends with it."""
+        if self._has_ordered:
+            self._loop.post(self._source, Leave())
 
     def _forbidden(self, order: Order) -> Refusal | None:
         if not self._rights.read_only:

@@ -21,6 +21,7 @@ class Journal:
         self._failures: dict[str, str] = {}
         self._noticed: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         self._movers = LogLimit(clock)
+        self._orders = LogLimit(clock)
 
     def note(self, device: str, failure: str) -> None:
         """What a device fails with now; empty: it works."""
@@ -48,6 +49,9 @@ class Journal:
             passed = all(fault.passing for fault in before.faults)
             log.warning("no fault any more" if passed else "faults acknowledged")
         self._notices(now)
+        for notice in now.notices:
+            if notice not in before.notices and (text := self._orders.admit(notice)):
+                log.warning("%s", text)
         if now.latched != before.latched:
             log.warning(f"stopped by {now.latched} until released" if now.latched else "released")
 

@@ -15,6 +15,7 @@ from hw.ports import Axis, Direction, HardwareError
 from rotator.control.controller import Controller
 from rotator.orders import Order, Source
 from rotator.rotors.port import Rotor
+from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.inbox import Inbox
 from rotator.runtime.journal import Journal
 from rotator.runtime.sensor_thread import SensorThread
@@ -24,10 +25,10 @@ log = logging.getLogger(__name__)
 
 LATE_PERIODS = 1.5
 """Without new readings for so many periods the loop acts all the same, and notices that the sensors are silent."""
-SUPPLY, HEARTBEAT = "supply", "heartbeat"
+SUPPLY, HEARTBEAT, LINKS = "supply", "heartbeat", "the links"
 DRIVES = {axis: f"{axis.value} drive" for axis in Axis}
-MUST_OBEY = (SUPPLY, *DRIVES.values())
-"""While one of these fails a relay may be closed: then the loop gives no sign of life."""
+MUST_OBEY = (SUPPLY, LINKS, *DRIVES.values())
+"""While one of these fails a relay may be closed, or no stop arrives: then the loop gives no sign of life."""
 
 
 class ControlLoop:
@@ -45,9 +46,12 @@ class ControlLoop:
         period_s: float,
         *,
         after_good_step: Callable[[], None] = lambda: None,
+        events: EventWatch | None = None,
     ) -> None:
+        """`events`: the watch over the event loop that serves the links; None: there are no links."""
         self._controller = controller
         self._after_good_step = after_good_step
+        self._events = events
         self._rotor = rotor
         self._clock = clock
         self._period_s = period_s
@@ -83,6 +87,7 @@ class ControlLoop:
         orders = self._inbox.take()
         now_s = self._clock()
         before = self.status
+        self._watch_links(now_s)
         commands = self._controller.step(now_s, self._sensors.readings, orders)
         driven = dict.fromkeys(Axis, Direction.OFF)
         self._run_errands()
@@ -124,6 +129,13 @@ class ControlLoop:
         self._stopping = True
         self._sensors.stop()
         self._wake.set()
+
+    def _watch_links(self, now_s: float) -> None:
+        """While the event loop stands still no link can stop the antenna: end what links and consoles ordered."""
+        stalled_s = self._events.stalled_s(now_s) if self._events else 0.0
+        if stalled_s:
+            self._controller.links_lost()
+        self._journal.note(LINKS, "the event loop stands still: what they ordered has ended" if stalled_s else "")
 
     def _run_errands(self) -> None:
         """Do the controller's single requests, such as passing the confirmed angle of an axis to its rotor."""

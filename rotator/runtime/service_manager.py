@@ -10,16 +10,11 @@ import os
 import socket
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from pathlib import Path
+
+from rotator.config.places import runtime_folder
 
 ALIVE_EVERY = 4
 """Messages sent within the longest time that the service manager waits for one."""
-
-
-def runtime_folder(environment: Mapping[str, str]) -> Path | None:
-    """The folder that the service manager has made for this run; None without a service manager."""
-    folder = environment.get("RUNTIME_DIRECTORY", "").split(":")[0]
-    return Path(folder) if folder else None
 
 
 class ServiceManager:

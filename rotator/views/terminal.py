@@ -79,7 +79,7 @@ def picture(
             yield from wrapped(held, width, "bold white on red", _TROUBLE)
         uncalibrated = {axis: status.axis(axis).uncalibrated for axis in Axis}
         notes = [f"{axis.value} UNCALIBRATED: {missing}" for axis, missing in uncalibrated.items() if missing]
-        for note in notes + _notes(status):
+        for note in (*status.notices, *notes, *_notes(status)):
             yield from wrapped(note, width, "bold yellow", _NOTE)
         yield from (Row(Text(line, style="dim"), _LOG + age) for age, line in _newest_last(log_rows))
         yield Row(Text("space STOP   p storm park   r release   q quit", style="bold"), _TROUBLE)
@@ -139,7 +139,7 @@ def _axes(status: Status, width: int) -> Iterator[Row]:
     readings = ["" if each.raw is None else f"{round(each.raw, 4) + 0.0:.4f} {each.source.value}" for each in every]
     columns = [
         Column("axis", [Text(axis.value) for axis in Axis]),
-        Column("angle", [Text(_degrees(each.angle_deg)) for each in every], right=True, width=7),
+        Column("angle", [Text(_degrees(each.shown_deg)) for each in every], right=True, width=7),
         Column("target", [Text(_degrees(each.target_deg)) for each in every], right=True, width=7),
         Column("", [_bar(each) for each in every], rank=2),
         Column("range", [Text(f"{each.min_deg:g}…{each.max_deg:g}°") for each in every]),
@@ -178,7 +178,7 @@ def _bar(axis: AxisStatus) -> Text:
 
 def _axis_words(status: Status, axis: Axis) -> str:
     each = status.axis(axis)
-    words = [f"{axis.value} {_degrees(each.angle_deg, 0)}"]
+    words = [f"{axis.value} {_degrees(each.shown_deg, 0)}"]
     if each.target_deg is not None:
         words.append(f"to {_degrees(each.target_deg)}")
     if each.drive is not Direction.OFF:

@@ -16,7 +16,7 @@ from hw.ports import Axis
 from rotator.calibrating.results import AxisCalibrated
 from rotator.calibrating.saving import as_toml
 from rotator.config.load import load, parse
-from rotator.links.console import console_path
+from rotator.config.places import console_path
 
 LIMIT_S = 60.0
 STATION = """# A fast one.

@@ -8,6 +8,7 @@ import pytest
 from pydantic import ValidationError
 
 from hw.sensors.switches import LIMITS
+from rotator.config.descriptions import describe
 from rotator.config.panel import LAMPS, LimitsTable, PanelTable
 from rotator.panel.panel import LAMPS as PANEL_LAMPS
 
@@ -66,4 +67,5 @@ def test_limit_switches_have_the_names_that_the_driver_knows() -> None:
 
 def test_every_key_says_what_it_is() -> None:
     for table in (PanelTable, LimitsTable):
+        describe(table)
         assert all(field.description for field in table.model_fields.values())

@@ -47,6 +47,7 @@ class Desk:
         missing: Mapping[Axis, tuple[Missing, ...]] | None = None,
         counted: bool = False,
         park_after_s: float = 0.0,
+        on_sky: bool = True,
     ) -> None:
         self.range = {AZ: Range(*azimuth), EL: Range(*elevation)}
         self.angle_deg = dict(zip(Axis, at, strict=True))
@@ -70,6 +71,7 @@ class Desk:
                 elevation=self._settings(EL, missing.get(EL, ())),
                 mount=Mount(self.range[AZ], self.range[EL], *park),
                 park_after_s=park_after_s,
+                on_sky=on_sky,
             )
         )
         self.status: Status = self.controller.status(self.now_s)

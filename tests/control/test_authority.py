@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
-import pytest
+import itertools
 
-from rotator.control.authority import PAUSE_S, Authority
-from rotator.orders import Source
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotator.control.authority import Authority
+from rotator.control.senders import PAUSE_S, SINGLE_PAUSE_S
+from rotator.orders import Mode, Source
 
 CONSOLE = Source("console")
 PST, GPREDICT, GPREDICT_AGAIN = Source("gs232b", 1), Source("rotctld", 1), Source("rotctld", 2)
+HERE, THERE = (180.0, 45.0), (20.0, 10.0)
+
+
+def stream(authority: Authority, source: Source, *, from_s: float = 0.0, until_s: float) -> list[bool]:
+    """An order for HERE every second; returns which had an effect."""
+    return [authority.may_move(source, float(at_s), HERE) for at_s in range(int(from_s), int(until_s) + 1)]
 
 
 @pytest.fixture
@@ -42,11 +53,29 @@ def test_a_stream_on_another_link_stays_without_effect_while_it_goes_on(authorit
 
 def test_a_pause_of_ten_seconds_ends_it(authority: Authority) -> None:
     assert PAUSE_S == 10.0
+    stream(authority, GPREDICT, until_s=4.0)
+    authority.stopped(PST, 4.5, latch=False)
+    assert not authority.may_move(GPREDICT, 13.9)
+    assert not authority.may_move(GPREDICT, 23.8)
+    assert authority.may_move(GPREDICT, 33.9)
+
+
+def test_a_single_order_counts_again_after_three_seconds(authority: Authority) -> None:
+    assert SINGLE_PAUSE_S == 3.0
     authority.may_move(GPREDICT, 0.0)
     authority.stopped(PST, 0.5, latch=False)
-    assert not authority.may_move(GPREDICT, 9.9)
-    assert not authority.may_move(GPREDICT, 19.8)
-    assert authority.may_move(GPREDICT, 29.8)
+    assert not authority.may_move(GPREDICT, 2.9), "no pause yet"
+    assert authority.may_move(GPREDICT, 5.9)
+    assert authority.may_move(GPREDICT, 6.0)
+
+
+def test_orders_that_go_on_while_they_are_ignored_become_a_stream(authority: Authority) -> None:
+    authority.may_move(GPREDICT, 0.0)
+    authority.stopped(PST, 0.5, latch=False)
+    for moment_s in (2.0, 4.0, 6.0, 8.0):
+        assert not authority.may_move(GPREDICT, moment_s)
+    assert not authority.may_move(GPREDICT, 12.0), "four in a row are a stream"
+    assert authority.may_move(GPREDICT, 22.0)
 
 
 def test_a_reconnect_ends_it_at_once(authority: Authority) -> None:
@@ -114,4 +143,151 @@ def test_links_that_came_and_went_are_forgotten() -> None:
         authority.may_move(Source("rotctld", number), float(number))
         authority.stopped(PST, float(number), latch=False)
     heard = [number for number in range(300) if not authority.may_move(Source("rotctld", number), 299.5)]
-    assert heard == list(range(290, 300))
+    assert heard == list(range(297, 300)), "each was silent for three seconds, or is forgotten"
+    assert sum(authority.may_move(Source("rotctld", number), 400.0) for number in range(300)) == 300
+
+
+# --- a connection ends
+
+
+def test_a_program_that_connects_for_each_order_is_one_stream(authority: Authority) -> None:
+    """`rotctl -m 2 P 180 45` in a loop: each order has a connection of its own, and a stop still holds it."""
+    moved = []
+    for second in range(40):
+        if second == 10:
+            authority.stopped(PST, 10.0, latch=False)
+        source = Source("rotctld", second)
+        moved.append(authority.may_move(source, second + 0.5, HERE))
+        authority.left(source, second + 0.6)
+    assert moved == [True] * 10 + [False] * 30
+    (ignored,) = authority.ignored(40.0)
+    assert ignored.startswith("orders from rotctld are ignored: gs232b#1 has stopped the antenna; ")
+
+
+def test_a_program_started_after_a_stop_is_heard(authority: Authority) -> None:
+    stream(authority, GPREDICT, until_s=20)
+    authority.stopped(PST, 20.1, latch=False)
+    authority.left(GPREDICT, 20.2)
+    assert authority.may_move(GPREDICT_AGAIN, 20.3, HERE)
+
+
+def test_a_single_order_of_an_earlier_connection_silences_no_new_one(authority: Authority) -> None:
+    authority.may_move(GPREDICT, 0.0, HERE)
+    authority.left(GPREDICT, 0.1)
+    authority.stopped(PST, 0.2, latch=False)
+    assert authority.may_move(GPREDICT_AGAIN, 0.3, HERE)
+
+
+def test_it_says_whether_a_stream_ended_with_its_connection(authority: Authority) -> None:
+    stream(authority, GPREDICT, until_s=2)
+    assert not authority.left(GPREDICT, 2.5), "three orders are no stream"
+    stream(authority, PST, until_s=8)
+    stream(authority, GPREDICT_AGAIN, from_s=8, until_s=12)
+    assert not authority.left(PST, 12.5), "another source moves the antenna"
+    assert authority.left(GPREDICT_AGAIN, 12.6)
+    assert not authority.left(GPREDICT_AGAIN, 12.7)
+
+
+# --- two that disagree
+
+
+def test_a_single_order_wins_over_a_stream(authority: Authority) -> None:
+    """A person in a terminal, while a program tracks."""
+    assert all(stream(authority, GPREDICT, until_s=10))
+    assert authority.may_move(PST, 10.5, THERE)
+    assert not any(stream(authority, GPREDICT, from_s=11, until_s=200))
+    assert authority.controlled_by == PST
+    assert authority.ignored(200.0) == (
+        "orders from rotctld#1 are ignored: gs232b#1 has taken the antenna; "
+        "they count again after 10 s without one, or on a new connection",
+    )
+    assert authority.may_move(PST, 200.5, HERE)
+    assert authority.may_move(GPREDICT_AGAIN, 201.0, THERE), "connected anew, its user wants it back"
+
+
+@pytest.mark.parametrize("order", [(182.0, 46.0), (180.0, None), (None, 44.0)])
+def test_two_that_agree_do_not_fight(authority: Authority, order: tuple[float | None, float | None]) -> None:
+    """Two programs that follow one satellite, and programs for one axis each."""
+    for second in range(120):
+        assert authority.may_move(GPREDICT, float(second), HERE)
+        assert authority.may_move(PST, second + 0.5, order)
+    assert authority.ignored(120.0) == ()
+
+
+def test_north_from_both_sides_is_one_direction(authority: Authority) -> None:
+    for second in range(20):
+        assert authority.may_move(GPREDICT, float(second), (359.0, 10.0))
+        assert authority.may_move(PST, second + 0.5, (361.0, 10.0))
+
+
+def test_two_streams_that_disagree_change_hands_a_few_times_at_most(authority: Authority) -> None:
+    moved = []
+    for second in range(120):
+        moved.append(authority.may_move(GPREDICT, float(second), HERE))
+        moved.append(authority.may_move(PST, second + 0.5, THERE))
+    hands = moved[::2]
+    assert sum(one is not other for one, other in itertools.pairwise(hands)) <= 1
+    assert moved[20:] in ([True, False] * 110, [False, True] * 110)
+    (ignored,) = authority.ignored(120.0)
+    assert ignored.endswith("; end one of the two programs (they count again after 10 s without one)")
+    assert {"gs232b#1", "rotctld#1"} <= set(ignored.replace(":", "").replace(",", "").split())
+
+
+@given(
+    periods_s=st.tuples(st.floats(0.1, 9.0), st.floats(0.1, 9.0)),
+    per_connection=st.tuples(st.integers(1, 8) | st.none(), st.integers(1, 8) | st.none()),
+    shift_s=st.floats(0.0, 5.0),
+)
+def test_a_fight_ends_whatever_the_programs_do(
+    periods_s: tuple[float, float], per_connection: tuple[int | None, int | None], shift_s: float
+) -> None:
+    """Two programs at any rate; each may connect anew after so many orders (None: never)."""
+    authority = Authority()
+    orders = sorted(
+        (shift_s * which + count * period_s, which, count)
+        for which, period_s in enumerate(periods_s)
+        for count in range(int(120.0 / period_s))
+    )
+    links, aims = ("rotctld", "gs232b"), (HERE, THERE)
+    took = []
+    for at_s, which, count in orders:
+        most = per_connection[which]
+        source = Source(links[which], 1 + (count // most if most else 0))
+        if authority.may_move(source, at_s, aims[which]):
+            took.append(which)
+        if most and count % most == most - 1:
+            authority.left(source, at_s)
+    reversals = sum(one != other for one, other in itertools.pairwise(took))
+    assert reversals <= 20, "118 were seen"
+
+
+def test_polling_is_no_order(authority: Authority) -> None:
+    """A link that only asks is not heard of here at all; nothing is said, and nothing changes hands."""
+    stream(authority, GPREDICT, until_s=100)
+    assert authority.ignored(100.0) == ()
+
+
+# --- what is said
+
+
+def test_each_reason_is_said_and_forgotten_ten_seconds_later(authority: Authority) -> None:
+    authority.stopped(CONSOLE, 0.0, latch=True)
+    authority.may_move(PST, 1.0)
+    assert authority.ignored(1.0) == ("orders from gs232b#1 are ignored: stopped by console until released",)
+    assert authority.ignored(11.0) == ()
+    authority.released()
+    authority.switch(Source("panel"), Mode.PARK)
+    authority.may_move(PST, 12.0)
+    assert authority.ignored(12.0) == ("orders from gs232b#1 are ignored: the panel's switch is at PARK",)
+    authority.switch(Source("panel"), Mode.AUTO)
+    authority.may_move(PST, 13.0, held="an axis looks for its end stop")
+    assert authority.ignored(13.0) == ("orders from gs232b#1 are ignored: an axis looks for its end stop",)
+    authority.may_move(PST, 14.0)
+    assert authority.ignored(14.0) == ()
+
+
+def test_many_connections_are_not_all_named(authority: Authority) -> None:
+    authority.stopped(CONSOLE, 0.0, latch=True)
+    for number in range(100):
+        authority.may_move(Source("rotctld", number), 1.0)
+    assert len(authority.ignored(1.0)) == 4

@@ -224,7 +224,6 @@ def test_a_timed_list_is_followed_and_a_stop_ends_it(desk: Any) -> None:
     assert (desk.status.timed_point, desk.status.timed_points, desk.status.azimuth.target_deg) == (1, 3, 110)
     desk.run(10.0)  # it waits for T
     desk.step(RunTimed())
-    desk.run(2.0)
     assert (desk.status.timed_point, desk.status.wanted_azimuth_deg, desk.status.wanted_elevation_deg) == (2, 120, 40)
     desk.step(Stop())
     assert desk.run(10.0) == set()

@@ -18,6 +18,7 @@ from rotator.orders import (
     Confirm,
     Home,
     Jog,
+    Leave,
     LetGo,
     LoadTimed,
     Mode,
@@ -65,6 +66,7 @@ others = st.one_of(
     st.builds(Confirm, axes, st.floats(-360, 720)),
     st.just(LetGo()),
     st.builds(Remark, axes, st.sampled_from(["", "its wire is broken"])),
+    st.just(Leave()),
 )
 healthy = st.floats(0.02, 0.98)
 raws = healthy | st.sampled_from([None, 0.0, 0.019, 0.02, 0.05, 0.95, 0.98, 1.0, math.nan, math.inf, -math.inf])

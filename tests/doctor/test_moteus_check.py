@@ -131,7 +131,7 @@ def test_a_can_interface_of_the_kernel(moteus: Pi, files: dict[str, str], words:
 
 def test_over_an_adapter_in_real_time(tmp_path: Path) -> None:
     pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
-    world = SimMoteusRotor(MoteusAxisSpec(1, start_deg=30.0), MoteusAxisSpec(2), time.monotonic)
+    world = SimMoteusRotor(MoteusAxisSpec(1, start_deg=130.0), MoteusAxisSpec(2), time.monotonic)
     adapter = world.adapter(tmp_path / "fdcanusb")
     config = parse(
         f'[rotor]\ntype = "moteus"\n[moteus]\nport = "{adapter.path}"\n[moteus.azimuth]\ngeared = false\n', "test"
@@ -141,5 +141,5 @@ def test_over_an_adapter_in_real_time(tmp_path: Path) -> None:
         heard = ask_controllers(config)
     finally:
         adapter.unplug()
-    assert heard[Axis.AZIMUTH].angle_deg == pytest.approx(30.0, abs=0.1)
+    assert heard[Axis.AZIMUTH].angle_deg == pytest.approx(130.0, abs=0.1)
     assert heard[Axis.ELEVATION].volts == pytest.approx(24.0)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -51,6 +53,16 @@ def rotctl(need_program: Callable[[str, str], str]) -> Callable[..., str]:
         return done.stdout
 
     return run
+
+
+@contextlib.contextmanager
+def left_open(port: Path) -> Iterator[None]:
+    """Another program keeps the port open meanwhile: else a jog ends with the rotctl that ordered it."""
+    kept = os.open(port, os.O_RDWR | os.O_NOCTTY)
+    try:
+        yield
+    finally:
+        os.close(kept)
 
 
 def position(output: str) -> tuple[float, float]:
@@ -136,35 +148,38 @@ def test_easycomm_parks_moves_and_resets(start_box: Start, rotctl: Callable[...,
     arrive(rotctl, model, box.pty, (75, 25))
     rotctl(model, box.pty, "K")
     arrive(rotctl, model, box.pty, (0, 0))
-    rotctl(model, box.pty, "M", "16", "50")
-    rotctl(model, box.pty, "M", "2", "50")
-    arrive(rotctl, model, box.pty, (450, 180))
-    rotctl(model, box.pty, "M", "8", "50")
-    give_up_s = time.monotonic() + PATIENCE_S
-    while position(rotctl(model, box.pty, "p"))[0] > 440 and time.monotonic() < give_up_s:
-        pass  # a motor rests before it is reversed
+    with left_open(box.pty):
+        rotctl(model, box.pty, "M", "16", "50")
+        rotctl(model, box.pty, "M", "2", "50")
+        arrive(rotctl, model, box.pty, (450, 180))
+        rotctl(model, box.pty, "M", "8", "50")
+        give_up_s = time.monotonic() + PATIENCE_S
+        while position(rotctl(model, box.pty, "p"))[0] > 440 and time.monotonic() < give_up_s:
+            pass  # a motor rests before it is reversed
     rotctl(model, box.pty, "R", "1")
     assert 50 < rest(rotctl, model, box.pty)[0] < 440
 
 
 def test_md_01_moves_one_way_at_a_time(start_box: Start, rotctl: Callable[..., str]) -> None:
     box = start_box(DIALECTS[903])
-    rotctl(903, box.pty, "M", "16", "50")
-    arrive(rotctl, 903, box.pty, (450, 0))
-    rotctl(903, box.pty, "M", "2", "50")
-    arrive(rotctl, 903, box.pty, (450, 180))
+    with left_open(box.pty):
+        rotctl(903, box.pty, "M", "16", "50")
+        arrive(rotctl, 903, box.pty, (450, 0))
+        rotctl(903, box.pty, "M", "2", "50")
+        arrive(rotctl, 903, box.pty, (450, 180))
 
 
 @pytest.mark.parametrize("model", [601, 603])
 def test_move(start_box: Start, rotctl: Callable[..., str], model: int) -> None:
     """M 16: clockwise, M 2: up; both until stopped, here by the end of the range."""
     box = start_box(DIALECTS[model])
-    rotctl(model, box.pty, "M", "16", "-1")
-    rotctl(model, box.pty, "M", "2", "100")
-    arrive(rotctl, model, box.pty, (450, 180))
-    rotctl(model, box.pty, "M", "8", "-1")
-    rotctl(model, box.pty, "M", "4", "-1")
-    rotctl(model, box.pty, "S")
+    with left_open(box.pty):
+        rotctl(model, box.pty, "M", "16", "-1")
+        rotctl(model, box.pty, "M", "2", "100")
+        arrive(rotctl, model, box.pty, (450, 180))
+        rotctl(model, box.pty, "M", "8", "-1")
+        rotctl(model, box.pty, "M", "4", "-1")
+        rotctl(model, box.pty, "S")
     azimuth_deg, elevation_deg = position(rotctl(model, box.pty, "p"))
     assert 0 <= azimuth_deg <= 450
     assert 0 <= elevation_deg <= 180

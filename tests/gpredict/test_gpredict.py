@@ -16,7 +16,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rotator.control.authority import PAUSE_S
+from rotator.control.senders import PAUSE_S
 from tests.gpredict.conftest import HOME, OFF
 from tests.gpredict.sky import Satellite, Station, apart_deg
 from tests.gpredict.tap import Said

@@ -11,7 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from rotator.links.console import MOST_CLIENTS, ConsoleSocket, console_path
+from rotator.config.places import console_path
+from rotator.links.console import MOST_CLIENTS, ConsoleSocket
 from rotator.links.stream import UNREAD_LIMIT
 
 PATIENCE_S = 30.0

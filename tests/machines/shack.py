@@ -78,6 +78,9 @@ class Shack:
                 link.pop("baud", None)
                 link["pty"] = str(self.folder / f"serial{number}")
                 self.ptys.append(Path(link["pty"]))
+            elif "pty" in link:
+                # A relative path would be the same file for two machines at a time.
+                link["pty"] = str(self.folder / Path(link["pty"]).name)
             elif "tcp" in link:
                 self.ports[link["protocol"]] = free_port()
                 link["tcp"] = f"127.0.0.1:{self.ports[link['protocol']]}"

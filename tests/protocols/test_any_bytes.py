@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Jog, LoadTimed, Order, RunTimed
 from rotator.protocols.f1efw import F1efwSession
-from rotator.protocols.gs232 import Dialect
+from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Box, Session
 
@@ -28,12 +28,20 @@ if TYPE_CHECKING:
 SESSIONS: dict[str, Callable[[Box], Session]] = {
     "gs232a": lambda box: Gs232Session(box, Dialect.A),
     "gs232b": lambda box: Gs232Session(box, Dialect.B, ack=b"\r", may_calibrate=True),
+    "gs232b, strict": lambda box: Gs232Session(
+        box, Dialect.B, ack=b"\r", empty_line=INVALID, strict=True, may_calibrate=True
+    ),
     "gs232-f1efw": F1efwSession,
 }
-GS232_COMMON = rb"\?>\r\n|\+\d{4}\+\d{4}\r\n|--- COMMAND LIST \d ---\r\n([ -~]+\r\n)+"
+GS232_COMMON = rb"\?>\r\n|\+\d{4}\+\d{4}\r\n|-{10} (COMMAND LIST|HELP COMMAND) \d -{10}\r\n([ -~]+\r\n)+"
+GS232B_ANGLES = rb"AZ=\d{3}(  EL=\d{3})?\r\n|EL=\d{3}\r\n"
 WELL_FORMED = {
     "gs232a": rb"(\+0\d{3}){1,2}\r\n|" + GS232_COMMON,
-    "gs232b": rb"\r|AZ=\d{3}(  EL=\d{3})?\r\n|EL=\d{3}\r\n|Mode \d{3} degree\r\n|[NS] Center\r\n|" + GS232_COMMON,
+    "gs232b": rb"\r|Mode \d{3} degree\r\n|[NS] Center\r\n|" + GS232B_ANGLES + rb"|" + GS232_COMMON,
+    "gs232b, strict": rb"\r|(AZ=\d{3}(  EL=\d{3})?\r\n)?are you sure\?\r\n|Completed\.\r\n|"
+    + GS232B_ANGLES
+    + rb"|"
+    + GS232_COMMON,
     "gs232-f1efw": rb"(?!)",  # it never answers
 }
 
@@ -76,7 +84,7 @@ def gs232_aim(letter: bytes, text: bytes) -> list[Aim] | list[LoadTimed]:
     if all(word.isdigit() and len(word) <= 3 for word in words) and len(words) > (2 if letter == b"W" else 1):
         step, *angles = map(float, words)
         pairs = [(az, None) for az in angles] if letter == b"M" else list(zip(angles[::2], angles[1::2], strict=False))
-        paired = letter == b"M" or len(angles) % 2 == 0
+        paired = len(angles) > 1 and (letter == b"M" or len(angles) % 2 == 0)
         good = paired and step >= 1 and all(az <= 450 and (el or 0) <= 180 for az, el in pairs)
         return [LoadTimed(step, tuple(pairs))] if good else []
     azimuth: float | None
@@ -101,21 +109,26 @@ def gs232_motions(heard: bytes, dialect: Dialect) -> list[Order]:
     motions: list[Order] = []
     top_deg, listed = 450, False
     for raw in heard.replace(b"\n", b"\r").split(b"\r")[:-1]:
-        line = bytes(byte for byte in raw if byte).replace(b"\t", b" ").rstrip(b" ")
+        line = raw.replace(b"\t", b" ").rstrip(b" ")
         while line and not 0x21 <= line[0] <= 0x7E:
             line = line[1:]
+        ended = len(line)
+        while line and line[-1:] in (b" ", b";", b"\0"):
+            line = line[:-1]
+        doubtful = len(line) < ended and not set(map(len, line[1:].split())) <= {3, 6}
         letter, rest = line[:1].upper(), line[1:]
         if line.upper() in (b"P36", b"P45") and dialect is Dialect.B:
             top_deg = 360 if rest == b"36" else 450
         elif not rest:
             motions += [LETTERS[letter]] if letter in LETTERS else []
             motions += [RunTimed()] if letter == b"T" and listed else []
-            listed = listed and letter != b"M"
+            listed = listed and letter not in b"MW"
         elif letter in (b"M", b"W"):
-            for order in gs232_aim(letter, rest.strip(b" ")):
+            listed = False
+            for order in [] if doubtful else gs232_aim(letter, rest.strip(b" ")):
                 points = order.points if isinstance(order, LoadTimed) else ((order.azimuth_deg or 0.0, None),)
                 if max(azimuth for azimuth, _ in points) <= top_deg:
-                    listed = isinstance(order, LoadTimed) or (listed and letter == b"W")
+                    listed = isinstance(order, LoadTimed)
                     motions.append(order)
     return motions
 
@@ -165,7 +178,7 @@ def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, pie
     for piece in pieces:
         session.receive(piece)
     match protocol:
-        case "gs232a" | "gs232b":
+        case "gs232a" | "gs232b" | "gs232b, strict":
             assert box.motions == gs232_motions(heard, Dialect.A if protocol == "gs232a" else Dialect.B)
         case "gs232-f1efw":
             assert box.motions == f1efw_motions(heard)

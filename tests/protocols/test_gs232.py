@@ -11,19 +11,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotator.protocols import gs232
-from rotator.protocols.gs232 import VERBS, Command, Dialect, NotACommand, encode, parse
+from rotator.protocols.gs232 import VERBS, Command, Dialect, NoOrder, NotACommand, encode, parse
 
 A_COMMANDS = [*"RLACMTN", "X1", "X2", "X3", "X4", *"SOFH", *"UDEB", "C2", "W", "O2", "F2", "H2"]
-B_COMMANDS = ["P36", "P45", "Z", "H3"]
+B_COMMANDS = ["P45", "P36", "Z", "H3"]
 """Only the GS-232B has these."""
 
 CANONICAL = [
-    *((f"{text}\r".encode(), Command(text)) for text in A_COMMANDS + B_COMMANDS if text != "W"),
+    *((f"{text}\r".encode(), Command(text)) for text in A_COMMANDS + B_COMMANDS if text not in ("M", "W")),
     (b"M000\r", Command("M", 0)),
     (b"M235\r", Command("M", 235)),
     (b"M450\r", Command("M", 450)),
     (b"M005 010 450\r", Command("M", interval_s=5, points=((10, None), (450, None)))),
-    (b"M999 000\r", Command("M", interval_s=999, points=((0, None),))),
+    (b"M999 000 000\r", Command("M", interval_s=999, points=((0, None), (0, None)))),
     (b"W235 025\r", Command("W", 235, 25)),
     (b"W000 000\r", Command("W", 0, 0)),
     (b"W450 180\r", Command("W", 450, 180)),
@@ -53,6 +53,10 @@ W_235_25 = [
     b"\0W235 025",
     b"\xff\xfe\x80W235 025",  # a port being plugged in
     b"\x1b\x13 \x7fW235 025",
+    b"W235 025;",  # GS232-Remote
+    b"W235 025 ; ",
+    b"W235 025\0\0",
+    b"W235025;",
 ]
 
 OTHER_SPELLINGS = [
@@ -71,14 +75,38 @@ OTHER_SPELLINGS = [
     (b"w1 2 3", Command("W", interval_s=1, points=((2, 3),))),
     (b" c2 ", Command("C2")),
     (b"\xffs", Command("S")),
+    (b"M100;", Command("M", 100)),
+    (b"C;", Command("C")),
+    (b"c2\0", Command("C2")),
+    (b"P45;", Command("P45")),
+    (b"M005 010 020;", Command("M", interval_s=5, points=((10, None), (20, None)))),
 ]
 
-NOTHING = [b"", b" ", b"\t \t", b"\0", b"\0\0\0", b"\xff\xfe", b"\x1b\x07"]
+STOPS = [
+    b"S",
+    b"s",
+    b"S;",
+    b"S\0",
+    b"SS",
+    b"STOP",
+    b"stop!",
+    b"S\xff\xff",
+    b"S\xdf",
+    b"\0S ;",
+    b"SA",
+    b"S?\x1a",
+    b"S,",
+    b"S W",
+]
+"""A stop may be damaged in any way but by a digit."""
 
-NO_COMMAND = [
+NOTHING = [b"", b" ", b";", b" ;;\0", b"\t \t", b"\0", b"\0\0\0", b"\xff\xfe", b"\x1b\x07"]
+
+NO_ORDER = [
+    b"M",
+    b"m;",
     b"W",
     b"W ",
-    b"Z" * 86,
     b"W1x0 020",
     b"W200 181",
     b"W451 000",
@@ -109,6 +137,15 @@ NO_COMMAND = [
     b"M010 020 451",
     b"M-10",
     b"M1234",
+    b"M235 025",  # a list of one azimuth: the manual wants two, and 25 is likely to be an elevation
+    b"M23;",  # the last digit may be what became a semicolon
+    b"W235 02;",
+    b"W235 02\0",
+    b"W235 2.5;",
+]
+"""They begin with M or W and are no order: they clear the timed list."""
+NO_COMMAND = [
+    b"Z" * 86,
     b"XW235 025",
     b"X",
     b"X0",
@@ -117,13 +154,15 @@ NO_COMMAND = [
     b"CC",
     b"C 2",
     b"S1",
-    b"SS",
+    b"S2;",
+    b"STOP 1",
+    b"TS",
+    b"?S",
     b"P",
     b"P40",
     b"H4",
     b"AZ235.0 EL25.0",
     b"P 235 25",
-    b"S\xdf",
     b"\xb5235",
     b"?",
     b">",
@@ -169,8 +208,26 @@ def test_a_line_with_nothing_in_it_is_no_command_and_no_mistake(line: bytes) -> 
 
 @pytest.mark.parametrize("line", NO_COMMAND)
 def test_what_is_no_command(line: bytes) -> None:
-    with pytest.raises(NotACommand):
+    with pytest.raises(NotACommand) as mistake:
         parse(line, Dialect.B)
+    assert mistake.type is NotACommand
+
+
+@pytest.mark.parametrize("line", NO_ORDER)
+def test_an_m_or_w_that_is_no_order(line: bytes) -> None:
+    with pytest.raises(NoOrder):
+        parse(line, Dialect.B)
+
+
+@pytest.mark.parametrize("dialect", Dialect)
+@pytest.mark.parametrize("line", STOPS)
+def test_a_damaged_stop_stops(line: bytes, dialect: Dialect) -> None:
+    assert parse(line, dialect) == Command("S")
+
+
+@given(st.binary(max_size=12).filter(lambda rest: not set(rest) & set(b"0123456789\r\n")), st.sampled_from(b"Ss"))
+def test_no_damage_but_a_digit_makes_a_stop_something_else(rest: bytes, letter: int) -> None:
+    assert parse(bytes([letter]) + rest, Dialect.B) == Command("S")
 
 
 @pytest.mark.parametrize("at", range(1, 8))
@@ -202,7 +259,8 @@ def test_any_order_in_whole_degrees_survives_the_wire(interval_s: int, points: l
     commands = [Command("W", azimuth, elevation) for azimuth, elevation in points]
     if points:
         commands.append(Command("W", interval_s=interval_s, points=tuple(points)))
-        commands.append(Command("M", interval_s=interval_s, points=tuple((azimuth, None) for azimuth, _ in points)))
+        azimuths = [azimuth for azimuth, _ in (*points, points[0])]
+        commands.append(Command("M", interval_s=interval_s, points=tuple((azimuth, None) for azimuth in azimuths)))
     for command in commands:
         assert parse(encode(command).removesuffix(b"\r"), Dialect.A) == command
 
@@ -233,13 +291,34 @@ def test_point_numbers_have_four_digits() -> None:
     assert gs232.count_reply(1900, 3800) == b"+1900+3800\r\n"
 
 
-@pytest.mark.parametrize("dialect", Dialect)
-def test_the_help_lists_name_every_command_once_and_end_each_line(dialect: Dialect) -> None:
-    screens = [gs232.help_reply(screen, dialect) for screen in (1, 2, 3)]
-    for number, screen in enumerate(screens, 1):
-        title, *rows = screen.decode().split("\r\n")
-        assert title == f"--- COMMAND LIST {number} ---"
-        assert rows[-1] == ""
-        assert screen.count(b"\n") == screen.count(b"\r") == len(rows)
-    listed = [row.split()[0] for screen in screens for row in screen.decode().splitlines() if "---" not in row]
-    assert sorted(listed) == sorted(A_COMMANDS + (B_COMMANDS if dialect is Dialect.B else []))
+MANUAL_LISTS = {
+    (Dialect.A, 1): [*"RLACMTN", "X1", "X2", "X3", "X4", *"SOF"],
+    (Dialect.B, 1): [*"RLACMTNSOF", "X1", "X2", "X3", "X4"],
+    (Dialect.A, 2): [*"UDE", "C2", *"WTNS", "O2", "F2", "B"],
+    (Dialect.B, 2): [*"UDE", "C2", *"WTNS", "O2", "F2", "B"],
+    (Dialect.B, 3): ["P45", "P36", "Z"],
+}
+"""Pages 19 (A), 19 and 20 (B)."""
+TITLES = {1: "COMMAND LIST 1", 2: "HELP COMMAND 2", 3: "HELP COMMAND 3"}
+
+
+@pytest.mark.parametrize(("which", "commands"), MANUAL_LISTS.items())
+def test_the_help_lists_have_the_manuals_titles_commands_and_order(
+    which: tuple[Dialect, int], commands: list[str]
+) -> None:
+    dialect, number = which
+    screen = gs232.help_reply(number, dialect, 450, north=False)
+    title, *rows = screen.decode().split("\r\n")
+    assert title == f"---------- {TITLES[number]} ----------"
+    assert rows[-1] == ""
+    assert screen.count(b"\n") == screen.count(b"\r") == len(rows)
+    assert [row.split()[0] for row in rows[: len(commands)]] == commands
+    if number < 3:
+        assert len(rows) == len(commands) + 1
+
+
+@pytest.mark.parametrize(("top_deg", "north", "modes"), [(450, False, b"450 S"), (360, True, b"360 N")])
+def test_h3_shows_the_modes(top_deg: int, north: bool, modes: bytes) -> None:
+    screen = gs232.help_reply(3, Dialect.B, top_deg, north=north)
+    top, centre = modes.split()
+    assert screen.endswith(b"\r\n---------- MODE ----------\r\nmode %b Degree\r\n%b Center\r\n" % (top, centre))

@@ -1,7 +1,8 @@
 """Timed lists over GS-232: the long M and W, run by T, counted by N.
 
-The manual: the first number is the step in seconds, 001 to 999. The antenna goes to the first point at once and waits
-there for T. Any new M clears the list; M alone does only that and is answered `?>`. S ends a run.
+The manuals: the first number is the step in seconds, 001 to 999. The antenna goes to the first point at once and waits
+there for T, which turns to the next point and then waits. Any new M or W clears the list; M or W alone does only that
+and is answered `?>`. S ends a run.
 """
 
 from __future__ import annotations
@@ -39,15 +40,26 @@ def test_a_list_goes_to_its_first_point_and_waits(box: BenchBox, session: Gs232S
     assert session.receive(b"N\r") == [b"+0001+0003\r\n"]
 
 
-def test_t_visits_the_points_an_interval_apart_and_stays_at_the_last(box: BenchBox, session: Gs232Session) -> None:
+def test_t_turns_to_the_next_point_at_once_and_stays_at_the_last(box: BenchBox, session: Gs232Session) -> None:
     session.receive(b"W010 100 020 120 030 140 040\r")
     session.receive(b"T\r")
-    visited = [wanted(box)]
+    visited = []
     for point in (2, 3, 3):
-        box.wait(10)
         visited.append(wanted(box))
         assert session.receive(b"N\r") == [b"+%04d+0003\r\n" % point]
-    assert visited == [(100, 20), (120, 30), (140, 40), (140, 40)]
+        box.wait(10)
+    assert visited == [(120, 30), (140, 40), (140, 40)]
+
+
+def test_t_sent_twice_skips_no_point(box: BenchBox, session: Gs232Session) -> None:
+    session.receive(b"M010 100 120 140\rT\r")
+    box.wait(5)
+    session.receive(b"T\r")
+    assert session.receive(b"N\r") == [b"+0002+0003\r\n"]
+    box.wait(4.9)
+    assert session.receive(b"N\r") == [b"+0002+0003\r\n"]
+    box.wait(0.2)
+    assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
 
 
 def test_intervals_are_exact_to_a_tenth_of_a_second_and_do_not_drift(box: BenchBox, session: Gs232Session) -> None:
@@ -57,8 +69,8 @@ def test_intervals_are_exact_to_a_tenth_of_a_second_and_do_not_drift(box: BenchB
     while box.status().timed_point < 41 and box.now_s < started_s + 130:
         box.wait(0.05)
         reached.setdefault(box.status().timed_point, box.now_s - started_s)
-    assert len(reached) == 41
-    assert all(at_s == pytest.approx((point - 1) * 3, abs=0.1) for point, at_s in reached.items())
+    assert set(reached) == set(range(2, 42))
+    assert all(at_s == pytest.approx((point - 2) * 3, abs=0.1) for point, at_s in reached.items())
 
 
 def test_an_azimuth_list_leaves_the_elevation_alone(box: BenchBox, session: Gs232Session) -> None:
@@ -72,12 +84,11 @@ def test_an_azimuth_list_leaves_the_elevation_alone(box: BenchBox, session: Gs23
 @pytest.mark.parametrize("stop", [b"S\r", b"A\r", b"E\r"])
 def test_a_stop_ends_the_run_and_t_goes_on_from_there(box: BenchBox, session: Gs232Session, stop: bytes) -> None:
     session.receive(b"W005 100 020 120 030 140 040\rT\r")
-    box.wait(6)
+    box.wait(1)
     session.receive(stop)
     box.wait(20)
     assert session.receive(b"N\r") == [b"+0002+0003\r\n"]
     session.receive(b"T\r")
-    box.wait(5)
     assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
     assert wanted(box) == (140, 40)
 
@@ -90,10 +101,25 @@ def test_another_order_ends_the_run(box: BenchBox, session: Gs232Session, order:
     assert wanted(box) == before
 
 
-@pytest.mark.parametrize(("m", "replies"), [(b"M\r", [WRONG]), (b"M200\r", [])])
-def test_any_new_m_forgets_the_list(box: BenchBox, session: Gs232Session, m: bytes, replies: list[bytes]) -> None:
-    session.receive(b"M005 100 120\rT\r")
-    assert session.receive(m) == replies
+CLEARING = {
+    b"M": [WRONG],
+    b"W": [WRONG],
+    b"M200": [],
+    b"W200 010": [],
+    b"W000 010 020": [WRONG],  # a new list that is damaged: T must not run the old one
+    b"M005 01x 020": [WRONG],
+    b"M451": [WRONG],
+    b"W200 181": [WRONG],
+}
+
+
+@pytest.mark.parametrize("load", [b"M005 100 120 140\rT\r", b"W005 100 020 120 030 140 040\rT\r"])
+@pytest.mark.parametrize(("line", "replies"), CLEARING.items())
+def test_any_new_m_or_w_forgets_the_list(
+    box: BenchBox, session: Gs232Session, load: bytes, line: bytes, replies: list[bytes]
+) -> None:
+    session.receive(load)
+    assert session.receive(line + b"\r") == replies
     assert session.receive(b"T\rN\r") == [WRONG, WRONG]
     before = wanted(box)
     box.wait(20)
@@ -101,14 +127,9 @@ def test_any_new_m_forgets_the_list(box: BenchBox, session: Gs232Session, m: byt
     assert box.status().timed_points == 0
 
 
-def test_a_single_w_keeps_the_list(session: Gs232Session) -> None:
-    session.receive(b"W005 100 020 120 030\rW200 010\r")
-    assert session.receive(b"N\rT\r") == [b"+0001+0002\r\n"]
-
-
 def test_a_new_list_takes_the_old_ones_place(box: BenchBox, session: Gs232Session) -> None:
     session.receive(b"M005 100 120 140\rT\r")
-    box.wait(11)
+    box.wait(6)
     assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
     assert session.receive(b"W005 010 020 030 040\rN\r") == [b"+0001+0002\r\n"]
 
@@ -120,16 +141,30 @@ def test_a_new_list_in_the_same_packet_as_n(new_box: type[BenchBox]) -> None:
     session.receive(b"M005 100 120 140\r")
     box.wait(1)
     session.receive(b"T\r")
-    box.wait(11)
+    box.wait(6)
     assert session.receive(b"N\r") == [b"+0003+0003\r\n"]
     assert session.receive(b"M005 010 020\rN\r") == [b"+0001+0002\r\n"]
 
 
-@pytest.mark.parametrize("line", [b"M000 010 020", b"W005 010 020 030", b"M005 451", b"W005 010 181", b"M005 01x 020"])
-def test_a_damaged_list_is_no_list_and_the_old_one_stays(box: BenchBox, session: Gs232Session, line: bytes) -> None:
-    session.receive(b"W005 100 020 120 030\r")
-    assert session.receive(line + b"\rN\r") == [WRONG, b"+0001+0002\r\n"]
-    assert len(box.motions) == 1
+@pytest.mark.parametrize("line", [b"M000 010 020", b"W005 010 020 030", b"M005 451 1", b"W005 010 181", b"M005 10"])
+def test_a_damaged_list_is_no_list(box: BenchBox, session: Gs232Session, line: bytes) -> None:
+    assert session.receive(line + b"\rN\rT\r") == [WRONG] * 3
+    assert box.motions == []
+
+
+@pytest.mark.parametrize("line", [b"S1", b"X9", b"hello", b"R", b"C2", b"P36"])
+def test_other_lines_keep_the_list(session: Gs232Session, line: bytes) -> None:
+    session.receive(b"W005 100 020 120 030\r" + line + b"\r")
+    assert session.receive(b"N\r") == [b"+0001+0002\r\n"]
+
+
+def test_a_list_that_another_link_clears_does_not_run_on(box: BenchBox, session: Gs232Session) -> None:
+    session.receive(b"M005 100 120 140\rT\r")
+    Gs232Session(box, Dialect.A).receive(b"M\r")
+    assert session.receive(b"C2\r") != []
+    box.wait(20)
+    assert wanted(box)[0] == 120
+    assert box.status().timed_points == 0
 
 
 @pytest.mark.parametrize(

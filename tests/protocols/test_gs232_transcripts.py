@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, ClearTimed, Jog, Order, Speed, Stop
+from rotator.orders import Aim, Jog, Order, Speed, Stop
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Session
@@ -46,7 +46,7 @@ TRANSCRIPTS_A: dict[str, Transcript] = {
     ),
     "PstRotator, azimuth alone, then both; blanks and empty lines": (
         [(b"M100\r", []), (b"C2\r\n", [A_HERE]), (b"\r\n", []), (b" C2 \r\n", [A_HERE]), (b"S\r", [])],
-        [ClearTimed(), Aim(100, None), Stop()],
+        [Aim(100, None), Stop()],
     ),
 }
 TRANSCRIPTS_B: dict[str, Transcript] = {
@@ -70,7 +70,7 @@ TRANSCRIPTS_B: dict[str, Transcript] = {
     ),
     "SDRangel: CR LF is one end, and a second answer would put it out": (
         [(b"W190 045\r\n", []), (b"C2\r\n", [B_HERE]), (b"M190\r\n", []), (b"C2\r\n", [B_HERE])],
-        [Aim(190, 45), ClearTimed(), Aim(190, None)],
+        [Aim(190, 45), Aim(190, None)],
     ),
     "WispDDE, for Orbitron and SDR Console: never reads": (
         [(b"W190 045\r", []), (b"W191 045\r", []), (b"W191 046\r", [])],
@@ -86,7 +86,18 @@ TRANSCRIPTS_B: dict[str, Transcript] = {
     ),
     "CT: speed and azimuth in one go": (
         [(b"X4\rM100\r", [])],
-        [Speed(4), ClearTimed(), Aim(100, None)],
+        [Speed(4), Aim(100, None)],
+    ),
+    "GS232-Remote: a semicolon before each return": (
+        [
+            (b"P45;\r", [b"Mode 450 degree\r\n"]),
+            (b"X3;\r", []),
+            (b"M100;\r", []),
+            (b"C;\r", [b"AZ=235\r\n"]),
+            (b"R;\r", []),
+            (b"S;\r", []),
+        ],
+        [Speed(3), Aim(100, None), RIGHT, Stop()],
     ),
     "a person in Termite": (
         [(b"w235 25\r\n", []), (b"c2\r\n", [B_HERE]), (b"hello\r\n", [b"?>\r\n"]), (b"s\r\n", [])],

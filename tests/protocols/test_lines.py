@@ -16,7 +16,9 @@ LIMIT = 8
     [
         (b"C2\r", [b"C2"]),  # Hamlib
         (b"C2\n", [b"C2"]),  # Termite, set so
-        (b"C2\r\n", [b"C2", b""]),  # SDRangel; what ends a line twice makes an empty one
+        (b"C2\r\n", [b"C2"]),  # SDRangel
+        (b"\r\n\r\n", [b"", b""]),
+        (b"\r\r\n\n", [b"", b"", b""]),
         (b"S\r\r", [b"S", b""]),  # Hamlib's GS-232B ends each command twice
         (b"\n\r", [b"", b""]),
         (b"A\rE\nS\r", [b"A", b"E", b"S"]),
@@ -74,5 +76,5 @@ def test_pieces_make_no_difference_and_memory_is_bounded(pieces: list[bytes]) ->
     for piece in pieces:
         lines += reader.feed(piece)
         assert len(reader.pending) <= LIMIT
-    spoken = b"".join(pieces).replace(b"\n", b"\r").split(b"\r")[:-1]
+    spoken = b"".join(pieces).replace(b"\r\n", b"\r").replace(b"\n", b"\r").split(b"\r")[:-1]
     assert lines == [line if len(line) <= LIMIT else None for line in spoken]

@@ -8,13 +8,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.control.sky.track import Track
 from rotator.orders import Aim, Order
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import NotUnderstood
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
+
+
+def place(azimuth_deg: float, elevation_deg: float) -> Aim:
+    """Every order is for a place, and no point of a path."""
+    return Aim(azimuth_deg, elevation_deg, place=True)
 
 
 @pytest.fixture
@@ -39,67 +43,37 @@ def test_the_first_answer_is_where_it_stands_and_no_order(box: BenchBox, followe
 
 def test_from_then_on_every_change_is_an_order(box: BenchBox, follower: RotctldFollower) -> None:
     answer(follower, b"0.00\n0.00\n", b"2.11\n0.00\n", b"2.110000\n0.000000\n", b"4.21\n1.00\n", b"2.11\n0.00\n")
-    assert box.orders == [Aim(2.11, 0), Aim(4.21, 1), Aim(2.11, 0)]
+    assert box.orders == [place(2.11, 0), place(4.21, 1), place(2.11, 0)]
 
 
 def test_the_last_one_is_said_again_a_few_times_and_then_there_is_silence(box: BenchBox) -> None:
     """Others may then move the antenna, though this one is still asked."""
     follower = RotctldFollower(box, 0.1)
     answer(follower, b"0.00\n0.00\n", *[b"30.00\n20.00\n"] * 12)
-    assert box.orders == [Aim(30, 20)]
+    assert box.orders == [place(30, 20)]
     answer(follower, b"30.00\n20.00\n")
-    assert box.orders == [Aim(30, 20)] * 2
+    assert box.orders == [place(30, 20)] * 2
     answer(follower, *[b"30.00\n20.00\n"] * 1000)
-    assert box.orders == [Aim(30, 20)] * 5
+    assert box.orders == [place(30, 20)] * 5
 
 
-def test_a_rotor_that_turns_gives_two_orders_a_second_and_its_last_place(box: BenchBox) -> None:
+def test_a_rotor_that_turns_gives_an_order_for_each_place(box: BenchBox) -> None:
     follower = RotctldFollower(box, 0.1)
-    answer(follower, b"0.00\n0.00\n", *[b"%d.00\n0.00\n" % deg for deg in range(1, 13)], *[b"12.00\n0.00\n"] * 5)
-    assert box.orders == [Aim(1, 0), Aim(6, 0), Aim(11, 0), Aim(12, 0)]
-
-
-class Tracked:
-    """The box's idea of where the target is, from the orders that it gets."""
-
-    def __init__(self, box: BenchBox) -> None:
-        self.now_s = 0.0
-        self.status = box.status
-        self._track = Track()
-
-    def order(self, order: Order) -> None:
-        assert isinstance(order, Aim)
-        self._track.note(self.now_s, order.azimuth_deg or 0.0, order.elevation_deg or 0.0)
-
-    def azimuth_deg(self) -> float | None:
-        return self._track.direction(self.now_s)[0] if self._track.moving(self.now_s) else None
-
-
-@pytest.mark.parametrize("speed_dps", [6.0, 3.0, 2.0, 1.0, 0.5])
-def test_the_box_does_not_run_on_when_the_other_rotor_has_arrived(box: BenchBox, speed_dps: float) -> None:
-    """A dummy turns at 6 degrees a second; a stream that is cut off is followed for 3 seconds more."""
-    tracked = Tracked(box)
-    follower = RotctldFollower(tracked, 0.1)
-    end_deg, furthest_deg = 30 + 8 * speed_dps, 0.0
-    for tenth in range(200):
-        tracked.now_s = tenth / 10
-        answer(follower, b"%.2f\n10.00\n" % min(end_deg, 30 + speed_dps * tracked.now_s))
-        furthest_deg = max(furthest_deg, tracked.azimuth_deg() or 0.0)
-    assert end_deg - 1 < furthest_deg < end_deg + 8
-    assert tracked.azimuth_deg() is None, "the target stands"
+    answer(follower, b"0.00\n0.00\n", *[b"%d.00\n0.00\n" % deg for deg in range(1, 4)], *[b"3.00\n0.00\n"] * 5)
+    assert box.orders == [place(1, 0), place(2, 0), place(3, 0)]
 
 
 @pytest.mark.parametrize(
     ("said", "orders"),
     [
-        (b"235.00\n25.00\n", [Aim(235, 25)]),
-        (b"235.000000\r\n25.000000\r\n", [Aim(235, 25)]),
-        (b"235,50\n25,25\n", [Aim(235.5, 25.25)]),
-        (b"-90.00\n25.00\n", [Aim(270, 25)]),
-        (b"400.00\n25.00\n", [Aim(400, 25)]),
-        (b"10.00\n170.00\n", [Aim(10, 170)]),
-        (b"RPRT 0\n235.00\n25.00\n", [Aim(235, 25)]),
-        (b"235.00\n25.00\nRPRT 0\n", [Aim(235, 25)]),
+        (b"235.00\n25.00\n", [place(235, 25)]),
+        (b"235.000000\r\n25.000000\r\n", [place(235, 25)]),
+        (b"235,50\n25,25\n", [place(235.5, 25.25)]),
+        (b"-90.00\n25.00\n", [place(270, 25)]),
+        (b"400.00\n25.00\n", [place(400, 25)]),
+        (b"10.00\n170.00\n", [place(10, 170)]),
+        (b"RPRT 0\n235.00\n25.00\n", [place(235, 25)]),
+        (b"235.00\n25.00\nRPRT 0\n", [place(235, 25)]),
     ],
 )
 def test_positions(box: BenchBox, follower: RotctldFollower, said: bytes, orders: list[Order]) -> None:
@@ -113,7 +87,7 @@ def test_an_answer_in_pieces(box: BenchBox, follower: RotctldFollower) -> None:
     follower.ask()
     pieces = [b"23", b"5.0", b"0\n2", b"5.00", b"\n"]
     assert [follower.receive(piece) for piece in pieces] == [False, False, False, False, True]
-    assert box.orders == [Aim(235, 25)]
+    assert box.orders == [place(235, 25)]
 
 
 @pytest.mark.parametrize("said", [b"RPRT -5\n", b"RPRT -6\n", b"1000.00\n25.00\n", b"10.00\n200.00\n"])
@@ -125,7 +99,7 @@ def test_an_answer_without_a_direction_moves_nothing_and_is_told(
     assert box.orders == []
     answer(follower, b"2.00\n1.00\n")
     assert follower.trouble == ""
-    assert box.orders == [Aim(2, 1)]
+    assert box.orders == [place(2, 1)]
 
 
 @pytest.mark.parametrize(
@@ -155,7 +129,7 @@ def test_half_an_answer_is_forgotten_with_the_next_question(box: BenchBox, follo
     follower.ask()
     assert not follower.receive(b"235.00\n25")
     answer(follower, b"2.00\n3.00\n")
-    assert box.orders == [Aim(2, 3)]
+    assert box.orders == [place(2, 3)]
 
 
 @given(

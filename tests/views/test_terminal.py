@@ -267,3 +267,10 @@ def test_trouble_in_a_line() -> None:
     assert "elevation --- UNCALIBRATED (limits; reads None)" in line
     assert "STOPPED by console" in line
     assert line.endswith(f"FAULT {FAULT}")
+
+
+def test_orders_without_effect_are_shown_with_the_reason() -> None:
+    ignored = "orders from rotctld#1 are ignored: gs232b#1 has stopped the antenna; they count again after 10 s"
+    now = replace(STATUS, notices=(ignored,))
+    assert ignored in words(show(now))
+    assert ignored not in terminal.line(now), "the plain lines stand among those of the log, which has it"

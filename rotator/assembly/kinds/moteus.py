@@ -10,6 +10,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from firmware_sim.moteus.motor import MoteusSettings
 from firmware_sim.rotors.moteus import MoteusAxisSpec, SimMoteusRotor
 from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
@@ -20,12 +21,16 @@ from hw.ports import Axis, OutputLines
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.config.kinds.moteus import Moteus
+from rotator.config.model import Config
 from rotator.rotors.moteus import MoteusRotor
 
+SIMULATED_GEAR = 10.0
+"""Turns of the simulated motor for one turn of the antenna."""
 
-def moteus_drive(tables: Moteus, clock: Callable[[], float]) -> MoteusDrive:
+
+def moteus_drive(config: Config, clock: Callable[[], float], *, look_only: bool = False) -> MoteusDrive:
     def spec(axis: Axis) -> MoteusSpec:
-        table = tables.of(axis)
+        table, limits = config.moteus.of(axis), config.axis(axis)
         return MoteusSpec(
             can_id=table.id,
             rev_per_turn=table.rev_per_turn,
@@ -34,9 +39,11 @@ def moteus_drive(tables: Moteus, clock: Callable[[], float]) -> MoteusDrive:
             accel_limit_dps2=table.accel_limit_dps2,
             max_torque_nm=math.nan if table.max_torque_nm is None else table.max_torque_nm,
             geared=table.geared,
+            min_deg=limits.min_deg,
+            max_deg=limits.max_deg,
         )
 
-    return MoteusDrive(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), clock)
+    return MoteusDrive(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), clock, look_only=look_only)
 
 
 def moteus_bus(tables: Moteus, drive: MoteusDrive) -> MoteusBus:
@@ -45,7 +52,7 @@ def moteus_bus(tables: Moteus, drive: MoteusDrive) -> MoteusBus:
 
 
 def build(parts: Assembly, lines: OutputLines | None) -> MoteusRotor:
-    drive = moteus_drive(parts.config.moteus, parts.board.clock)
+    drive = moteus_drive(parts.config, parts.board.clock)
     sensors = parts.sensors({axis: drive.sensor(axis) for axis in Axis})
     return MoteusRotor(drive, _served(parts, drive), sensors, parts.shift, parts.ends)
 
@@ -67,6 +74,7 @@ def _served(parts: Assembly, drive: MoteusDrive) -> MoteusBus | MoteusInStep:
 def simulate(axes: SimulatedAxes) -> SimMoteusRotor:
     def spec(axis: Axis) -> MoteusAxisSpec:
         table = axes.config.moteus.of(axis)
-        return MoteusAxisSpec(table.id, axes.start_deg(axis), table.rev_per_turn, table.zero_rev)
+        settings = MoteusSettings(rotor_turns=SIMULATED_GEAR / abs(table.rev_per_turn) if table.geared else 1.0)
+        return MoteusAxisSpec(table.id, axes.start_deg(axis), table.rev_per_turn, table.zero_rev, settings)
 
     return SimMoteusRotor(spec(Axis.AZIMUTH), spec(Axis.ELEVATION), axes.clock, axes.bus_sleep)

@@ -61,5 +61,10 @@ class MotionWatch:
         self._weld.acknowledge()
 
     @property
+    def noise_deg(self) -> float:
+        """Scatter of the readings, rms, as seen so far."""
+        return self._seen.trend.noise_deg
+
+    @property
     def notices(self) -> tuple[Notice, ...]:
         return self._weld.notices

@@ -34,6 +34,10 @@ class ControlledAxis(Protocol):
         """Whether the axis has a goal: it aims, jogs or homes."""
 
     @property
+    def jogs_without_end(self) -> bool:
+        """Whether the axis turns until it is stopped, or at its limit: a jog without a time."""
+
+    @property
     def driven(self) -> bool:
         """Whether the motor was on after the last cycle."""
 

@@ -12,6 +12,7 @@ from rotator.control.axis.goals import JogGoal, jog, limit_reached
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import COMING_DEG, StrayWatch
+from rotator.control.axis.trend import Trend
 from rotator.control.commands import HOLD, Decision, Hold, Steer
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
@@ -35,6 +36,7 @@ class PositionedAxis:
         self._lease_s = lease_s
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
         self._stray = StrayWatch(settings.axis)
+        self._readings = Trend()
         self._steered: tuple[Steer, float] | None = None
         """Where the drive was sent last, and when; None: it holds."""
 
@@ -53,6 +55,10 @@ class PositionedAxis:
     @property
     def busy(self) -> bool:
         return self._goal is not None
+
+    @property
+    def jogs_without_end(self) -> bool:
+        return isinstance(self._goal, JogGoal) and self._goal.until_s is None
 
     @property
     def fault(self) -> Fault | None:
@@ -86,6 +92,8 @@ class PositionedAxis:
     def see(self, reading: Reading, now_s: float) -> None:
         self._condition = reading.condition
         unbelievable = self._sensing.take(reading, now_s)
+        if self._sensing.fresh and self._sensing.angle_deg is not None:
+            self._readings.see(reading.at_s, self._sensing.angle_deg, self.settings.speed_dps)
         # The rotor's own report says more than what can be seen of it from here.
         reported = reading.condition.fault
         cause = unbelievable if reading.condition.latched else reported or unbelievable
@@ -129,6 +137,7 @@ class PositionedAxis:
             missing=self.settings.missing,
             confirmable=self.confirmable,
             fault=self.fault,
+            noise_deg=self._readings.noise_deg,
             notices=(self._condition.notice,) if self._condition.notice else (),
         )
 

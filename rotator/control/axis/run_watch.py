@@ -50,6 +50,8 @@ class RunWatch:
     """
 
     notices: tuple[Notice, ...] = ()
+    noise_deg = 0.0
+    """A count does not scatter."""
 
     def __init__(self, axis: Axis, limits: Range, motors: Mapping[Direction, Motor], quiet_s: float) -> None:
         self._axis = axis

@@ -77,6 +77,10 @@ class SwitchedAxis:
         return self._goal is not None
 
     @property
+    def jogs_without_end(self) -> bool:
+        return isinstance(self._goal, JogGoal) and self._goal.until_s is None
+
+    @property
     def homing(self) -> bool:
         return isinstance(self._goal, HomeGoal)
 
@@ -263,6 +267,7 @@ class SwitchedAxis:
             fault=self.fault,
             homing=self.homing,
             notices=self._notices(),
+            noise_deg=self._watch.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
         )

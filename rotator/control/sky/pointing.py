@@ -43,8 +43,13 @@ Goals = tuple[AimGoal, AimGoal | None]
 
 
 class Pointing:
-    def __init__(self, mount: Mount, azimuth_tolerance_deg: float, elevation_tolerance_deg: float) -> None:
+    """`on_sky` False: the tolerance is in degrees of each axis, and a target that moves is followed order by order."""
+
+    def __init__(
+        self, mount: Mount, azimuth_tolerance_deg: float, elevation_tolerance_deg: float, *, on_sky: bool = True
+    ) -> None:
         self._mount = mount
+        self._on_sky = on_sky
         self._azimuth_tolerance_deg = azimuth_tolerance_deg
         self._elevation_tolerance_deg = elevation_tolerance_deg
         self._track = Track()
@@ -60,6 +65,10 @@ class Pointing:
         self._way = None
         kept = self.wanted
         self.wanted = Aim(None if azimuth else kept.azimuth_deg, None if elevation else kept.elevation_deg)
+
+    def end_stream(self) -> None:
+        """The target stands at the direction last ordered."""
+        self._track.end()
 
     def show(self, aim: Aim) -> None:
         """Show a direction without following it."""
@@ -83,6 +92,8 @@ class Pointing:
             self._track.clear()
             self._way = Way(axis_azimuth_deg, flipped=False)
             return AimGoal(axis_azimuth_deg, self._standing_tolerance_deg(elevation_deg)), None
+        if aim.place:
+            self._track.clear()
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
         moving = self._track.moving(now_s)
         if self._way is not None and moving:
@@ -105,11 +116,15 @@ class Pointing:
         if self._way is None:
             return None
         if not self._track.moving(now_s):
-            return self._standing(settled=True) if had_path else None
+            ended = had_path or (not self._on_sky and self._planned_s is not None)
+            self._planned_s = None
+            return self._standing(settled=True) if ended else None
         if self._planned_s is not None and now_s - self._planned_s < PLAN_EVERY_S:
             return None
         self._planned_s = now_s
         self._choose_way(now_s, speeds)
+        if not self._on_sky:
+            return self._standing(settled=False)
         directions = [self._track.direction(now_s + offset_s) for offset_s in OFFSETS_S]
         azimuths_deg, elevations_deg = [], []
         azimuth_deg = self._way.azimuth_deg
@@ -168,6 +183,8 @@ class Pointing:
         )
 
     def _standing_tolerance_deg(self, elevation_deg: float) -> float:
-        """The tolerance is on the sky: high up, a degree of azimuth moves the antenna less than a degree."""
+        """On the sky: high up, a degree of azimuth moves the antenna less than a degree."""
+        if not self._on_sky:
+            return self._azimuth_tolerance_deg
         weight = max(LEAST_WEIGHT, abs(math.cos(math.radians(elevation_deg))))
         return self._azimuth_tolerance_deg / weight

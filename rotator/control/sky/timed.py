@@ -32,9 +32,12 @@ class TimedList:
         self.points, self.point, self._started_s = (), 0, None
 
     def run(self, now_s: float) -> None:
-        """Go on from the present point; the next is due one interval from now."""
-        if self.points:
-            self._started_s, self._started_point = now_s, self.point
+        """Go on to the next point at once, to the one after it an interval later, and so on (the manuals, under T).
+
+        A run that goes on already is left alone: a T sent twice skips no point.
+        """
+        if self.point < len(self.points) and not self.running:
+            self._started_s, self._started_point = now_s, self.point + 1
 
     def halt(self) -> None:
         """A stop or any other order ends the run; the list and its present point stay."""

@@ -51,6 +51,12 @@ class Track:
         self._orders.clear()
         self._fit = None
 
+    def end(self) -> None:
+        """No more orders come: the target stands at the last one."""
+        last = list(self._orders)[-1:]
+        self.clear()
+        self._orders.extend(last)
+
     def note(self, now_s: float, azimuth_deg: float, elevation_deg: float) -> None:
         """An order for this direction arrived."""
         if self._orders:

@@ -46,7 +46,8 @@ PROGRAMS = (
         "PstRotator",
         ("gs232b", "gs232a"),
         "serial or TCP",
-        "Yaesu GS-232 with the same letter, 9600 8N1; it polls up to 5 times a second",
+        "Yaesu GS-232 with the same letter, 9600 8N1; it polls up to 5 times a second. `gs232-f1efw` steers too, but "
+        "never answers: PstRotator then shows no position and repeats its order",
         (b"M235\r", b"W235 025\r", b"C2\r", b"C\r", b"S\r"),
         "users' reports",
     ),
@@ -88,6 +89,22 @@ PROGRAMS = (
         "serial",
         "Yaesu; it asks every 5 s",
         (b"C2\r\n", b"M235\r\n", b"W235 025\r\n", b"S\r\n"),
+        "its source",
+    ),
+    Program(
+        "HSFL COSMOS",
+        ("gs232b",),
+        "serial or `pty`",
+        '`empty_line = "?>"` on the link: it sends a bare CR before every command and waits for `?>`; no `ack`',
+        (b"C2\r", b"W100 020\r", b"X2\r", b"C\r", b"B\r", b"S\r"),
+        VERIFIED + " (its driver)",
+    ),
+    Program(
+        "GS232-Remote (EA1NK)",
+        ("gs232b",),
+        "serial",
+        '`ack = "cr"` on the link; it shows no position, because it expects both angles of `C`',
+        (b"P45;\r", b"X3;\r", b"M235;\r", b"R;\r", b"C;\r", b"S;\r"),
         "its source",
     ),
     Program(

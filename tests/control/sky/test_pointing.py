@@ -72,3 +72,35 @@ def test_fifty_orders_a_second_cost_little_more_than_one() -> None:
 
     # Fifty times as many orders; without thinning each would cost fifty times as much as well.
     assert cost_s(0.02) < 50 * cost_s(1.0)
+
+
+def test_high_up_a_tolerance_on_the_sky_is_more_degrees_of_azimuth(pointing: Pointing) -> None:
+    azimuth, elevation = pointing.aim(0.0, Aim(100.0, 60.0), 50.0, 60.0)
+    assert elevation is not None
+    assert (azimuth.tolerance_deg, elevation.tolerance_deg) == (pytest.approx(8.0), 4.0)
+
+
+@pytest.mark.parametrize("elevation_deg", [0.0, 60.0, 89.0, 120.0])
+def test_a_tolerance_of_the_axis_is_the_same_everywhere(elevation_deg: float) -> None:
+    plain = Pointing(Mount(azimuth=Range(0.0, 450.0), elevation=Range(0.0, 180.0)), 4.0, 3.0, on_sky=False)
+    azimuth, elevation = plain.aim(0.0, Aim(100.0, elevation_deg), 50.0, elevation_deg)
+    assert elevation is not None
+    assert (azimuth.tolerance_deg, elevation.tolerance_deg) == (4.0, 3.0)
+
+
+def test_with_a_tolerance_of_the_axis_a_stream_is_followed_order_by_order() -> None:
+    plain = Pointing(Mount(azimuth=Range(0.0, 450.0), elevation=Range(0.0, 180.0)), 4.0, 4.0, on_sky=False)
+    ended_s = stream(plain, 100.0, 150.0, rate_dps=1.0, every_s=1.0)
+    goals = plain.look_ahead(ended_s - 0.9, SPEEDS, had_path=False)
+    assert goals is not None
+    assert (goals[0].target_deg, goals[0].path) == (150.0, None)
+
+
+def test_with_a_tolerance_of_the_axis_too_a_target_beyond_the_end_is_reached_on_the_other_turn() -> None:
+    plain = Pointing(Mount(azimuth=Range(0.0, 450.0), elevation=Range(0.0, 180.0)), 4.0, 4.0, on_sky=False)
+    ended_s = stream(plain, 30.0, -20.0, rate_dps=2.0, every_s=1.0)
+    plain.look_ahead(ended_s - 0.9, SPEEDS, had_path=False)
+    goals = plain.look_ahead(ended_s + 4.0, SPEEDS, had_path=False)
+    assert goals is not None
+    assert goals[0].target_deg == pytest.approx(340.0)
+    assert plain.look_ahead(ended_s + 5.0, SPEEDS, had_path=False) is None

@@ -33,12 +33,32 @@ def test_loading_aims_at_the_first_point_and_waits() -> None:
     assert visits(timed, 0.0, 60.0) == []
 
 
-def test_running_visits_the_others_an_interval_apart() -> None:
+def test_running_turns_to_the_next_point_at_once_and_then_waits() -> None:
     timed = TimedList()
     timed.load(2.0, AZIMUTHS)
     timed.run(100.0)
-    assert visits(timed, 100.0, 60.0) == [(pytest.approx(2.0), (20.0, None)), (pytest.approx(4.0), (30.0, None))]
+    assert visits(timed, 100.0, 60.0) == [(0.0, (20.0, None)), (pytest.approx(2.0), (30.0, None))]
     assert timed.point == 3
+
+
+def test_run_again_while_running_skips_no_point() -> None:
+    timed = TimedList()
+    timed.load(2.0, AZIMUTHS)
+    timed.run(100.0)
+    assert timed.due(100.0) == (20.0, None)
+    timed.run(100.5)
+    assert timed.due(100.5) is None
+    assert timed.due(102.0) == (30.0, None)
+
+
+def test_at_the_last_point_there_is_nothing_to_run() -> None:
+    timed = TimedList()
+    timed.load(2.0, AZIMUTHS)
+    timed.run(0.0)
+    timed.due(10.0)
+    timed.run(20.0)
+    assert not timed.running
+    assert visits(timed, 20.0, 10.0) == []
 
 
 @pytest.mark.parametrize("interval_s", [1.0, 3.0, 999.0])
@@ -49,8 +69,9 @@ def test_intervals_are_exact_to_the_end_of_the_longest_list(interval_s: float, s
     timed.load(interval_s, points)
     timed.run(start_s)
     for number in range(1, 3800):
-        due_s = start_s + number * interval_s
-        assert timed.due(due_s - 0.05) is None
+        due_s = start_s + (number - 1) * interval_s
+        if number > 1:
+            assert timed.due(due_s - 0.05) is None
         assert timed.due(due_s) == points[number]
         assert timed.point == number + 1
 
@@ -59,16 +80,16 @@ def test_a_late_look_does_not_put_off_the_next_point() -> None:
     timed = TimedList()
     timed.load(1.0, AZIMUTHS)
     timed.run(0.0)
-    assert timed.due(1.9) == (20.0, None)
-    assert timed.due(1.95) is None
-    assert timed.due(2.0) == (30.0, None)
+    assert timed.due(0.9) == (20.0, None)
+    assert timed.due(0.95) is None
+    assert timed.due(1.0) == (30.0, None)
 
 
 def test_a_very_late_look_skips_what_is_over() -> None:
     timed = TimedList()
     timed.load(1.0, AZIMUTHS)
     timed.run(0.0)
-    assert timed.due(2.5) == (30.0, None)
+    assert timed.due(1.5) == (30.0, None)
     assert timed.due(99.0) is None
 
 
@@ -76,12 +97,12 @@ def test_halted_it_keeps_its_list_and_its_point_and_goes_on_from_there() -> None
     timed = TimedList()
     timed.load(1.0, AZIMUTHS)
     timed.run(0.0)
-    timed.due(1.0)
+    timed.due(0.5)
     timed.halt()
     assert visits(timed, 1.0, 60.0) == []
     assert (timed.point, len(timed.points)) == (2, 3)
     timed.run(100.0)
-    assert visits(timed, 100.0, 10.0) == [(pytest.approx(1.0), (30.0, None))]
+    assert visits(timed, 100.0, 10.0) == [(0.0, (30.0, None))]
 
 
 def test_a_new_list_replaces_a_running_one() -> None:
@@ -91,7 +112,7 @@ def test_a_new_list_replaces_a_running_one() -> None:
     assert timed.load(5.0, ((1.0, 2.0), (3.0, 4.0))) == (1.0, 2.0)
     assert visits(timed, 1.0, 10.0) == []
     timed.run(20.0)
-    assert visits(timed, 20.0, 10.0) == [(pytest.approx(5.0), (3.0, 4.0))]
+    assert visits(timed, 20.0, 10.0) == [(0.0, (3.0, 4.0))]
 
 
 def test_cleared_there_is_nothing_to_run() -> None:

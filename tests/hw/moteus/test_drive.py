@@ -5,6 +5,7 @@ The rotor is the ISEL build: azimuth one revolution a turn, elevation upside dow
 
 from __future__ import annotations
 
+import contextlib
 import math
 from itertools import pairwise
 
@@ -31,9 +32,17 @@ CYCLE_S = 0.05
 
 
 class Bench:
-    def __init__(self, start_deg: tuple[float, float] = (0.0, 0.0), *, geared: bool = True, rotor_turns: float = 50):
+    def __init__(
+        self,
+        start_deg: tuple[float, float] = (0.0, 0.0),
+        *,
+        geared: bool = True,
+        rotor_turns: float = 50,
+        output_encoder: bool = False,
+        range_deg: tuple[float, float] = (0.0, 450.0),
+    ):
         self.clock = SimClock(100.0)
-        settings = MoteusSettings(rotor_turns=rotor_turns, timeout_mode=Mode.POSITION)
+        settings = MoteusSettings(rotor_turns=rotor_turns, timeout_mode=Mode.POSITION, output_encoder=output_encoder)
         self.world = SimMoteusRotor(
             MoteusAxisSpec(1, start_deg[0], settings=settings),
             MoteusAxisSpec(
@@ -41,7 +50,7 @@ class Bench:
             ),
             self.clock,
         )
-        self.specs = MoteusSpec(can_id=1, geared=geared), ELEVATION
+        self.specs = MoteusSpec(can_id=1, geared=geared, min_deg=range_deg[0], max_deg=range_deg[1]), ELEVATION
         self.start_program()
 
     def start_program(self) -> None:
@@ -56,6 +65,13 @@ class Bench:
         """Aim as the control loop does: at an angle that moves on, renewed every cycle."""
         for at in range(round(seconds / CYCLE_S)):
             self.drive.aim(axis, angle_deg + rate_dps * at * CYCLE_S, rate_dps, self.clock() + 0.25)
+            self.clock.sleep(CYCLE_S)
+
+    def follow_if_it_may(self, axis: Axis, angle_deg: float, seconds: float) -> None:
+        """Aim all that time, refused or not."""
+        for _ in range(round(seconds / CYCLE_S)):
+            with contextlib.suppress(HardwareError):
+                self.drive.aim(axis, angle_deg, 0.0, self.clock() + 0.25)
             self.clock.sleep(CYCLE_S)
 
     def antenna(self, axis: Axis) -> float:

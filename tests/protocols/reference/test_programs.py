@@ -20,7 +20,8 @@ PLACES: dict[str, dict[str, str]] = {
     "macdoppler": {"udp": "127.0.0.1:9932"},
     "wsjtx": {"file": "azel.dat"},
 }
-QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B")
+QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B", b"P45")
+"""What moves nothing."""
 
 
 class Notebook:

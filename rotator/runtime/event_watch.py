@@ -1,0 +1,39 @@
+"""Whether the event loop still runs: it serves every link and every console, so without it no stop arrives.
+
+Knows moments. The event loop ticks in a task of its own; the control loop asks. Does not know what a stall ends.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+
+TICK_S = 0.2
+LONGEST_S = 1.0
+"""The event loop stands still when it has not ticked for so long."""
+
+
+class EventWatch:
+    """`tick` belongs to the event loop's thread, `stalled` to the control thread. `clock` gives seconds."""
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock = clock
+        self._ticked_s: float | None = None
+
+    async def run(self) -> None:
+        """Tick until cancelled. After that the watch sleeps again: a box that ends has no event loop to watch."""
+        try:
+            while True:
+                self.tick()
+                await asyncio.sleep(TICK_S)
+        finally:
+            self._ticked_s = None
+
+    def tick(self) -> None:
+        self._ticked_s = self._clock()
+
+    def stalled_s(self, now_s: float) -> float:
+        """For how long the event loop has stood still, in seconds; 0: it runs, or it has not begun to tick."""
+        ticked_s = self._ticked_s
+        silent_s = 0.0 if ticked_s is None else now_s - ticked_s
+        return silent_s if silent_s > LONGEST_S else 0.0

@@ -1,0 +1,52 @@
+"""Ctrl-C, SIGTERM and a closed terminal end motion at once, even while the main thread is stuck.
+
+Python runs a signal's handler in the main thread, between two instructions of it: a main thread that waits for a
+terminal or a disk never gets there. The interpreter also writes the signal's number into a socket, from whatever
+thread the kernel has interrupted; the thread of this file reads it there. Does not know what is to be ended.
+"""
+
+from __future__ import annotations
+
+import signal
+import socket
+import threading
+from collections.abc import Callable
+from types import FrameType
+from typing import Any, Self
+
+ENDINGS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class SignalThread:
+    """While it is open, each of ENDINGS calls `ended`, in a thread of its own. Open it in the main thread."""
+
+    def __init__(self, ended: Callable[[], None]) -> None:
+        self._ended = ended
+        self._reading, self._written = socket.socketpair()
+        self._written.setblocking(False)
+        self._before: dict[signal.Signals, Any] = {}
+        self._thread = threading.Thread(target=self._run, name="signals", daemon=True)
+
+    def __enter__(self) -> Self:
+        signal.set_wakeup_fd(self._written.fileno(), warn_on_full_buffer=False)
+        self._before = {signum: signal.signal(signum, _noted) for signum in ENDINGS}
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for signum, handler in self._before.items():
+            signal.signal(signum, handler)
+        signal.set_wakeup_fd(-1)
+        self._written.shutdown(socket.SHUT_WR)
+        self._thread.join()
+        self._written.close()
+        self._reading.close()
+
+    def _run(self) -> None:
+        while received := self._reading.recv(16):
+            if any(signum in ENDINGS for signum in received):
+                self._ended()
+
+
+def _noted(_signum: int, _frame: FrameType | None) -> None:
+    """The number has gone into the socket already."""

@@ -1,0 +1,169 @@
+"""The event loop stands still: no link can stop the antenna, so what links ordered ends, and no sign of life is given.
+
+Judged by the simulated rotor's motors and by its true angles.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from pathlib import Path
+
+import pytest
+
+from firmware_sim.clock import SimClock
+from hw.ports import Axis, Direction
+from rotator.app import App
+from rotator.assembly.settings import build_controller
+from rotator.assembly.station import Station
+from rotator.config.load import parse
+from rotator.orders import Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode, Source
+from rotator.runtime.event_watch import LONGEST_S, TICK_S, EventWatch
+from rotator.runtime.loop import ControlLoop
+
+PERIOD_S = 0.05
+LINK, PANEL, CONSOLE = Source("gs232b", 1), Source("panel"), Source("console", 1)
+COAST_S = 1.5
+"""The motor's coast, its relay's delay, and a cycle."""
+PATIENCE_S = 20.0
+
+
+class Rig:
+    """A box in simulated time whose event loop ticks until it is told not to."""
+
+    def __init__(self, text: str = "") -> None:
+        self.clock = SimClock()
+        config = parse(text, "test")
+        self.station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
+        self.events = EventWatch(self.clock)
+        self.ticking = True
+        self.signs = 0
+        self.loop = ControlLoop(
+            build_controller(config),
+            self.station.rotor,
+            self.clock,
+            PERIOD_S,
+            after_good_step=self._sign,
+            events=self.events,
+        )
+        self._ticked_s = self.clock()
+
+    def _sign(self) -> None:
+        self.signs += 1
+
+    def run(self, seconds: float) -> None:
+        end_s = self.clock() + seconds
+        while self.clock() < end_s:
+            if self.ticking and self.clock() >= self._ticked_s + TICK_S:
+                self._ticked_s = self.clock()
+                self.events.tick()
+            cycle_s = self.clock()
+            self.loop.cycle()
+            self.clock.sleep_until(cycle_s + PERIOD_S)
+
+    def order(self, source: Source, *orders: Order) -> None:
+        for order in orders:
+            self.loop.post(source, order)
+        self.run(1.0)
+
+    def turned_deg(self, seconds: float) -> float:
+        """How far the antenna turns in so many seconds."""
+        assert self.station.world is not None
+        before = self.station.world.antenna()
+        self.run(seconds)
+        return sum(abs(now - then) for now, then in zip(self.station.world.antenna(), before, strict=True))
+
+
+@pytest.mark.parametrize(
+    "orders",
+    [
+        (Aim(300.0, 20.0),),
+        (Aim(100.0, 150.0),),
+        (Jog(Axis.AZIMUTH, Direction.PLUS),),
+        (Jog(Axis.ELEVATION, Direction.PLUS),),
+        (Park(),),
+        (LoadTimed(1.0, ((200.0, 90.0), (300.0, 20.0), (10.0, 90.0))), RunTimed()),
+    ],
+    ids=lambda orders: type(orders[-1]).__name__,
+)
+def test_what_a_link_ordered_ends_and_begins_again_with_the_next_order(orders: tuple[Order, ...]) -> None:
+    rig = Rig()
+    rig.order(LINK, *orders)
+    assert rig.turned_deg(1.0) > 1.0
+    rig.ticking = False
+    rig.run(LONGEST_S + COAST_S)
+    signs = rig.signs
+    assert rig.turned_deg(60.0) < 0.01
+    assert rig.signs == signs, "a sign of life while no stop arrives"
+    rig.ticking = True
+    assert rig.turned_deg(10.0) < 0.01, "the old order is not taken up again"
+    assert rig.signs > signs
+    rig.order(LINK, Aim(300.0, 150.0))
+    assert rig.turned_deg(1.0) > 1.0
+
+
+def test_a_search_for_the_end_stop_ends() -> None:
+    rig = Rig('[rotor]\ntype = "relay-pulse"\n')
+    rig.order(CONSOLE, Home(Axis.AZIMUTH))
+    assert rig.turned_deg(1.0) > 1.0
+    rig.ticking = False
+    rig.run(LONGEST_S + COAST_S)
+    assert rig.turned_deg(60.0) < 0.01
+
+
+def test_the_panel_and_a_storm_park_go_on() -> None:
+    """The panel has a thread of its own. A storm park is wanted by a person, and its end is the safe place."""
+    rig = Rig()
+    rig.order(PANEL, SetMode(Mode.JOG), Jog(Axis.AZIMUTH, Direction.PLUS))
+    rig.ticking = False
+    rig.run(LONGEST_S + COAST_S)
+    assert rig.turned_deg(1.0) > 1.0
+    storm = Rig()
+    storm.order(CONSOLE, Park(storm=True))
+    storm.ticking = False
+    storm.run(LONGEST_S + COAST_S)
+    assert storm.turned_deg(1.0) > 1.0
+
+
+def test_a_box_without_links_is_not_watched() -> None:
+    """A rehearsal has no event loop."""
+    rig = Rig()
+    rig.ticking = False
+    rig.order(LINK, Aim(300.0, 20.0))
+    assert rig.turned_deg(10.0) > 30.0
+
+
+def test_a_pause_shorter_than_the_limit_ends_nothing() -> None:
+    rig = Rig()
+    rig.order(LINK, Aim(300.0, 20.0))
+    for _ in range(10):
+        rig.ticking = False
+        assert rig.turned_deg(LONGEST_S - TICK_S - 2 * PERIOD_S) > 1.0
+        rig.ticking = True
+        rig.run(2 * TICK_S)
+
+
+def test_the_real_threads(tmp_path: Path) -> None:
+    """The whole box: an event loop that is stuck in a callback. The motors stop before the callback ends."""
+    config = parse(f'[state]\npath = "{tmp_path / "state.json"}"\n', "test")
+    stood = threading.Event()
+
+    async def main() -> None:
+        app, stop = App(config), asyncio.Event()
+        box = asyncio.create_task(app.run(stop))
+        world = app.station.world
+        assert world is not None
+        while not app.loop.status.azimuth.moving:
+            app.loop.post(LINK, Aim(300.0, 20.0))
+            await asyncio.sleep(0.05)
+        pause = threading.Event()
+        for _ in range(int(PATIENCE_S / 0.1)):
+            pause.wait(0.1)  # the event loop is stuck here
+            if world.drives() == (0, 0):
+                stood.set()
+                break
+        stop.set()
+        await box
+
+    asyncio.run(main())
+    assert stood.is_set()
