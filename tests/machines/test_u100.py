@@ -153,12 +153,14 @@ def test_a_day_with_the_pc(shack: Callable[..., Shack], chance: random.Random) -
     pc.close()
     machine.cut()
     machine.power_cut()
-    assert "moving" in standing(machine)
+    lost = [number for number, known in enumerate(standing(machine)) if known != "known"]
+    assert lost, standing(machine)
     begin(machine)
     pc = Terminal(machine.ptys[0])
     stood = machine.stands()
     order(pc, somewhere(chance))
-    assert machine.stands() == pytest.approx(stood, abs=0.1), "nothing moves before it is homed"
+    now = machine.stands()
+    assert [now[number] for number in lost] == pytest.approx([stood[number] for number in lost], abs=0.1)
     homed(machine)
     obeys(machine, pc, somewhere(chance))
 
@@ -212,7 +214,7 @@ def test_a_day_at_the_panel(shack: Callable[..., Shack], chance: random.Random) 
     shows(machine, "jog")
     way, turn = (1, "cw") if stood[0] < 180.0 else (-1, "ccw")
     machine.rotator("panel", "jog", turn, "1.5")
-    with_motion(machine)
+    machine.until(lambda world: abs(world.shafts_deg[0] - stood[0]) > 1.0, "the azimuth turns")
     jogged = machine.stands()
     assert 5.0 < way * (jogged[0] - stood[0]) < 1.6 * SPEED_DPS + 5.0
     assert jogged[1] == pytest.approx(stood[1], abs=0.1)
