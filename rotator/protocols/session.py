@@ -47,6 +47,18 @@ class Ending(Protocol):
         """The connection has ended: the client has left, or its cable is out."""
 
 
+@runtime_checkable
+class Beating(Protocol):
+    """A session that also works without bytes from its program: it sends unasked, or follows a moving target."""
+
+    @property
+    def every_s(self) -> float | None:
+        """The time between two calls of `beat`, as long as the connection lasts. None: never."""
+
+    def beat(self) -> list[bytes]:
+        """Do what is due now. Returns bytes for the program; the link sends each in one write."""
+
+
 class NotUnderstood(Exception):  # noqa: N818 - a fact about the other end; the program has not failed
     """The other end does not speak this protocol; the text shows its bytes."""
 
