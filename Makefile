@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests test-hamlib test-kernel test-install test-gpredict test-rotors test-machines bench fuzz picture picture-gpredict drawings clean
+.PHONY: run test check tests test-hamlib test-kernel test-install test-gpredict test-clients test-rotors test-machines bench fuzz picture picture-gpredict drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -27,6 +27,11 @@ tests: $(VENV)/.dev
 # Debian's Hamlib: each of its models that can drive the box, and a dummy rotator that the box follows.
 test-hamlib: $(VENV)/.dev
 	$(BIN)/pytest -n 4 --dist worksteal tests/foreign tests/foreign/test_hamlib.py tests/foreign/test_rotctld_follow.py
+
+# Other people's tracking programs, from Debian and PyPI: the newest Hamlib's models, WSJT-X, satnogs-client's worker.
+# What they need is downloaded once, to ~/.cache/gs232-rotator/clients. ROTATOR_TEST_ROTCTL names another rotctl.
+test-clients: $(VENV)/.dev
+	$(BIN)/pytest -n 5 --dist worksteal tests/foreign/clients
 
 # Every kind of rotor: one contract, every fault by name, finding north; then twelve real passes on each.
 test-rotors: $(VENV)/.dev

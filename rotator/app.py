@@ -18,7 +18,7 @@ from typing import Any
 
 from rotator.assembly.calibration import compass_path, open_compass
 from rotator.assembly.hands import hands
-from rotator.assembly.links import build_links
+from rotator.assembly.links import build_links, build_sky
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
 from rotator.assembly.station import Station
@@ -86,7 +86,7 @@ class App:
             ),
         )
         self._tap = Tap(datetime.now, lambda: self.loop.status)
-        self.links = build_links(config.link, self.loop, mount, self._tap)
+        self.links = build_links(config.link, self.loop, mount, self._tap, build_sky(config.station))
         self._monitor_socket = MonitorSocket(monitor, self._tap.listeners, self._tap.greeting)
         self._panel = self._fit_panel()
         display = self.station.display

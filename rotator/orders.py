@@ -183,3 +183,5 @@ class Refusal:
     reason: str
     forbidden: bool = False
     """The sender may give no orders at all."""
+    out_of_range: bool = False
+    """The order names an angle outside a range. A program that tracks repeats such an order for a long time."""

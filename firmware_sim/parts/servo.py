@@ -59,6 +59,11 @@ class SimServo:
         jitter_deg = self._noise.gauss(0.0, self.spec.jitter_deg) if self._holds() else 0.0
         return self._shaft_deg + jitter_deg
 
+    def shaft_deg(self) -> float:
+        """Its present angle without the jitter."""
+        self.advance()
+        return self._shaft_deg
+
     def advance(self) -> None:
         """Move it up to the present moment, with the present pulse."""
         now_s = self._clock()

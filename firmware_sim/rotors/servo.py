@@ -63,6 +63,11 @@ class SimServoRotor(SimRotor):
         with self._lock:
             return self.azimuth.angle_deg(), self.elevation.angle_deg()
 
+    def shafts(self) -> tuple[float, float]:
+        """As `antenna`, without the jitter of a servo that holds."""
+        with self._lock:
+            return self.azimuth.shaft_deg(), self.elevation.shaft_deg()
+
     def _pulse_us(self, channel: int) -> float | None:
         return self.board.pulse_us(channel) if self._enabled else None
 

@@ -1,8 +1,8 @@
 """One control box that follows a knob, with a digital potentiometer in place of the knob: one axis.
 
 Knows the chip's steps, and a model of the box: it turns at one speed, and stays still while the error is within its
-dead band. Does not know the rotor's real angle: the chip and the box cannot be read, so the angle here is the
-model's. Knows no lease, no thread and no other axis.
+dead band. The wiper leads by that band less the coast, so that the rotor rests at the ordered angle. Does not know the
+real angle unless a pot is read: `box_model` says how far the model may be wrong. Knows no lease, thread or other axis.
 """
 
 from __future__ import annotations
@@ -10,8 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.chips.mcp41010 import STEPS, Mcp41010
+from hw.drives.box_model import BoxModel, RestLead
 from hw.drives.scale import CommandScale
 from hw.ports import HardwareError
+
+LEAST_TURN_BACK_DEG = 1.0
+"""A target that comes back by less does not reverse the motor: many programs send whole degrees, which flicker."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,8 +25,14 @@ class BoxSpec:
     steps: tuple[tuple[float, float], ...] = ((0.0, 0.0), (360.0, 256.0))
     start_deg: float = 0.0
     """The model's angle when the program starts."""
+    start_known: bool = False
+    """The rotor stands there for certain: in a simulation that begins anew."""
     speed_dps: float = 6.0
     dead_band_deg: float = 2.0
+    coast_deg: float = 1.0
+    """How far the motor turns on after the box has switched it off."""
+    range_deg: tuple[float, float] | None = None
+    """The axis's own limits, beyond which the wiper never leads; None: the ends of the table."""
 
 
 class ControlBox:
@@ -33,15 +43,27 @@ class ControlBox:
         self.scale.check(spec.start_deg)
         if self.scale.values[0] < 0 or self.scale.values[1] > STEPS:
             raise HardwareError(f"{name}: the calibration table has steps outside 0 to {STEPS}")
-        self.angle_deg = spec.start_deg
-        """The model's angle, in degrees on the rotor's own scale."""
+        ends_deg = self.scale.low_deg, self.scale.high_deg
+        self.model = BoxModel(spec.start_deg, *ends_deg, spec.speed_dps, spec.dead_band_deg)
+        if spec.start_known:
+            self.model.found(spec.start_deg)
+        self.lead = RestLead(spec.dead_band_deg, spec.coast_deg)
         self.until_s: float | None = None
         """When the present command expires; None: there is no command."""
+        self.deaf = False
+        """The supply was cut under its command by a stop of the other axis: no aim counts before its own stop."""
         self._chip = chip
-        self._spec = spec
+        self._range_deg = spec.range_deg or ends_deg
+        self._way = 0
+        """The direction in which the wiper leads: that of the last move, -1 or 1; 0 before the first one."""
         self._step: int | None = None
         """The last step sent to the chip; None: the chip may be at any step."""
         self._now_s = now_s
+
+    @property
+    def angle_deg(self) -> float:
+        """The model's angle, in degrees on the rotor's own scale."""
+        return self.model.angle_deg
 
     @property
     def resolution_deg(self) -> float:
@@ -49,34 +71,63 @@ class ControlBox:
         low, high = self.scale.values
         return (self.scale.high_deg - self.scale.low_deg) / (high - low)
 
+    @property
+    def known(self) -> bool:
+        """Whether the rotor is where the model has it, give or take the dead band. A stop by the wiper needs that."""
+        return self.model.known
+
     def advance(self, now_s: float, powered: bool) -> None:
-        """Move the model on to `now_s`: at one speed, until the error is within the dead band."""
+        """Move the model on to `now_s`."""
         past_s, self._now_s = max(0.0, now_s - self._now_s), now_s
-        if not powered or self._step is None:
-            return
-        error_deg = self.scale.angle_deg(self._step) - self.angle_deg
-        turned_deg = min(max(0.0, abs(error_deg) - self._spec.dead_band_deg), self._spec.speed_dps * past_s)
-        self.angle_deg += turned_deg if error_deg > 0 else -turned_deg
+        if powered and self._step is not None:
+            self.model.advance(self.scale.angle_deg(self._step), self.lead.of(-1), self.lead.of(1), past_s)
+
+    def found(self, angle_deg: float, now_s: float) -> None:
+        """The rotor was measured at `angle_deg`: the model goes on from there, and the lead is learnt at rest."""
+        self.model.found(angle_deg)
+        self.lead.seen(angle_deg, now_s)
 
     def order(self, angle_deg: float) -> None:
-        """Send the nearest step, unless the chip has it. Raises HardwareError: outside the table, or the bus fails."""
-        step = min(round(self.scale.value(angle_deg)), STEPS - 1)
-        if step != self._step:
-            self._chip.write(step)
-            self._step = step  # after the write, so that a failed step is sent again
+        """Go to the angle: the wiper leads in the direction of the move, within the axis's limits.
+
+        Raises HardwareError: outside the table, or the bus fails.
+        """
+        self.scale.check(angle_deg)
+        self._way = self.model.way(angle_deg, self._way, max(self.resolution_deg, LEAST_TURN_BACK_DEG))
+        low_deg, high_deg = self._range_deg
+        lead_deg = angle_deg + self._way * self.lead.of(self._way)
+        wiper_deg = min(max(lead_deg, min(low_deg, angle_deg)), max(high_deg, angle_deg))
+        self._send(wiper_deg)
+        assert self._step is not None
+        self.lead.ordered(self.scale.angle_deg(self._step), self._way, self._now_s)
 
     def order_here(self) -> None:
         """Send the step of the model's angle, also if it was the last one: without supply the chip forgets its step."""
         self._step = None
-        self.order(self.scale.within(self.angle_deg))
+        self._stay()
 
     def hold(self) -> None:
         """Send the model's own angle: the error is then within the dead band, and the box stops."""
         if self._step is not None:
-            self.order(self.scale.within(self.angle_deg))
-        self.until_s = None
+            self._stay()
+        self.end()
+
+    def end(self) -> None:
+        """There is no command any more."""
+        self.until_s, self.deaf = None, False
 
     def repeat(self) -> None:
         """Send the last step again. Raises HardwareError."""
         if self._step is not None:
             self._chip.write(self._step)
+
+    def _stay(self) -> None:
+        self.lead.forget()
+        self._send(self.scale.within(self.angle_deg))
+
+    def _send(self, wiper_deg: float) -> None:
+        """The nearest step, unless the chip has it."""
+        step = min(round(self.scale.value(wiper_deg)), STEPS - 1)
+        if step != self._step:
+            self._chip.write(step)
+            self._step = step  # after the write, so that a failed step is sent again

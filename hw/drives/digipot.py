@@ -2,6 +2,9 @@
 
 Knows leases, the boxes' supply, and when a chip needs its step again. Does not know how one box behaves: that is
 `hw.drives.control_box`. The angle is modelled; `found` corrects the model where the rotor's own pot is measured.
+
+After a start the angle is only assumed. No step of a chip stops such a box: it would turn on to where the model is. So
+a stop then opens the relay of the supply.
 """
 
 from __future__ import annotations
@@ -60,23 +63,29 @@ class DigipotDrive:
             now_s = self._advance()
             box = self._boxes[axis]
             if until_s <= now_s:
-                box.hold()
+                self._stop(box)
                 return
             box.scale.check(angle_deg)
-            self._feed(now_s)
-            box.until_s = min(until_s, now_s + LONGEST_LEASE_S)
+            if box.deaf:
+                return
             box.order(angle_deg)
+            self._feed(box, now_s)
+            box.until_s = min(until_s, now_s + LONGEST_LEASE_S)
             self._changed.notify_all()
 
     def hold(self, axis: Axis) -> None:
+        """Stop that box. Where only a cut supply stops it, the other box stops too, until its own hold or this aim."""
         with self._changed:
             self._advance()
-            self._boxes[axis].hold()
+            self._stop(self._boxes[axis])
 
     def off(self) -> None:
         """Stop both boxes. If one chip cannot be reached, the other box stops all the same. Raises HardwareError."""
         with self._changed:
             self._advance()
+            if self._powered and self._enable and not all(box.known for box in self._boxes.values()):
+                self._cut()
+                return
             self._each(self._boxes.values(), ControlBox.hold)
 
     def release(self) -> None:
@@ -85,10 +94,7 @@ class DigipotDrive:
             if self._enable is None:
                 raise HardwareError("the control boxes cannot be released: no relay is wired to their supply")
             self._advance()
-            self._enable.set({ENABLE: False})
-            self._powered = False
-            for box in self._boxes.values():
-                box.until_s = None
+            self._cut()
 
     def due_s(self) -> float | None:
         with self._changed:
@@ -100,6 +106,8 @@ class DigipotDrive:
         with self._changed:
             self._advance()
             expired = [box for box in self._boxes.values() if box.until_s is not None and box.until_s <= now_s]
+            if any(self._only_a_cut_stops(box) for box in expired):
+                self._cut()
             self._each(expired, ControlBox.hold)
             if self._powered and now_s >= self._refresh_s:
                 self._refresh_s = now_s + REFRESH_S
@@ -124,8 +132,13 @@ class DigipotDrive:
     def found(self, axis: Axis, angle_deg: float) -> None:
         """The rotor was measured at `angle_deg` now; the model goes on from there."""
         with self._changed:
+            self._boxes[axis].found(angle_deg, self._advance())
+
+    def position_known(self, axis: Axis) -> bool:
+        """Whether the rotor must be where the model has it: a full travel is over, or it was measured."""
+        with self._changed:
             self._advance()
-            self._boxes[axis].angle_deg = angle_deg
+            return self._boxes[axis].known
 
     def resolution_deg(self, axis: Axis) -> float:
         """One step of the chip, in degrees on the rotor's scale."""
@@ -137,16 +150,42 @@ class DigipotDrive:
             box.advance(now_s, self._powered)
         return now_s
 
-    def _feed(self, now_s: float) -> None:
-        """Switch the boxes' supply on, after each chip has the step of its box's angle."""
+    def _feed(self, ordered: ControlBox, now_s: float) -> None:
+        """Switch the boxes' supply on. The chip of `ordered` has its step; the other gets that of its box's angle.
+
+        Without the relay the other chip is left alone: its box is fed already, and stands where its step sent it.
+        """
         if self._powered:
             return
         for box in self._boxes.values():
-            box.order_here()
+            box.deaf = False
+            if box is ordered:
+                box.repeat()  # without its own supply the chip may have forgotten the step
+            elif self._enable:
+                box.order_here()
         if self._enable:
             self._enable.set({ENABLE: True})
         self._powered = True
         self._refresh_s = now_s + REFRESH_S
+
+    def _stop(self, box: ControlBox) -> None:
+        if self._only_a_cut_stops(box):
+            others = [other for other in self._boxes.values() if other is not box and other.until_s is not None]
+            self._cut()
+            for other in others:
+                other.deaf = True
+        box.hold()
+
+    def _only_a_cut_stops(self, box: ControlBox) -> bool:
+        """Whether it may be turning from where nobody knows: its own command began that, and there is a relay."""
+        return box.until_s is not None and not box.known and self._powered and self._enable is not None
+
+    def _cut(self) -> None:
+        assert self._enable is not None
+        self._enable.set({ENABLE: False})
+        self._powered = False
+        for box in self._boxes.values():
+            box.end()
 
     def _each(self, boxes: Iterable[ControlBox], act: Callable[[ControlBox], None]) -> None:
         """Call `act` for every box, also after a failure. Raises the first HardwareError."""

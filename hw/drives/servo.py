@@ -2,7 +2,7 @@
 
 Knows leases, the enable line, and how a board that has lost its supply is set up again. A servo moves only while the
 guard calls `enforce`: when the program hangs, each servo holds. Does not know where a servo really stands, because a
-servo reports nothing.
+servo reports nothing. So the first pulse makes it jump, and a stop during that jump takes its pulses away.
 """
 
 from __future__ import annotations
@@ -72,19 +72,19 @@ class ServoDrive:
             if self._failure:
                 raise HardwareError(self._failure)
             if until_s <= now_s:
-                self._axes[axis].hold()
+                self._axes[axis].hold(now_s)
             else:
                 self._axes[axis].aim(angle_deg, rate_dps, now_s, min(until_s, now_s + LONGEST_LEASE_S))
             self._changed.notify_all()
 
     def hold(self, axis: Axis) -> None:
         with self._changed:
-            self._axes[axis].hold()
+            self._hold(self._axes[axis])
 
     def off(self) -> None:
         with self._changed:
             for axis in self._axes.values():
-                axis.hold()
+                self._hold(axis)
 
     def release(self) -> None:
         """No pulses: the servos are limp. The next aim starts with a jump, as after power-on. Raises HardwareError."""
@@ -129,6 +129,13 @@ class ServoDrive:
         with self._changed:
             wait_until(self._changed, self._due_s(), self._clock, patience_s)
 
+    def finish(self) -> None:
+        """After the guard has ended: a stop in a first jump that it has not carried out. Raises HardwareError."""
+        with self._changed:
+            jumps = any(axis.limp for axis in self._axes.values())
+        if jumps:
+            self.enforce(self._clock())
+
     # --- state
 
     def sensor(self, axis: Axis) -> DriveAngle:
@@ -151,6 +158,11 @@ class ServoDrive:
         with self._changed:
             return dict.fromkeys(self._axes, self._failure) if self._failure else {}
 
+    def _hold(self, axis: ServoAxis) -> None:
+        axis.hold(self._clock())
+        if axis.limp:
+            self._changed.notify_all()  # the guard's thread takes its pulses away
+
     # --- the board, with `_wire` held
 
     def _start(self) -> None:
@@ -164,20 +176,29 @@ class ServoDrive:
     def _step(self, axis: ServoAxis, now_s: float) -> None:
         with self._changed:
             axis.expire(now_s)
-            due = axis.due_s() <= now_s
+            limp = axis.limp
+            due = axis.due_s() <= now_s and not limp
             angle_deg = axis.next_deg(now_s)
-        if due and (angle_deg != axis.angle_deg or not axis.pulsing):
+        if limp:
+            self._chip.off(axis.spec.channel)
+            with self._changed:
+                axis.stop_jump(now_s)
+            self._disable_unused()
+        elif due and (angle_deg != axis.angle_deg or not axis.pulsing):
             self._chip.pulse(axis.spec.channel, axis.scale.value(angle_deg))
             if not axis.pulsing:
                 self._wake(axis, now_s)
         elif self._idle(axis, now_s):
             self._chip.off(axis.spec.channel)
             axis.sleep(lost=False)
-            if self._enable and not any(other.pulsing for other in self._axes.values()):
-                self._enable.set({ENABLE: False})
+            self._disable_unused()
         if due:
             with self._changed:
                 axis.stepped(angle_deg, now_s)
+
+    def _disable_unused(self) -> None:
+        if self._enable and not any(other.pulsing for other in self._axes.values()):
+            self._enable.set({ENABLE: False})
 
     def _wake(self, axis: ServoAxis, now_s: float) -> None:
         # The board makes the right pulse before the enable line lets it through to the servo.
@@ -199,7 +220,7 @@ class ServoDrive:
             self._failure, self._started = failure, False
             self._check_s = now_s + RETRY_S
             for axis in self._axes.values():
-                axis.hold()
+                axis.hold(now_s)
                 axis.sleep(lost=True)
         if self._enable:
             with suppress(HardwareError):  # report the failure of the board, not this one
@@ -210,7 +231,7 @@ class ServoDrive:
             return None
         if not self._started:
             return self._check_s
-        moments = [axis.due_s() for axis in self._axes.values() if axis.under_way]
+        moments = [axis.due_s() for axis in self._axes.values() if axis.under_way or axis.limp]
         for axis in self._axes.values():
             if axis.pulsing:
                 moments += [self._check_s, self._idle_s(axis)]

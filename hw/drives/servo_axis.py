@@ -52,34 +52,46 @@ class ServoAxis:
         """When the jump of the first pulse is over, even over the whole travel; infinite before the first pulse."""
         self.moved_s = float("-inf")
         """When the pulse last changed."""
+        self.limp = False
+        """Stopped during the jump of the first pulse: only the end of its pulses stops a servo then."""
         self._course: _Course | None = None
         self._stepped_s = float("-inf")
+        self._jump_s = self._longest_jump_s
+        """How long the jump may still take. Short presses add up: the servo goes on from where it went limp."""
 
     def aim(self, angle_deg: float, rate_dps: float, now_s: float, until_s: float) -> None:
         """Raises HardwareError for an angle outside the calibration table."""
         self.scale.check(angle_deg)
         self._course = _Course(angle_deg, rate_dps, now_s, until_s)
+        self.limp = False
 
-    def hold(self) -> None:
-        """Keep the present pulse: a servo holds where its pulse sends it."""
+    def hold(self, now_s: float) -> None:
+        """Keep the present pulse: a servo holds where its pulse sends it. One that still jumps gets no more pulses."""
+        self.limp = self.limp or (self.pulsing and now_s < self.settled_s)
         self._course = None
 
     def expire(self, now_s: float) -> None:
         if self._course and self._course.until_s <= now_s:
-            self._course = None
+            self.hold(now_s)
 
     def wake(self, now_s: float) -> None:
         """The chip sends pulses from now on. After `sleep(lost=True)` the servo jumps from an unknown angle."""
         self.pulsing, self.moved_s = True, now_s
         if self._lost:
-            travel_deg = self.scale.high_deg - self.scale.low_deg
-            self.settled_s = now_s + travel_deg / self.spec.slew_dps
+            self.settled_s = now_s + self._jump_s
 
     def sleep(self, *, lost: bool) -> None:
         """The chip sends no pulse from now on. `lost`: the servo is limp, and wind may turn it."""
-        self.pulsing = False
+        self.pulsing = self.limp = False
         if lost:
             self.settled_s = float("inf")
+            self._jump_s = self._longest_jump_s
+
+    def stop_jump(self, now_s: float) -> None:
+        """The chip sends no pulse from now on, before the jump was over."""
+        self._jump_s = max(0.0, self.settled_s - now_s)
+        self.pulsing = self.limp = False
+        self.settled_s = float("inf")
 
     @property
     def width_us(self) -> float:
@@ -91,6 +103,8 @@ class ServoAxis:
 
     def due_s(self) -> float:
         """When the next step is due, or the present command expires; infinite: there is no command."""
+        if self.limp:
+            return float("-inf")
         if self._course is None:
             return float("inf")
         if self._arrived:
@@ -112,6 +126,12 @@ class ServoAxis:
         if angle_deg != self.angle_deg:
             self.angle_deg, self.moved_s = angle_deg, now_s
         self._stepped_s = now_s
+
+    @property
+    def _longest_jump_s(self) -> float:
+        """From the farther end of its travel to the angle of the first pulse."""
+        start_deg = self.angle_deg
+        return max(start_deg - self.scale.low_deg, self.scale.high_deg - start_deg) / self.spec.slew_dps
 
     @property
     def _lost(self) -> bool:

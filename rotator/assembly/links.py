@@ -11,10 +11,12 @@ import logging
 import math
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
 from rotator.config.links import FOLLOW, Link, ProtocolName, address
+from rotator.config.station import StationTable
 from rotator.control.sky.mount import Mount
 from rotator.links.allowed import Allowed
 from rotator.links.asking import AskingLink
@@ -33,15 +35,23 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session
+from rotator.protocols.locator import from_locator
+from rotator.protocols.lx200_session import Lx200Session
 from rotator.protocols.macdoppler import MacDopplerSession
 from rotator.protocols.move_report import MoveReport
 from rotator.protocols.n1mm import N1mmReport, N1mmSession
+from rotator.protocols.prosistel import Model as Prosistel
+from rotator.protocols.prosistel import ProsistelSession
 from rotator.protocols.pstrotator import ANSWERS_ABOVE, PstRotatorSession
+from rotator.protocols.pstrotatoraz import PstRotatorAzSession
+from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Inquiry, Session
+from rotator.protocols.sky import Site, Sky
 from rotator.protocols.spid import Model
 from rotator.protocols.spid_session import SpidSession
+from rotator.protocols.stellarium import StellariumSession
 from rotator.protocols.wsjtx import WsjtxSession
 from rotator.runtime.client import Client, Rights
 from rotator.runtime.log_limit import LogLimit
@@ -66,8 +76,21 @@ class RunningLink(Protocol):
         """Give back what `open` took. May be called twice, and without `open`."""
 
 
-def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _text: None) -> Session:
-    """A new conversation in the link's protocol. `remark` takes texts for the log: what is asked and not supported."""
+def session_maker(
+    link: Link,
+    box: Box,
+    remark: Callable[[str], None] = lambda _text: None,
+    *,
+    sky: Sky | None = None,
+    notice: Callable[[str], None] = lambda _text: None,
+    refused: Callable[[str], None] = lambda _reason: None,
+) -> Session:
+    """A new conversation in the link's protocol.
+
+    `remark` takes texts for the log that are worth saying once: what is asked and not supported; `notice` those on what
+    has happened; `refused` why a protocol itself refuses an order: it is out of range. `sky`: None where the
+    configuration does not say where the station is.
+    """
     match link.protocol:
         case "gs232a" | "gs232b":
             return Gs232Session(
@@ -77,9 +100,10 @@ def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _
                 empty_line=INVALID if link.rejects_empty_lines else b"",
                 strict=link.strict,
                 may_calibrate=link.may_calibrate,
+                refused=refused,
             )
         case "gs232-f1efw":
-            return F1efwSession(box)
+            return F1efwSession(box, refused)
         case "rotctld":
             return RotctldSession(box)
         case "rotctld-follow":
@@ -94,21 +118,46 @@ def session_maker(link: Link, box: Box, remark: Callable[[str], None] = lambda _
         case "md01":
             return SpidSession(box, Model.MD01, link.pulses_per_degree)
         case "dcu1":
-            return Dcu1Session(box)
+            return Dcu1Session(box, refused)
         case "pstrotator":
-            return PstRotatorSession(box, remark)
+            return PstRotatorSession(box, remark, sky.site if sky else None)
+        case "pstrotatoraz":
+            return PstRotatorAzSession(box)
+        case "lx200" | "stellarium":
+            if sky is None:
+                raise ValueError(f"{link.protocol} needs the station's place")
+            session = Lx200Session if link.protocol == "lx200" else StellariumSession
+            return session(box, sky, notice)
+        case "prosistel-d":
+            return ProsistelSession(box, Prosistel.D)
+        case "prosistel-c":
+            return ProsistelSession(box, Prosistel.COMBI_TRACK)
+        case "rc2800":
+            return Rc2800Session(box)
         case "n1mm":
-            return N1mmSession(box, link.rotor_name, remark)
+            return N1mmSession(box, link.rotor_name, remark, refused)
         case "macdoppler":
             return MacDopplerSession(box)
         case "wsjtx":
             return WsjtxSession(box, link.body)
 
 
-_BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01")
+_BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01", "stellarium")
 
 
-def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap) -> list[RunningLink]:
+def build_sky(station: StationTable) -> Sky | None:
+    """The sky over the station, by the system's clock; None where its place is not known."""
+    longitude_deg, latitude_deg = station.longitude_deg, station.latitude_deg
+    if station.locator is not None:
+        longitude_deg, latitude_deg = from_locator(station.locator)
+    if longitude_deg is None or latitude_deg is None:
+        return None
+    return Sky(Site(latitude_deg, longitude_deg, station.altitude_m), time.time)
+
+
+def build_links(
+    links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap, sky: Sky | None = None
+) -> list[RunningLink]:
     """The links, each with a name of its own, because the name identifies a source: the second gs232b is gs232b-2."""
     built: list[RunningLink] = []
     given = {link.name for link in links}
@@ -120,47 +169,70 @@ def build_links(links: Sequence[Link], loop: ControlLoop, mount: Mount, tap: Tap
         taken.add(name)
         wire = Wire(name, link.protocol, link.where)
         tap.link(wire, link.model_dump(exclude_unset=True))
-        built.append(_build(link, wire, loop, mount, tap))
+        built.append(_build(link, wire, _Shared(loop, mount, tap, sky)))
     return built
+
+
+@dataclass(frozen=True, slots=True)
+class _Shared:
+    """What all links share."""
+
+    loop: ControlLoop
+    mount: Mount
+    tap: Tap
+    sky: Sky | None
 
 
 class _Connections:
     """Makes the conversation of each connection of one link. Its connections share their rights and log limits."""
 
-    def __init__(self, link: Link, name: str, loop: ControlLoop, mount: Mount, tap: Tap) -> None:
+    def __init__(self, link: Link, name: str, shared: _Shared) -> None:
         self._link = link
         self._name = name
-        self._loop = loop
-        self._mount = mount
-        self._tap = tap
+        self._shared = shared
         self._numbers = itertools.count(1)
         self._rights = Rights(link.read_only, link.most_per_s)
         self._complaints = LogLimit(time.monotonic)
+        self._ranges = LogLimit(time.monotonic, most=1)
+        self._notices = LogLimit(time.monotonic)
         self._remarks = LogLimit(time.monotonic, every_s=math.inf, most=MOST_REMARKS)
 
     def session(self) -> Session:
         source, client = self._client()
-        session = session_maker(self._link, client, self._remark)
+        session = session_maker(
+            self._link, client, self._remark, sky=self._shared.sky, notice=self._notice, refused=client.note_refused
+        )
         if self._link.report_moves:
             session = MoveReport(session, client)
         text = self._link.protocol not in _BINARY
-        return TappedSession(session, self._tap, source, text=text, ended=client.left)
+        return TappedSession(session, self._shared.tap, source, text=text, ended=client.left)
 
     def follower(self) -> Inquiry:
         source, client = self._client()
-        return TappedInquiry(RotctldFollower(client, self._link.poll_s), self._tap, source)
+        return TappedInquiry(RotctldFollower(client, self._link.poll_s), self._shared.tap, source)
 
     def _client(self) -> tuple[Source, Client]:
         source = Source(self._name, next(self._numbers))
-        return source, Client(self._loop, self._mount, source, rights=self._rights, complaints=self._complaints)
+        return source, Client(
+            self._shared.loop,
+            self._shared.mount,
+            source,
+            rights=self._rights,
+            complaints=self._complaints,
+            ranges=self._ranges,
+        )
 
     def _remark(self, text: str) -> None:
         if line := self._remarks.admit(text):
             log.info("%s: %s", self._name, line)
 
+    def _notice(self, text: str) -> None:
+        if line := self._notices.admit(text):
+            log.info("%s: %s", self._name, line)
 
-def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tap: Tap) -> RunningLink:
-    connections = _Connections(link, wire.name, loop, mount, tap)
+
+def _build(link: Link, wire: Wire, shared: _Shared) -> RunningLink:
+    connections = _Connections(link, wire.name, shared)
     if link.pty is not None:
         return PtyLink(wire, Path(link.pty), connections.session)
     if link.serial is not None:
@@ -175,7 +247,7 @@ def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tap: Tap) ->
             port,
             connections.session,
             answer_port=port + ANSWERS_ABOVE if link.protocol == "pstrotator" else None,
-            report=_report(link, Source(wire.name), loop, mount, tap),
+            report=_report(link, Source(wire.name), shared),
             allowed=Allowed(link.allow),
         )
     if link.protocol == FOLLOW:
@@ -183,15 +255,15 @@ def _build(link: Link, wire: Wire, loop: ControlLoop, mount: Mount, tap: Tap) ->
     return TcpLink(wire, host, port, connections.session, allowed=Allowed(link.allow), most_clients=link.most_clients)
 
 
-def _report(link: Link, source: Source, loop: ControlLoop, mount: Mount, tap: Tap) -> Report | None:
+def _report(link: Link, source: Source, shared: _Shared) -> Report | None:
     """What a link sends unasked; None: nothing."""
     if link.status_to is None or link.rotor_name is None:
         return None
-    reporter = N1mmReport(Client(loop, mount, source), link.rotor_name)
+    reporter = N1mmReport(Client(shared.loop, shared.mount, source), link.rotor_name)
 
     def due(now_s: float) -> bytes | None:
         said = reporter.due(now_s)
-        tap.note(source, Way.OUT, said or b"", text=True)
+        shared.tap.note(source, Way.OUT, said or b"", text=True)
         return said
 
     return Report(address(link.status_to), due)

@@ -18,7 +18,8 @@ from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.sensing import ANYTHING, Window
 from rotator.control.axis.settings import NEAR_DEG, AxisSettings, PositionedSettings, SwitchedSettings
-from rotator.control.controller import Controller, Settings
+from rotator.control.controller import Controller
+from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.faults import Missing

@@ -71,10 +71,12 @@ def simulated(config: Config) -> Config:
 
 def _sentence(flown: Pass, summary: Summary, *, arduino: bool) -> str:
     flier = "the emulated Arduino" if arduino else "the box"
+    work = ""
+    if summary.relay_starts is not None:  # without relays no motor is switched on and off
+        work = f"; {summary.relay_starts} relay starts, motors on for {summary.motor_s:.0f} s of {flown.end_s:.0f} s"
     return (
         f"{flown.name}: {flier} was off by {summary.rms_deg:.2f}° rms, {summary.p95_deg:.2f}° at 95 %, "
-        f"{summary.max_deg:.2f}° at worst; {summary.relay_starts} relay starts, motors on for {summary.motor_s:.0f} s "
-        f"of {flown.end_s:.0f} s"
+        f"{summary.max_deg:.2f}° at worst{work}"
     )
 
 

@@ -17,6 +17,7 @@ ProtocolName = Literal[
     "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow",
     "easycomm1", "easycomm2", "easycomm3", "rot1prog", "rot2prog", "md01", "dcu1",
     "pstrotator", "n1mm", "macdoppler", "wsjtx",
+    "lx200", "stellarium", "pstrotatoraz", "prosistel-d", "prosistel-c", "rc2800",
 ]  # fmt: skip
 
 FOLLOW: Final = "rotctld-follow"
@@ -31,6 +32,9 @@ _PLACES: dict[str, tuple[ProtocolName, ...]] = {
     "file": ("wsjtx",),
 }
 """Keys of a place that serve these protocols only. These protocols have no other place."""
+NEEDS_STATION: tuple[ProtocolName, ...] = ("lx200", "stellarium")
+"""These name places among the stars."""
+_TCP_ONLY: tuple[ProtocolName, ...] = ("stellarium", "pstrotatoraz")
 _MANY_PROTOCOLS_PLACES = ("pty", "serial", "tcp")
 _ONLY_ORDERS: tuple[ProtocolName, ...] = (FOLLOW, "macdoppler", "wsjtx")
 
@@ -97,6 +101,8 @@ class Link(Table):
                 raise ValueError(f"{place} is for {', '.join(_PLACES[place])} only; {self.protocol} must have {right}")
         if own and given != [own]:
             raise ValueError(f"{self.protocol} must have {own}, and none of pty, serial, tcp")
+        if self.protocol in _TCP_ONLY and given != ["tcp"]:
+            raise ValueError(f"{self.protocol} must have tcp, and no other place")
         if len(given) != 1:
             raise ValueError("must have exactly one of pty, serial, tcp")
         return self

@@ -22,13 +22,14 @@ from rotator.config.kinds.moteus import Moteus, MoteusKind
 from rotator.config.kinds.relay_pot import RelayPot
 from rotator.config.kinds.relay_pulse import Pulses, RelayPulse
 from rotator.config.kinds.servo import Servo, ServoKind
-from rotator.config.links import Link, is_same_place
+from rotator.config.links import NEEDS_STATION, Link, is_same_place
 from rotator.config.panel import LimitsTable, PanelTable
 from rotator.config.places import STATE
 from rotator.config.rotors import Rotor, with_usual
 from rotator.config.sensors import CompassTable
 from rotator.config.sim import Sim
 from rotator.config.spi import SpiUse, spi_lines
+from rotator.config.station import StationTable
 from rotator.config.table import Point, Table
 
 SWITCH_ROOM_DEG = 2.0
@@ -95,6 +96,8 @@ class Config(Table):
     """The azimuth axis, in degrees on the rotor's own scale."""
     elevation: Elevation = Elevation()
     """The elevation axis."""
+    station: StationTable = StationTable()
+    """Where the antenna stands on the earth: for telescope programs (`lx200`, `stellarium`) and PstRotator's `LLH`."""
     mount: MountTable = MountTable()
     """How the two axes carry the antenna."""
     control: Control = Control()
@@ -127,7 +130,7 @@ class Config(Table):
     """The simulated rotor. Real hardware ignores it."""
     link: list[Link] = Field(default_factory=list)
     """A link to a program; as many as you like. Each has exactly one of `pty`, `serial`, `tcp` (rotctld-follow:
-    `connect`; pstrotator, n1mm, macdoppler: `udp`; wsjtx: `file`)."""
+    `connect`; pstrotator, n1mm, macdoppler: `udp`; wsjtx: `file`; stellarium and pstrotatoraz: `tcp`)."""
 
     @model_validator(mode="before")
     @classmethod
@@ -137,6 +140,7 @@ class Config(Table):
     @model_validator(mode="after")
     def _fits_together(self) -> Config:
         faults = [*self._pins_twice(), *self._chips_twice(), *self._places_twice(), *self._follows_itself()]
+        faults += self._needs_station()
         faults += self.adc.faults() if self.uses_adc else []
         faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
         faults += self._compass_faults()
@@ -261,6 +265,13 @@ class Config(Table):
             place = (link.where, link.connect, link.udp)
             users[place] = users.get(place, 0) + 1
         return [f"{count} links use {where}" for (where, *_), count in users.items() if count > 1]
+
+    def _needs_station(self) -> list[str]:
+        return [
+            f"link[{number}]: {link.protocol} needs [station], with latitude_deg and longitude_deg, or locator"
+            for number, link in enumerate(self.link)
+            if link.protocol in NEEDS_STATION and not self.station.is_known
+        ]
 
     def _follows_itself(self) -> list[str]:
         return [

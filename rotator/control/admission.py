@@ -12,6 +12,9 @@ from rotator.control.sky.mount import Mount, Unreachable
 from rotator.orders import Aim, Calibrate, Confirm, Home, LoadTimed, Order, Park, Refusal
 from rotator.status import Status
 
+SENT_DEG = {Axis.AZIMUTH: (-180.0, 540.0), Axis.ELEVATION: (-90.0, 180.0)}
+"""The angles that a program may send, as in Hamlib. What the rotor can reach of them is the mount's matter."""
+
 
 def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
     """Why `order` will not be obeyed, or None."""
@@ -61,8 +64,12 @@ def _uncalibrated(order: Order, status: Status) -> Refusal | None:
 def _unreachable(points: tuple[tuple[float | None, float | None], ...], mount: Mount) -> Refusal | None:
     try:
         for azimuth_deg, elevation_deg in points:
+            for axis, angle_deg in ((Axis.AZIMUTH, azimuth_deg), (Axis.ELEVATION, elevation_deg)):
+                low_deg, high_deg = SENT_DEG[axis]
+                if angle_deg is not None and not low_deg <= angle_deg <= high_deg:
+                    raise Unreachable(f"{axis.value} {angle_deg:g} is outside {low_deg:g} to {high_deg:g} degrees")
             if azimuth_deg is not None:
                 mount.axis_angles(azimuth_deg, elevation_deg, 0.0)
     except Unreachable as reason:
-        return Refusal(str(reason))
+        return Refusal(str(reason), out_of_range=True)
     return None

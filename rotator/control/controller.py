@@ -8,7 +8,7 @@ so an hour at the mast is a second in a test.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from hw.ports import Axis, Direction
 from rotator.control.aiming import Aiming
@@ -17,13 +17,14 @@ from rotator.control.axis.motion_watch import LATE_S, late
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.axis.positioned import PositionedAxis
 from rotator.control.axis.sensing import Reading
-from rotator.control.axis.settings import AxisSettings, PositionedSettings, SwitchedSettings
+from rotator.control.axis.settings import PositionedSettings, SwitchedSettings
 from rotator.control.axis.switched import SwitchedAxis
 from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.homing_queue import HomingQueue
 from rotator.control.jogs import Jogs
 from rotator.control.senders import aims_of
-from rotator.control.sky.mount import Mount, Unreachable
+from rotator.control.settings import Settings
+from rotator.control.sky.mount import Unreachable
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.timed import TimedList
 from rotator.faults import Notice
@@ -51,23 +52,6 @@ from rotator.orders import (
     Stop,
 )
 from rotator.status import AxisStatus, Status
-
-
-@dataclass(frozen=True, slots=True)
-class Settings:
-    azimuth: AxisSettings
-    elevation: AxisSettings
-    mount: Mount
-    period_s: float = 0.05
-    lease_s: float = 0.25
-    """How long a drive command lives unless renewed: how long a hung bus can keep a motor running."""
-    simulated: bool = False
-    park_after_s: float = 0.0
-    """Park when no order has moved the antenna for so long; 0: never."""
-    on_sky: bool = True
-    """Whether the tolerance is on the sky; False: in degrees of each axis."""
-    mode: Mode = Mode.AUTO
-    """The mode until a front panel reports its switch. With a mode switch it is PARK: nothing moves before that."""
 
 
 class Controller:

@@ -13,7 +13,7 @@ import socket
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotator.protocols.session import Ending, Session, Waits
+from rotator.protocols.session import Beating, Ending, Session
 
 log = logging.getLogger(__name__)
 
@@ -76,6 +76,8 @@ class Conversation:
         self._hang_up = hang_up
         self._silence: asyncio.TimerHandle | None = None
         self._over = False
+        self._beating: asyncio.TimerHandle | None = None
+        self._wait_for_beat()
 
     def received(self, data: bytes) -> None:
         """Take bytes as they arrive, in any pieces. Raises nothing: an exception in the protocol is logged."""
@@ -85,8 +87,10 @@ class Conversation:
             self._silence = asyncio.get_running_loop().call_later(self._session.idle_s, self._silent)
 
     def close(self) -> None:
-        """The connection has ended: end the timer for silence, and say so to the session. May be called twice."""
+        """End the conversation and its timers, and tell the session. May be called twice."""
         self._cancel()
+        if self._beating is not None:
+            self._beating.cancel()
         if not self._over:
             self._over = True
             if isinstance(self._session, Ending):
@@ -95,9 +99,15 @@ class Conversation:
     def _silent(self) -> None:
         self._silence = None
         self._reply(self._session.idle)
-        waits = isinstance(self._session, Waits) and self._session.waits and not self._session.closed
-        if waits and self._session.idle_s is not None:
-            self._silence = asyncio.get_running_loop().call_later(self._session.idle_s, self._silent)
+
+    def _wait_for_beat(self) -> None:
+        if isinstance(self._session, Beating) and self._session.every_s is not None:
+            self._beating = asyncio.get_running_loop().call_later(self._session.every_s, self._beat, self._session)
+
+    def _beat(self, session: Beating) -> None:
+        # The next beat first: the reply may end the conversation.
+        self._wait_for_beat()
+        self._reply(session.beat)
 
     def _cancel(self) -> None:
         if self._silence is not None:

@@ -13,7 +13,7 @@ from rotator import __version__
 from rotator.links.wire import Wire
 from rotator.monitor.transcript import At, LinkNote, Way, encode_at, encode_link, encode_piece
 from rotator.orders import Source
-from rotator.protocols.session import Inquiry, Session, Waits
+from rotator.protocols.session import Beating, Inquiry, Session
 from rotator.status import Status
 
 MOVED_DEG = 1.0
@@ -127,12 +127,15 @@ class TappedSession:
         return self._session.idle_s
 
     @property
-    def waits(self) -> bool:
-        return isinstance(self._session, Waits) and self._session.waits
-
-    @property
     def closed(self) -> bool:
         return self._session.closed
+
+    @property
+    def every_s(self) -> float | None:
+        return self._session.every_s if isinstance(self._session, Beating) else None
+
+    def beat(self) -> list[bytes]:
+        return self._noted(self._session.beat()) if isinstance(self._session, Beating) else []
 
     def receive(self, data: bytes) -> list[bytes]:
         self._tap.note(self._source, Way.IN, data, text=self._text)

@@ -1,16 +1,15 @@
 """From two angles in degrees to an order, for every protocol that sends degrees.
 
-Knows the range of numbers that a client may send, the same as Hamlib's. Does not know the rotor's range.
+Knows how programs write an angle. Does not know which angles the box obeys: `rotator.control.admission` does.
 """
 
 from __future__ import annotations
 
 import re
 
+from hw.ports import Axis
+from rotator.control.admission import SENT_DEG
 from rotator.orders import Aim
-
-AZIMUTHS_DEG = (-180.0, 540.0)
-ELEVATIONS_DEG = (-90.0, 180.0)
 
 _DEGREES = re.compile(r"[+-]?[0-9]{1,3}(?:[.,][0-9]{0,9})?")
 
@@ -20,15 +19,18 @@ def degrees(text: str) -> float | None:
     return float(text.replace(",", ".")) if _DEGREES.fullmatch(text) else None
 
 
-def aim(azimuth_deg: float | None, elevation_deg: float | None) -> Aim | None:
-    """The order for these angles; an axis that is None keeps its target. Returns None for numbers out of range.
+def aim(azimuth_deg: float | None, elevation_deg: float | None) -> Aim:
+    """The order for these angles; an axis that is None keeps its target.
 
-    A negative azimuth is a direction. From zero on an azimuth can also name a turn of the overlap.
+    A negative azimuth is a direction. From zero on an azimuth can also name a turn of the overlap. Numbers outside
+    the range that the box takes are passed on as they are: the box refuses them, and the log names number and range.
     """
-    if azimuth_deg is not None:
-        if not AZIMUTHS_DEG[0] <= azimuth_deg <= AZIMUTHS_DEG[1]:
-            return None
-        azimuth_deg = azimuth_deg % 360 if azimuth_deg < 0 else azimuth_deg
-    if elevation_deg is not None and not ELEVATIONS_DEG[0] <= elevation_deg <= ELEVATIONS_DEG[1]:
-        return None
+    if azimuth_deg is not None and SENT_DEG[Axis.AZIMUTH][0] <= azimuth_deg < 0:
+        azimuth_deg %= 360
     return Aim(azimuth_deg, elevation_deg)
+
+
+def may_be_sent(azimuth_deg: float, elevation_deg: float) -> bool:
+    """Whether these angles are within the range that the box takes."""
+    angles_deg = {Axis.AZIMUTH: azimuth_deg, Axis.ELEVATION: elevation_deg}
+    return all(SENT_DEG[axis][0] <= angle_deg <= SENT_DEG[axis][1] for axis, angle_deg in angles_deg.items())

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import Axis
+from rotator.control.admission import SENT_DEG
 from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Release, Stop
-from rotator.protocols.aiming import AZIMUTHS_DEG, ELEVATIONS_DEG, aim, degrees
+from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.panel_words import (
     OPERANDS,
     TURNS,
@@ -66,7 +67,6 @@ VERBS = (
 )
 _BY_TEXT = {verb.text: verb for verb in VERBS}
 TURN_WORDS = {turn: word for word, turn in TURNS.items()}
-_BOUNDS_DEG = {Axis.AZIMUTH: AZIMUTHS_DEG, Axis.ELEVATION: ELEVATIONS_DEG}
 _SECONDS = re.compile(r"[0-9]{1,3}(?:[.,][0-9]{1,3})?")
 
 
@@ -92,9 +92,7 @@ def parse(line: bytes) -> ConsoleCommand:
         case ["jog", turn, seconds] if turn in TURNS:
             return Jog(*TURNS[turn], _seconds(seconds))
         case ["point", azimuth, elevation]:
-            order = aim(_degrees(Axis.AZIMUTH, azimuth), _degrees(Axis.ELEVATION, elevation))
-            assert order is not None, "both are within their bounds"
-            return order
+            return aim(_degrees(Axis.AZIMUTH, azimuth), _degrees(Axis.ELEVATION, elevation))
         case ["panel", *rest]:
             return parse_hand(rest)
         case [verb, *_] if verb in _BY_TEXT:
@@ -132,7 +130,7 @@ def encode(command: ConsoleCommand) -> bytes:
 
 
 def _degrees(axis: Axis, text: str) -> float:
-    low_deg, high_deg = _BOUNDS_DEG[axis]
+    low_deg, high_deg = SENT_DEG[axis]
     angle_deg = degrees(text)
     if angle_deg is None or not low_deg <= angle_deg <= high_deg:
         raise ValueError(f"{_quoted(text)} is no {axis.value}: degrees from {low_deg:g} to {high_deg:g}")

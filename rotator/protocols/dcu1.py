@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from rotator.orders import Stop
@@ -85,8 +86,10 @@ class Dcu1Session:
     idle_s = SAME_COMMAND_S
     closed = False
 
-    def __init__(self, box: Box) -> None:
+    def __init__(self, box: Box, refused: Callable[[str], None] = lambda _reason: None) -> None:
+        """`refused` hears of a target out of range, for the log."""
         self._box = box
+        self._refused = refused
         self._begun = bytearray()
         self._target_deg: float | None = None
         self._half_ended = False
@@ -112,6 +115,10 @@ class Dcu1Session:
         text = bytes(self._begun)
         self._begun.clear()
         command = parse(text) if len(text) <= MAX_COMMAND else None
+        if command is None and (target := _TARGET.fullmatch(text.decode("latin-1"))):
+            # An earlier target must not be taken for this one.
+            self._target_deg = None
+            self._refused(f"azimuth {target[1]} is outside 0 to {AZIMUTH_TOP_DEG} degrees")
         if octet == CR and command == Command(""):
             return b""
         self._half_ended = octet == CR and b"." in text
@@ -135,6 +142,5 @@ class Dcu1Session:
         return b""
 
     def _go(self) -> None:
-        order = aim(self._target_deg, None)
-        if self._target_deg is not None and order is not None:
-            self._box.order(order)
+        if self._target_deg is not None:
+            self._box.order(aim(self._target_deg, None))

@@ -58,8 +58,15 @@ VERBS = (
 )
 _PATTERNS = tuple((verb, re.compile(f"{verb.text}({verb.number})")) for verb in VERBS)
 _STOPS = ("SA", "SE")
-_NAMED = re.compile(r"[A-Z][!-~]*")
-_UNENDED = re.compile(r" *(?:AZ|EL)-?\d{1,3}\.\d(?: +(?:AZ|EL)-?\d{1,3}\.\d)? *")
+_ANGLES = ("AZ", "EL")
+_RADIO = "UP|DN|UM|DM|UR|DR|UC|DC|AO|LO|OP|IP|AN|ST"
+"""The standard's words for the radios and the station, which a rotor passes over."""
+_ANGLE = re.compile(f"(AZ|EL)(?P<number>{_DEGREES})?")
+_AFTER = re.compile(f"$|(?P<blank> )(?! *[0-9.,])|(?P<more>[ \\x00-\\x1f\\x7f-\\xff]|AZ|EL|SA|SE|{_RADIO})")
+"""What may follow a whole number. `more`: only one with decimals is whole there, as in `AZ1 20.5` a digit is lost."""
+_NAMED = re.compile("[A-Z][!-~]*")
+_PLAIN = re.compile(r"[A-Z]{2,}|(?:UP|DN)\d+|(?:UM|DM)[A-Z-]+|(?:UR|DR|UC|DC|OP|IP|AN)\d{1,3}|ST[\d:]+")
+_UNENDED = re.compile(r" *(?:AZ|EL)-?\d{1,3}\.\d{1,2}(?: *(?:AZ|EL)-?\d{1,3}\.\d{1,2})? *")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,16 +80,49 @@ class Word:
 def parse(line: bytes, level: Level) -> tuple[Word, ...]:
     """The commands in one line, without its end.
 
-    Other words that begin with a letter (frequencies, modes) are for radios and are skipped. In a line with a damaged
-    word (`AZ1x0`, `AZ1 20.5`) only the stops count. Noise before the first word is skipped.
+    `AZ` and `EL` with their numbers count anywhere in the line, in either order, whatever stands before, between and
+    behind them. When one of the two is damaged (`AZ1x0`, `AZ1 20.5`, `EL` alone beside an azimuth), only the stops of
+    the line count. A single angle, and any other command, counts only in a line without anything strange: the strange
+    part may be what is left of the other angle. Words that begin with a letter (frequencies, modes) are for radios.
     """
     text = line.upper().decode("latin-1").replace("\t", " ").replace(";", " ")
     text = text.lstrip("".join(map(chr, (*range(0x21), *range(0x7F, 0x100)))))
-    parts = [part for part in text.split(" ") if part]
-    words = [word for part in parts if (word := _word(part, level))]
-    if any(_is_damaged(part) for part in parts):
-        return tuple(word for word in words if word.verb in _STOPS)
-    return tuple(words)
+    angles, rest, damaged = _angles(text)
+    others = [(match.start(), match[0]) for match in re.finditer("[^ ]+", rest)]
+    words = {at: word for at, part in others if (word := _word(part, level))}
+    strange = [part for at, part in others if at not in words and not _NAMED.fullmatch(part)]
+    stops = {at: word for at, word in words.items() if word.verb in _STOPS}
+    values = {word.verb for word in angles.values() if word.value is not None}
+    if damaged:
+        return _in_order(stops)
+    if len(values) == len(_ANGLES):
+        return _in_order(angles | (stops if strange else words))
+    foreign = [part for at, part in others if at not in words and not _PLAIN.fullmatch(part)]
+    asked = {word.verb for word in angles.values() if word.value is None}
+    if strange or (values and (foreign or asked)):
+        return _in_order(stops)
+    return _in_order(angles | words)
+
+
+def _angles(text: str) -> tuple[dict[int, Word], str, bool]:
+    """Each AZ and EL by its place, the text with blanks in their place, and whether one of them is damaged."""
+    angles: dict[int, Word] = {}
+    rest, damaged = text, False
+    for match in _ANGLE.finditer(text):
+        number, (begin, end) = match["number"], match.span()
+        after = _AFTER.match(text, end)
+        in_a_word = text[:begin][-1:].isalpha() and number is None
+        if in_a_word:
+            continue  # DELTA, HAZEL
+        whole = after is not None and (after["more"] is None or bool(number and re.search("[.,][0-9]", number)))
+        damaged = damaged or not whole
+        angles[begin] = Word(match[1], float(number.replace(",", ".")) if number else None)
+        rest = rest[:begin] + " " * (end - begin) + rest[end:]
+    return angles, rest, damaged
+
+
+def _in_order(words: dict[int, Word]) -> tuple[Word, ...]:
+    return tuple(word for _, word in sorted(words.items(), key=lambda item: item[0]))
 
 
 def _word(text: str, level: Level) -> Word | None:
@@ -92,14 +132,8 @@ def _word(text: str, level: Level) -> Word | None:
     return None
 
 
-def _is_damaged(text: str) -> bool:
-    if text.startswith(("AZ", "EL")):
-        return _word(text, Level.I) is None
-    return not _NAMED.fullmatch(text)
-
-
 def is_whole(begun: bytes) -> bool:
-    """Whether bytes without a line end are a whole order: angles with exactly one decimal.
+    """Whether bytes without a line end are a whole order: angles with one decimal or two.
 
     A phone's Bluetooth terminal and some trackers send no line end. `AZ23` may still become `AZ235.0`.
     """

@@ -7,6 +7,7 @@ is noise to it.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from rotator.orders import Aim
 from rotator.protocols.session import Box
@@ -24,8 +25,10 @@ class F1efwSession:
     idle_s = ARDUINO_READ_TIMEOUT_S
     closed = False
 
-    def __init__(self, box: Box) -> None:
+    def __init__(self, box: Box, refused: Callable[[str], None] = lambda _reason: None) -> None:
+        """`refused` hears of an order out of range, for the log."""
         self._box = box
+        self._refused = refused
         self._tail = b""
 
     def receive(self, data: bytes) -> list[bytes]:
@@ -41,5 +44,9 @@ class F1efwSession:
         return self.receive(b"\n")
 
     def _obey(self, azimuth_deg: float, elevation_deg: float) -> None:
-        if azimuth_deg <= _AZIMUTH_TOP_DEG and elevation_deg in _ELEVATION_DEG:
+        if azimuth_deg > _AZIMUTH_TOP_DEG:
+            self._refused(f"azimuth {azimuth_deg:g} is outside 0 to {_AZIMUTH_TOP_DEG} degrees")
+        elif elevation_deg not in _ELEVATION_DEG:
+            self._refused(f"elevation {elevation_deg:g} is outside -90 to 180 degrees")
+        else:
             self._box.order(Aim(azimuth_deg, elevation_deg, engaged=elevation_deg > 0))

@@ -99,6 +99,10 @@ class NoOrder(NotACommand):
     """An M or W without numbers, or with numbers that are no order. It clears the timed list like any other M or W."""
 
 
+class OutOfRange(NoOrder):
+    """An M or W with an angle that the command set does not have; the text is the reason, for the log."""
+
+
 _NOISE = "".join(map(chr, (*range(0x21), *range(0x7F, 0x100))))
 _PASSED_OVER = " ;\0"
 """What may follow a command: GS232-Remote ends each one with `;`, and plugging in a cable can add a NUL."""
@@ -172,7 +176,7 @@ def _elevation(digits: str) -> float:
 def _angle(digits: str, top_deg: int) -> float:
     angle_deg = float(digits.replace(",", "."))
     if angle_deg > top_deg:
-        raise NoOrder(digits)
+        raise OutOfRange(f"angle {angle_deg:g} is outside 0 to {top_deg} degrees")
     return angle_deg
 
 

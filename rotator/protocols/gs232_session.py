@@ -5,10 +5,12 @@ Knows the meaning of the commands. Does not know the bytes (`gs232` does), nor h
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Calibrate, ClearTimed, Jog, LoadTimed, Order, RunTimed, Speed, Stop
 from rotator.protocols import gs232
-from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand
+from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand, OutOfRange
 from rotator.protocols.lines import LineReader
 from rotator.protocols.session import Box
 
@@ -39,7 +41,8 @@ class Gs232Session:
 
     `ack` is the answer to a command that asks no question, b"" or b"\\r"; `empty_line` that to an empty line, b"" or
     `?>`. `strict` follows the GS-232B's manual where programs know a clone's way: O and F store only after Y, Z changes
-    the centre that H3 shows, and neither Z nor P36 nor P45 has a text as its answer.
+    the centre that H3 shows, and neither Z nor P36 nor P45 has a text as its answer. `refused` hears of an order that
+    is out of the unit's range, for the log.
     """
 
     idle_s = None
@@ -54,6 +57,7 @@ class Gs232Session:
         empty_line: bytes = b"",
         strict: bool = False,
         may_calibrate: bool = False,
+        refused: Callable[[str], None] = lambda _reason: None,
     ) -> None:
         self._box = box
         self._dialect = dialect
@@ -61,6 +65,7 @@ class Gs232Session:
         self._empty_line = empty_line
         self._strict = strict and dialect is Dialect.B
         self._may_calibrate = may_calibrate
+        self._refused = refused
         self._lines = LineReader(gs232.MAX_LINE)
         azimuth = box.status().azimuth
         self._top_deg = (
@@ -89,8 +94,10 @@ class Gs232Session:
             return self._store(asked) if line.strip() else self._ack
         try:
             command = gs232.parse(line, self._dialect)
-        except NoOrder:
+        except NoOrder as reason:
             self._clear_list()
+            if isinstance(reason, OutOfRange):
+                self._refused(str(reason))
             return gs232.INVALID
         except NotACommand:
             return gs232.INVALID
@@ -130,7 +137,8 @@ class Gs232Session:
         azimuths_deg = [azimuth for azimuth, _ in command.points]
         if command.azimuth_deg is not None:
             azimuths_deg.append(command.azimuth_deg)
-        if any(azimuth > self._top_deg for azimuth in azimuths_deg):
+        if (farthest_deg := max(azimuths_deg)) > self._top_deg:
+            self._refused(f"azimuth {farthest_deg:g} is outside 0 to {self._top_deg} degrees")
             return gs232.INVALID
         if command.interval_s is not None:
             reply = self._order(LoadTimed(float(command.interval_s), command.points))

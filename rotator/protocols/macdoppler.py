@@ -54,9 +54,8 @@ class MacDopplerSession:
 
     def receive(self, data: bytes) -> list[bytes]:
         report = parse(data)
-        order = aim(report.azimuth_deg, report.elevation_deg) if report else None
-        if order is not None:
-            self._box.order(order)
+        if report:
+            self._box.order(aim(report.azimuth_deg, report.elevation_deg))
         return []
 
     def idle(self) -> list[bytes]:

@@ -15,34 +15,35 @@ LOOK_S = 0.25
 class MoveReport:
     """Begins with the first bytes of the program at the other end: before those no link knows that there is one."""
 
-    idle_s = LOOK_S
-    waits = True
+    every_s = LOOK_S
 
     def __init__(self, session: Session, box: Box) -> None:
         self._session = session
         self._box = box
+        self._heard = False
         self._moved = False
         """The antenna moves, or has moved since the last line."""
-        self._fresh = False
-        """Bytes have come since the last look."""
+
+    @property
+    def idle_s(self) -> float | None:
+        return self._session.idle_s
 
     @property
     def closed(self) -> bool:
         return self._session.closed
 
     def receive(self, data: bytes) -> list[bytes]:
-        self._fresh = True
+        self._heard = True
         return self._session.receive(data)
 
     def idle(self) -> list[bytes]:
-        replies = self._session.idle() if self._fresh and self._session.idle_s is not None else []
-        self._fresh = False
-        return [*replies, *self._line()]
+        return self._session.idle()
 
-    def _line(self) -> list[bytes]:
+    def beat(self) -> list[bytes]:
+        """The line, when the antenna stands after a move."""
         status = self._box.status()
-        if status.moving:
-            self._moved = True
+        if not self._heard or status.moving:
+            self._moved = self._heard
             return []
         azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
         if not self._moved or azimuth_deg is None or elevation_deg is None:

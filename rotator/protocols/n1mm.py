@@ -25,6 +25,8 @@ _MESSAGE = re.compile(r"\ufeff?\s*(?:<\?xml[^<>]*\?>)?\s*<N1MMRotor>(.*)</N1MMRo
 _FIELD = re.compile(r"\s*<([A-Za-z]+)>([^<>]*)</\1>\s*")
 _NO = ("0", "false")
 
+AZIMUTH_TOP_DEG = 360
+
 
 @dataclass(frozen=True, slots=True)
 class Go:
@@ -55,7 +57,7 @@ def parse(datagram: bytes) -> Go | Halt | None:
     if fields is None or bool(opened) != bool(closed):
         return None
     azimuth_deg = degrees(fields.get("goazi", "").strip())
-    if azimuth_deg is None or not 0 <= azimuth_deg <= 360:
+    if azimuth_deg is None:
         return None
     return Go(fields.get("rotor", "").strip(), azimuth_deg, fields.get("offset", "").strip())
 
@@ -92,11 +94,17 @@ class N1mmSession:
     closed = False
 
     def __init__(
-        self, box: Box, rotor_name: str | None = None, remark: Callable[[str], None] = lambda _text: None
+        self,
+        box: Box,
+        rotor_name: str | None = None,
+        remark: Callable[[str], None] = lambda _text: None,
+        refused: Callable[[str], None] = lambda _reason: None,
     ) -> None:
+        """`refused` hears of an order out of range, for the log."""
         self._box = box
         self._rotor_name = rotor_name
         self._remark = remark
+        self._refused = refused
 
     def receive(self, data: bytes) -> list[bytes]:
         command = parse(data)
@@ -104,6 +112,9 @@ class N1mmSession:
             case Halt(rotor) if not rotor or self._is_ours(rotor):
                 self._box.order(Stop())
             case Go(rotor, azimuth_deg, offset) if self._is_ours(rotor):
+                if not 0 <= azimuth_deg <= AZIMUTH_TOP_DEG:
+                    self._refused(f"azimuth {azimuth_deg:g} is outside 0 to {AZIMUTH_TOP_DEG} degrees")
+                    return []
                 if degrees(offset):
                     self._remark(f"N1MM's offset of {offset} degrees is not added: give the box its own")
                 self._box.order(Aim(azimuth_deg, None))

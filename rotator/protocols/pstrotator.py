@@ -14,7 +14,9 @@ from dataclasses import dataclass
 
 from rotator.orders import Order, Park, Stop
 from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.earth import direction
 from rotator.protocols.session import Box
+from rotator.protocols.sky import Site
 
 ANSWERS_ABOVE = 1
 """Answers go to the sender's address, to the port this much above the box's own."""
@@ -35,6 +37,7 @@ TAGS = (
     Tag("PARK", "1: go to the park position"),
     Tag("HOME", "1: the same"),
     Tag("TRACK", "Azimuth and elevation: go there; 0 or 1: ignored, because the box does not track by itself"),
+    Tag("LLH", "Latitude, longitude, metres above the sea: point there; needs `[station]`"),
     Tag("AZ?", "Read azimuth"),
     Tag("EL?", "Read elevation"),
     Tag("TGA?", "Read the azimuth of the target; without one, azimuth"),
@@ -46,6 +49,7 @@ _OPEN, _CLOSE = "<PST>", "</PST>"
 _BETWEEN = re.compile(_CLOSE + r"\s*" + _OPEN)
 _ITEM = re.compile(r"\s*(?:<([A-Z][A-Z0-9]*)>([^<>]*)</\1>|([A-Z][A-Z0-9]*\?))\s*")
 _STOP = re.compile(r"<STOP>([^<>]*)</STOP>")
+_PLACE = re.compile(r"(-?\d{1,2}(?:\.\d{0,9})?), ?(-?\d{1,3}(?:\.\d{0,9})?), ?(-?\d{1,6}(?:\.\d{0,6})?)")
 _SLIP = re.compile(r"(\d\.\d{6})\.2")
 """Hamlib's model 3 writes `%f.2` where it means `%.2f`."""
 
@@ -89,14 +93,16 @@ def encode(*items: Item) -> bytes:
 class PstRotatorSession:
     """PstRotator for one sender. Orders get no answer, and neither does an order that is refused.
 
-    `remark` takes a line for the log when the sender asks for something that the box does not have.
+    `remark` takes a line for the log when the sender asks for something that the box does not have. `site`: the
+    antenna's own place; None: unknown.
     """
 
     idle_s = None
     closed = False
 
-    def __init__(self, box: Box, remark: Callable[[str], None] = lambda _text: None) -> None:
+    def __init__(self, box: Box, remark: Callable[[str], None] = lambda _text: None, site: Site | None = None) -> None:
         self._box = box
+        self._site = site
         self._remark = remark
 
     def receive(self, data: bytes) -> list[bytes]:
@@ -109,6 +115,12 @@ class PstRotatorSession:
                     angles[axis] = value
                 case Item("TRACK", str() as value) if len(value.split()) == 2:
                     angles["AZIMUTH"], angles["ELEVATION"] = value.split()
+                case Item("LLH", str() as value) if self._site:
+                    angles |= _angles_to(self._site, value)
+                case Item("LLH"):
+                    self._remark(
+                        "LLH does nothing here: the file has no [station], so the antenna's own place is unknown"
+                    )
                 case Item("TRACK", "0"):
                     pass
                 case Item("STOP", value):
@@ -139,9 +151,7 @@ class PstRotatorSession:
         angles_deg = {axis: degrees(_SLIP.sub(r"\1", text)) for axis, text in angles.items()}
         if not angles_deg or None in angles_deg.values():
             return
-        order = aim(angles_deg.get("AZIMUTH"), angles_deg.get("ELEVATION"))
-        if order is not None:
-            self._box.order(order)
+        self._box.order(aim(angles_deg.get("AZIMUTH"), angles_deg.get("ELEVATION")))
 
     def _answer(self, question: str) -> Iterator[bytes]:
         """No answer while the position is not known."""
@@ -160,6 +170,16 @@ class PstRotatorSession:
                 yield f"TGE:{_whole(elevation_deg if wanted_deg is None else wanted_deg):02d}\r".encode()
             case "MODE?":
                 yield b"MODE:0\r"
+
+
+def _angles_to(station: Site, text: str) -> dict[str, str]:
+    """The direction of a place as the values of two tags; a damaged place as a damaged number."""
+    found = _PLACE.fullmatch(text)
+    place = Site(*(float(number) for number in found.groups())) if found else None
+    if place is None or abs(place.latitude_deg) > 90 or abs(place.longitude_deg) > 180:
+        return {"AZIMUTH": ""}
+    seen = direction(station, place)
+    return {"AZIMUTH": f"{seen[0]:.3f}", "ELEVATION": f"{seen[1]:.3f}"} if seen else {}
 
 
 def _is_listed(question: str) -> bool:

@@ -4,8 +4,8 @@ Knows the question `p`, its answers, and which of them become orders. Time is co
 
 The first answer is no order: it is only the angle at which the other rotor stands. After that every change is an order
 for that place. It is no point of a path: a rotor turns in ramps with corners, and a path drawn on beyond a corner leads
-past it. The last order is repeated a few times, for a box that could not obey at that moment. Then no more orders
-follow, and others may move the antenna.
+past it. A box that has dropped the last order, for a fault that has passed, gets it again within the next seconds.
+Other links may move the antenna as soon as the other rotor rests.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from rotator.protocols.aiming import aim
+from rotator.orders import Aim
+from rotator.protocols.aiming import aim, may_be_sent
 from rotator.protocols.lines import LineReader
 from rotator.protocols.rotctld import BadRequest, Request, encode, number
 from rotator.protocols.session import Box, NotUnderstood
@@ -69,7 +70,7 @@ class RotctldFollower:
 
     def _follow(self, azimuth_deg: float, elevation_deg: float) -> None:
         direction = aim(azimuth_deg, elevation_deg)
-        if direction is None:
+        if not may_be_sent(azimuth_deg, elevation_deg):
             self.trouble = "answers with angles that are no direction"
             return
         self.trouble = ""
@@ -83,4 +84,12 @@ class RotctldFollower:
             self._box.order(order)
         elif points_to == self._ordered and self._times_left and self._since_order >= self._until_again:
             self._since_order, self._times_left = 0, self._times_left - 1
-            self._box.order(order)
+            if self._dropped(order):
+                self._box.order(order)
+
+    def _dropped(self, order: Aim) -> bool:
+        """Whether the box still shows this order, and an axis has no target: not so after a stop or another's order."""
+        status = self._box.status()
+        wanted = status.wanted_azimuth_deg, status.wanted_elevation_deg
+        targets = status.azimuth.target_deg, status.elevation.target_deg
+        return wanted == (order.azimuth_deg, order.elevation_deg) and None in targets

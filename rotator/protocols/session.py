@@ -40,20 +40,23 @@ class Session(Protocol):
 
 
 @runtime_checkable
-class Waits(Protocol):
-    """A session that may have something to send later, unasked."""
-
-    @property
-    def waits(self) -> bool:
-        """While this holds the link calls `idle` again and again, every `idle_s`."""
-
-
-@runtime_checkable
 class Ending(Protocol):
     """A session that has something to do when its connection ends."""
 
     def ended(self) -> None:
         """The connection has ended: the client has left, or its cable is out."""
+
+
+@runtime_checkable
+class Beating(Protocol):
+    """A session that also works without bytes from its program: it sends unasked, or follows a moving target."""
+
+    @property
+    def every_s(self) -> float | None:
+        """The time between two calls of `beat`, as long as the connection lasts. None: never."""
+
+    def beat(self) -> list[bytes]:
+        """Do what is due now. Returns bytes for the program; the link sends each in one write."""
 
 
 class NotUnderstood(Exception):  # noqa: N818 - a fact about the other end; the program has not failed

@@ -47,9 +47,8 @@ class SpidSession:
             case Frame(Command.STOP):
                 self._box.order(Stop())
             case Frame(Command.SET, azimuth_deg, elevation_deg):
-                order = aim(azimuth_deg, elevation_deg)
-                if order is not None:
-                    self._box.order(order)
+                if azimuth_deg is not None:
+                    self._box.order(aim(azimuth_deg, elevation_deg))
             case Frame(Command.MOVE, turn=Turn() as turn):
                 for part, jog in _TURNS.items():
                     if part in turn:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.aiming import aim, degrees, may_be_sent
 from rotator.protocols.session import Box
 
 LONGEST_PAUSE_S = 10
@@ -17,9 +17,10 @@ LONGEST_PAUSE_S = 10
 DAY_S = 86_400
 
 _LINE = re.compile(r"(\d\d)0?:(\d\d)0?:(\d\d)(?:0000)?, *([^,\n]*?)(?:0000)?, *([^,\n]*), *(\w+)\r?\n")
-"""Old versions also pad the separators with zeros: `120:340:560000,123.40000,0-5.3,Moon`."""
+"""Present versions pad with blanks (`198.9, 61.9`), older ones with zeros (`198.9,061.9`), and some of those pad the
+separators too: `120:340:560000,123.40000,0-5.3,Moon`."""
 _MISPLACED_MINUS = re.compile(r"0+(-)")
-"""Below the horizon the zeros come before the sign: `0-5.3`."""
+"""Below the horizon these zeros come before the sign: `0-5.3`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,18 +38,18 @@ def parse(text: bytes, body: str) -> BodyDirection | None:
         if name != body:
             continue
         azimuth_deg, elevation_deg = degrees(azimuth), degrees(_MISPLACED_MINUS.sub(r"\1", elevation))
-        if azimuth_deg is None or elevation_deg is None or aim(azimuth_deg, elevation_deg) is None:
+        if azimuth_deg is None or elevation_deg is None or not may_be_sent(azimuth_deg, elevation_deg):
             return None
         return BodyDirection(int(hour) * 3600 + int(minute) * 60 + int(second), azimuth_deg, elevation_deg)
     return None
 
 
 def encode(body: str, direction: BodyDirection) -> bytes:
-    """A line as WSJT-X writes it."""
+    """A line as WSJT-X writes it: blanks before short numbers."""
     minutes, second = divmod(direction.second_of_day, 60)
     hour, minute = divmod(minutes, 60)
-    azimuth, elevation = f"{direction.azimuth_deg:.1f}".rjust(5, "0"), f"{direction.elevation_deg:.1f}".rjust(5, "0")
-    return f"{hour:02d}:{minute:02d}:{second:02d},{azimuth},{elevation},{body}\n".encode()
+    angles = f"{direction.azimuth_deg:5.1f},{direction.elevation_deg:5.1f}"
+    return f"{hour:02d}:{minute:02d}:{second:02d},{angles},{body}\n".encode()
 
 
 class WsjtxSession:
@@ -69,9 +70,7 @@ class WsjtxSession:
         before_s, self._written_s = self._written_s, direction.second_of_day
         if before_s is None or not 0 < (direction.second_of_day - before_s) % DAY_S <= LONGEST_PAUSE_S:
             return []
-        order = aim(direction.azimuth_deg, direction.elevation_deg)
-        if order is not None:
-            self._box.order(order)
+        self._box.order(aim(direction.azimuth_deg, direction.elevation_deg))
         return []
 
     def idle(self) -> list[bytes]:

@@ -1,6 +1,7 @@
-"""A sensor on a rotor with control boxes: each reading corrects the drive's model of the angle.
+"""Two control boxes as the control loop sees them, and a sensor whose readings correct the drive's model of the angle.
 
-Knows the calibration from the sensor's readings to degrees. Does not know the boxes: `hw.drives.control_box` does.
+Knows when the angle is only assumed, and the calibration from the sensor's readings to degrees. Does not know the
+boxes: `hw.drives.control_box` does.
 """
 
 from __future__ import annotations
@@ -8,6 +9,30 @@ from __future__ import annotations
 from hw.drives.digipot import DigipotDrive
 from hw.ports import AngleSensor, Axis
 from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.sensing import Condition
+from rotator.control.sky.offsets import Offsets
+from rotator.faults import Notice
+from rotator.rotors.common import BlockedDirections, no_switches
+from rotator.rotors.positioned import PositionedRotor
+
+ASSUMED = Notice("angle assumed until a full travel is over")
+
+
+class BoxRotor(PositionedRotor):
+    """Says of an axis that its angle is only assumed, from the start until the box must have arrived."""
+
+    def __init__(
+        self,
+        drive: DigipotDrive,
+        sensors: dict[Axis, AngleSensor],
+        shift: Offsets,
+        ends: BlockedDirections = no_switches,
+    ) -> None:
+        super().__init__(drive, sensors, shift, ends)
+        self._boxes = drive
+
+    def condition(self, axis: Axis) -> Condition:
+        return Condition(notice=None if self._boxes.position_known(axis) else ASSUMED, ends=self._ends(axis))
 
 
 class FollowedBox:

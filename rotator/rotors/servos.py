@@ -31,3 +31,9 @@ class ServoRotor(PositionedRotor):
             settling=not self._servos.position_known(axis),
             ends=self._ends(axis),
         )
+
+    def close(self) -> None:
+        try:
+            super().close()
+        finally:
+            self._servos.finish()

@@ -36,7 +36,8 @@ class Rights:
 class Client:
     """One connection's view of the box. `clock` gives seconds.
 
-    `complaints` limits the log lines. The connections of a link share it: a program may connect anew for each order.
+    `complaints` limits the log lines, `ranges` those on orders out of range: a program that tracks sends one a second,
+    each with other angles. The connections of a link share both: a program may connect anew for each order.
     """
 
     def __init__(
@@ -47,6 +48,7 @@ class Client:
         *,
         rights: Rights = Rights(),
         complaints: LogLimit | None = None,
+        ranges: LogLimit | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._loop = loop
@@ -54,6 +56,7 @@ class Client:
         self._source = source
         self._rights = rights
         self._complaints = complaints or LogLimit(clock)
+        self._ranges = ranges or LogLimit(clock, most=1)
         self._clock = clock
         self._allowance = float(rights.most_per_s)
         self._counted_s = clock()
@@ -67,7 +70,7 @@ class Client:
         """Hand an order to the control loop, or return why it is refused; the log has the reason then. Never waits."""
         refused = self._forbidden(order) or refusal(order, self._loop.status, self._mount)
         if refused:
-            self._complain(f"refused: {refused.reason}")
+            self._complain(f"refused: {refused.reason}", self._ranges if refused.out_of_range else self._complaints)
         else:
             self._has_ordered = True
             self._loop.post(self._source, order, can_wait=self._is_too_much(order))
@@ -77,6 +80,10 @@ class Client:
         """The connection has ended: what it began and left without an end ends with it."""
         if self._has_ordered:
             self._loop.post(self._source, Leave())
+
+    def note_refused(self, reason: str) -> None:
+        """Log that the protocol itself refused an order: it names an angle that the protocol does not have."""
+        self._complain(f"refused: {reason}", self._ranges)
 
     def _forbidden(self, order: Order) -> Refusal | None:
         if not self._rights.read_only:
@@ -93,9 +100,10 @@ class Client:
         if self._allowance >= 1:
             self._allowance -= 1
             return False
-        self._complain(f"more than {most} orders a second: of those beyond, only the newest of each kind counts")
+        text = f"more than {most} orders a second: of those beyond, only the newest of each kind counts"
+        self._complain(text, self._complaints)
         return True
 
-    def _complain(self, text: str) -> None:
-        if line := self._complaints.admit(text):
+    def _complain(self, text: str, limit: LogLimit) -> None:
+        if line := limit.admit(text):
             log.warning("%s: %s", self._source, line)

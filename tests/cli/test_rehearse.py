@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 
+from rotator.config.load import shipped
+
 PASSES = Path(__file__).parents[1] / "passes"
 KEYS = ["rms_deg", "p95_deg", "max_deg", "relay_starts", "motor_s"]
 COLUMNS = ["t", "target_az", "target_el", "antenna_az", "antenna_el", "az_drive", "el_drive"]
@@ -48,6 +50,19 @@ def test_the_summary_in_a_sentence(rotator: Rotator, flown: Path) -> None:
     assert done.stdout.startswith("south: the box was off by ")
     assert " relay starts, motors on for " in done.stdout
     assert done.stdout.endswith(" s of 120 s\n")
+
+
+@pytest.mark.parametrize("profile", ["isel", "servos", "orbit360"])
+def test_without_relays_the_sentence_has_no_word_of_starts_and_motors(
+    rotator: Rotator, flown: Path, tmp_path: Path, profile: str
+) -> None:
+    station = tmp_path / "station.toml"
+    station.write_text(shipped(profile), encoding="utf-8")
+    done = rotator("rehearse", flown, "--config", station)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.endswith("° at worst\n")
+    assert "None" not in done.stdout
+    assert done.stderr == ""
 
 
 def test_two_runs_are_one(rotator: Rotator, flown: Path, tmp_path: Path) -> None:

@@ -76,13 +76,14 @@ def test_a_makers_own_speed_unless_another_is_given(link: str, baud: int) -> Non
     assert parse(f'[[link]]\n{link}\nserial = "/dev/ttyGS0"\n', "x").link[0].serial_baud == baud
 
 
-ONE_PLACE = (FOLLOW, "pstrotator", "n1mm", "macdoppler", "wsjtx")
+ONE_PLACE = (FOLLOW, "pstrotator", "n1mm", "macdoppler", "wsjtx", "stellarium", "pstrotatoraz")
 
 
 @pytest.mark.parametrize("protocol", [name for name in get_args(ProtocolName) if name not in ONE_PLACE])
 @pytest.mark.parametrize("place", ['pty = "x"', 'serial = "/dev/ttyUSB0"', 'tcp = "[::1]:4533"'])
 def test_any_protocol_on_any_link(protocol: str, place: str) -> None:
-    assert parse(f'[[link]]\nprotocol = "{protocol}"\n{place}\n', "x").link[0].where in place
+    text = f'[station]\nlocator = "JO62qm"\n[[link]]\nprotocol = "{protocol}"\n{place}\n'
+    assert parse(text, "x").link[0].where in place
 
 
 def test_it_may_be_read_by_path(tmp_path: Path) -> None:

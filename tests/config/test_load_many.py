@@ -57,7 +57,8 @@ def test_every_fault_at_once() -> None:
         "elevation: min_deg (90) must be below max_deg (0)",
         'relays.azimuth_cw = "22": must be a whole number',
         'link[0].protocol = "gs232": must be one of gs232a, gs232b, gs232-f1efw, rotctld, rotctld-follow, easycomm1, '
-        "easycomm2, easycomm3, rot1prog, rot2prog, md01, dcu1, pstrotator, n1mm, macdoppler, wsjtx; "
+        "easycomm2, easycomm3, rot1prog, rot2prog, md01, dcu1, pstrotator, n1mm, macdoppler, wsjtx, "
+        "lx200, stellarium, pstrotatoraz, prosistel-d, prosistel-c, rc2800; "
         "did you mean gs232b?",
         'link[1].tcp: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
     }

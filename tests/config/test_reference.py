@@ -56,7 +56,7 @@ def test_every_key_has_its_row(name: str) -> None:
         "| `calibration` | –; pairs |",
         '| `protocol` | must be given; "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow", "easycomm1", '
         '"easycomm2", "easycomm3", "rot1prog", "rot2prog", "md01", "dcu1", "pstrotator", "n1mm", '
-        '"macdoppler", "wsjtx" |',
+        '"macdoppler", "wsjtx", "lx200", "stellarium", "pstrotatoraz", "prosistel-d", "prosistel-c", "rc2800" |',
         "| `pulses_per_degree` | –; 1, 2, 4, 10 |",
         "| `name` | –; up to 24 characters |",
         "| `id` | `1`, elevation `2`; whole 1 to 126 |",

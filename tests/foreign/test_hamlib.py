@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import subprocess
 import time
 from collections.abc import Callable, Iterator
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from tests.foreign.conftest import RunningBox
 
 Start = Callable[..., "RunningBox"]
+FAST_ROTOR = Path(__file__).parents[1] / "fast_rotor.toml"
 TOLERANCE_DEG = 4.5
 """What the box promises, and half a degree for whole-degree replies."""
 DIALECTS = {
@@ -28,6 +30,10 @@ DIALECTS = {
     902: "rot1prog",
     903: "md01",
     **dict.fromkeys((401, 403, 404, 405), "dcu1"),
+    1001: "rc2800",
+    **dict.fromkeys((1701, 1702), "prosistel-d"),
+    1703: "prosistel-c",
+    1801: "lx200",
 }
 SPEEDS = {903: ("-s", "9600")}
 """The MD-01 model's own default, 460800, is one that this Hamlib cannot set."""
@@ -99,7 +105,7 @@ def rest(rotctl: Callable[..., str], model: int, where: Path | str) -> tuple[flo
     pytest.fail("the antenna does not come to rest")
 
 
-@pytest.mark.parametrize("model", [601, 602, 603, 202, 204, 901, 903])
+@pytest.mark.parametrize("model", [601, 602, 603, 202, 204, 901, 903, 1001, 1703])
 @pytest.mark.parametrize("over", ["pty", "tcp"])
 def test_set_read_and_stop(start_box: Start, rotctl: Callable[..., str], model: int, over: str) -> None:
     box = start_box(DIALECTS[model])
@@ -107,15 +113,19 @@ def test_set_read_and_stop(start_box: Start, rotctl: Callable[..., str], model: 
     assert position(rotctl(model, where, "p")) == pytest.approx((0, 0), abs=0.2)
     rotctl(model, where, "P", "75", "25")
     arrive(rotctl, model, where, (75, 25))
-    # Hamlib itself lets EasyComm go no farther than 360.
-    rotctl(model, where, "P", "360" if model in (202, 204) else "440", "25")
+    # Hamlib itself lets EasyComm and others go no farther than 360.
+    rotctl(model, where, "P", "360" if model in (202, 204, 1001, 1703) else "440", "25")
     rotctl(model, where, "S")
     assert rest(rotctl, model, where)[0] < 350
     assert box.stop() == 0
 
 
 @pytest.mark.parametrize(
-    ("model", "over"), [(902, "pty"), (902, "tcp"), (401, "pty"), (404, "pty"), (405, "pty"), (405, "tcp")]
+    ("model", "over"),
+    [
+        *((902, "pty"), (902, "tcp"), (401, "pty"), (404, "pty"), (405, "pty"), (405, "tcp")),
+        *((1701, "pty"), (1701, "tcp")),
+    ],
 )
 def test_azimuth_only(start_box: Start, rotctl: Callable[..., str], model: int, over: str) -> None:
     box = start_box(DIALECTS[model])
@@ -208,3 +218,31 @@ def test_a_stop_on_one_link_silences_the_stream_on_another(start_box: Start, rot
     assert position(rotctl(603, box.pty, "p")) == pytest.approx(stopped, abs=1)
     rotctl(2, tcp, "P", "120", "20")
     arrive(rotctl, 2, tcp, (120, 20))
+
+
+def test_prosistel_s_elevation_box(start_box: Start, rotctl: Callable[..., str]) -> None:
+    box = start_box(DIALECTS[1702])
+    rotctl(1702, box.pty, "P", "0", "40")
+    arrive(rotctl, 1702, box.pty, (0, 40))
+    rotctl(1702, box.pty, "P", "0", "85")
+    rotctl(1702, box.pty, "S")
+    assert rest(rotctl, 1702, box.pty)[1] < 80
+
+
+@pytest.mark.parametrize("over", ["pty", "tcp"])
+def test_a_telescope(
+    start_box: Start, need_program: Callable[[str, str], str], rotctl: Callable[..., str], over: str
+) -> None:
+    """Model 1801 stops the antenna when it disconnects: one rotctl goes on, and rotctld tells when it has arrived."""
+    box = start_box(DIALECTS[1801], FAST_ROTOR.read_text(encoding="utf-8") + '[station]\nlocator = "JO62qm"\n')
+    command = [need_program("rotctl", "libhamlib-utils"), "-m", "1801", "-r", str(place(box, over)), "-"]
+    rotctld = f"127.0.0.1:{box.rotctld_port}"
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as telescope:
+        assert telescope.stdin is not None
+        telescope.stdin.write("P 75 25\n")
+        telescope.stdin.flush()
+        arrive(rotctl, 2, rotctld, (75, 25))
+        said, _ = telescope.communicate("p\nP 350 25\n", timeout=PATIENCE_S)
+    assert [float(number) for number in re.findall(r"\d+\.\d+", said)] == pytest.approx([75, 25], abs=TOLERANCE_DEG)
+    assert rest(rotctl, 2, rotctld)[0] < 340, "the end of the connection stops it"
+    assert box.stop() == 0

@@ -30,6 +30,48 @@ class Parrot:
         return [b"silence"]
 
 
+class Clock(Parrot):
+    """Also speaks unasked."""
+
+    def __init__(self, every_s: float | None) -> None:
+        super().__init__()
+        self.every_s = every_s
+        self.beats = 0
+
+    def beat(self) -> list[bytes]:
+        self.beats += 1
+        if self.beats == 2:
+            raise ZeroDivisionError("a bug in a protocol")
+        self.closed = self.beats == 5
+        return [b"tick"]
+
+
+def test_a_session_that_beats_speaks_unasked_until_the_end(wire: Wire) -> None:
+    async def listen() -> None:
+        sent: asyncio.Queue[bytes] = asyncio.Queue()
+        ended = asyncio.Event()
+        clock = Clock(0.01)
+        conversation = Conversation(clock, wire, sent.put_nowait, ended.set)
+        await asyncio.wait_for(ended.wait(), PATIENCE_S)
+        conversation.close()
+        beats = clock.beats
+        assert sent.qsize() >= 4, "the second beat fails, and the others go on"
+        # What is closed beats no more, while another does.
+        other: asyncio.Queue[bytes] = asyncio.Queue()
+        later = Conversation(Clock(0.02), wire, other.put_nowait)
+        await asyncio.wait_for(other.get(), PATIENCE_S)
+        later.close()
+        assert clock.beats == beats
+
+    asyncio.run(listen())
+
+
+def test_a_session_may_have_no_beat_and_needs_no_loop_then(wire: Wire) -> None:
+    sent: list[bytes] = []
+    Conversation(Clock(None), wire, sent.append).received(b"a")
+    assert sent == [b"aaa"]
+
+
 def test_each_reply_is_one_write(wire: Wire) -> None:
     sent: list[bytes] = []
     Conversation(Parrot(), wire, sent.append).received(b"ab")

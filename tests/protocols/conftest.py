@@ -16,7 +16,8 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.sensing import Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
-from rotator.control.controller import Controller, Settings
+from rotator.control.controller import Controller
+from rotator.control.settings import Settings
 from rotator.control.sky.mount import Mount, Range
 from rotator.faults import Missing
 from rotator.orders import Aim, Jog, LoadTimed, Order, Park, Refusal, RunTimed, Source

@@ -54,6 +54,16 @@ def test_every_row_of_the_table_is_written_and_read_above() -> None:
         b"AZ235.5;EL25.0",
         b";AZ235.5 EL25.0",  # Hamlib leaves the `;` of `GS\n;` in front of the next command
         b"\0\xff AZ235.5 EL25.0",  # a port being plugged in
+        b"AZ235.5EL25.0",
+        b"AZ235.5 EL25.0 \x00",
+        b"AZ235.5 EL25.0\x00",
+        b"AZ235.5\xff EL25.0",
+        b"12:30:01 AZ235.5 / EL25.0",
+        b"SAT-1 (HAZEL) AZ235.5 [DELTA] EL25.0 ok",
+        b"x\x80#AZ235.5 \x07 17 EL25.0",
+        b"EL25.0 km 1200 AZ235.5 12.5",
+        b"UP145900000AZ235.5EL25.0DN435800000",
+        b"to:AZ235.5 EL25.0 !",
         b"AZ235.5 EL25.0 UP000 XXX DN000 XXX",  # Hamlib's EasyComm I
         b"AZ235.5 EL25.0 UP145900000 USB DN435800000 CW",
         b"UP145900000 UMFM DN435800000 DMFM DR1 UR2 AZ235.5 EL25.0 AO ST26:11:21:18:00:00 OP1 IP1 AN2",
@@ -74,9 +84,20 @@ def test_visual_basics_numbers(text: bytes, value: float) -> None:
     [
         b"AZ1x0 EL20.0",
         b"AZ1 20.5 EL20.0",
-        b"AZ235.5EL25.0",
+        b"AZ1 20.5EL20.0",
         b"AZ235.5 EL2\xff.0",
-        b"AZ235.5 EL25.0 \x00",
+        b"AZ2\xff35.5 EL25.0",
+        b"AZ235.5 EL",
+        b"AZ235.5 E",
+        b"AZ235.5 L25.0",
+        b"AZ235.5 EX25.0",
+        b"Z235.5 EL25.0",
+        b"5.5 EL25.0",
+        b"AZ235.5 \xff\xfe",
+        b"AZ235.5 EL25x",
+        b"AZ235.5 EL25. 0",
+        b"AZ235.5 EL2 5.0",
+        b"xxAZ235.5 EL",
         b"AZ=235.5 EL=25.0",
         b"AZ 235.5 EL 25.0",
         b"AZx35.5 EL20.0",
@@ -112,7 +133,22 @@ def test_each_level_has_the_commands_of_those_below(level: Level, known: set[str
     assert {word.verb for word in parse(line, level)} == known
 
 
-@pytest.mark.parametrize("begun", [b"AZ235.5 EL25.0", b"EL25.0 AZ235.5 ", b"AZ235.5", b"EL-5.0", b"az45.0"])
+@pytest.mark.parametrize("line", [b"DELTA 12", b"HAZEL", b"HAZEL 3.5 DELTA4"])
+def test_letters_within_a_word_are_no_angle(line: bytes) -> None:
+    assert parse(line, Level.III) == ()
+
+
+@pytest.mark.parametrize("line", [b"AZ235.5 EL25.0", b"EL25.0 AZ235.5", b"AZ9.05EL114.8"])
+def test_a_byte_that_is_lost_or_wrong_or_one_too_many_never_leaves_half_of_a_pair(line: bytes) -> None:
+    for at in range(len(line)):
+        for byte in (b"", *(bytes([code]) for code in range(256) if code not in b"\r\n")):
+            for damaged in (line[:at] + byte + line[at + 1 :], line[:at] + byte + line[at:]):
+                assert {word.verb for word in parse(damaged, Level.III)} in (set(), {"AZ", "EL"}), damaged
+
+
+@pytest.mark.parametrize(
+    "begun", [b"AZ235.5 EL25.0", b"EL25.0 AZ235.5 ", b"AZ114.8 EL9.05", b"AZ1.0EL2.0", b"AZ235.5", b"EL-5.0", b"az45.0"]
+)
 def test_whole_without_an_end(begun: bytes) -> None:
     assert is_whole(begun)
 

@@ -130,6 +130,17 @@ def test_the_servo_sketchs_line_needs_no_end(box: BenchBox) -> None:
     assert box.orders == [Aim(123.4, 39), Aim(123.4, None)]
 
 
+@pytest.mark.parametrize("end", [b"\r", b"\n", b"\r\n", b""])
+def test_look4sats_bytes_over_bluetooth(box: BenchBox, end: bytes) -> None:
+    r"""The template `AZ$AZ EL$EL\r`: numbers without padding, one or two decimals. Without the `\r` silence ends it."""
+    session = EasycommSession(box, Level.II)
+    for azimuth_deg, elevation_deg in ((114.8, 9.05), (115.03, 10.0), (9.27, 80.4)):
+        assert session.receive(f"AZ{azimuth_deg} EL{elevation_deg}".encode() + end) == []
+        assert session.idle() == []
+        assert box.orders[-1] == Aim(azimuth_deg, elevation_deg)
+    assert len(box.orders) == 3
+
+
 def test_silence_does_not_make_an_order_of_a_long_lines_tail(box: BenchBox) -> None:
     session = EasycommSession(box, Level.II)
     session.receive(b"x" * 300)

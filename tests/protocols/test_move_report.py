@@ -31,16 +31,23 @@ def test_one_line_after_each_move_and_none_without_one() -> None:
     box = Mast()
     session = MoveReport(Gs232Session(box, Dialect.B), box)
     assert session.receive(b"C2\r") == [b"AZ=235  EL=025\r\n"]
-    assert session.idle() == []
+    assert session.beat() == []
     for azimuth_deg in (240.4, 359.7):
         box.turns(azimuth_deg - 3.0, moving=True)
-        assert session.idle() == session.idle() == []
+        assert session.beat() == session.beat() == []
         box.turns(azimuth_deg, moving=False)
-        assert session.idle() == [f"AZ = {round(azimuth_deg)}, EL = 25\r\n".encode()]
-        assert session.idle() == []
+        assert session.beat() == [f"AZ = {round(azimuth_deg)}, EL = 25\r\n".encode()]
+        assert session.beat() == []
 
 
-def test_it_goes_on_looking_and_ends_with_its_session() -> None:
+def test_a_move_before_the_first_bytes_gets_no_line() -> None:
+    """On a serial port no program may be listening yet."""
     box = Mast()
     session = MoveReport(Gs232Session(box, Dialect.B), box)
-    assert (session.waits, session.closed) == (True, False)
+    for moving in (True, False, True):
+        box.turns(240.0, moving=moving)
+        assert session.beat() == []
+    session.receive(b"C2\r")
+    assert session.beat() == []
+    box.turns(250.0, moving=False)
+    assert session.beat() == [b"AZ = 250, EL = 25\r\n"]

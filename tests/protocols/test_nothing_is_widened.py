@@ -17,14 +17,18 @@ from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.orders import Calibrate
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import NotUnderstood
+from rotator.protocols.sky import Site, Sky
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
 
 _UDP = {"udp": "127.0.0.1:12000"}
+_TCP = {"tcp": "127.0.0.1:8080"}
 PLACES = {"pstrotator": _UDP, "n1mm": _UDP, "macdoppler": _UDP, "wsjtx": {"file": "azel.dat"}}
+PLACES |= {"stellarium": _TCP, "pstrotatoraz": _TCP}
 """Where those are spoken that no pseudo-terminal carries."""
 PROTOCOLS = sorted(set(get_args(ProtocolName)) - {FOLLOW})
+SKY = Sky(Site(52.5, 13.4), lambda: 1.8e9)
 TEMPTING = st.sampled_from([
     *(b"O\r", b"F\r", b"O2\r", b"F2\r", b"P36\r", b"P45\r", b"Z\r", b"W450 180\r", b"M450\r", b"S\r", b"X1\r"),
     *(b"C min_az -180\n", b"C max_az 540\n", b"C max_el 210\n", b"C south_zero 1\n", b"\\set_conf max_az 540\n"),
@@ -35,6 +39,8 @@ TEMPTING = st.sampled_from([
     b"<N1MMRotor><rotor>x</rotor><goazi>540.0</goazi><offset>90.0</offset></N1MMRotor>",
     b"[AzEl Rotor Report:Azimuth:540.00, Elevation:180.00, SatName:X]",
     b"12:00:00,540.0,180.0,Moon\n",
+    *(b":So-90#:Sh90#", b":Sz 540*00#:Sa+90*00#:MA#", b":St+10*00#:CM#", b"\x02AG540\r", b"\x02BG1800\r\x02AG5400\r"),
+    *(b"A540\rE180\r", b"GET /?az=540 HTTP/1.1\r\nHost: pi\r\n\r\n", b"\x14\0\0\0" + bytes(12) + b"\0\0\0\x30"),
 ])  # fmt: skip
 PIECES = st.lists(st.one_of(TEMPTING, TEMPTING, st.binary(max_size=16)), max_size=20)
 
@@ -56,7 +62,7 @@ def spoken(protocol: str, **keys: object) -> Link:
 def test_no_bytes_change_limits_or_calibration(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
     box = new_box((0.0, 360.0), (0.0, 90.0))
     box.stands_at(100, 20)
-    before, session = fixed(box), session_maker(spoken(protocol), box)
+    before, session = fixed(box), session_maker(spoken(protocol), box, sky=SKY)
     for piece in pieces:
         session.receive(piece)
         session.idle()

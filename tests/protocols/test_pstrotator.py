@@ -9,6 +9,7 @@ import pytest
 from rotator.faults import Missing
 from rotator.orders import Aim, Order, Park, Stop
 from rotator.protocols.pstrotator import TAGS, Item, PstRotatorSession, encode, parse
+from rotator.protocols.sky import Site
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -22,6 +23,7 @@ CANONICAL = [
     ),
     (b"<PST><PARK>1</PARK></PST>", (Item("PARK", "1"),)),
     (b"<PST><HOME>1</HOME></PST>", (Item("HOME", "1"),)),
+    (b"<PST><LLH>53.4,13.4,30000</LLH></PST>", (Item("LLH", "53.4,13.4,30000"),)),
     (b"<PST>AZ?</PST>", (Item("AZ?"),)),
     (b"<PST>EL?TGA?TGE?MODE?</PST>", (Item("EL?"), Item("TGA?"), Item("TGE?"), Item("MODE?"))),
 ]
@@ -185,3 +187,45 @@ def test_what_it_does_not_know_is_remarked(box: BenchBox) -> None:
         b"<PST><SATSELECT>ISS</SATSELECT><TRACK>1</TRACK>FAVLIST?<TRACK>0</TRACK>AZ?</PST>"
     )
     assert remarks == [f"{what} does nothing here" for what in ("SATSELECT 'ISS'", "TRACK '1'", "FAVLIST?")]
+
+
+STATION = Site(52.52, 13.405, 34)
+
+
+@pytest.mark.parametrize(
+    ("place", "azimuth_deg", "elevation_deg"),
+    [
+        (b"53.41869,13.405,30034", 0, 16.25),
+        (b"52.52, 13.5, 34", 90, -0.03),
+        (b"51.52,13.405,34", 180, -0.5),
+        (b"52.52,13.405,30000", None, 90),
+    ],
+)
+def test_a_balloon_s_place_is_a_direction(
+    box: BenchBox, place: bytes, azimuth_deg: float | None, elevation_deg: float
+) -> None:
+    """As trackers of balloons send it: latitude, longitude, metres."""
+    PstRotatorSession(box, site=STATION).receive(b"<PST><LLH>" + place + b"</LLH></PST>")
+    (aim,) = box.orders
+    assert isinstance(aim, Aim)
+    assert aim.elevation_deg == pytest.approx(elevation_deg, abs=0.1)
+    if azimuth_deg is not None and aim.azimuth_deg is not None:
+        assert (aim.azimuth_deg - azimuth_deg + 180) % 360 - 180 == pytest.approx(0, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    "place",
+    [b"", b"53.4", b"53.4,13.4", b"53.4,13.4,", b"91,13.4,30000", b"53.4,181,30000", b"53.4,13.4,1e9", b"5x,13.4,30000",
+     b"53.4;13.4;30000", b"nan,13.4,30000", b"53.4,13.4,30000,7", b"52.52,13.405,34"],
+)  # fmt: skip
+def test_a_damaged_place_moves_nothing(box: BenchBox, place: bytes) -> None:
+    PstRotatorSession(box, site=STATION).receive(b"<PST><LLH>" + place + b"</LLH></PST>")
+    assert box.orders == []
+
+
+def test_without_a_station_a_place_is_told_to_the_log(box: BenchBox) -> None:
+    remarks: list[str] = []
+    PstRotatorSession(box, remarks.append).receive(b"<PST><LLH>53.4,13.4,30000</LLH></PST>")
+    assert box.orders == []
+    assert len(remarks) == 1
+    assert "[station]" in remarks[0]

@@ -16,6 +16,7 @@ from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.monitor.transcript import At, LinkNote, Piece, Way, parse
 from rotator.orders import Order, Refusal
 from rotator.protocols.session import Session
+from rotator.protocols.sky import Site, Sky
 from rotator.status import Status
 
 if TYPE_CHECKING:
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 RECORDINGS = sorted((Path(__file__).parents[1] / "transcripts").glob("*.txt"))
 DAY_S = 86_400.0
+SKY = Sky(Site(52.5, 13.4), lambda: 1.8e9)
+"""The sky of the recordings of telescope programs."""
 
 
 class Visitor:
@@ -81,7 +84,7 @@ def replay(text: str, box: BenchBox) -> None:
                 link = links[source.link]
                 if str(source) not in connections:
                     seen = Visitor(box) if link.read_only else box
-                    connections[str(source)] = Replay(session_maker(link, seen))
+                    connections[str(source)] = Replay(session_maker(link, seen, sky=SKY))
                 connection = connections[str(source)]
                 if way is Way.IN:
                     connection.came(moment_s, data)

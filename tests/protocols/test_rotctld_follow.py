@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.orders import Aim, Order
+from rotator.orders import Aim, Order, Park, Source, Stop
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import NotUnderstood
 
@@ -46,15 +46,20 @@ def test_from_then_on_every_change_is_an_order(box: BenchBox, follower: RotctldF
     assert box.orders == [place(2.11, 0), place(4.21, 1), place(2.11, 0)]
 
 
-def test_the_last_one_is_said_again_a_few_times_and_then_there_is_silence(box: BenchBox) -> None:
+def test_at_rest_there_is_silence(box: BenchBox) -> None:
     """Others may then move the antenna, though this one is still asked."""
     follower = RotctldFollower(box, 0.1)
-    answer(follower, b"0.00\n0.00\n", *[b"30.00\n20.00\n"] * 12)
+    answer(follower, b"0.00\n0.00\n", *[b"30.00\n20.00\n"] * 1000)
     assert box.orders == [place(30, 20)]
-    answer(follower, b"30.00\n20.00\n")
-    assert box.orders == [place(30, 20)] * 2
-    answer(follower, *[b"30.00\n20.00\n"] * 1000)
-    assert box.orders == [place(30, 20)] * 5
+
+
+@pytest.mark.parametrize("by_another", [Stop(), Aim(80, 40), Park()])
+def test_what_another_link_orders_is_not_undone(box: BenchBox, by_another: Order) -> None:
+    follower = RotctldFollower(box, 0.1)
+    answer(follower, b"0.00\n0.00\n", *[b"30.00\n20.00\n"] * 3)
+    box.order(by_another, Source("another"))
+    answer(follower, *[b"30.00\n20.00\n"] * 200)
+    assert box.orders == [place(30, 20), by_another]
 
 
 def test_a_rotor_that_turns_gives_an_order_for_each_place(box: BenchBox) -> None:

@@ -15,13 +15,14 @@ if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
 
 NOW = (
-    b"17:03:22,123.4,045.6,Moon\n"
+    b"17:03:22,123.4, 45.6,Moon\n"
     b"17:03:22,200.0,-12.3,Sun\n"
-    b"17:03:22,010.5,0-5.3,Source\n"
+    b"17:03:22, 10.5, -5.3,Source\n"
     b" 144,   -35,Doppler\n"
     b"125,0,fQSO\n"
     b"125,0,fQSO2"
 )
+WITH_ZEROS = NOW.replace(b", ", b",0")
 OF_OLD = (
     b"170:030:220000,123.40000,045.6,Moon\n"
     b"170:030:220000,200.00000,-12.3,Sun\n"
@@ -35,7 +36,7 @@ def moon(second_of_day: int, azimuth_deg: float, elevation_deg: float) -> bytes:
     return encode("Moon", BodyDirection(second_of_day, azimuth_deg, elevation_deg))
 
 
-@pytest.mark.parametrize("text", [NOW, NOW.replace(b"\n", b"\r\n"), OF_OLD, NOW.replace(b",123", b", 123")])
+@pytest.mark.parametrize("text", [NOW, WITH_ZEROS, NOW.replace(b"\n", b"\r\n"), OF_OLD, NOW.replace(b",123", b", 123")])
 def test_the_moon(text: bytes) -> None:
     assert parse(text, "Moon") == BodyDirection(AT_S, 123.4, 45.6)
 
@@ -45,6 +46,8 @@ def test_the_moon(text: bytes) -> None:
     [
         (NOW, "Sun", BodyDirection(AT_S, 200.0, -12.3)),
         (NOW, "Source", BodyDirection(AT_S, 10.5, -5.3)),
+        (WITH_ZEROS, "Source", BodyDirection(AT_S, 10.5, -5.3)),
+        (b"02:59:48,198.9, 61.9,Moon\n", "Moon", BodyDirection(2 * 3600 + 59 * 60 + 48, 198.9, 61.9)),
         (OF_OLD, "Sun", BodyDirection(AT_S, 200.0, -12.3)),
         (OF_OLD, "Source", None),
         (b"", "Moon", None),

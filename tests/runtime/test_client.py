@@ -117,6 +117,39 @@ def test_a_program_that_repeats_a_refused_order_does_not_fill_the_log(
     assert re.fullmatch(re.escape(first) + r" \((1199|1200) more of the kind before\)", second)
 
 
+@pytest.mark.parametrize(
+    ("orders", "range_named"),
+    [
+        ([Aim(325 + at / 10, 10) for at in range(300)], "outside the rotor's range of"),
+        ([Aim(-500 + at, 10) for at in range(300)], "outside -180 to 540 degrees"),
+        ([Aim(10, 200 + at) for at in range(300)], "outside -90 to 180 degrees"),
+        ([Aim(None, 200 + at) for at in range(300)], "outside -90 to 180 degrees"),
+        ([Aim(float("nan"), 10) for _ in range(300)], "azimuth nan is outside"),
+    ],
+)
+def test_a_target_out_of_range_is_in_the_log_once_a_minute(
+    bench: Bench, caplog: pytest.LogCaptureFixture, orders: list[Aim], range_named: str
+) -> None:
+    """A program that tracks sends other angles each second: five minutes of it are at most six lines."""
+    client = bench.client()
+    for order in orders:
+        refused = client.order(order)
+        assert refused is not None
+        assert refused.out_of_range
+        bench.clock.sleep(1)
+    lines = [record.message for record in caplog.records]
+    assert 5 <= len(lines) <= 6
+    assert all(line.startswith("link#1: refused: ") and range_named in line for line in lines)
+
+
+def test_what_a_protocol_refuses_itself_shares_that_line(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    client = bench.client()
+    client.note_refused("azimuth 470 is outside 0 to 450 degrees")
+    client.order(Aim(-500, 10))
+    (record,) = caplog.records
+    assert record.message == "link#1: refused: azimuth 470 is outside 0 to 450 degrees"
+
+
 # --- most_per_s
 
 

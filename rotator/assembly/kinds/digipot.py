@@ -15,19 +15,25 @@ from rotator.assembly.rotors import Assembly
 from rotator.assembly.settings import own_points
 from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.control.axis.calibration_table import Calibration
-from rotator.rotors.boxes import FollowedBox
-from rotator.rotors.positioned import PositionedRotor
+from rotator.rotors.boxes import BoxRotor, FollowedBox
 
 
-def build(parts: Assembly, lines: OutputLines | None) -> PositionedRotor:
+def build(parts: Assembly, lines: OutputLines | None) -> BoxRotor:
     config = parts.config
     (use,) = config.kind.spi_uses()
     spi = parts.board.spi(use)
 
     def box(axis: Axis) -> tuple[Mcp41010, BoxSpec]:
-        table, speed_dps = config.digipot.of(axis), config.axis(axis).speed_dps
-        start_deg = parts.first_deg(axis, table.start_deg)
-        spec = BoxSpec(tuple(table.steps), start_deg, speed_dps, table.dead_band_deg)
+        table, limits = config.digipot.of(axis), config.axis(axis)
+        spec = BoxSpec(
+            tuple(table.steps),
+            parts.first_deg(axis, table.start_deg),
+            start_known=not config.keeps_files,
+            speed_dps=limits.speed_dps,
+            dead_band_deg=table.dead_band_deg,
+            coast_deg=limits.speed_dps * limits.coast_s,
+            range_deg=(limits.min_deg, limits.max_deg),
+        )
         return Mcp41010(spi, f"{axis.value}.select"), spec
 
     drive = DigipotDrive(box(Axis.AZIMUTH), box(Axis.ELEVATION), parts.board.clock, enable=lines)
@@ -35,7 +41,7 @@ def build(parts: Assembly, lines: OutputLines | None) -> PositionedRotor:
     for axis, sensor in parts.sensors({axis: drive.sensor(axis) for axis in Axis}).items():
         points = None if isinstance(sensor, DriveAngle) else own_points(config, axis)
         sensors[axis] = FollowedBox(drive, axis, sensor, Calibration(points)) if points else sensor
-    return PositionedRotor(drive, sensors, parts.shift, parts.ends)
+    return BoxRotor(drive, sensors, parts.shift, parts.ends)
 
 
 def simulate(axes: SimulatedAxes) -> SimDigipotRotor:

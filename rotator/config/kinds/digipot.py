@@ -28,7 +28,7 @@ class DigipotAxisTable(Table):
     start_deg: float = Field(0.0, ge=-360, le=720)
     """The assumed angle at the start of the program, if no pot measures it."""
     dead_band_deg: float = Field(2.0, ge=0, le=20)
-    """The error at which the control box turns its motor."""
+    """The error at which the control box turns its motor. The wiper leads by it, less the coast."""
 
 
 class DigipotElevation(DigipotAxisTable):

@@ -1,18 +1,22 @@
-"""The tag list of docs/protocols.md for PstRotator's UDP control, made as the tables in gs232.py.
+"""The lists of docs/protocols.md for PstRotator's UDP control and PstRotatorAz's page, made as the tables in gs232.py.
 
 Knows one example of each tag. Does not know what a tag does or answers: the protocol's session is asked.
 """
 
 from __future__ import annotations
 
-from rotator.protocols import pstrotator
+import re
+
+from rotator.protocols import pstrotator, pstrotatoraz
 from rotator.protocols.pstrotator import Item, PstRotatorSession
+from rotator.protocols.pstrotatoraz import PstRotatorAzSession
 from rotator.protocols.reference.gs232 import AZIMUTH_DEG, ELEVATION_DEG, Example, shown, table
 
 _VALUES = {
     "AZIMUTH": f"{AZIMUTH_DEG:g}",
     "ELEVATION": f"{ELEVATION_DEG:g}",
     "TRACK": f"{AZIMUTH_DEG:g} {ELEVATION_DEG:g}",
+    "LLH": "54.02523,20.89581,1000",
 }
 """The values of the examples; the other tags take a 1."""
 
@@ -25,4 +29,14 @@ def pstrotator_table() -> str:
         sent = pstrotator.encode(item)
         answer = b"".join(PstRotatorSession(Example()).receive(sent))
         rows.append((f"`{sent.decode()}`", tag.help, shown(answer)))
+    return table(rows)
+
+
+def pstrotatoraz_table() -> str:
+    """Every request that the page takes, and the line of the answer in which programs look for the bearing."""
+    rows: list[tuple[str, ...]] = [("request", "what it does", "the page says")]
+    for example in pstrotatoraz.EXAMPLES:
+        answer = b"".join(PstRotatorAzSession(Example()).receive(pstrotatoraz.encode(example.target)))
+        bearing = re.search(rb"<p>(.*)</p>", answer)
+        rows.append((f"`GET {example.target}`", example.help, shown(bearing[1] if bearing else b"")))
     return table(rows)

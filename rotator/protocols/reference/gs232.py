@@ -6,7 +6,7 @@ Knows Markdown and one example of each command. Does not know what any command d
 from __future__ import annotations
 
 from rotator import __version__
-from rotator.orders import Order
+from rotator.orders import Order, Refusal
 from rotator.protocols import gs232, rotctld
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
@@ -52,7 +52,7 @@ class Example:
     def status(self) -> Status:
         return Status(0.0, AxisStatus(0, 450, AZIMUTH_DEG), AxisStatus(0, 180, ELEVATION_DEG))
 
-    def order(self, _order: Order) -> None:
+    def order(self, _order: Order) -> Refusal | None:
         return None
 
 
@@ -95,7 +95,7 @@ def shown(answer: bytes) -> str:
     if len(answer) > LONGEST_SHOWN:
         return f"{len(answer.splitlines())} lines"
     # The page must not change with each release.
-    text = answer.decode().replace(__version__, "VERSION").encode("unicode_escape").decode()
+    text = answer.decode("latin-1").replace(__version__, "VERSION").encode("unicode_escape").decode()
     return f"`{text}`"
 
 

@@ -1,4 +1,4 @@
-"""More command tables of docs/protocols.md: EasyComm, SPID and DCU-1, made as those in gs232.py.
+"""More command tables of docs/protocols.md: EasyComm, SPID, DCU-1, Prosistel and M2, made as those in gs232.py.
 
 Knows one example of each command, and how binary bytes are shown. Does not know what a command does or answers: the
 protocol's session is asked.
@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from itertools import islice
 
-from rotator.protocols import dcu1, easycomm, spid
+from rotator.protocols import dcu1, easycomm, prosistel, rc2800, spid
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
+from rotator.protocols.prosistel import ProsistelSession
+from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.reference.gs232 import AZIMUTH_DEG, ELEVATION_DEG, Example, shown, table
 from rotator.protocols.spid import Command, Frame, Model, Turn
 from rotator.protocols.spid_session import PULSES, SpidSession
@@ -61,6 +63,31 @@ def dcu1_table() -> str:
     for verb in dcu1.VERBS:
         example = _DCU1_EXAMPLES.get(verb.text, verb.text + ";")
         answer = b"".join(Dcu1Session(Example()).receive(example.encode()))
+        rows.append((f"`{example}`", verb.help, shown(answer)))
+    return table(rows)
+
+
+def prosistel_table() -> str:
+    """Every Prosistel command for azimuth, as each model writes it, and its answer."""
+    rows: list[tuple[str, ...]] = [("D", "Combi-Track", "what it does", "answer of D", "of Combi-Track")]
+    for verb in prosistel.VERBS:
+        sent, answers = [], []
+        for model, form in prosistel.FORMS.items():
+            number = "" if verb.text != "G" else f"{AZIMUTH_DEG * form.per_degree:g}"
+            text = f"G{max(form.stops)}" if verb.text == "G999" else verb.text
+            said = f"\x02A{text}{number}\r".encode()
+            sent.append(shown(said))
+            answers.append(shown(b"".join(ProsistelSession(Example(), model).receive(said))))
+        rows.append((*sent, verb.help, *answers))
+    return table(rows)
+
+
+def rc2800_table() -> str:
+    """An example of every command of the RC2800PX, and its answer."""
+    rows: list[tuple[str, ...]] = [("example", "what it does", "answer")]
+    for verb in rc2800.VERBS:
+        example = verb.text + verb.takes
+        answer = b"".join(Rc2800Session(Example()).receive(example.encode() + b"\r"))
         rows.append((f"`{example}`", verb.help, shown(answer)))
     return table(rows)
 

@@ -22,12 +22,17 @@ class Program:
     says: tuple[bytes, ...]
     """What it is known to send, to the byte; the tests see that the box understands each."""
     known: str
+    keys: tuple[tuple[str, int], ...] = ()
+    """What else the link must have."""
 
 
 PROGRAMS = (
     Program(
         "Hamlib `rotctl`, `rotctld`",
-        ("gs232b", "gs232a", "rotctld", "easycomm2", "rot2prog", "md01", "dcu1"),
+        (
+            *("gs232b", "gs232a", "rotctld", "easycomm2", "rot2prog", "md01", "dcu1"),
+            *("prosistel-d", "prosistel-c", "rc2800", "lx200"),
+        ),
         "",
         "the model that goes with the protocol: [see below](#hamlib-in-one-line)",
         (b"W235 025\r", b"C2\r", b"S\r"),
@@ -76,6 +81,27 @@ PROGRAMS = (
         "its source",
     ),
     Program(
+        "SDRangel, its SPID mode",
+        ("md01",),
+        "serial, with `pulses_per_degree = 2`",
+        "SPID; it waits for an answer to each order, which only `md01` gives",
+        (
+            bytes.fromhex("57 00 00 00 00 00 00 00 00 00 00 1F 20"),
+            bytes.fromhex("57 31 31 39 30 02 30 37 37 30 02 2F 20"),
+        ),
+        "its source",
+        (("pulses_per_degree", 2),),
+    ),
+    Program(
+        "predict",
+        ("easycomm2",),
+        "pty or serial",
+        "`-a` and the port, of at most 13 characters, which it cuts silently: "
+        "[a short name](#predict-cuts-its-ports-name)",
+        (b"AZ235.0 EL25.0 \r\n",),
+        "its source",
+    ),
+    Program(
         "Orbitron or SDR Console through WispDDE",
         ("gs232-f1efw", "gs232b"),
         "serial",
@@ -108,6 +134,15 @@ PROGRAMS = (
         "its source",
     ),
     Program(
+        "satnogs-client",
+        ("rotctld", "gs232b"),
+        "TCP or serial",
+        "`SATNOGS_ROT_MODEL` ROT_MODEL_NETROTCTL or ROT_MODEL_GS232B; address or port as "
+        "`SATNOGS_ROT_PORT`, and `SATNOGS_ROT_BAUD` 9600",
+        (),
+        VERIFIED,
+    ),
+    Program(
         "Termite, or any terminal",
         ("gs232b", "gs232-f1efw"),
         "serial",
@@ -120,7 +155,12 @@ PROGRAMS = (
         ("pstrotator",),
         "UDP `0.0.0.0:12000`",
         "PstRotator, the Pi's address, port 12000; answers come back at 12001",
-        (b"<PST><AZIMUTH>85</AZIMUTH></PST>", b"<PST>AZ?</PST>", b"<PST><STOP>1</STOP></PST>"),
+        (
+            b"<PST><AZIMUTH>85</AZIMUTH></PST>",
+            b"<PST>AZ?</PST>",
+            b"<PST><STOP>1</STOP></PST>",
+            b"<PST><LLH>54.02523,20.89581,1</LLH></PST>",
+        ),
         "PstRotator's manual, some programs' sources",
     ),
     Program(
@@ -143,11 +183,39 @@ PROGRAMS = (
         "bridges from it to rotors",
     ),
     Program(
+        "Stellarium",
+        ("stellarium",),
+        "TCP `0.0.0.0:10001`, and [`[station]`](configuration.md#station)",
+        "Telescope Control plug-in: external software or a remote computer, the Pi's address, port 10001, J2000: "
+        "[see below](#stellarium-and-other-telescope-programs)",
+        (bytes.fromhex("1400 0000 0040075fda650600 00000040 72efff3f"),),
+        "its source",
+    ),
+    Program(
+        "SkySafari, KStars and other telescope programs",
+        ("lx200",),
+        "TCP or serial, and [`[station]`](configuration.md#station)",
+        "Meade LX200 Classic, alt-az; JNow",
+        (b"#:Q#", b":GR#", b"#:GD#", b"\x06"),
+        "Meade's protocol",
+    ),
+    Program(
+        "FM-DX Webserver, its plug-in *PST Rotator*",
+        ("pstrotatoraz",),
+        "TCP `0.0.0.0:8080`",
+        "`PSTRotatorUrl` in pstrotator.json: `http://192.168.1.20:8080`, the Pi's address",
+        (
+            b"GET /PstRotatorAz.htm HTTP/1.1\r\nHost: 192.168.1.20:8080\r\n\r\n",
+            b"GET /PstRotatorAz.htm?az=85 HTTP/1.1\r\nHost: 192.168.1.20:8080\r\n\r\n",
+        ),
+        "its source",
+    ),
+    Program(
         "WSJT-X",
         ("wsjtx",),
         "its file `azel.dat`",
         "View, Astronomical data: keep it open",
-        (b"18:03:22,123.4,045.6,Moon\n",),
+        (b"02:59:48,198.9, 61.9,Moon\n",),
         "its source",
     ),
     Program(

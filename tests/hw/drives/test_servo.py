@@ -7,6 +7,8 @@ import time
 from itertools import pairwise
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from firmware_sim.clock import SimClock
 from firmware_sim.parts.servo import SimServoSpec
@@ -31,12 +33,14 @@ TICK_DEG = 4.88 / 2000 * 180
 class Bench:
     """The servos stand at 90° when the power comes, and the drive is configured to start at 60° and 10°."""
 
-    def __init__(self, idle_off_s: float | None = None, *, on_the_wire: bool = False) -> None:
+    def __init__(
+        self, idle_off_s: float | None = None, *, on_the_wire: bool = False, at_deg: tuple[float, float] = (90.0, 90.0)
+    ) -> None:
         self.clock = SimClock(100.0)
         still = SimServoSpec(jitter_deg=0.0)
         self.rotor = SimServoRotor(
-            ServoAxisSpec(0, servo=still),
-            ServoAxisSpec(1, servo=still),
+            ServoAxisSpec(0, at_deg[0], still),
+            ServoAxisSpec(1, at_deg[1], still),
             self.clock,
             self.clock.sleep if on_the_wire else None,
             enable_pin=OE_PIN,
@@ -90,7 +94,7 @@ def test_no_pulse_before_the_first_aim() -> None:
 
 def test_the_first_pulse_is_where_it_was_told_to_start_and_waits_for_the_servo() -> None:
     bench = Bench()
-    bench.follow(AZ, 120.0, 4.0)
+    bench.follow(AZ, 120.0, 2.8)
     assert bench.antenna(AZ) == pytest.approx(60.0, abs=TICK_DEG)
     assert not bench.drive.position_known(AZ)
     bench.follow(AZ, 120.0, 3.0)
@@ -105,6 +109,62 @@ def test_outputs_are_enabled_when_the_pulse_is_right_and_not_before() -> None:
     bench.rotor.gpio.on_edges.append(lambda _at_s, _changes: pulses_us.append(bench.rotor.board.pulse_us(0)))
     bench.follow(AZ, 90.0, 1.0)
     assert pulses_us == [pytest.approx(500 + 60 / 180 * 2000, abs=4.88)]
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    at_deg=st.tuples(st.floats(0, 180), st.floats(0, 180)),
+    seconds=st.floats(0.05, 2.9),
+    stop=st.sampled_from(["hold", "off", "expiry"]),
+)
+def test_a_stop_during_the_jump_stops_it_wherever_it_is(at_deg: tuple[float, float], seconds: float, stop: str) -> None:
+    bench = Bench(at_deg=at_deg)
+    for _ in range(round(seconds / CYCLE_S)):
+        bench.drive.aim(AZ, 120.0, 0.0, bench.clock() + 0.25)
+        bench.drive.aim(EL, 60.0, 0.0, bench.clock() + 0.25)
+        bench.clock.sleep(CYCLE_S)
+    match stop:
+        case "hold":
+            bench.drive.hold(AZ)
+            bench.drive.hold(EL)
+        case "off":
+            bench.drive.off()
+        case _:
+            bench.clock.sleep(0.25)
+    bench.clock.sleep(0.0)
+    stood_deg = bench.rotor.antenna()
+    bench.clock.sleep(5.0)
+    assert bench.rotor.antenna() == pytest.approx(stood_deg, abs=1e-6)
+
+
+def test_short_presses_add_up_until_the_jump_is_over() -> None:
+    bench = Bench(at_deg=(180.0, 90.0))
+    for _ in range(6):
+        bench.follow(AZ, 61.0, 0.6)
+        bench.drive.hold(AZ)
+        bench.clock.sleep(1.0)
+    assert bench.drive.position_known(AZ)
+    assert bench.antenna(AZ) == pytest.approx(61.0, abs=2 * TICK_DEG)
+    assert bench.rotor.board.pulse_us(0) is not None, "now a stop is a hold"
+
+
+def test_a_stop_in_the_jump_is_carried_out_although_the_guard_has_ended() -> None:
+    bench = Bench()
+    bench.follow(AZ, 120.0, 0.2)
+    bench.drive.off()
+    bench.drive.finish()
+    assert bench.rotor.board.pulse_us(0) is None
+
+
+def test_one_servo_that_stops_in_its_jump_leaves_the_other_its_pulses() -> None:
+    bench = Bench()
+    bench.follow(EL, 10.0, SETTLED_S)
+    bench.follow(AZ, 120.0, 0.2)
+    bench.drive.hold(AZ)
+    bench.clock.sleep(0.1)
+    assert bench.rotor.board.pulse_us(0) is None
+    assert bench.rotor.board.pulse_us(1) is not None
+    assert not bench.rotor.gpio.level(OE_PIN), "OE stays low for it"
 
 
 # --- motion

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from rotator.protocols import pstrotator
-from rotator.protocols.reference.datagrams import pstrotator_table
+from rotator.protocols.reference.datagrams import pstrotator_table, pstrotatoraz_table
 
 PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
 
@@ -17,6 +17,14 @@ def test_page_holds_the_table() -> None:
     page = PAGE.read_text(encoding="utf-8")
     between = page.split("<!-- pstrotator: begin -->\n")[1].split("<!-- pstrotator: end -->\n")[0]
     assert between == f"\n{pstrotator_table()}\n"
+
+
+def test_page_holds_the_requests() -> None:
+    """If this fails, paste what pstrotatoraz_table() of rotator.protocols.reference.datagrams returns."""
+    page = PAGE.read_text(encoding="utf-8")
+    between = page.split("<!-- pstrotatoraz: begin -->\n")[1].split("<!-- pstrotatoraz: end -->\n")[0]
+    assert between == f"\n{pstrotatoraz_table()}\n"
+    assert "| `GET /PstRotatorAz.htm` | Read azimuth; `/` too | `Bearing = 235 deg` |" in pstrotatoraz_table()
 
 
 def test_every_tag_has_its_row() -> None:

@@ -1,4 +1,4 @@
-"""docs/protocols.md lists the commands of EasyComm, SPID and DCU-1 that the program knows, with its answers."""
+"""docs/protocols.md lists the commands of EasyComm, SPID, DCU-1, Prosistel and M2 that the program knows, answered."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from rotator.protocols import dcu1, easycomm, spid
-from rotator.protocols.reference.makers import dcu1_table, easycomm_table, spid_table
+from rotator.protocols import dcu1, easycomm, prosistel, rc2800, spid
+from rotator.protocols.reference.makers import dcu1_table, easycomm_table, prosistel_table, rc2800_table, spid_table
 
 PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
 TABLES = {"easycomm": easycomm_table(), "spid": spid_table(), "dcu1": dcu1_table()}
+TABLES |= {"prosistel": prosistel_table(), "rc2800": rc2800_table()}
 
 
 @pytest.mark.parametrize("name", TABLES)
@@ -31,6 +32,8 @@ def test_every_command_has_its_row() -> None:
     assert [row.split("`")[1].rstrip("235;") for row in dcu1_table().splitlines()[2:]] == [
         verb.text for verb in dcu1.VERBS
     ]
+    assert len(rc2800_table().splitlines()) == 2 + len(rc2800.VERBS)
+    assert len(prosistel_table().splitlines()) == 2 + len(prosistel.VERBS)
     cells = [row.split(" | ") for row in spid_table().splitlines()[2:]]
     shown = sorted((row[0].strip("| `"), model) for row in cells for model in row[2].split(", "))
     assert shown == sorted((f"{row.command:02X}", model.value) for row in spid.ROWS for model in row.models)
@@ -52,6 +55,12 @@ def test_every_command_has_its_row() -> None:
             "| `0F` | Stop everything | Rot1Prog, Rot2Prog, MD-01 | `57 00000000 00 00000000 00 0F 20` | as `1F` |",
         ),
         ("dcu1", "| `AI1;` | Read azimuth | `;235` |"),
+        ("rc2800", r"| `A235.0` | Azimuth: go there | `A P= 235.0 S=9 S\r` |"),
+        (
+            "prosistel",
+            r"| `\x02AG235\r` | `\x02AG2350\r` | Go there; leading zeros may be left out "
+            r"| `\x02A,G,R\r` | `\x02A,G,R\r` |",
+        ),
     ],
 )
 def test_row(name: str, row: str) -> None:

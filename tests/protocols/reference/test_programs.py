@@ -11,6 +11,7 @@ from rotator.assembly.links import session_maker
 from rotator.config.links import Link, ProtocolName
 from rotator.orders import Order
 from rotator.protocols.reference.programs import PROGRAMS, Program, programs_table
+from rotator.protocols.sky import Site, Sky
 from rotator.status import AxisStatus, Status
 
 PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
@@ -19,8 +20,11 @@ PLACES: dict[str, dict[str, str]] = {
     "n1mm": {"udp": "127.0.0.1:12040", "rotor_name": "mast"},
     "macdoppler": {"udp": "127.0.0.1:9932"},
     "wsjtx": {"file": "azel.dat"},
+    "stellarium": {"tcp": "127.0.0.1:10001"},
+    "pstrotatoraz": {"tcp": "127.0.0.1:8080"},
 }
-QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B", b"P45")
+SKY = Sky(Site(54.0, 20.0), lambda: 1.8e9)
+QUESTIONS = (b"C", b"p", b"<PST>AZ?", b"B", b"P45", b"W\0", b":G", b"#:G", b"\x06", b"GET /PstRotatorAz.htm ")
 """What moves nothing."""
 
 
@@ -57,9 +61,11 @@ def test_what_it_says_is_understood(program: Program) -> None:
     for said in program.says:
         box = Notebook()
         place = PLACES.get(protocol, {"pty": "run/test"})
-        session = session_maker(Link.model_validate({"protocol": protocol, **place}), box)
+        session = session_maker(
+            Link.model_validate({"protocol": protocol, **place, **dict(program.keys)}), box, sky=SKY
+        )
         if protocol == "wsjtx":
-            session.receive(b"18:03:21,123.4,045.6,Moon\n")  # only a file that goes on is followed
+            session.receive(b"02:59:47,198.8, 61.8,Moon\n")  # only a file that goes on is followed
         replies = b"".join([*session.receive(said), *session.idle()])
         assert b"?>" not in replies
         assert b"RPRT -" not in replies

@@ -1,0 +1,45 @@
+"""The `[station]` table of the configuration file: where on the earth the antenna stands.
+
+Knows the two ways to name a place, and how exact it must be. Does not compute with it.
+"""
+
+from __future__ import annotations
+
+import re
+
+from pydantic import Field, field_validator, model_validator
+
+from rotator.config.table import Table
+
+_LOCATOR = re.compile(r"[A-R]{2}[0-9]{2}[A-X]{2}(?:[0-9]{2}(?:[A-X]{2}(?:[0-9]{2})?)?)?", re.IGNORECASE)
+
+
+class StationTable(Table):
+    latitude_deg: float | None = Field(None, ge=-90, le=90)
+    """Degrees north; south of the equator negative. Goes with longitude_deg."""
+    longitude_deg: float | None = Field(None, ge=-180, le=180)
+    """Degrees east; west of Greenwich negative."""
+    altitude_m: float = Field(0.0, ge=-430, le=9000)
+    """Metres above the sea."""
+    locator: str | None = None
+    """In place of the two: a Maidenhead locator of 6 to 12 characters. 4 would leave a star 1° in doubt."""
+
+    @model_validator(mode="after")
+    def _one_place(self) -> StationTable:
+        if (self.latitude_deg is None) is not (self.longitude_deg is None):
+            raise ValueError("latitude_deg and longitude_deg go together")
+        if self.locator is not None and self.latitude_deg is not None:
+            raise ValueError("must have latitude_deg and longitude_deg, or locator, not both")
+        return self
+
+    @field_validator("locator")
+    @classmethod
+    def _exact_enough(cls, text: str | None) -> str | None:
+        if text is not None and not _LOCATOR.fullmatch(text):
+            raise ValueError(f'"{text}" must be a locator of 6, 8, 10 or 12 characters, such as "JO62qm"')
+        return text
+
+    @property
+    def is_known(self) -> bool:
+        """Whether the table names a place."""
+        return self.latitude_deg is not None or self.locator is not None

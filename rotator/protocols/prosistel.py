@@ -1,0 +1,154 @@
+"""Prosistel's control boxes: the D box (whole degrees, axes A and E) and the Combi-Track (tenths, axes A and B).
+
+A command is STX, the axis, a letter, and CR. Knows the command table, its codec, and what a command makes the box do.
+Does not know how the box does it. Source: what Hamlib 4.5 sends to models 1701 to 1704 and reads from them (see
+docs/protocols.md).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from enum import Enum
+
+from hw.ports import Axis
+from rotator.orders import Stop
+from rotator.protocols.aiming import aim
+from rotator.protocols.session import Box
+
+STX, CR = 0x02, 0x0D
+MAX_COMMAND = 8
+UNKNOWN = "E,00003"
+"""The box's error in place of an angle or a state."""
+
+
+class Model(Enum):
+    D = "D"
+    COMBI_TRACK = "Combi-Track"
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """How a model writes axes and angles."""
+
+    axes: dict[str, Axis]
+    per_degree: int
+    stops: tuple[int, ...]
+    """Angles that mean a stop: with a ramp, and at once."""
+
+
+FORMS = {
+    Model.D: Form({"A": Axis.AZIMUTH, "E": Axis.ELEVATION}, 1, (977, 997, 999)),
+    Model.COMBI_TRACK: Form({"A": Axis.AZIMUTH, "B": Axis.ELEVATION}, 10, (9777, 9977, 9999)),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Verb:
+    """One row of the command list."""
+
+    text: str
+    help: str
+
+
+VERBS = (
+    Verb("?", "Read the angle; R: at rest, B: it turns"),
+    Verb("G", "Go there; leading zeros may be left out"),
+    Verb("G999", "Stop this axis; after a stop of the other axis: stop everything and acknowledge faults"),
+    Verb("S", "Send the position only when asked, which the box does always"),
+)
+_COMMAND = re.compile(r"([A-Z])(?:(G)(\d{1,4})|([?S]))")
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """`number` is the angle in the model's own unit, or a stop."""
+
+    axis: Axis
+    verb: str
+    number: int | None = None
+
+
+def parse(text: bytes, model: Model) -> Command | None:
+    """The command between STX and CR; None: the text is no command for this model."""
+    found = _COMMAND.fullmatch(text.decode("latin-1"))
+    axis = FORMS[model].axes.get(found[1]) if found else None
+    if found is None or axis is None:
+        return None
+    return Command(axis, "G", int(found[3])) if found[2] else Command(axis, found[4])
+
+
+def encode(command: Command, model: Model) -> bytes:
+    """A command as Hamlib writes it: without leading zeros."""
+    letter = _letter(command.axis, model)
+    return b"\x02" + f"{letter}{command.verb}{'' if command.number is None else command.number}\r".encode()
+
+
+def reply(axis: Axis, verb: str, said: str, model: Model) -> bytes:
+    """STX, axis, the command's letter, an angle where it was asked for, and the state; commas between them."""
+    return b"\x02" + f"{_letter(axis, model)},{verb},{said}\r".encode()
+
+
+def _letter(axis: Axis, model: Model) -> str:
+    return next(letter for letter, each in FORMS[model].axes.items() if each is axis)
+
+
+class ProsistelSession:
+    """A Prosistel box on one connection. A refused order is answered with the box's error."""
+
+    idle_s = None
+    closed = False
+
+    def __init__(self, box: Box, model: Model) -> None:
+        self._box = box
+        self._model = model
+        self._form = FORMS[model]
+        self._begun: bytearray | None = None
+        self._stopped: Axis | None = None
+        """The axis that the command before this one stopped."""
+
+    def receive(self, data: bytes) -> list[bytes]:
+        replies = [self._take(octet) for octet in data]
+        return [each for each in replies if each]
+
+    def idle(self) -> list[bytes]:
+        return []
+
+    def _take(self, octet: int) -> bytes:
+        if octet == STX:
+            self._begun = bytearray()
+        elif self._begun is not None and octet == CR:
+            command = parse(bytes(self._begun), self._model)
+            self._begun = None
+            return self._obey(command) if command else b""
+        elif self._begun is not None:
+            self._begun.append(octet)
+            if len(self._begun) > MAX_COMMAND:
+                self._begun = None
+        return b""
+
+    def _obey(self, command: Command) -> bytes:
+        stopped, self._stopped = self._stopped, None
+        match command:
+            case Command(axis, "?"):
+                self._stopped = stopped
+                said = self._angle(axis)
+            case Command(axis, "G", int() as number) if number in self._form.stops:
+                self._box.order(Stop() if stopped not in (None, axis) else Stop((axis,)))
+                self._stopped = axis
+                said = "R"
+            case Command(axis, "G", int() as number):
+                angle_deg = number / self._form.per_degree
+                order = aim(angle_deg, None) if axis is Axis.AZIMUTH else aim(None, angle_deg)
+                said = UNKNOWN if self._box.order(order) else "R"
+            case Command(axis):
+                said = "R"
+        return reply(axis, command.verb, said, self._model)
+
+    def _angle(self, axis: Axis) -> str:
+        status = self._box.status().axis(axis)
+        if status.angle_deg is None:
+            return UNKNOWN
+        angle = max(0, math.floor(status.angle_deg * self._form.per_degree + 0.5))
+        return f"{angle:0{3 if self._form.per_degree == 1 else 4}d},{'B' if status.moving else 'R'}"

@@ -1,0 +1,165 @@
+"""The web page of PstRotatorAz, through which other programs read and turn a rotor: a plug-in of FM-DX Webserver does.
+
+Knows one request to a connection (`GET /PstRotatorAz.htm?az=235`), the page, and who may turn the antenna: no page of
+another web site that a browser has open. Does not know sockets. Sources: what the plug-in and other programs request,
+and what they look for in the page (see docs/protocols.md).
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import math
+import re
+from dataclasses import dataclass, field
+from http import HTTPStatus
+from urllib.parse import parse_qsl, urlsplit
+
+from rotator.orders import Order, Stop
+from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.session import Box
+
+MAX_REQUEST = 4096
+PAGES = ("/", "/PstRotatorAz.htm")
+_END = re.compile(rb"\r?\n\r?\n")
+_REQUEST = re.compile(rb"GET (/[!-~]*) HTTP/1\.[01]")
+_HEADER = re.compile(rb"([!#$%&'*+.^_`|~0-9A-Za-z-]+):[ \t]*([\x20-\x7e\x80-\xff\t]*)")
+_LOCAL = (".local", ".lan", ".home.arpa", ".internal")
+_SAME_SITE = ("", "none", "same-origin")
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """One row of the list: a request, and what it does."""
+
+    target: str
+    help: str
+
+
+EXAMPLES = (
+    Example("/PstRotatorAz.htm", "Read azimuth; `/` too"),
+    Example("/PstRotatorAz.htm?az=235", "Go there; elevation goes on as it was"),
+    Example("/PstRotatorAz.htm?cmd=stop", "Stop everything and acknowledge faults"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """A whole request: its target, and its headers with names in small letters."""
+
+    target: str
+    headers: dict[str, str] = field(default_factory=dict)
+
+
+def parse(head: bytes) -> Request | None:
+    """The request in the bytes up to the empty line; None: it is no GET with well-formed headers."""
+    first, *lines = re.split(rb"\r?\n", head)
+    asked = _REQUEST.fullmatch(first)
+    headers = [_HEADER.fullmatch(line) for line in lines]
+    if not asked or not all(headers):
+        return None
+    named = {found[1].decode().lower(): found[2].decode("latin-1").strip() for found in headers if found}
+    return Request(asked[1].decode(), named) if len(named) == len(headers) else None
+
+
+def is_own(request: Request) -> bool:
+    """Whether no other web site has made this request: a page that a browser has open must not turn the antenna.
+
+    A program names the box by its address or by a local name, and sends no origin; a browser says where it comes from.
+    """
+    headers = request.headers
+    host = urlsplit(f"//{headers.get('host', '')}").hostname or ""
+    if headers.get("sec-fetch-site", "") not in _SAME_SITE:
+        return False
+    for where in (headers.get("origin"), headers.get("referer")):
+        if where and urlsplit(where).netloc != headers.get("host"):
+            return False
+    return _is_local(host)
+
+
+def _is_local(host: str) -> bool:
+    """Another site's name may lead here by its own name server; an address, and a name of the local network, cannot."""
+    try:
+        ipaddress.ip_address(host)
+    except ValueError:
+        return bool(host) and ("." not in host or host.endswith(_LOCAL))
+    return True
+
+
+def encode(target: str, host: str = "192.168.1.20") -> bytes:
+    """A request as the plug-in sends it."""
+    return f"GET {target} HTTP/1.1\r\nAccept: */*\r\nHost: {host}\r\nConnection: close\r\n\r\n".encode()
+
+
+def page(azimuth_deg: float | None) -> str:
+    """What programs look for is `Bearing = 235 deg`."""
+    bearing = "unknown" if azimuth_deg is None else f"{math.floor(azimuth_deg + 0.5) % 360} deg"
+    return (
+        "<!DOCTYPE html><html><head><title>PstRotatorAz</title></head><body>"
+        f"<p>Bearing = {bearing}</p>"
+        '<form action="PstRotatorAz.htm" method="get"><input name="az" size="5"><input type="submit" value="GO"></form>'
+        '<form action="PstRotatorAz.htm" method="get"><input type="hidden" name="cmd" value="stop">'
+        '<input type="submit" value="STOP"></form></body></html>\n'
+    )
+
+
+def response(status: HTTPStatus, body: str) -> bytes:
+    """A whole answer, after which the connection ends."""
+    kind = "text/html" if body.startswith("<") else "text/plain"
+    head = (
+        f"HTTP/1.1 {status.value} {status.phrase}\r\nContent-Type: {kind}; charset=utf-8\r\n"
+        f"Content-Length: {len(body.encode())}\r\nCache-Control: no-store\r\nConnection: close\r\n\r\n"
+    )
+    return (head + body).encode()
+
+
+class PstRotatorAzSession:
+    """One connection, one request, one answer."""
+
+    idle_s = None
+
+    def __init__(self, box: Box) -> None:
+        self._box = box
+        self._buffer = bytearray()
+        self.closed = False
+
+    def receive(self, data: bytes) -> list[bytes]:
+        if self.closed:
+            return []
+        self._buffer += data[: MAX_REQUEST + 1]
+        end = _END.search(self._buffer)
+        if end is None and len(self._buffer) <= MAX_REQUEST:
+            return []
+        self.closed = True
+        request = parse(bytes(self._buffer[: end.start()])) if end and end.end() <= MAX_REQUEST else None
+        return [self._answer(request)]
+
+    def idle(self) -> list[bytes]:
+        return []
+
+    def _answer(self, request: Request | None) -> bytes:
+        if request is None:
+            return response(HTTPStatus.BAD_REQUEST, "only GET, and at most 4096 bytes\n")
+        path, _, query = request.target.partition("?")
+        if path not in PAGES:
+            return response(HTTPStatus.NOT_FOUND, "the page is /PstRotatorAz.htm\n")
+        if query:
+            order = _order(query)
+            if order is None:
+                return response(HTTPStatus.BAD_REQUEST, "az=DEGREES or cmd=stop\n")
+            # A stop is obeyed from anywhere: it cannot harm.
+            if not isinstance(order, Stop) and not is_own(request):
+                return response(HTTPStatus.FORBIDDEN, "name the box by its address; another web site may not turn it\n")
+            if refused := self._box.order(order):
+                return response(HTTPStatus.CONFLICT, f"refused: {refused.reason}\n")
+        return response(HTTPStatus.OK, page(self._box.status().azimuth.angle_deg))
+
+
+def _order(query: str) -> Order | None:
+    """The order of a query; None: it is none, or more than one."""
+    match parse_qsl(query, keep_blank_values=True):
+        case [("az", value)] if (azimuth_deg := degrees(value)) is not None:
+            return aim(azimuth_deg, None)
+        case [("cmd", "stop")]:
+            return Stop()
+        case _:
+            return None

@@ -1,0 +1,116 @@
+"""Prosistel's boxes: the bytes that Hamlib sends and reads, damaged commands, and any bytes at all."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hw.ports import Axis
+from rotator.orders import Aim, Order, Stop
+from rotator.protocols.prosistel import Command, Model, ProsistelSession, encode, parse
+from rotator.protocols.session import Session
+
+if TYPE_CHECKING:
+    from tests.protocols.conftest import BenchBox
+
+Feed = Callable[[Session, bytes], list[bytes]]
+
+
+@pytest.mark.parametrize(
+    ("model", "said", "answers", "orders"),
+    [
+        (Model.D, b"\x02A?\r", [b"\x02A,?,235,R\r"], []),
+        (Model.D, b"\x02E?\r", [b"\x02E,?,025,R\r"], []),
+        (Model.D, b"\x02AS\r\x02ES\r", [b"\x02A,S,R\r", b"\x02E,S,R\r"], []),
+        (Model.D, b"\x02AG75\r", [b"\x02A,G,R\r"], [Aim(75, None)]),
+        (Model.D, b"\x02AG005\r", [b"\x02A,G,R\r"], [Aim(5, None)]),
+        (Model.D, b"\x02EG10\r", [b"\x02E,G,R\r"], [Aim(None, 10)]),
+        (Model.D, b"\x02AG997\r", [b"\x02A,G,R\r"], [Stop((Axis.AZIMUTH,))]),
+        (Model.D, b"\x02EG999\r", [b"\x02E,G,R\r"], [Stop((Axis.ELEVATION,))]),
+        (Model.D, b"\x02AG999\r\x02EG999\r", [b"\x02A,G,R\r", b"\x02E,G,R\r"], [Stop((Axis.AZIMUTH,)), Stop()]),
+        (Model.D, b"\x02BG10\r\x02B?\r", [], []),
+        (Model.D, b"\x02AG600\r", [b"\x02A,G,E,00003\r"], []),
+        (Model.COMBI_TRACK, b"\x02A?\r\x02B?\r", [b"\x02A,?,2350,R\r", b"\x02B,?,0250,R\r"], []),
+        (
+            Model.COMBI_TRACK,
+            b"\x02AG755\r\x02BG105\r",
+            [b"\x02A,G,R\r", b"\x02B,G,R\r"],
+            [Aim(75.5, None), Aim(None, 10.5)],
+        ),
+        (
+            Model.COMBI_TRACK,
+            b"\x02AG9777\r\x02BG9777\r",
+            [b"\x02A,G,R\r", b"\x02B,G,R\r"],
+            [Stop((Axis.AZIMUTH,)), Stop()],
+        ),
+        (Model.COMBI_TRACK, b"\x02EG10\r", [], []),
+    ],
+)
+def test_dialogues(  # noqa: PLR0917 - a table
+    box: BenchBox, feed: Feed, model: Model, said: bytes, answers: list[bytes], orders: list[Order]
+) -> None:
+    assert feed(ProsistelSession(box, model), said) == answers
+    assert box.orders == orders
+
+
+def test_it_says_that_it_turns(box: BenchBox) -> None:
+    session = ProsistelSession(box, Model.D)
+    session.receive(b"\x02AG75\r")
+    box.wait(1)
+    assert session.receive(b"\x02A?\r\x02E?\r") == [b"\x02A,?,235,B\r", b"\x02E,?,025,R\r"]
+
+
+def test_an_unknown_position_is_an_error(new_box: type[BenchBox]) -> None:
+    assert ProsistelSession(new_box(blind=True), Model.COMBI_TRACK).receive(b"\x02B?\r") == [b"\x02B,?,E,00003\r"]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [b"AG75\r", b"\x02AG7x\r", b"\x02A G75\r", b"\x02AG-5\r", b"\x02AG\r", b"\x02ag75\r", b"\x02AG75", b"\x02AG75\n",
+     b"\x02AG00075\r", b"\x02AG7.5\r", b"\x02\x02\r", b"\x02A\x02G75\r", b"\x02" + b"A" * 100 + b"G75\r"],
+)  # fmt: skip
+def test_damaged_commands_move_nothing(box: BenchBox, said: bytes) -> None:
+    ProsistelSession(box, Model.D).receive(said)
+    assert box.orders == []
+
+
+@given(
+    pieces=st.lists(
+        st.one_of(
+            st.binary(max_size=5),
+            st.sampled_from([b"\x02A", b"\x02E", b"\x02B", b"G75", b"G999", b"?", b"S", b"\r", b"\r", b"\x02AG10\r"]),
+        ),
+        max_size=16,
+    ),
+    model=st.sampled_from(Model),
+)
+def test_any_bytes(new_box: type[BenchBox], pieces: list[bytes], model: Model) -> None:
+    """Well-formed answers; every motion is a whole command in the bytes; the pieces make no difference."""
+    torn, whole = new_box(), new_box()
+    session = ProsistelSession(torn, model)
+    replies = [reply for piece in pieces for reply in session.receive(piece)]
+    heard = b"".join(pieces)
+    assert replies == ProsistelSession(whole, model).receive(heard)
+    assert torn.orders == whole.orders
+    for reply in replies:
+        assert re.fullmatch(rb"\x02[AEB],[G?S],(R|E,00003|\d{3,4},[RB])\r", reply), reply
+    axis = {"A": Axis.AZIMUTH, "E": Axis.ELEVATION} if model is Model.D else {"A": Axis.AZIMUTH, "B": Axis.ELEVATION}
+    possible = []
+    for letter, number in re.findall(r"\x02([AEB])G(\d{1,4})\r", heard.decode("latin-1")):
+        angle_deg = int(number) / (1 if model is Model.D else 10)
+        if letter in axis:
+            possible.append(Aim(angle_deg, None) if axis[letter] is Axis.AZIMUTH else Aim(None, angle_deg))
+    assert all(order in possible for order in torn.motions)
+
+
+@given(model=st.sampled_from(Model), number=st.integers(0, 9999), azimuth=st.booleans())
+def test_round_trip(model: Model, number: int, azimuth: bool) -> None:
+    command = Command(Axis.AZIMUTH if azimuth else Axis.ELEVATION, "G", number)
+    said = encode(command, model)
+    assert said.startswith(b"\x02")
+    assert parse(said[1:-1], model) == command

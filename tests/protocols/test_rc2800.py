@@ -1,0 +1,108 @@
+"""M2's RC2800PX: the bytes that Hamlib sends and reads, damaged commands, and any bytes at all."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hw.ports import Axis
+from rotator.orders import Aim, Order, Stop
+from rotator.protocols.rc2800 import Command, Rc2800Session, encode, parse
+from rotator.protocols.session import Session
+
+if TYPE_CHECKING:
+    from tests.protocols.conftest import BenchBox
+
+Feed = Callable[[Session, bytes], list[bytes]]
+HERE_A, HERE_E = b"A P= 235.0 S=9 S\r", b"E P=  25.0 S=9 S\r"
+
+
+def read_by_hamlib(reply: bytes) -> tuple[str, float]:
+    """As rc2800_parse does: the value from the sixth character on."""
+    text = reply.decode().removesuffix("\r")
+    assert len(text) > 7
+    assert text[1:4] == " P="
+    return text[0], float(text[5:].split()[0])
+
+
+@pytest.mark.parametrize(
+    ("said", "answers", "orders"),
+    [
+        (b"A\r", [HERE_A], []),
+        (b"E\r", [HERE_E], []),
+        (b"A\r\nE\r\n", [HERE_A, HERE_E], []),
+        (b"A75.000000\r", [HERE_A], [Aim(75, None)]),
+        (b"A75\r", [HERE_A], [Aim(75, None)]),
+        (b"E10\r", [HERE_E], [Aim(None, 10)]),
+        (b"E25\rA\rS\r", [HERE_E, HERE_A, HERE_A], [Aim(None, 25), Stop()]),
+        (b"E200\r", [b"E ERR=05\r"], []),
+        (b"\xff\x00A\r", [HERE_A], []),
+    ],
+)
+def test_dialogues(box: BenchBox, feed: Feed, said: bytes, answers: list[bytes], orders: list[Order]) -> None:
+    replies = feed(Rc2800Session(box), said)
+    assert [reply.replace(b"=9 M", b"=9 S") for reply in replies] == answers
+    assert box.orders == orders
+
+
+def test_hamlib_reads_the_answers(box: BenchBox) -> None:
+    box.stands_at(5, 150)
+    assert [read_by_hamlib(reply) for reply in Rc2800Session(box).receive(b"A\rE\r")] == [("A", 5.0), ("E", 150.0)]
+
+
+def test_an_unknown_position_is_an_error(new_box: type[BenchBox]) -> None:
+    assert Rc2800Session(new_box(blind=True)).receive(b"A\rE\r") == [b"A ERR=05\r", b"E ERR=05\r"]
+
+
+@pytest.mark.parametrize("said", [b"S;\r", b"SS\r", b"S\x00\r", b"STOP\r", b"\xffS\r", b"S\n"])
+def test_a_damaged_stop_stops(box: BenchBox, said: bytes) -> None:
+    Rc2800Session(box).receive(said)
+    assert box.orders == [Stop()]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [b"235\r", b"A\r235\r\r", b"A2x5\r", b"A-5\r", b"a235\r", b"AA235\r", b"A1234\r", b"A235", b"A 235\r", b"A235E10\r",
+     b"S235\r", b"A" + b"1" * 100 + b"\r", b"\r\r\r"],
+)  # fmt: skip
+def test_damaged_commands_move_nothing(box: BenchBox, said: bytes) -> None:
+    Rc2800Session(box).receive(said)
+    assert box.orders == []
+
+
+@given(
+    pieces=st.lists(
+        st.one_of(
+            st.binary(max_size=5),
+            st.sampled_from([b"A", b"E", b"S", b"75", b"75.5", b"10", b"\r", b"\r", b"\n", b"A20\r", b"E20.000000\r"]),
+        ),
+        max_size=16,
+    )
+)
+def test_any_bytes(new_box: type[BenchBox], pieces: list[bytes]) -> None:
+    """Well-formed answers; every motion is a whole line of the bytes; the pieces make no difference."""
+    torn, whole = new_box(), new_box()
+    session = Rc2800Session(torn)
+    replies = [reply for piece in pieces for reply in session.receive(piece)]
+    heard = b"".join(pieces)
+    assert replies == Rc2800Session(whole).receive(heard)
+    assert torn.orders == whole.orders
+    for reply in replies:
+        assert re.fullmatch(rb"[AE] (P= *\d+\.\d S=9 [MS]|ERR=05)\r", reply), reply
+    possible = []
+    for letter, number in re.findall(rb"(?:^|[\r\n])[^!-~]*([AE])(\d{1,3}(?:\.\d{0,6})?)(?=[\r\n])", heard):
+        possible.append(Aim(float(number), None) if letter == b"A" else Aim(None, float(number)))
+    assert all(order in possible for order in torn.motions)
+
+
+@given(st.floats(0, 360), st.sampled_from(Axis))
+def test_round_trip(angle_deg: float, axis: Axis) -> None:
+    command = parse(encode(Command(axis, angle_deg)).removesuffix(b"\r"))
+    assert command is not None
+    assert command.axis is axis
+    assert command.angle_deg == pytest.approx(angle_deg, abs=0.51)
