@@ -69,7 +69,7 @@ class App:
         mount = build_mount(config)
         learnt = build_learnt(config)
         self.loop = ControlLoop(
-            build_controller(config, learnt.load()),
+            build_controller(config, learnt.load(), panel=True),
             self.station.rotor,
             time.monotonic,
             1 / config.control.rate_hz,

@@ -117,7 +117,18 @@ def new(shack: Callable[..., Shack], place: Place) -> tuple[Shack, Terminal]:
     return machine, Terminal(machine.ptys[0])
 
 
-def test_a_day_with_the_pc(shack: Callable[..., Shack], chance: random.Random) -> None:  # noqa: PLR0915 - a day is long
+def parked(machine: Shack, pc: Terminal, chance: random.Random) -> None:
+    """The park position, and SIGTERM in the move after it."""
+    machine.rotator("tell", "park")
+    machine.arrives(180.0, 0.0, NEAR_DEG)
+    machine.rotator("resume")
+    order(pc, (chance.choice([60.0, 300.0]), 30.0))
+    with_motion(machine)
+    pc.close()
+    ended_well(machine)
+
+
+def test_a_day_with_the_pc(shack: Callable[..., Shack], chance: random.Random) -> None:
     begun = anywhere(chance)
     machine, pc = new(shack, begun)
 
@@ -173,14 +184,7 @@ def test_a_day_with_the_pc(shack: Callable[..., Shack], chance: random.Random) -
     pc = Terminal(machine.ptys[0])
     obeys(machine, pc, somewhere(chance))
 
-    # Park, and SIGTERM in mid-move.
-    machine.rotator("tell", "park")
-    machine.arrives(180.0, 0.0, NEAR_DEG)
-    machine.rotator("resume")
-    order(pc, (chance.choice([60.0, 300.0]), 30.0))
-    with_motion(machine)
-    pc.close()
-    ended_well(machine)
+    parked(machine, pc, chance)
 
 
 def test_a_day_at_the_panel(shack: Callable[..., Shack], chance: random.Random) -> None:

@@ -72,7 +72,7 @@ class Shack:
         assert self.world.panel is not None
         self.hands: SimPanel = self.world.panel
         self.hands.set_calibrate(closed=calibrate)
-        self.loop = ControlLoop(build_controller(config), self.station.rotor, self.clock, STEP_S)
+        self.loop = ControlLoop(build_controller(config, panel=True), self.station.rotor, self.clock, STEP_S)
         self.panel = panel_thread(
             config,
             self.station.panel,
