@@ -7,6 +7,7 @@ means to the program. Only the mode switch can bounce.
 
 from __future__ import annotations
 
+import math
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -49,8 +50,13 @@ class PanelSpec:
     """The resistor in series with the azimuth jog switch."""
     elevation_ohm: float = 12e3
     """The resistor in series with the elevation jog switch."""
+    knob_ohm: float = 10e3
+    end_ohm: float = 680.0
+    """The resistor at either end of a knob."""
+    pull_ohm: float = 1e6
+    """The resistor from a knob's input to ground."""
     knob_end: float = 1.0
-    """Voltage at a knob's wiper at its maximum, as a share of the supply."""
+    """How far a knob can be turned, as a share of its track."""
 
 
 class SimPanel(Fallible):
@@ -65,7 +71,7 @@ class SimPanel(Fallible):
         self._position = 0
         self._stop_closed = True
         self._calibrate_closed = False
-        self._thrown = {"azimuth": 0, "elevation": 0}
+        self._thrown = {"azimuth": (0, math.inf), "elevation": (0, math.inf)}
         self._knobs = {"azimuth": 0.0, "elevation": 0.0}
         self._broken: set[str] = set()
         self.adc = Ads1115(clock, vdd_v=5.0)
@@ -94,9 +100,9 @@ class SimPanel(Fallible):
         self._position = position
         self._wire_up()
 
-    def throw(self, axis: str, way: int) -> None:
-        """Throw a jog switch: +1 CW or up, -1 CCW or down, 0 released."""
-        self._thrown[axis] = way
+    def throw(self, axis: str, way: int, seconds: float = math.inf) -> None:
+        """Throw a jog switch for so long: +1 CW or up, -1 CCW or down, 0 released."""
+        self._thrown[axis] = (way, self._clock() + seconds)
 
     def turn_knob(self, axis: str, share: float) -> None:
         """Turn a knob: 0 is its minimum, 1 its maximum."""
@@ -140,8 +146,9 @@ class SimPanel(Fallible):
         branches = [(self.supply_v, up_ohm), (0.0, down_ohm)]
         if "jog-wire-broken" not in self._broken:
             for axis, ohm in (("azimuth", self.spec.azimuth_ohm), ("elevation", self.spec.elevation_ohm)):
-                if self._thrown[axis]:
-                    branches.append((self.supply_v if self._thrown[axis] > 0 else 0.0, ohm))
+                way, until_s = self._thrown[axis]
+                if way and self._clock() < until_s:
+                    branches.append((self.supply_v if way > 0 else 0.0, ohm))
         return sum(volts / ohm for volts, ohm in branches) / sum(1.0 / ohm for _, ohm in branches)
 
     def _azimuth_v(self) -> float:
@@ -151,10 +158,16 @@ class SimPanel(Fallible):
         return self._wiper_v("elevation")
 
     def _wiper_v(self, axis: str) -> float:
-        """The voltage of a knob's wiper. If its wire is broken, a resistor pulls the input to ground."""
-        if f"{axis}-knob-wire-broken" in self._broken:
+        """The voltage at a knob's input: its wiper, or what the pull-down leaves of it when a wire is broken."""
+        spec, turned = self.spec, self._knobs[axis] * self.spec.knob_end
+        if f"{axis}-knob-wire-broken" in self._broken or f"{axis}-knob-supply-broken" in self._broken:
             return 0.0
-        return self._knobs[axis] * self.spec.knob_end * self.supply_v
+        up_ohm = spec.end_ohm + (1.0 - turned) * spec.knob_ohm
+        down_ohm = spec.end_ohm + turned * spec.knob_ohm
+        through = 1.0 / spec.pull_ohm
+        if f"{axis}-knob-ground-broken" not in self._broken:
+            through += 1.0 / max(down_ohm, 1e-3)
+        return self.supply_v / (1.0 + up_ohm * through)
 
     def _wire_up(self) -> None:
         """Put the state of each switch on its line. Closed: ground; open: the Pi pulls it high."""
@@ -183,7 +196,7 @@ class SimPanel(Fallible):
         spec = self.spec
         wires = (
             "stop-wire-broken", "mode-wire-broken", "mode-switch-bouncing", "jog-wire-broken", "jog-shorted",
-            "azimuth-knob-wire-broken", "elevation-knob-wire-broken",
+            *(f"{axis}-knob-{wire}-broken" for axis in self._knobs for wire in ("wire", "supply", "ground")),
         )  # fmt: skip
         return {name: self._wire_fault(name) for name in wires} | {
             "adc-gone": SimFault(lambda: bus.gone.add(spec.adc_address), lambda: bus.gone.discard(spec.adc_address)),

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from rotator.assembly.calibration import compass_path, open_compass
+from rotator.assembly.hands import hands
 from rotator.assembly.links import build_links, build_sky
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
@@ -68,7 +69,7 @@ class App:
         mount = build_mount(config)
         learnt = build_learnt(config)
         self.loop = ControlLoop(
-            build_controller(config, learnt.load()),
+            build_controller(config, learnt.load(), panel=True),
             self.station.rotor,
             time.monotonic,
             1 / config.control.rate_hz,
@@ -80,7 +81,9 @@ class App:
         monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
         self._console_socket = ConsoleSocket(
             console_path(monitor),
-            lambda: ConsoleSession(Client(self.loop, mount, Source("console", next(numbers)))),
+            lambda: ConsoleSession(
+                Client(self.loop, mount, Source("console", next(numbers))), hands(self.station.world)
+            ),
         )
         self._tap = Tap(datetime.now, lambda: self.loop.status)
         self.links = build_links(config.link, self.loop, mount, self._tap, build_sky(config.station))

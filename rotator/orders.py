@@ -145,11 +145,21 @@ class LetGo:
 
 
 @dataclass(frozen=True, slots=True)
+class Remark:
+    """The panel has something to say of this axis that stops nothing, as a notice of its status. No text: no more."""
+
+    axis: Axis
+    text: str = ""
+    lcd: str = ""
+    """13 characters at most."""
+
+
+@dataclass(frozen=True, slots=True)
 class Leave:
     """The sender's connection has ended: its jog without a time and its stream end with it."""
 
 
-Personal = SetMode | Nudge | Home | Confirm | LetGo
+Personal = SetMode | Nudge | Home | Confirm | LetGo | Remark
 """Orders that only a person at the panel or on the console may give."""
 
 Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal

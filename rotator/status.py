@@ -92,6 +92,8 @@ class Status:
     speed_level: int = 4
     mode: Mode = Mode.AUTO
     """The position of the front panel's mode switch; without one, AUTO."""
+    mode_switch: bool = False
+    """A front panel has such a switch."""
     notices: tuple[str, ...] = ()
     """Whose orders have no effect, and why. The same trouble has the same text for as long as it lasts."""
     cycle_late_s: float = 0.0

@@ -102,3 +102,6 @@ METER_FULL_A, METER_SERIES_OHM, METER_TRIMMER_OHM = 1e-3, 2_200, 2_500
 """A 0 to 1 mA meter on an output of 3.3 V: the fixed resistor and the trimmer that sets its full scale."""
 
 LAMP_OHM = 330
+
+KNOB_OHM, KNOB_END_OHM, KNOB_PULL_OHM = 10_000, 680, 1_000_000
+"""A panel's knob, the resistor at either end of it, and the one from its wiper to ground."""

@@ -1,11 +1,18 @@
 """A front panel on two I2C chips and a few GPIOs; and the stop button and limit switches. Pins of the tables below.
 
-No shipped configuration has a panel: these are pins and outputs that the ones with relays leave free.
+The shipped configuration of the U-100 has this panel; the others with relays leave its pins and outputs free.
 """
 
 from __future__ import annotations
 
-from docs.drawings.figures import LAMP_OHM, METER_SERIES_OHM, METER_TRIMMER_OHM, ContactLoop
+from docs.drawings.figures import (
+    KNOB_END_OHM,
+    KNOB_PULL_OHM,
+    LAMP_OHM,
+    METER_SERIES_OHM,
+    METER_TRIMMER_OHM,
+    ContactLoop,
+)
 from docs.drawings.header import GPIO_PINS, SCL_GPIO, SDA_GPIO
 from docs.drawings.parts import chip, contact, diode, earth, header_labels, pi_header, pot, resistor
 from docs.drawings.sheet import BLACK, BLUE, BROWN, GREEN, ORANGE, PINK, PURPLE, RED, TEAL, Sheet
@@ -64,8 +71,8 @@ def draw(panel: PanelTable = PANEL) -> Sheet:
             [f"at 0x{panel.adc_address:02x}"],
         ),
         chip("switches", "switches", (650, 380), 170, right=list(switches), left=["", "common"]),
-        resistor("bias up", _kilo(BIAS_OHM), (500, 330), side=-1),
-        resistor("bias down", _kilo(BIAS_OHM), (500, 440)),
+        resistor("bias up", _kilo(BIAS_OHM), (550, 400), side=-1),
+        resistor("bias down", _kilo(BIAS_OHM), (550, 510)),
         chip("azimuth jog", "azimuth jog", (130, 380), 170, ["CW", "CCW"], ["common"], ["on – off – on"]),
         chip("elevation jog", "elevation jog", (130, 540), 170, ["up", "down"], ["common"], ["on – off – on"]),
         resistor("azimuth arm", _kilo(SWITCH_OHM[Axis.AZIMUTH]), (350, 450), flat=True, side=-1),
@@ -80,11 +87,18 @@ def draw(panel: PanelTable = PANEL) -> Sheet:
             [f"at 0x{panel.outputs_address:02x}"],
         ),
     )
-    for axis, at, colour in (("azimuth", (450, 120), GREEN), ("elevation", (260, 200), BROWN)):
-        sheet.put(pot(f"{axis} knob", f"{axis}\nknob 10 kΩ", at))
-        sheet.rail("3.3 V", ORANGE, f"{axis} knob.high")
-        sheet.ground(f"{axis} knob.low")
-        sheet.wire(colour, f"{axis} knob.wiper", f"adc.A{knobs[axis]}")
+    for axis, at, colour in (("azimuth", (430, 180), GREEN), ("elevation", (210, 180), BROWN)):
+        sheet.put(
+            pot(f"{axis} knob", f"{axis}\nknob 10 kΩ", at),
+            resistor(f"{axis} upper", f"{KNOB_END_OHM} Ω", (at[0], at[1] - 80), side=-1),
+            resistor(f"{axis} lower", f"{KNOB_END_OHM} Ω", (at[0], at[1] + 100), side=-1),
+            resistor(f"{axis} pull", f"{KNOB_PULL_OHM // 1_000_000} MΩ", (at[0] + 60, at[1] + 100)),
+        )
+        sheet.rail("3.3 V", ORANGE, f"{axis} upper.a")
+        sheet.wire(ORANGE, f"{axis} upper.b", f"{axis} knob.high")
+        sheet.wire(BLACK, f"{axis} knob.low", f"{axis} lower.a")
+        sheet.ground(f"{axis} lower.b", f"{axis} pull.b")
+        sheet.wire(colour, f"{axis} knob.wiper", f"adc.A{knobs[axis]}", f"{axis} pull.a")
     for axis in ("azimuth", "elevation"):
         one, other = ("CW", "CCW") if axis == "azimuth" else ("up", "down")
         sheet.rail("3.3 V", ORANGE, f"{axis} jog.{one}")

@@ -38,6 +38,7 @@ from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.locator import from_locator
 from rotator.protocols.lx200_session import Lx200Session
 from rotator.protocols.macdoppler import MacDopplerSession
+from rotator.protocols.move_report import MoveReport
 from rotator.protocols.n1mm import N1mmReport, N1mmSession
 from rotator.protocols.prosistel import Model as Prosistel
 from rotator.protocols.prosistel import ProsistelSession
@@ -201,6 +202,8 @@ class _Connections:
         session = session_maker(
             self._link, client, self._remark, sky=self._shared.sky, notice=self._notice, refused=client.note_refused
         )
+        if self._link.report_moves:
+            session = MoveReport(session, client)
         text = self._link.protocol not in _BINARY
         return TappedSession(session, self._shared.tap, source, text=text, ended=client.left)
 

@@ -16,12 +16,14 @@ from hw.sensors.switches import LimitSwitches
 from rotator.assembly.board import Board
 from rotator.config.model import Config
 from rotator.orders import Order
+from rotator.panel.inputs import KnobWiring
 from rotator.panel.panel import Panel, PanelSettings
 from rotator.panel.thread import PanelParts, PanelThread
 from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.status import Status
 from rotator.store.knobs import KnobsFile
 
+LAMP_TEST_S = 1.0
 METER_HZ = 1000.0
 """The frequency of the meters' outputs: fast enough that a needle does not tremble."""
 
@@ -85,7 +87,8 @@ def panel_thread(
     table = config.panel
     nudge_deg = {Axis.AZIMUTH: table.azimuth_nudge_deg, Axis.ELEVATION: table.elevation_nudge_deg}
     kept = KnobsFile(knobs) if knobs else None
-    panel = Panel(PanelSettings(table.has_mode_switch, nudge_deg), kept.load() if kept else {})
+    wiring = KnobWiring(table.knob_lowest_reading, table.knob_highest_reading, table.knob_zero)
+    panel = Panel(PanelSettings(table.has_mode_switch, nudge_deg, wiring, LAMP_TEST_S), kept.load() if kept else {})
     if kept is None:
         return PanelThread(panel, parts, status, post, clock, pulses=pulses)
     return PanelThread(panel, parts, status, post, clock, keep=kept.save, pulses=pulses)

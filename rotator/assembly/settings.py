@@ -65,9 +65,16 @@ def build_learnt(config: Config) -> LearntFile:
 
 
 def build_controller(
-    config: Config, learnt: Mapping[Axis, Motors] | None = None, commissioning: Axis | None = None
+    config: Config,
+    learnt: Mapping[Axis, Motors] | None = None,
+    commissioning: Axis | None = None,
+    *,
+    panel: bool = False,
 ) -> Controller:
-    """`learnt`: the motors as earlier runs learnt them. `commissioning`: an axis to be treated as never set up."""
+    """`learnt`: the motors as earlier runs learnt them. `commissioning`: an axis to be treated as never set up.
+
+    `panel`: a panel runs as well, and reports its mode switch. A rehearsal and a calibration have none, and no mode.
+    """
     mount, known = build_mount(config), learnt or {}
     azimuth, elevation = (
         axis_settings(config, axis, limits, known.get(axis), commissioning=axis is commissioning)
@@ -82,7 +89,7 @@ def build_controller(
             simulated=config.rotor.hardware == "sim",
             park_after_s=config.mount.park_after_s,
             on_sky=config.mount.tolerance == "sky",
-            mode=Mode.PARK if config.panel.has_mode_switch else Mode.AUTO,
+            mode=Mode.PARK if panel and config.panel.has_mode_switch else Mode.AUTO,
         )
     )
 

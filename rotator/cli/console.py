@@ -23,6 +23,7 @@ from rotator.links.wire import LinkError
 from rotator.orders import Confirm, Home, LetGo, Release, Stop
 from rotator.protocols.console import Ask, ConsoleCommand, encode
 from rotator.protocols.console_session import ERROR, OK
+from rotator.protocols.panel_words import Hand
 
 ANSWER_S = 5.0
 """The longest wait for an answer, in seconds."""
@@ -119,6 +120,12 @@ def confirm(path: Path | None, axis: Axis, angle_deg: float) -> None:
     with ConsoleClient(path) as box:
         box.send(Confirm(axis, angle_deg))
     click.echo(f"{axis.value} stands at {angle_deg:g}°.")
+
+
+def hand(path: Path | None, move: Hand) -> None:
+    """Move a part of the simulated panel. Raises Refused where there is none."""
+    with ConsoleClient(path) as box:
+        box.send(move)
 
 
 def home(path: Path | None, axis: Axis, *, yes: bool) -> None:

@@ -87,4 +87,26 @@ def let_go(path: Path | None, yes: bool) -> None:
     console.let_go(path, yes=yes)
 
 
-CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, let_go)
+@click.command(context_settings=MINUS_IS_A_NUMBER)
+@CONFIG
+@click.argument("words", nargs=-1, required=True, metavar="mode|knob|jog|stop ...")
+def panel(path: Path | None, words: tuple[str, ...]) -> None:
+    """Move a part of a simulated box's front panel: its switches have no other hands.
+
+    \b
+    mode auto|manual|jog|park
+    knob azimuth|elevation SHARE     of its travel, 0 to 1
+    jog cw|ccw|up|down SECONDS       held for so long
+    stop press|release
+    """
+    from rotator.cli import console
+    from rotator.protocols.panel_words import parse_hand
+
+    try:
+        hand = parse_hand([word.lower() for word in words])
+    except ValueError as mistake:
+        raise click.UsageError(str(mistake)) from None
+    console.hand(path, hand)
+
+
+CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, let_go, panel)

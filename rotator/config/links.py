@@ -76,6 +76,8 @@ class Link(Table):
     empty line; GS-232B also: O and F wait for a Y, Z changes the centre that H3 shows."""
     may_calibrate: bool = False
     """GS-232: let O, F, O2 and F2 take the present reading as an end of the range."""
+    report_moves: bool = False
+    """GS-232: a line `AZ = 235, EL = 25` after each move, unasked, as KO6TH's controller prints it."""
     easycomm_answer: Literal["named", "pstrotator"] = "named"
     """EasyComm: the reply to AZ EL: AZ235.0 EL25.0, or +235.0 25.0 (reported to be what PstRotator needs)."""
     pulses_per_degree: Literal[1, 2, 4, 10] | None = None
@@ -119,6 +121,12 @@ class Link(Table):
             raise ValueError("status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name")
         if self.udp and _is_here(address(self.udp)[0]) and not _is_here(address(self.status_to)[0]):
             raise ValueError(f'udp = "{self.udp}" reaches this machine only, and status_to is not on it: use 0.0.0.0')
+        return self
+
+    @model_validator(mode="after")
+    def _moves_are_told_in_text(self) -> Link:
+        if self.report_moves and self.protocol not in ("gs232a", "gs232b"):
+            raise ValueError(f"report_moves is for gs232a and gs232b, not for {self.protocol}")
         return self
 
     @model_validator(mode="after")

@@ -33,6 +33,12 @@ class PanelTable(Table):
     """The wiper of the azimuth knob; the knobs need the mode switch."""
     elevation_knob: Channel | None = None
     """The wiper of the elevation knob."""
+    knob_lowest_reading: float = Field(0.02, ge=-0.1, le=1)
+    """A knob's reading below this means a broken wire; it then moves nothing."""
+    knob_highest_reading: float = Field(0.98, ge=0, le=1.1)
+    """A knob's reading above this means the same. -0.1 and 1.1 for knobs without end resistors: no wire is watched."""
+    knob_zero: float = Field(0.075, ge=0, le=0.2)
+    """A knob's reading at its minimum, with the end resistors of the wiring page; 0 without."""
     jog: Channel | None = None
     """Both jog switches, over the resistors of the wiring page."""
     reference: Channel | None = None

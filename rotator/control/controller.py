@@ -7,6 +7,7 @@ over orders, homing, parking and timed lists. Pure: no I/O, no clock, no thread.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from hw.ports import Axis, Direction
 from rotator.control.aiming import Aiming
@@ -26,6 +27,7 @@ from rotator.control.settings import Settings
 from rotator.control.sky.mount import Unreachable
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.timed import TimedList
+from rotator.faults import Notice
 from rotator.orders import (
     BOTH,
     Aim,
@@ -42,13 +44,14 @@ from rotator.orders import (
     Order,
     Park,
     Release,
+    Remark,
     RunTimed,
     SetMode,
     Source,
     Speed,
     Stop,
 )
-from rotator.status import Status
+from rotator.status import AxisStatus, Status
 
 
 class Controller:
@@ -71,6 +74,8 @@ class Controller:
         self._timed = TimedList()
         self._jogs = Jogs(axes)
         self._speed_level = 4
+        self._remarks: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
+        """What the panel has to say of each axis."""
         self._moved_s: float | None = None
         """When an order last moved the antenna; None: none has, or it is parked."""
         self._stepped_s: float | None = None
@@ -121,8 +126,8 @@ class Controller:
         """The state of the box at this moment. `late_s`: how late the last cycle was."""
         return Status(
             at_s=now_s,
-            azimuth=self._axes[Axis.AZIMUTH].status(now_s),
-            elevation=self._axes[Axis.ELEVATION].status(now_s),
+            azimuth=self._axis_status(Axis.AZIMUTH, now_s),
+            elevation=self._axis_status(Axis.ELEVATION, now_s),
             wanted_azimuth_deg=self._aiming.wanted.azimuth_deg,
             wanted_elevation_deg=self._aiming.wanted.elevation_deg,
             latched=self._authority.latched,
@@ -133,9 +138,14 @@ class Controller:
             simulated=self._settings.simulated,
             speed_level=self._speed_level,
             mode=self._authority.mode,
+            mode_switch=self._settings.mode is not Mode.AUTO,
             notices=self._authority.ignored(now_s),
             cycle_late_s=late_s,
         )
+
+    def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
+        status = self._axes[axis].status(now_s)
+        return replace(status, notices=status.notices + self._remarks[axis]) if self._remarks[axis] else status
 
     def _note_lateness(self, now_s: float) -> None:
         """A motor ran for longer than a cycle unwatched: the guard has opened its relay, and a person should know."""
@@ -180,6 +190,8 @@ class Controller:
             case LetGo():
                 self._stop(source, BOTH, latch=True, now_s=now_s)
                 self.errands.append(LetGo())
+            case Remark(axis, text, lcd):
+                self._remarks[axis] = (Notice(text, lcd),) if text else ()
             case Leave():
                 # What has an end of its own goes on: a jog with a time, a standing target, a timed list.
                 self._jogs.end(source)

@@ -6,6 +6,7 @@ Knows contacts and readings over time; the time is an argument. Does not know or
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.orders import Mode
@@ -109,16 +110,31 @@ def _one(throw: Throw | None) -> Contact | None:
             return None
 
 
+@dataclass(frozen=True, slots=True)
+class KnobWiring:
+    """The readings of a knob, as shares of its supply. The defaults: without end resistors no wrong one is seen."""
+
+    lowest: float = -0.1
+    """A reading below this means a broken wire, which the wiper's pull-down takes to 0."""
+    highest: float = 1.1
+    """A reading above this means that its ground wire is broken."""
+    zero: float = 0.0
+    """The reading at its minimum."""
+
+
 class Knob:
-    """A pot that the operator turns.
+    """A pot that the operator turns. A reading outside of its window is none: a wire is broken.
 
     If a pot reads less near its end although it is turned further, the time constant at its input is too large: fit a
     smaller capacitor at its wiper. Software cannot correct that.
     """
 
-    def __init__(self, full_scale: float = 1.0) -> None:
-        self.full_scale = full_scale
+    def __init__(self, wiring: KnobWiring, full_scale: float | None = None) -> None:
+        self._wiring = wiring
+        self.full_scale = 1.0 - wiring.zero if full_scale is None else full_scale
         """The reading at its maximum, as a share of its supply."""
+        self.trouble = ""
+        """Why its reading is none; empty: it is in its window, or there is none at all."""
         self.share: float | None = None
         """How far it is turned, 0 to 1; None: it cannot be read, or is not fitted."""
         self._moved_s = -math.inf
@@ -131,13 +147,19 @@ class Knob:
     def see(self, now_s: float, reading: float | None) -> bool:
         """Returns whether it is being turned. `reading` is a share of its supply. A knob that can be read again after a
         gap has not been turned."""
-        if reading is None:
+        self.trouble = self._wrong(reading)
+        if reading is None or self.trouble:
             self.share = self._rest = None
             return False
-        self.share = min(max(reading / self.full_scale, 0.0), 1.0)
+        zero = self._wiring.zero
+        self.share = min(max((reading - zero) / (self.full_scale - zero), 0.0), 1.0)
         if self._rest is None:
             self._rest = self.share
         if abs(self.share - self._rest) <= COUNT + _ROUNDING:
             return False
         self._rest, self._moved_s = self.share, now_s
         return True
+
+    def _wrong(self, reading: float | None) -> str:
+        low, high = self._wiring.lowest, self._wiring.highest
+        return "" if reading is None or low <= reading <= high else f"reads {reading:.3f}, limit {low:g} to {high:g}"

@@ -15,15 +15,16 @@ from dataclasses import dataclass, field
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
-from rotator.orders import Aim, Jog, Mode, Nudge, Order, Release, SetMode, Stop
+from rotator.orders import Aim, Jog, Mode, Nudge, Order, Release, Remark, SetMode, Stop
 from rotator.panel.calibration import BEGINNING, PanelCalibration, Stage
-from rotator.panel.inputs import Contact, JogSwitches, Knob, ModeSwitch, StopButton
+from rotator.panel.inputs import Contact, JogSwitches, Knob, KnobWiring, ModeSwitch, StopButton
 from rotator.status import AxisStatus, Status
 
 LEAST_INDEX, MOST_INDEX = -7, 8
 """The range of the index by which the jog switches shift an order."""
 DATA_LIT_S = 0.1
 """How long the data lamp is lit after bytes from a program."""
+KNOB_OPEN = "a wire is broken, it moves nothing (see docs/troubleshooting.md#knob-open-or-shorted)"
 LAMPS = ("manual", "park", "auto", "jog", "data", "motor", "stop", "azimuth_pulse", "elevation_pulse", "switch")
 
 
@@ -33,6 +34,9 @@ class PanelSettings:
     """False: the panel acts as in AUTO, sets no mode, and cannot be calibrated."""
     nudge_deg: Mapping[Axis, float] = field(default_factory=lambda: dict.fromkeys(Axis, 5.0))
     """The size of one index; for a rotor that counts pulses, the spacing of the pulses."""
+    knobs: KnobWiring = field(default_factory=KnobWiring)
+    test_s: float = 0.0
+    """At the start every lamp is lit and every meter shows full scale for so long."""
     jog_s: float = 0.3
     """How long a jog lasts unless it is renewed. Every step renews it while the switch is held."""
 
@@ -79,8 +83,10 @@ class Panel:
         self._button = StopButton()
         self._switch = ModeSwitch()
         self._jog = JogSwitches()
-        self._knobs = {axis: Knob((full_scales or {}).get(axis, 1.0)) for axis in Axis}
-        self._started = False
+        self._knobs = {axis: Knob(settings.knobs, (full_scales or {}).get(axis)) for axis in Axis}
+        self._remarked: set[Axis] = set()
+        """The knobs whose broken wire has been told."""
+        self._started_s: float | None = None
         self._calibration: PanelCalibration | None = None
         self._mode: Mode | None = None if settings.mode_switch else Mode.AUTO
         """The mode that was set last."""
@@ -95,10 +101,12 @@ class Panel:
 
     def step(self, now_s: float, inputs: PanelInputs, status: Status) -> PanelOutput:
         """`status`: the latest status of the box."""
+        first = self._started_s is None
+        self._started_s = now_s if self._started_s is None else self._started_s
         opened = self._button.see(now_s, is_open=inputs.stop_open)
         turned = self._switch.see(now_s, inputs.mode_bits)
         readings = {Axis.AZIMUTH: inputs.azimuth_knob, Axis.ELEVATION: inputs.elevation_knob}
-        full_scales, notes = self._calibrate(inputs, readings)
+        full_scales, notes = self._calibrate(inputs, readings, first=first)
         knobs_turned = {axis for axis, knob in self._knobs.items() if knob.see(now_s, readings[axis])}
         orders: list[Order] = []
         if not self._button.open:
@@ -111,11 +119,15 @@ class Panel:
             *orders,
             *self._jog_orders(now_s, inputs.jog, status, free=free),
             *self._knob_orders(now_s, knobs_turned, status, free=free),
+            *self._remarks(),
         ]
         if inputs.data:
             self._data_until_s = now_s + DATA_LIT_S
         lamps = self._lamps(inputs, status) | {"data": now_s < self._data_until_s}
-        return PanelOutput(tuple(orders), lamps, self._meters(status), full_scales, notes)
+        meters = self._meters(status)
+        if now_s - self._started_s < self._settings.test_s:
+            lamps, meters = dict.fromkeys(LAMPS, True), dict.fromkeys(Axis, 1.0)
+        return PanelOutput(tuple(orders), lamps, meters, full_scales, notes)
 
     # --- the mode switch, and the calibration at power-up
 
@@ -140,18 +152,17 @@ class Panel:
         return [*release, SetMode(self._mode)]
 
     def _calibrate(
-        self, inputs: PanelInputs, readings: Mapping[Axis, float | None]
+        self, inputs: PanelInputs, readings: Mapping[Axis, float | None], *, first: bool
     ) -> tuple[dict[Axis, float] | None, tuple[str, ...]]:
         """The full scales of the knobs if there are new ones, and notes for the log."""
         notes: tuple[str, ...] = ()
-        if not self._started and inputs.calibrate and self._settings.mode_switch:
+        if first and inputs.calibrate and self._settings.mode_switch:
             self._calibration, notes = PanelCalibration(), (BEGINNING,)
-        self._started = True
         if self._calibration is None:
             return None, ()
         found, more = self._calibration.full_scales(readings)
         for axis, full_scale in found.items():
-            self._knobs[axis] = Knob(full_scale)
+            self._knobs[axis] = Knob(self._settings.knobs, full_scale)
         return ({axis: knob.full_scale for axis, knob in self._knobs.items()} if found else None), notes + more
 
     # --- the jog switches
@@ -199,6 +210,18 @@ class Panel:
         angles_deg = {axis: _angle_deg(status.axis(axis), self._knobs[axis].share or 0.0) for axis in self._turned}
         self._turned = set()
         return [Aim(angles_deg.get(Axis.AZIMUTH), angles_deg.get(Axis.ELEVATION))]
+
+    def _remarks(self) -> list[Order]:
+        """A knob's broken wire, when it begins and when it ends."""
+        broken = {axis for axis, knob in self._knobs.items() if knob.trouble}
+        told: list[Order] = [
+            Remark(axis, f"the panel's {axis.value} knob {self._knobs[axis].trouble}: {KNOB_OPEN}", "KNOB OPEN")
+            for axis in Axis
+            if axis in broken - self._remarked
+        ]
+        told += [Remark(axis) for axis in Axis if axis in self._remarked - broken]
+        self._remarked = broken
+        return told
 
     # --- what it shows
 

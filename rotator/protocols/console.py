@@ -10,10 +10,21 @@ import re
 from dataclasses import dataclass
 from enum import Enum
 
-from hw.ports import Axis, Direction
+from hw.ports import Axis
 from rotator.control.admission import SENT_DEG
 from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Release, Stop
 from rotator.protocols.aiming import aim, degrees
+from rotator.protocols.panel_words import (
+    OPERANDS,
+    TURNS,
+    Hand,
+    StopButton,
+    ThrowJog,
+    TurnKnob,
+    TurnMode,
+    encode_hand,
+    parse_hand,
+)
 
 LONGEST_JOG_S = 5.0
 
@@ -25,7 +36,7 @@ class Ask(Enum):
     HELP = "help"
 
 
-ConsoleCommand = Order | Ask
+ConsoleCommand = Order | Ask | Hand
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,16 +62,11 @@ VERBS = (
     Verb("park", "", "Go to the park position, even while a program tracks, and stay there until `resume`"),
     Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
     Verb("point", "AZIMUTH ELEVATION", "Point there"),
+    Verb("panel", OPERANDS, "Move a switch or a knob of the simulated front panel"),
     Verb("help", "", "This list"),
 )
 _BY_TEXT = {verb.text: verb for verb in VERBS}
-_TURNS = {
-    "cw": (Axis.AZIMUTH, Direction.PLUS),
-    "ccw": (Axis.AZIMUTH, Direction.MINUS),
-    "up": (Axis.ELEVATION, Direction.PLUS),
-    "down": (Axis.ELEVATION, Direction.MINUS),
-}
-TURN_WORDS = {turn: word for word, turn in _TURNS.items()}
+TURN_WORDS = {turn: word for word, turn in TURNS.items()}
 _SECONDS = re.compile(r"[0-9]{1,3}(?:[.,][0-9]{1,3})?")
 
 
@@ -83,10 +89,12 @@ def parse(line: bytes) -> ConsoleCommand:
             return LetGo()
         case ["park"]:
             return Park(storm=True)
-        case ["jog", turn, seconds] if turn in _TURNS:
-            return Jog(*_TURNS[turn], _seconds(seconds))
+        case ["jog", turn, seconds] if turn in TURNS:
+            return Jog(*TURNS[turn], _seconds(seconds))
         case ["point", azimuth, elevation]:
             return aim(_degrees(Axis.AZIMUTH, azimuth), _degrees(Axis.ELEVATION, elevation))
+        case ["panel", *rest]:
+            return parse_hand(rest)
         case [verb, *_] if verb in _BY_TEXT:
             raise ValueError(f"write it like this: {_BY_TEXT[verb].usage}")
         case _:
@@ -114,6 +122,8 @@ def encode(command: ConsoleCommand) -> bytes:
             text = f"jog {TURN_WORDS[axis, direction]} {_number(seconds)}"
         case Aim(float() as azimuth_deg, float() as elevation_deg, engaged=True):
             text = f"point {_number(azimuth_deg)} {_number(elevation_deg)}"
+        case TurnMode() | TurnKnob() | ThrowJog() | StopButton():
+            text = f"panel {encode_hand(command)}"
         case _:
             raise ValueError(f"the console has no command for {command}")
     return text.encode() + b"\n"

@@ -6,6 +6,7 @@ Knows what each command makes the box do, and how the status is written. Does no
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 
 from hw.ports import Axis
@@ -13,11 +14,19 @@ from rotator.control.rights import deed_of, hindrance, holds
 from rotator.orders import Aim, Home, Jog, Mode, Order, Release
 from rotator.protocols.console import TURN_WORDS, VERBS, Ask, parse
 from rotator.protocols.lines import LineReader
+from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Box
 from rotator.status import Status
 
 MAX_LINE = 200
 OK, ERROR = "ok", "error: "
+
+
+Hands = Callable[[Hand], str]
+
+
+def no_hands(_hand: Hand) -> str:
+    return "there is no simulated panel"
 
 
 class ConsoleSession:
@@ -26,8 +35,10 @@ class ConsoleSession:
     idle_s = None
     closed = False
 
-    def __init__(self, box: Box) -> None:
+    def __init__(self, box: Box, hands: Hands = no_hands) -> None:
+        """`hands` moves a part of the simulated panel, and returns why it cannot; empty: it has."""
         self._box = box
+        self._hands = hands
         self._lines = LineReader(MAX_LINE)
         self._resumed = False
         """A `resume` has been sent; the status may not show it yet."""
@@ -51,6 +62,9 @@ class ConsoleSession:
             case Ask.HELP:
                 width = max(len(verb.usage) for verb in VERBS)
                 return _reply(*(f"{verb.usage:<{width}}  {verb.help}" for verb in VERBS), OK)
+            case TurnMode() | TurnKnob() | ThrowJog() | StopButton():
+                refused = self._hands(command)
+                return _error(refused) if refused else _reply(OK)
             case _:
                 return self._obey(command)
 

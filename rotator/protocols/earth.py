@@ -24,7 +24,7 @@ def direction(station: Site, place: Site) -> tuple[float, float] | None:
     level_m = math.hypot(east, north)
     if math.hypot(level_m, up) < NEAREST_M:
         return None
-    return math.degrees(math.atan2(east, north)) % 360.0, math.degrees(math.atan2(up, level_m))
+    return math.degrees(math.atan2(east, north)) % 360.0 % 360.0, math.degrees(math.atan2(up, level_m))
 
 
 def _geocentric(place: Site) -> Vector:

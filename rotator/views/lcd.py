@@ -6,6 +6,7 @@ Knows the layout, and the notices that replace the upper row in turn. Does not k
 from __future__ import annotations
 
 from hw.ports import Axis
+from rotator.orders import Mode
 from rotator.protocols.gs232 import whole
 from rotator.status import Status
 
@@ -16,7 +17,10 @@ _SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
 
 
 def rows(status: Status, now_s: float) -> tuple[str, str]:
-    """`SAT A:235 E:025` over `ANT A:231 E:024`; SIM in place of ANT when the rotor is simulated."""
+    """`SAT A:235 E:025` over `ANT A:231 E:024`; SIM in place of ANT when the rotor is simulated.
+
+    With a mode switch its letter follows: A, M, J or P. Where it is not at AUTO, a notice says so.
+    """
     name = "SIM" if status.simulated else "ANT"
     upper = f"SAT A:{_azimuth(status.wanted_azimuth_deg)} E:{_elevation(status.wanted_elevation_deg)}"
     lower = f"{name} A:{_azimuth(status.azimuth.shown_deg)} E:{_elevation(status.elevation.shown_deg)}"
@@ -24,6 +28,8 @@ def rows(status: Status, now_s: float) -> tuple[str, str]:
     turn = int(now_s / ALTERNATE_S)
     if notices and turn % 2:
         upper = notices[turn // 2 % len(notices)]
+    if status.mode_switch:
+        lower += status.mode.name[0]
     return upper[:COLUMNS].ljust(COLUMNS), lower[:COLUMNS].ljust(COLUMNS)
 
 
@@ -32,6 +38,8 @@ def _notices(status: Status) -> list[str]:
     notices += [f"{_SHORT[fault.axis]} {fault.kind.lcd}" for fault in status.faults]
     if status.latched:
         notices.append("STOP: " + status.latched.upper())
+    if status.mode is not Mode.AUTO:
+        notices.append(f"MODE {status.mode.name}")
     for axis in Axis:
         if missing := status.axis(axis).missing:
             notices.append(f"{_SHORT[axis]} {missing[0].lcd}")

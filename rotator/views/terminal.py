@@ -53,6 +53,8 @@ def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str
 def line(status: Status) -> str:
     """The status in one plain line. It has no time and no counter, so equal lines mean that nothing has changed."""
     parts = [_axis_words(status, axis) for axis in Axis]
+    if status.mode_switch:
+        parts.append(f"mode {status.mode.name}")
     if status.latched:
         parts.append(f"STOPPED by {status.latched}")
     parts += [f"FAULT {fault}" for fault in status.faults]
@@ -114,6 +116,8 @@ def _relays(status: Status) -> list[Text]:
     who = f"under {status.controlled_by}" if status.controlled_by else "under nobody's orders"
     if status.timed_points:
         who += f", point {status.timed_point} of {status.timed_points}"
+    if status.mode_switch:
+        who = f"mode {status.mode.name}, {who}"
     rows = _relay_lamps({axis: status.axis(axis).drive for axis in Axis})
     return [*rows, Text(f" {who}", style="dim")]
 

@@ -26,6 +26,7 @@ from rotator.orders import (
     Order,
     Park,
     Release,
+    Remark,
     RunTimed,
     SetMode,
     Source,
@@ -64,6 +65,7 @@ others = st.one_of(
     st.builds(Nudge, axes, st.floats(-45, 45)),
     st.builds(Confirm, axes, st.floats(-360, 720)),
     st.just(LetGo()),
+    st.builds(Remark, axes, st.sampled_from(["", "its wire is broken"])),
     st.just(Leave()),
 )
 healthy = st.floats(0.02, 0.98)

@@ -111,7 +111,7 @@ def test_each_gpio_on_the_page_is_the_profiles_and_at_that_pin_of_the_header(bui
     rows = re.findall(
         r"^\|[^|]+\| (\d+) \| (\d+) \|(?:[^|]+\|)? `([\w.]+)` \|$", text(f"{BUILDS[build]}.md"), re.MULTILINE
     )
-    used = {key: pin for pin, key in profile(build).pins() if not key.startswith("lcd.")}
+    used = {key: pin for pin, key in profile(build).pins() if not key.startswith(("lcd.", "panel."))}
     assert {key: int(gpio) for gpio, _, key in rows} == used
     assert all(GPIO_PINS[int(gpio)] == int(pin) for gpio, pin, _ in rows)
 
@@ -144,8 +144,12 @@ def test_the_panels_table_names_its_gpios() -> None:
 
 @pytest.mark.parametrize("build", ["f1efw", "g5500", "spid", "u100", "isel", "servos"])
 def test_the_panels_gpios_are_free_beside_every_profile_but_that_of_the_digital_pots(build: str) -> None:
-    used = {pin for pin, _ in profile(build).pins()}
+    used = {pin for pin, key in profile(build).pins() if not key.startswith("panel.")}
     assert not used & {*PANEL.switches.values(), *LIMITS.switches.values()}
+
+
+def test_the_shipped_panel_is_the_one_on_the_page() -> None:
+    assert profile("u100").panel == PANEL
 
 
 def test_the_jog_switches_read_what_the_page_says() -> None:

@@ -32,7 +32,7 @@ SPELLINGS = (
 
 def near_deg(elevation_deg: float) -> float:
     """How far from an order's azimuth the antenna may rest: the tolerance on the sky, backlash, noise of the pot."""
-    return 4 / math.cos(math.radians(min(elevation_deg, 80))) + 0.7
+    return 4 / max(0.1, math.cos(math.radians(elevation_deg))) + 0.7
 
 
 def shown(machine: Shack, row: int) -> tuple[str, int, int]:

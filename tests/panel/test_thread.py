@@ -44,6 +44,8 @@ SPEC = PanelSpec(
     lamps=LAMP_OUTPUTS,
     meters={axis.value: output for axis, output in METERS.items()},
     meter_full_share=FULL_SCALE,
+    end_ohm=0.0,
+    pull_ohm=1e12,
 )
 PATIENCE_S = 30.0
 

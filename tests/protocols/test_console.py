@@ -10,11 +10,12 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.faults import Missing
-from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Refusal, Release, Source, Stop
+from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Mode, Order, Park, Refusal, Release, Source, Stop
 from rotator.protocols.console import VERBS, Ask, ConsoleCommand, encode, parse
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
+from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Session
 from rotator.status import AxisStatus, Status
 
@@ -38,6 +39,11 @@ CANONICAL: list[tuple[bytes, ConsoleCommand]] = [
     (b"jog up 2", Jog(Axis.ELEVATION, Direction.PLUS, 2.0)),
     (b"jog down 5", Jog(Axis.ELEVATION, Direction.MINUS, 5.0)),
     (b"point 235 25.5", Aim(235.0, 25.5)),
+    (b"panel mode manual", TurnMode(Mode.MANUAL)),
+    (b"panel knob elevation 0.25", TurnKnob(Axis.ELEVATION, 0.25)),
+    (b"panel jog ccw 1.5", ThrowJog(Axis.AZIMUTH, Direction.MINUS, 1.5)),
+    (b"panel stop press", StopButton(True)),
+    (b"panel stop release", StopButton(False)),
     (b"help", Ask.HELP),
 ]
 ALSO: list[tuple[bytes, ConsoleCommand]] = [
@@ -49,7 +55,7 @@ ALSO: list[tuple[bytes, ConsoleCommand]] = [
     (b"confirm azimuth -90", Confirm(Axis.AZIMUTH, -90.0)),
     (b"jog cw 1,5", Jog(Axis.AZIMUTH, Direction.PLUS, 1.5)),
 ]
-COMMANDS = "status, stop, resume, home, confirm, let-go, park, jog, point, help"
+COMMANDS = "status, stop, resume, home, confirm, let-go, park, jog, point, panel, help"
 MISTAKES = [
     (b"parc", f"there is no command 'parc'; did you mean park? There are: {COMMANDS}"),
     (b"letgo", f"there is no command 'letgo'; did you mean let-go? There are: {COMMANDS}"),
@@ -112,11 +118,26 @@ def test_has_no_words_for_what_links_say(order: Order) -> None:
         encode(order)
 
 
-@pytest.mark.parametrize(("line", "order"), [each for each in CANONICAL if not isinstance(each[1], Ask)])
+@pytest.mark.parametrize(("line", "order"), [each for each in CANONICAL if isinstance(each[1], Order)])
 def test_an_order_is_handed_on_and_answered(feed: Feed, line: bytes, order: Order) -> None:
     box = Notebook()
     assert feed(ConsoleSession(box), line + b"\n") == [b"ok\n"]
     assert box.orders == [order]
+
+
+@pytest.mark.parametrize(("line", "hand"), [each for each in CANONICAL if isinstance(each[1], Hand)])
+def test_a_hand_moves_the_panel_and_no_antenna(feed: Feed, line: bytes, hand: Hand) -> None:
+    box, moved = Notebook(), []
+
+    def move(hand: Hand) -> str:
+        moved.append(hand)
+        return "" if len(moved) == 1 else "there is no such part"
+
+    session = ConsoleSession(box, move)
+    assert feed(session, line + b"\n") == [b"ok\n"]
+    assert feed(session, line + b"\n") == [b"error: there is no such part\n"]
+    assert (moved, box.orders) == ([hand, hand], [])
+    assert ConsoleSession(box).receive(line + b"\n") == [b"error: there is no simulated panel\n"]
 
 
 @pytest.mark.parametrize(("line", "why"), MISTAKES)

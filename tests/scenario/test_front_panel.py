@@ -6,6 +6,7 @@ numbers them: 0 MANUAL, 1 PARK, 2 AUTO, 3 JOG.
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable
 from typing import Any
 
@@ -71,7 +72,7 @@ class Shack:
         assert self.world.panel is not None
         self.hands: SimPanel = self.world.panel
         self.hands.set_calibrate(closed=calibrate)
-        self.loop = ControlLoop(build_controller(config), self.station.rotor, self.clock, STEP_S)
+        self.loop = ControlLoop(build_controller(config, panel=True), self.station.rotor, self.clock, STEP_S)
         self.panel = panel_thread(
             config,
             self.station.panel,
@@ -82,7 +83,7 @@ class Shack:
         )
         self._pc = Gs232Session(Client(self.loop, build_mount(config), Source("gs232", 1), clock=self.clock), Dialect.B)
         if not calibrate:
-            self.turn_mode(AUTO)
+            self.turn_mode(AUTO)  # longer than the lamp test
 
     def pc(self, line: str) -> None:
         self._pc.receive(line.encode() + b"\r")
@@ -223,6 +224,73 @@ def test_a_broken_wire_to_the_stop_button_is_a_pressed_button(shack: Shack) -> N
     shack.wait(0.15)
     assert shack.world.drives() == (0, 0)
     assert shack.loop.status.latched
+
+
+def test_for_a_second_at_the_start_every_lamp_is_lit_and_every_meter_is_at_its_end() -> None:
+    shack = Shack(calibrate=True)  # this one waits for nothing
+    shack.wait(0.9)
+    assert shack.hands.lit() == set(shack.hands.spec.lamps)
+    assert [shack.hands.needle(axis) for axis in ("azimuth", "elevation")] == pytest.approx([1.0, 1.0], abs=0.01)
+    shack.wait(0.3)
+    assert shack.hands.lit() != set(shack.hands.spec.lamps)
+
+
+@pytest.mark.parametrize("wire", ["wire", "supply", "ground"])
+@pytest.mark.parametrize("axis", ["azimuth", "elevation"])
+@pytest.mark.parametrize("turned", [0.05, 0.5, 0.98])
+def test_a_broken_wire_of_a_knob_moves_nothing_in_manual_and_is_told(axis: str, wire: str, turned: float) -> None:
+    shack = Shack()
+    shack.hands.turn_knob("azimuth", turned)
+    shack.hands.turn_knob("elevation", turned)
+    shack.turn_mode(MANUAL)
+    shack.wait(3.0)
+    stood = shack.shafts
+    shack.world.inject(f"panel-{axis}-knob-{wire}-broken")
+    shack.wait(10.0)
+    assert shack.shafts == stood
+    status = shack.loop.status.axis(Axis(axis))
+    assert [notice.lcd for notice in status.notices] == ["KNOB OPEN"]
+    assert f"the panel's {axis} knob reads" in str(status.notices[0])
+    shack.world.clear(f"panel-{axis}-knob-{wire}-broken")
+    shack.wait(5.0)
+    assert shack.shafts == stood, "mended, it must be turned before it counts"
+    assert shack.loop.status.axis(Axis(axis)).notices == ()
+
+
+def test_a_knob_with_a_loose_wire_never_sends_the_antenna_to_an_end() -> None:
+    """It makes and breaks contact at random, while the other knob is turned."""
+    chance = random.Random(1)
+    shack = Shack()
+    shack.hands.turn_knob("azimuth", 0.25)
+    shack.turn_mode(MANUAL)
+    for _ in range(120):
+        (shack.world.inject if chance.random() < 0.5 else shack.world.clear)("panel-azimuth-knob-wire-broken")
+        shack.hands.turn_knob("elevation", chance.uniform(0.1, 0.3))
+        shack.wait(chance.choice([0.05, 0.1, 0.3, 1.5]))
+        assert shack.shafts[0] == pytest.approx(90.0, abs=2.0)
+
+
+def test_the_knobs_reach_both_ends_of_the_range(shack: Shack) -> None:
+    shack.turn_mode(MANUAL)
+    for turned, elevation_deg in ((1.0, 180.0), (0.0, 0.0)):
+        shack.hands.turn_knob("azimuth", turned)
+        shack.hands.turn_knob("elevation", turned)
+        shack.wait(90.0)
+        azimuth_deg, stands_deg = shack.shafts
+        assert stands_deg == pytest.approx(elevation_deg, abs=2.0)
+        assert min(azimuth_deg, 360.0 - azimuth_deg) <= 2.0, "0 and 360 are the same direction"
+
+
+def test_a_move_by_the_knobs_turns_the_azimuth_first_then_the_elevation(shack: Shack) -> None:
+    shack.turn_mode(MANUAL)
+    seen: list[tuple[int, int]] = []
+    shack.world.gpio.on_edges.append(lambda _now_s, _changes: seen.append(shack.world.drives()))
+    shack.hands.turn_knob("elevation", 0.5)
+    shack.hands.turn_knob("azimuth", 0.5)
+    shack.wait(60.0)
+    turns = [drives for drives in seen if drives != (0, 0)]
+    assert (turns[0], turns[-1]) == ((1, 0), (0, 1))
+    assert turns == sorted(turns, reverse=True), "first the whole azimuth, then the elevation, never both"
 
 
 def test_a_dead_panel_bus_ends_a_jog(shack: Shack) -> None:

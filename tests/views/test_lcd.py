@@ -14,6 +14,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.switched import BLIND
 from rotator.faults import Fault, FaultKind, Missing, Notice
+from rotator.orders import Mode
 from rotator.status import AxisStatus, Status
 from rotator.views.lcd import rows
 
@@ -53,6 +54,13 @@ def uppers(now: Status, seconds: int = 16) -> list[str]:
 
 def test_satellite_over_antenna() -> None:
     assert rows(status(), 0.0) == ("SAT A:235 E:025 ", "ANT A:231 E:024 ")
+
+
+def test_the_panel_s_mode_is_a_letter_and_a_notice_where_programs_are_not_obeyed() -> None:
+    auto = status(mode=Mode.AUTO, mode_switch=True)
+    assert rows(auto, 2.5) == ("SAT A:235 E:025 ", "ANT A:231 E:024A")
+    manual = status(mode=Mode.MANUAL, mode_switch=True)
+    assert rows(manual, 2.5) == ("MODE MANUAL     ", "ANT A:231 E:024M")
 
 
 def test_no_order_yet() -> None:

@@ -226,6 +226,14 @@ PROGRAMS = (
         (b"P 114.8 9.05\n",),
         "its source",
     ),
+    Program(
+        "Look4Sat (Android), Bluetooth",
+        ("easycomm2",),
+        "[the Pi's own Bluetooth](wiring-servos.md#a-phone), `/dev/rfcomm0`",
+        "the format `AZ$AZ EL$EL\\r`",
+        (b"AZ114.8 EL9.05\r",),
+        "its source",
+    ),
 )
 
 

@@ -17,7 +17,7 @@ from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import Self
 
-from firmware_sim.rotors.relay_pot import SimRelayPotRotor
+from firmware_sim.rotors.geared import RelayedRotor
 from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
 from rotator.assembly.simulation import simulated_rotor
 from rotator.config.load import parse
@@ -96,8 +96,20 @@ class Nursery:
 class Site:
     """Everything plugged in and no box running yet. A Raspberry Pi's kernel: lines stay driven when let go."""
 
-    def __init__(self, nursery: Nursery, folder: Path, extra: str = "") -> None:
+    def __init__(
+        self,
+        nursery: Nursery,
+        folder: Path,
+        extra: str = "",
+        *,
+        box: str = BOX,
+        rotor: str = ROTOR,
+        contacts: tuple[int, ...] = (),
+        start_deg: tuple[float, float] = (100.0, 20.0),
+    ) -> None:
+        """`box` and `rotor`: the configurations of the box and of the simulated rotor; `contacts`: what it pulls."""
         self._nursery = nursery
+        self._box, self._rotor, self._contacts, self._start_deg = box, rotor, contacts, start_deg
         self.folder = folder
         self.log = folder / "box.log"
         self.log.touch()
@@ -111,10 +123,10 @@ class Site:
         with ExitStack() as stack:
             stack.enter_context(persisting(True))
             self.chip = stack.enter_context(GpioChip())
-            self.world = simulated_rotor(parse(ROTOR, "rotor"), time.monotonic, None, (100.0, 20.0))
-            assert isinstance(self.world, SimRelayPotRotor)
+            self.world = simulated_rotor(parse(self._rotor, "rotor"), time.monotonic, None, self._start_deg)
+            assert isinstance(self.world, RelayedRotor)
             self.adapter = stack.enter_context(I2CAdapter(self.world.bus))
-            stack.enter_context(Plant(self.chip, self.world, (*RELAYS, MASTER)))
+            stack.enter_context(Plant(self.chip, self.world, (*RELAYS, MASTER), self._contacts))
             self.edges = stack.enter_context(EdgeRecorder(self.chip))
             stack.callback(self.kill)
             self._stack = stack.pop_all()
@@ -125,7 +137,7 @@ class Site:
         self._stack.close()
 
     def write_config(self) -> None:
-        box = BOX.format(low=LOW, high=HIGH, bus=self.adapter.number, state=self.state, port=PORT)
+        box = self._box.format(low=LOW, high=HIGH, bus=self.adapter.number, state=self.state, port=PORT)
         self.config.write_text(box + self._extra)
 
     # --- the box

@@ -1,0 +1,54 @@
+"""A line after each move on a link, `AZ = 235, EL = 25`, as KO6TH's controller prints it: an option of a GS-232 link.
+
+Knows when the antenna has moved and stands again. Wraps the link's own session, whose answers go through unchanged.
+"""
+
+from __future__ import annotations
+
+from rotator.protocols.gs232 import whole
+from rotator.protocols.session import Box, Session
+
+LOOK_S = 0.25
+"""The time between two looks at the status."""
+
+
+class MoveReport:
+    """Begins with the first bytes of the program at the other end: before those no link knows that there is one."""
+
+    every_s = LOOK_S
+
+    def __init__(self, session: Session, box: Box) -> None:
+        self._session = session
+        self._box = box
+        self._heard = False
+        self._moved = False
+        """The antenna moves, or has moved since the last line."""
+
+    @property
+    def idle_s(self) -> float | None:
+        return self._session.idle_s
+
+    @property
+    def closed(self) -> bool:
+        return self._session.closed
+
+    def receive(self, data: bytes) -> list[bytes]:
+        self._heard = True
+        return self._session.receive(data)
+
+    def idle(self) -> list[bytes]:
+        return self._session.idle()
+
+    def beat(self) -> list[bytes]:
+        """The line, when the antenna stands after a move."""
+        status = self._box.status()
+        if not self._heard or status.moving:
+            self._moved = self._heard
+            return []
+        azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
+        if not self._moved or azimuth_deg is None or elevation_deg is None:
+            return []
+        self._moved = False
+        rounded = whole(azimuth_deg)
+        azimuth = rounded if 0 <= rounded <= 360 else rounded % 360
+        return [f"AZ = {azimuth}, EL = {whole(elevation_deg)}\r\n".encode()]
