@@ -180,17 +180,18 @@ def config(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def send(tmp_path: Path) -> Callable[[bytes], None]:
-    """Write to the pseudo-terminal at `gs232`."""
+def send(tmp_path: Path) -> Iterator[Callable[[bytes], None]]:
+    """Write to the pseudo-terminal at `gs232`, as a terminal program that stays: a jog ends with its program."""
+    lines: list[int] = []
 
     def write(data: bytes) -> None:
-        line = os.open(tmp_path / "gs232", os.O_RDWR | os.O_NOCTTY)
-        try:
-            os.write(line, data)
-        finally:
-            os.close(line)
+        if not lines:
+            lines.append(os.open(tmp_path / "gs232", os.O_RDWR | os.O_NOCTTY))
+        os.write(lines[0], data)
 
-    return write
+    yield write
+    for line in lines:
+        os.close(line)
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
