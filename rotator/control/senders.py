@@ -113,7 +113,11 @@ class Senders:
             each: sender.freed() if each == source else replace(sender.freed(), stopped_by=source)
             for each, sender in self._senders.items()
         }
-        self._gone = {link: replace(sender.freed(), stopped_by=source) for link, sender in self._gone.items()}
+        # A script that connects for every order may stop and go on: its own link's stop does not silence it.
+        self._gone = {
+            link: sender.freed() if link == source.link else replace(sender.freed(), stopped_by=source)
+            for link, sender in self._gone.items()
+        }
 
     def take(self, source: Source, now_s: float) -> None:
         """The latest order of `source` has an effect: streams that point elsewhere have none until they pause."""

@@ -291,3 +291,17 @@ def test_many_connections_are_not_all_named(authority: Authority) -> None:
     for number in range(100):
         authority.may_move(Source("rotctld", number), 1.0)
     assert len(authority.ignored(1.0)) == 4
+
+
+@pytest.mark.parametrize(("stops_on", "goes_on"), [("rotctld", True), ("gs232b", False)])
+def test_a_script_that_connects_for_every_order_may_stop_and_go_on(stops_on: str, *, goes_on: bool) -> None:
+    """A stop on another link holds it; its own must not, for it could never move the antenna again."""
+    authority = Authority()
+    for number in range(1, 8):
+        script = Source("rotctld", number)
+        assert authority.may_move(script, float(number), (90.0 + number, 30.0))
+        authority.left(script, float(number))
+    stopping = Source(stops_on, 100)
+    authority.stopped(stopping, 8.0, latch=False)
+    authority.left(stopping, 8.0)
+    assert authority.may_move(Source("rotctld", 101), 9.0, (20.0, 30.0)) is goes_on

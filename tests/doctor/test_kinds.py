@@ -22,7 +22,7 @@ azimuth_low = 18
 
 
 def test_inputs_are_looked_at_as_well(pi: Pi) -> None:
-    pi.kind("relay-pulse", SWITCHES)
+    pi.kind("relay-pulse", SWITCHES + "[pulses.azimuth]\nhome_deg = -3\n")
     hold(pi, "onewire@0", 16)
     taken, free = pi.found("GPIO lines")
     assert taken.found == "GPIO 16, pulses.azimuth.contact, is held by onewire@0"

@@ -97,7 +97,15 @@ class Asker:
         return seen
 
     def arrive(self, goal: tuple[float, float]) -> None:
-        self.until(lambda seen: all(abs(at - to) <= NEAR_DEG for at, to in zip(seen, goal, strict=True)))
+        """Order again and again, as a tracking program does: a box with a panel obeys once it believes its switch."""
+
+        def near(seen: tuple[float, float]) -> bool:
+            if all(abs(at - to) <= NEAR_DEG for at, to in zip(seen, goal, strict=True)):
+                return True
+            self.say("P", *map(str, goal))
+            return False
+
+        self.until(near)
 
     def rest(self) -> tuple[float, float]:
         """Until two answers in a row agree; of a rotor that turns they would not."""
