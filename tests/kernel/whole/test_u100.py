@@ -22,12 +22,14 @@ START_DEG = (23.7, 11.3)
 PULSES = """
 [pulses]
 debounce_s = 0.04
+pull = false
 [pulses.azimuth]
 contact = 17
 [pulses.elevation]
 contact = 27
 """
-"""The plant moves a contact every 20 ms: a bounce then lasts as long, and the debounce is longer."""
+"""The plant moves a contact every 20 ms: a bounce then lasts as long, and the debounce is longer. The kernel's
+simulated chip takes a program's pull-up for the level of the line: each start of the box would open the contacts."""
 BOX = """
 [rotor]
 type = "relay-pulse"
