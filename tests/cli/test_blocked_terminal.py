@@ -44,7 +44,11 @@ class Client:
         return [self._lines.readline().strip() for _ in range(lines)]
 
     def azimuth_deg(self) -> float:
-        return float(self.ask("p", 2)[0])
+        """Asks again where the sensors have not given a reading yet: then the answer is one line."""
+        while (first := self.ask("p")[0]).startswith("RPRT"):
+            threading.Event().wait(0.05)
+        self._lines.readline()
+        return float(first)
 
     def close(self) -> None:
         self._lines.close()
