@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+import serial
 
 if TYPE_CHECKING:
     from tests.foreign.conftest import RunningBox
@@ -208,16 +209,22 @@ def test_model_2_reads_the_limits_and_parks(start_box: Start, rotctl: Callable[.
 
 
 def test_a_stop_on_one_link_silences_the_stream_on_another(start_box: Start, rotctl: Callable[..., str]) -> None:
+    """The stream is one program that goes on; a program that is started after the stop is heard."""
     box = start_box()
     tcp = f"127.0.0.1:{box.rotctld_port}"
-    rotctl(603, box.pty, "P", "90", "20")
-    arrive(rotctl, 603, box.pty, (90, 20))
-    rotctl(2, tcp, "S")
-    stopped = position(rotctl(603, box.pty, "p"))
+    with serial.Serial(str(box.pty)) as program:
+        for _ in range(5):
+            program.write(b"W090 020\r")
+        arrive(rotctl, 2, tcp, (90, 20))
+        rotctl(2, tcp, "S")
+        stopped = position(rotctl(2, tcp, "p"))
+        for _ in range(3):
+            program.write(b"W200 020\r")
+            assert position(rotctl(2, tcp, "p")) == pytest.approx(stopped, abs=1)
+        rotctl(2, tcp, "P", "120", "20")
+        arrive(rotctl, 2, tcp, (120, 20))
     rotctl(603, box.pty, "P", "200", "20")
-    assert position(rotctl(603, box.pty, "p")) == pytest.approx(stopped, abs=1)
-    rotctl(2, tcp, "P", "120", "20")
-    arrive(rotctl, 2, tcp, (120, 20))
+    arrive(rotctl, 603, box.pty, (200, 20))
 
 
 def test_prosistel_s_elevation_box(start_box: Start, rotctl: Callable[..., str]) -> None:
