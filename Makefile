@@ -40,7 +40,7 @@ test-rotors: $(VENV)/.dev
 
 # The five machines as their builders have them, in real time: processes, threads, files, clients, power cuts.
 test-machines: $(VENV)/.dev
-	$(BIN)/pytest -n 5 --dist worksteal tests/machines
+	$(BIN)/pytest -n 8 --dist worksteal tests/machines
 
 # install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in ~/.cache/gs232-rotator.
 test-install: $(VENV)/.dev
