@@ -6,6 +6,8 @@ The station is put where the Sun stands well up at this hour. Where the Sun is, 
 from __future__ import annotations
 
 import math
+import os
+import signal
 import subprocess
 from collections.abc import Callable
 from datetime import UTC, datetime
@@ -64,7 +66,9 @@ def test_the_antenna_follows_its_sun(
 
     with screen() as desk, (tmp_path / "wsjtx.log").open("wb") as log:
         environment = {**desk.environment, **{name: str(path) for name, path in home.items()}, "HOME": str(tmp_path)}
-        client = subprocess.Popen([program], env=environment, cwd=tmp_path, stdout=log, stderr=log)
+        client = subprocess.Popen(
+            [program], env=environment, cwd=tmp_path, stdout=log, stderr=log, start_new_session=True
+        )
         try:
 
             def off_deg() -> float:
@@ -73,7 +77,7 @@ def test_the_antenna_follows_its_sun(
 
             box.until(lambda world: off_deg() < NEAR_DEG and world.drives == (0, 0), "it comes to the Sun")
         finally:
-            client.kill()
+            os.killpg(client.pid, signal.SIGKILL)  # with its decoder, a process of its own
             client.wait()
     stood = box.stands()
     assert apart_deg(stood, sun(station, datetime.now(UTC))) < NEAR_DEG
