@@ -177,7 +177,7 @@ class DigipotDrive:
         box.hold()
 
     def _only_a_cut_stops(self, box: ControlBox) -> bool:
-        """Whether it may be turning from where nobody knows: its own command began that, and there is a relay."""
+        """Whether it may be turning from an unknown angle: its own command began that, and there is a relay."""
         return box.until_s is not None and not box.known and self._powered and self._enable is not None
 
     def _cut(self) -> None:

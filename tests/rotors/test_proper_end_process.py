@@ -38,7 +38,7 @@ config = load(path)
 station = Station(config, time.monotonic, time.sleep, counts=Path(sys.argv[2]))
 asyncio.run(run_app(App(config, path, station), [], Output(sys.stdout), None))
 """
-"""`rotator run`, but for the counts, which are kept for real hardware only."""
+"""`rotator run`, but with a file of counts: without `[sim] world` a simulated rotor keeps none."""
 
 
 class Box:
