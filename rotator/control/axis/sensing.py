@@ -16,7 +16,7 @@ from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.sparks import Place, Sparks
 from rotator.faults import Fault, FaultKind, Notice
 
-BAD_FOR_S = 0.1
+BAD_FOR_S = 0.09
 """Bad readings are a fault after this time (the third one in a row at 20 Hz)."""
 RIDDEN_S = 0.16
 """A motor that runs may go on for so long after the last good reading."""
@@ -103,7 +103,7 @@ class Sensing:
         """Whether the latest reading is a good one."""
         self.places: tuple[Place, ...] = ()
         """The angles that the latest reading shows for the first time, each with its moment: one, or none; or some at
-        once where the axis turns out to be somewhere else."""
+        once where the axis turns out to be somewhere else. Without a calibration, in degrees of the sensor's span."""
         self._sparks = Sparks(fastest_dps)
         self._rate = BadReadings()
         self._seen_s = -math.inf
@@ -184,8 +184,9 @@ class Sensing:
             return self._off_line
         self._off_line = None
         self.raw = reading.raw
+        self.places = places
         if self.calibration is not None:
-            self.angle_deg, self.places = angle_deg, places
+            self.angle_deg = angle_deg
         if len(places) > 1:
             self._moved_s.append(reading.at_s)
         return None
