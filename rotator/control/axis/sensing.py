@@ -156,7 +156,7 @@ class Sensing:
         # What lasts is a fault of its own, and so is what the rotor reports: neither spoils the rate.
         if new and not lasts and reading.condition.fault is None:
             self._rate.note(reading.at_s, bad=problem is not None or missed)
-        return (problem if lasts else jumping) or self._too_many(now_s, problem)
+        return jumping or (problem if lasts else self._too_many(now_s, problem))
 
     def _problem(self, reading: Reading, now_s: float) -> Fault | None:
         low, high = self._window.low_raw, self._window.high_raw
