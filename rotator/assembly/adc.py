@@ -88,6 +88,7 @@ def simulate_adc(config: Config, rotor: SimRotor, clock: Callable[[], float]) ->
 def _wire_ads1115(table: Adc, rotor: SimRotor, clock: Callable[[], float]) -> SimAds1115:
     chip = SimAds1115(clock, vdd_v=max(3.3, table.supply_v))
     rotor.wire_i2c("adc", table.address, chip)
+    rotor.faults["adc-frozen"] = SimFault(lambda: setattr(chip, "frozen", True), lambda: setattr(chip, "frozen", False))
     return chip
 
 
