@@ -162,7 +162,7 @@ class Controller:
                 self._stop(source, axes, latch=latch, now_s=now_s)
             case Release():
                 self._authority.released()
-                self._acknowledge()
+                self._acknowledge(now_s, by_person=True)
             case ClearTimed():
                 self._timed.clear()
             case Speed(level):
@@ -283,19 +283,19 @@ class Controller:
         if len(axes) == len(self._axes):
             self._authority.stopped(source, now_s, latch=latch)
             if not latch and not self._authority.latched:
-                self._acknowledge()
+                self._acknowledge(now_s, by_person=False)
 
     def _halt(self, axes: tuple[Axis, ...]) -> None:
         self._timed.halt()
         self._aiming.halt(axes)
 
-    def _acknowledge(self) -> None:
+    def _acknowledge(self, now_s: float, *, by_person: bool) -> None:
         if any(control.fault for control in self._axes.values()):
             # The order that was in force when the fault came is not taken up again.
             self._aiming.drop()
         for axis, control in self._axes.items():
-            control.acknowledge()
-            self.errands.append(Acknowledge(axis))
+            if control.acknowledge(now_s, by_person=by_person):
+                self.errands.append(Acknowledge(axis))
 
     def _calibrate(self, axis: Axis, now_s: float, *, high_end: bool) -> None:
         if any(control.moving(now_s) for control in self._axes.values()):
