@@ -15,7 +15,7 @@ from collections import Counter
 from pathlib import Path
 
 from benchmarks.mutants.explained import Explained, read, stale
-from benchmarks.mutants.places import mutants
+from benchmarks.mutants.places import Mutant, mutants
 from benchmarks.mutants.trial import Copy, Outcome, Ran
 
 CHECKOUT = Path(__file__).parents[2]
@@ -31,16 +31,27 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--sample", type=int, help="places a file; left out, all")
     parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(1 << 31))
+    parser.add_argument("--near", action="store_true", help="only the tests that mirror or import a file: much quicker")
     parser.add_argument("files", nargs="*", default=FILES, help="files or patterns; left out, the rooms that matter")
     given = parser.parse_args()
-    files = sorted({str(path.relative_to(CHECKOUT)) for each in given.files for path in CHECKOUT.glob(each)})
+    files = sorted(
+        {
+            str(path.relative_to(CHECKOUT))
+            for each in given.files
+            for path in CHECKOUT.glob(each)
+            if path.stem != "__init__"
+        }
+    )
     explained = read(SURVIVORS)
     print(f"seed {given.seed}", flush=True)
     killed = tried = 0
     with tempfile.TemporaryDirectory() as folder:
         copy = Copy(CHECKOUT, Path(folder))
         for file in files:
-            counts = _try(copy, file, given.sample, random.Random(f"{given.seed} {file}"), explained)
+            tests = copy.tests_of(file)
+            chance = random.Random(f"{given.seed} {file}")
+            rounds = (tests.own,) if given.near else (tests.own, tests.others)
+            counts = _try(copy, file, rounds, mutants(_text(file), given.sample, chance), explained)
             killed += counts[Outcome.KILLED] + counts[Outcome.TIMEOUT]
             tried += counts.total()
     old = stale(explained, CHECKOUT)
@@ -50,23 +61,25 @@ def main() -> None:
     sys.exit(share < LEAST_KILLED or bool(old))
 
 
+def _text(file: str) -> str:
+    return (CHECKOUT / file).read_text(encoding="utf-8")
+
+
 def _try(
-    copy: Copy, file: str, sample: int | None, chance: random.Random, explained: list[Explained]
+    copy: Copy, file: str, rounds: tuple[tuple[str, ...], ...], chosen: list[Mutant], explained: list[Explained]
 ) -> Counter[Outcome]:
-    """All chosen mutants of one file. An explained survivor is not counted."""
+    """All chosen mutants of one file, each in rounds of tests until one fails. An explained survivor is not counted."""
     counts: Counter[Outcome] = Counter()
-    chosen = mutants((CHECKOUT / file).read_text(encoding="utf-8"), sample, chance)
-    tests = copy.tests_of(file)
-    if not chosen:
-        return counts
-    rounds = [(each, _right(copy, file, each)) for each in (tests.own, tests.others) if each]
+    limits: dict[tuple[str, ...], Ran] = {}
     survivors = []
     for mutant in chosen:
-        copy.with_source(file, mutant.source)
         outcome = Outcome.SURVIVED
-        for each, right in rounds:
-            if outcome is Outcome.SURVIVED:
-                outcome = copy.run(each, right).outcome
+        for each in rounds:
+            if each and outcome is Outcome.SURVIVED:
+                copy.with_source(file, None)
+                limits[each] = limits.get(each) or _right(copy, file, each)
+                copy.with_source(file, mutant.source)
+                outcome = copy.run(each, limits[each]).outcome
         if outcome is Outcome.SURVIVED and any(each.covers(file, mutant) for each in explained):
             continue
         counts[outcome] += 1
@@ -75,7 +88,7 @@ def _try(
             print(survivors[-1], file=sys.stderr, flush=True)
     copy.with_source(file, None)
     dead = counts.total() - counts[Outcome.SURVIVED]
-    print(f"{file}: {dead} of {counts.total()} killed, {len(tests.own)} test files and {len(tests.others)}", flush=True)
+    print(f"{file}: {dead} of {counts.total()} killed, {sum(map(len, rounds))} test files", flush=True)
     print("".join(f"{each}\n" for each in survivors), end="", flush=True)
     return counts
 
