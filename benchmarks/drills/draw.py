@@ -10,7 +10,7 @@ import random
 from benchmarks.drills.boxes import BOTH, KINDS, ROTORS, Mast, draw_mast
 from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
 
-SHORTEST_S, LONGEST_S = 60.0, 1200.0
+SHORTEST_S, LONGEST_S = 30.0, 900.0
 WAYS = ("cw", "ccw", "up", "down")
 BADS = ("zero", "full", "far", "near", "last")
 JUNK = ("W1", "\x00\xff", "P nan nan\n", "AZ EL 12\n", "M 99 99\r", "stop?", ";;;", "<PST>", "\r\n", "W999 999\r")

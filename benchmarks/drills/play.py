@@ -77,6 +77,8 @@ class _Play:
         self._period_s = 1 / self._config.control.rate_hz
         self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
         self._acted_s = -1.0
+        self._back_s = 0.0
+        """When the program began: what was sent to it before is lost."""
 
     @property
     def _now_s(self) -> float:
@@ -105,7 +107,7 @@ class _Play:
                 event = events.popleft()
                 self._sleep_until(event.at_s)
                 before_s = self._now_s
-                self._happen(event)
+                self._happen(replace(event, at_s=before_s), late_s=before_s - event.at_s)
                 if self._now_s > before_s + self._period_s:  # the control thread had no turn meanwhile
                     next_s = self._now_s
                 continue
@@ -127,7 +129,7 @@ class _Play:
         self._judges.look(now_s, self._world.axes)
         self._silence.look(now_s, self._world.axes, self._box.loop.status)
 
-    def _happen(self, event: Event) -> None:
+    def _happen(self, event: Event, late_s: float) -> None:
         match event.who:
             case str(who) if who == WORLD:
                 self._befall(event)
@@ -139,7 +141,7 @@ class _Play:
                 self._orders.note(event)
                 words = [f"{word:.3f}" if isinstance(word, float) else str(word) for word in (event.what, *event.args)]
                 self._box.hand(words)
-            case _:
+            case _ if event.at_s - late_s >= self._back_s:
                 self._hear(event)
 
     def _hear(self, event: Event) -> None:
@@ -202,13 +204,13 @@ class _Play:
         self._silence.pause()
         self._pass(event.number(0), dead=True)
         self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world)
+        self._back_s = self._now_s
 
     def _pass(self, seconds: float, *, dead: bool) -> None:
         """The world goes on, and the control thread gets no turn."""
-        end_s = self._now_s + seconds
         self._judges.unattended_s = self._now_s
-        while self._now_s < end_s:
-            self._sleep_until(min(self._now_s + STEP_S, end_s))
+        for _ in range(math.ceil(seconds / STEP_S)):
+            self._clock.sleep(STEP_S)
             self._troubles.look()
             self._world.look()
             self._judges.look(self._now_s, self._world.axes)

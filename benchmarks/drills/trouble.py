@@ -112,11 +112,9 @@ class Troubles:
         axis = str(args[0]) if args else ""
         match what:
             case "fault":
-                if axis in self._rotor.faults:
-                    self._rotor.inject(axis)
+                self._rotor.inject(axis)
             case "clear":
-                if axis in self._rotor.faults:
-                    self._rotor.clear(axis)
+                self._rotor.clear(axis)
             case "weld":
                 self._waiting[axis, int(float(args[1]))] = None
             case "unweld":
