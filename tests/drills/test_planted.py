@@ -54,11 +54,20 @@ def test_a_planted_bug_fits_the_source_and_comes_out_again(bug: Bug, tmp_path: P
 def test_there_are_planted_bugs_in_every_layer_that_moves_a_motor() -> None:
     rooms = {str(Path(path).parent) for bug in BUGS.values() for path in bug.paths}
     assert len(BUGS) >= 22
-    assert rooms >= {"hw/drives", "hw/moteus", "hw/sensors", "rotator/control", "rotator/control/axis", "rotator/runtime"}
+    assert rooms >= {
+        "hw/drives",
+        "hw/moteus",
+        "hw/sensors",
+        "rotator/control",
+        "rotator/control/axis",
+        "rotator/runtime",
+    }
 
 
 def test_no_planted_bug_changes_the_simulated_world_or_its_judges() -> None:
-    assert not [path for bug in BUGS.values() for path in bug.paths if path.startswith(("firmware_sim/", "benchmarks/"))]
+    assert not [
+        path for bug in BUGS.values() for path in bug.paths if path.startswith(("firmware_sim/", "benchmarks/"))
+    ]
 
 
 def test_a_patch_names_what_is_wrong_and_who_should_see_it() -> None:
