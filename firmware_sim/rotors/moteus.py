@@ -107,6 +107,10 @@ class SimMoteusRotor(SimRotor):
         """The controller of `azimuth` or `elevation`, for tests."""
         return self._controllers[axis]
 
+    def sense(self, axis: str) -> int:
+        """1: the controller's scale rises as the axis's does; -1: it falls."""
+        return 1 if self._specs[axis].rev_per_turn > 0 else -1
+
     def antenna(self) -> tuple[float, float]:
         azimuth_deg, elevation_deg = (self._antenna_deg(name) for name in self._specs)
         return azimuth_deg, elevation_deg

@@ -94,6 +94,9 @@ class Controller:
                 control.see(readings[axis], now_s)
         for source, order in orders:
             self._take(source, order, now_s)
+        if any(control.fault for control in self._axes.values()):
+            # A list that went on when the fault is acknowledged would start a motor without an order.
+            self._timed.halt()
         if (point := self._timed.due(now_s)) is not None:
             self._point_at(Aim(*point), now_s)
         self._home_next(now_s)

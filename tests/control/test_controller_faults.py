@@ -196,6 +196,24 @@ def test_the_link_that_said_s_moves_the_antenna_again(desk: Any) -> None:
     assert desk.step(Aim(235, 60), by=desk.OTHER) == {AZ: MINUS, EL: PLUS}
 
 
+@pytest.mark.parametrize("by", [Release(), Stop()], ids=["resume", "S"])
+@pytest.mark.parametrize("axis", list(Axis), ids=lambda axis: axis.value)
+def test_a_timed_list_does_not_go_on_after_a_fault_is_acknowledged(desk: Any, axis: Axis, by: Order) -> None:
+    desk.step(LoadTimed(5.0, ((110, 20), (200, 30), (300, 40))), RunTimed())
+    desk.run(2.0)
+    desk.instead[axis] = None
+    desk.run(2.0)
+    assert desk.status.faults
+    desk.instead.clear()
+    desk.run(1.0)
+    desk.step(by)
+    assert desk.status.faults == ()
+    other = EL if axis is AZ else AZ
+    assert {moved for moved, _ in desk.run(20.0)} <= {other}, "it goes on to the point that it had been given"
+    assert desk.run(20.0) == set()
+    assert desk.step(RunTimed()) != RESTING, "the next point comes with T, and only then"
+
+
 def test_a_timed_list_does_not_run_on_after_a_stop_from_elsewhere(desk: Any) -> None:
     desk.step(LoadTimed(1.0, ((110, None), (200, None), (300, None))), RunTimed(), by=desk.OTHER)
     desk.step(Stop(), by=desk.LINK)
