@@ -62,7 +62,10 @@ class SimPot:
 
     def ratio(self, shaft_deg: float) -> float:
         """The wiper as a share of the supply, 0 to 1."""
-        match self.fault:
+        fault = self.fault
+        if fault is PotFault.NONE:
+            return self._healthy(shaft_deg)
+        match fault:
             case PotFault.OPEN:
                 return 0.0
             case PotFault.SHORTED:
@@ -71,8 +74,6 @@ class SimPot:
                 return self._stuck_ratio
             case PotFault.REVERSED:
                 return 1.0 - self._healthy(shaft_deg)
-            case PotFault.NONE:
-                return self._healthy(shaft_deg)
 
     def break_down(self, fault: PotFault, shaft_deg: float) -> None:
         """Begin that fault with the shaft at `shaft_deg`; NONE ends it. A stuck wiper then stays at that angle."""
