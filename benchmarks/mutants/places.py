@@ -96,14 +96,14 @@ def _operators() -> Iterator[tuple[str, Any]]:
 
 
 def _annotations(source: str) -> Iterator[tuple[Position, Position]]:
-    """What makes no difference: annotations are never run, and `strict` of `zip` is for what the types cannot say."""
+    """What makes no difference: annotations are never run, and these keywords only forbid what is not done."""
     for node in ast.walk(ast.parse(source)):
         match node:
             case ast.arg(annotation=ast.expr() as said) | ast.AnnAssign(annotation=said):
                 pass
             case ast.FunctionDef(returns=ast.expr() as said) | ast.AsyncFunctionDef(returns=ast.expr() as said):
                 pass
-            case ast.keyword(arg="strict", value=said):
+            case ast.keyword(arg="strict" | "frozen" | "slots", value=said):
                 pass
             case _:
                 continue
