@@ -81,7 +81,7 @@ def mutants(source: str, sample: int | None, chance: random.Random) -> list[Muta
             continue
         new = changed.splitlines()
         at = next((at for at, (a, b) in enumerate(zip(lines, new, strict=False)) if a != b), place[0] - 1)
-        found.append(Mutant(at + 1, place[1], name, lines[at].strip(), new[at].strip(), changed))
+        found.append(Mutant(place[0], place[1], name, lines[place[0] - 1].strip(), new[at].strip(), changed))
     return found
 
 

@@ -54,9 +54,14 @@ def test_it_knows_the_target_between_the_orders_and_ahead_of_them(
     assert off_deg(track, 75.0) < soon_deg
 
 
-def test_whole_degrees_are_averaged_far_below_their_rounding() -> None:
-    squares = [off_deg(tracked(until_s, 0), until_s) ** 2 for until_s in range(60, 120, 3)]
-    assert math.sqrt(sum(squares) / len(squares)) < 0.3
+@pytest.mark.parametrize(
+    ("decimals", "now_deg", "in_20_s_deg"),
+    [(0, 0.12, 0.45), (1, 0.015, 0.065), (2, 0.003, 0.028)],
+)
+def test_roundings_are_averaged_far_below_themselves(decimals: int, now_deg: float, in_20_s_deg: float) -> None:
+    for ahead_s, limit_deg in ((0.0, now_deg), (20.0, in_20_s_deg)):
+        squares = [off_deg(tracked(now_s, decimals), now_s + ahead_s) ** 2 for now_s in range(60, 120, 3)]
+        assert math.sqrt(sum(squares) / len(squares)) < limit_deg
 
 
 @pytest.mark.parametrize("decimals", [0, 2])
