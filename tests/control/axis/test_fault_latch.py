@@ -49,6 +49,13 @@ def test_acknowledged_it_ends_unless_its_cause_is_still_there() -> None:
     assert latch.fault is None
 
 
+def test_acknowledged_before_anything_was_seen_there_is_no_fault() -> None:
+    latch = FaultLatch()
+    latch.fail(STANDS)
+    latch.acknowledge()
+    assert latch.fault is None
+
+
 def test_what_is_there_now_takes_the_place_of_what_is_acknowledged() -> None:
     latch = FaultLatch()
     latch.note(STANDS, cause=None)
