@@ -13,6 +13,7 @@ from benchmarks.drills.script import PANEL, PEOPLE, Event
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
+TURN_DEG = 360.0
 UNCALIBRATED_S = 2.0
 """A press of an axis that was never set up."""
 SWITCH_S = 1.3
@@ -154,10 +155,10 @@ class Orders:
     def _note_order(self, event: Event) -> None:
         match event.what:
             case "aim" | "stream":
-                self._aim(event, "azimuth", self._azimuths(event.number(0), event.number(1)))
+                self._aim_azimuth(event, event.number(1))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
-                self._aim(event, "azimuth", self._azimuths(event.number(0), 0.0))
+                self._aim_azimuth(event, 0.0)
             case "aim-elevation":
                 self._aim(event, "elevation", self._elevations(event.number(0)))
             case "jog":
@@ -206,6 +207,14 @@ class Orders:
         goals[event.who] = Goal(angles_deg, 0, event.at_s, rate_dps=rate_dps)
         if self._parks_idle:
             goals.setdefault("idle", Goal((self._park_deg[axis],), 0, event.at_s))
+
+    def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
+        """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
+        angles_deg = self._azimuths(event.number(0), elevation_deg)
+        before = self.axes["azimuth"].goals.get(event.who)
+        if before and (event.number(0) > TURN_DEG or not angles_deg):
+            angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
+        self._aim(event, "azimuth", angles_deg)
 
     def _azimuths(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, ...]:
         """Every axis angle that shows there, over the top too where it may be."""

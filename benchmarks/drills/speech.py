@@ -45,10 +45,10 @@ def _line(text: str, end: bytes) -> bytes:
 def _gs232(event: Event) -> str:
     match event.what, event.args:
         case "aim", (azimuth_deg, elevation_deg):
-            # The command set has neither negative angles nor decimals.
-            return f"W{round(float(azimuth_deg)) % 451:03d} {max(0, round(float(elevation_deg))):03d}"
+            # The command set has neither negative elevations nor decimals.
+            return f"W{round(float(azimuth_deg)):03d} {max(0, round(float(elevation_deg))):03d}"
         case "aim-azimuth", (azimuth_deg,):
-            return f"M{round(float(azimuth_deg)) % 451:03d}"
+            return f"M{round(float(azimuth_deg)):03d}"
         case "jog", (way,):
             return GS232_WAYS[str(way)]
         case "stop", ():
