@@ -24,7 +24,7 @@ EASYCOMM_WAYS = {"cw": "MR", "ccw": "ML", "up": "MU", "down": "MD"}
 def said(event: Event) -> bytes:
     """The bytes of an event of a link or a console; empty: this protocol has no words for it."""
     if event.what == "junk":
-        return event.text(0).encode("latin-1")
+        return event.text(0).encode("latin-1") + b"\r\n"  # else the next order would be a part of it
     if event.who.startswith("console"):
         return _line(_console(event), b"\n")
     match PROTOCOLS[event.who]:
