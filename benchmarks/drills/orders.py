@@ -80,6 +80,8 @@ class Orders:
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
         """When anybody last stopped both axes, or a person let it go: faults are acknowledged."""
+        self.released_s = 0.0
+        """When a person last let it go, or began the program anew."""
         self._switch: tuple[str, float] | None = None
         self._mode = "auto"
 
@@ -98,7 +100,8 @@ class Orders:
     def forget_all(self, now_s: float) -> None:
         """The program ends, and all orders with it; a new one begins with no order, and no stop."""
         self._forget(now_s)
-        self.latched, self._mode = False, "auto"
+        self._release(now_s)
+        self._mode = "auto"
 
     def expire(self, now_s: float) -> None:
         for orders in self.axes.values():
@@ -122,8 +125,7 @@ class Orders:
                 self.latched = True
                 self.acknowledged_s = event.at_s
             case "resume":
-                self.latched = False
-                self.acknowledged_s = event.at_s
+                self._release(event.at_s)
             case "storm":
                 if not self._held:
                     self._forget(event.at_s)
@@ -145,8 +147,7 @@ class Orders:
                 self._forget(event.at_s)
                 self.latched = True
             case "stop":
-                self.latched = False
-                self.acknowledged_s = event.at_s
+                self._release(event.at_s)
             case "knob":
                 self._anywhere(event, event.text(0))
             case "jog":
@@ -180,6 +181,10 @@ class Orders:
                     self._anywhere(event, axis)
             case "leave":
                 self._left(event)
+
+    def _release(self, now_s: float) -> None:
+        self.latched = False
+        self.acknowledged_s = self.released_s = now_s
 
     def _left(self, event: Event) -> None:
         for orders in self.axes.values():
