@@ -16,12 +16,11 @@ from benchmarks.drills.boxes import KINDS
 from benchmarks.drills.draw import draw
 from benchmarks.drills.judges import STARTS, TABLE, Violation
 from benchmarks.drills.play import FAILS, play
-from benchmarks.drills.script import WORLD, Drill
+from benchmarks.drills.scene import spoils_readings
+from benchmarks.drills.script import Drill
 from benchmarks.drills.shrink import Budget, shrink
 
 HOUR_S = 3600.0
-READINGS = ("every", "burst", "noise", "drift", "stands", "deaf")
-"""Troubles of the readings alone: without them the same drill shows how many relay starts are right."""
 STARTS_SHARE = 4.0
 FEW_STARTS = 20
 """Fewer than this in a drill are right, whatever the readings."""
@@ -56,9 +55,10 @@ def verdict(drill: Drill) -> list[Violation]:
     outcome = play(drill)
     if outcome.violations or outcome.relay_starts <= FEW_STARTS:
         return outcome.violations
-    if not any(event.who == WORLD and event.what in READINGS for event in drill.events):
+    reads_well = drill.with_events(tuple(event for event in drill.events if not spoils_readings(event)))
+    if reads_well == drill:
         return []
-    good = play(drill.with_events(tuple(each for each in drill.events if each.what not in READINGS)))
+    good = play(reads_well)
     most = STARTS_SHARE * max(good.relay_starts, FEW_STARTS / STARTS_SHARE)
     if good.violations or outcome.relay_starts <= most:
         return []

@@ -67,7 +67,7 @@ class _Play:
         self._config = configured(drill, self._folder)
         self._box = Box(drill, self._config, self._folder, self._clock, None)
         self._world = World(self._box.world, self._clock)
-        self._troubles = Troubles(self._box.world, self._clock, drill.seed, self._config.adc.address)
+        self._troubles = Troubles(self._box.world, self._clock, drill.seed)
         self._cases = axis_cases(self._config, self._world.axes)
         self._orders = build_orders(self._config, lacking=drill.commissioning)
         has_master = self._config.rotor.switched and self._config.relays.master is not None
@@ -127,7 +127,8 @@ class _Play:
         self._world.look()
         self._orders.expire(now_s)
         self._judges.look(now_s, self._world.axes)
-        self._silence.look(now_s, self._world.axes, self._box.loop.status)
+        ordered = any(map(self._orders.holds, self._orders.axes))
+        self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered)
 
     def _happen(self, event: Event, late_s: float) -> None:
         match event.who:
@@ -155,6 +156,8 @@ class _Play:
             if not (data := said(event)):
                 return
             self._orders.note(event)
+            if event.what == "calibrate":
+                self._cases[0 if event.text(0) == "azimuth" else 1].trusted = False  # a person says where it stands
             self._box.hear(event.who, data)
         if self._now_s - self._acted_s >= MOST_ACTS_S:
             self._acted_s = self._now_s

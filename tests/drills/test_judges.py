@@ -149,3 +149,12 @@ def test_four_tries_in_ten_minutes() -> None:
         assert mast.run(1.0, coil=1, dps=0.0) == []
         mast.run(60.0)
     assert mast.run(1.0, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+
+
+def test_a_person_may_try_again() -> None:
+    mast = Mast()
+    mast.order("rotctld", "aim", 200.0, 0.0)
+    for _ in range(9):
+        assert mast.run(1.0, coil=1, dps=0.0) == []
+        mast.run(60.0)
+        mast.order("console", "resume")
