@@ -18,7 +18,7 @@ YES = click.option("--yes", is_flag=True, help="Do not ask.")
 AXIS = click.argument("axis", type=click.Choice([axis.value for axis in Axis]))
 
 
-class Number(click.ParamType):
+class Number(click.ParamType):  # type: ignore[type-arg]  # older clicks know no argument
     """A number with a decimal point or a decimal comma."""
 
     name = "number"
