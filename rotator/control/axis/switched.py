@@ -6,6 +6,7 @@ who gave the order.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hw.ports import AngleSource, Direction
@@ -14,16 +15,17 @@ from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
+from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.run_watch import RunWatch
-from rotator.control.axis.sensing import Condition, Reading, Sensing
+from rotator.control.axis.sensing import UNCALIBRATED_SPAN_DEG, Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_law import SwitchedLaw, Timing
-from rotator.control.commands import Decision, Run
+from rotator.control.commands import Decision, Feed, Run
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
 from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.status import AxisStatus, LearntMotor
+from rotator.status import AxisStatus, LearntMotor, Trusts
 
 JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
@@ -52,8 +54,8 @@ class SwitchedAxis:
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
         self._timing = Timing(lease_s=lease_s, period_s=period_s)
         motors = settings.learnt or (settings.motor, settings.motor)
-        self._law = SwitchedLaw(dict(zip((Direction.PLUS, Direction.MINUS), motors, strict=True)), self._timing)
-        self._watch = self._new_watch()
+        self._law = self._new_law(dict(zip((Direction.PLUS, Direction.MINUS), motors, strict=True)))
+        self._watch = self._new_watch(settings.trusts, look=settings.look)
         self._astray: Fault | None = None
         """What the watch made of the latest reading."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
@@ -130,8 +132,11 @@ class SwitchedAxis:
         unbelievable = self._sensing.take(reading, now_s)
         if self._sensing.fresh and self._sensing.angle_deg is not None:
             self._law.see(reading.at_s, self._sensing.angle_deg)
-            found = self._watch.see(reading.at_s, self._sensing.angle_deg, reading.condition.changes)
+            found = self._watch.see(reading.at_s, self._sensing.angle_deg, reading.condition)
             self._astray = None if self.homing else found
+        elif self._sensing.fresh and self._sensing.raw is not None:
+            # Without a calibration there is no angle, but a relay that does not open is seen all the same.
+            self._astray = self._watch.see(reading.at_s, UNCALIBRATED_SPAN_DEG * self._sensing.raw, reading.condition)
         # The rotor's own report says more than what can be seen of it from here.
         reported, present = reading.condition.fault, unbelievable or self._astray
         cause = present if reading.condition.latched else reported or present
@@ -157,7 +162,13 @@ class SwitchedAxis:
         self._faults.acknowledge()
         self._watch.acknowledge()
 
+    def checked(self) -> None:
+        """A person has looked at both relays, and they are open: no doubt is left."""
+        self._watch.checked()
+
     def decide(self, now_s: float) -> Decision:
+        if isinstance(self._watch, RunWatch):
+            self._watch.homes(homing=isinstance(self._goal, HomeGoal) and self._goal.homing.begun)
         run = self._safe(self._wish(now_s), now_s)
         if isinstance(self._goal, HomeGoal) and self._goal.homing.homed:
             homed_deg = self._goal.homing.home_deg
@@ -165,7 +176,7 @@ class SwitchedAxis:
             return Decision(run, homed_deg)
         return Decision(run)
 
-    def _safe(self, run: Run, now_s: float) -> Run:
+    def _safe(self, run: Run, now_s: float) -> Run | Feed:
         """The run, unless a relay, a limit or the motor's heat forbids it."""
         if run.direction is Direction.OFF:
             return run
@@ -175,7 +186,10 @@ class SwitchedAxis:
             self.fail(limit_reached(self.settings.axis, run.direction))
         if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
             return self._law.rest(now_s)
-        return Run(Direction.OFF, now_s) if self._watch.forbids(run.direction) else run
+        if not self._watch.forbids(run.direction):
+            return run
+        # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
+        return Feed(now_s + self._timing.lease_s) if self.settings.master else Run(Direction.OFF, now_s)
 
     def _beyond(self, direction: Direction) -> bool:
         """Whether the axis stands at its limit in that direction, or past it."""
@@ -211,8 +225,7 @@ class SwitchedAxis:
             longest_s = min(longest_s, until_s)
         if self.missing or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
-        limits = self.settings.limits
-        limit_deg = limits.max_deg if direction > 0 else limits.min_deg
+        limit_deg = self._reach[1] if direction > 0 else self._reach[0]
         if (limit_deg - self._sensing.angle_deg) * direction <= JOG_TOLERANCE_DEG:
             self._goal = None
             return self._law.rest(now_s)
@@ -241,8 +254,8 @@ class SwitchedAxis:
         """The readings mean other places than before. Only a motor that counts keeps what it has learnt."""
         keeps = self.settings.homing is not None
         motors = self._law.motion.motors if keeps else dict.fromkeys(self._law.motion.motors, self.settings.motor)
-        self._law = SwitchedLaw(motors, self._timing)
-        self._watch = self._new_watch()
+        self._law = self._new_law(motors)
+        self._watch = self._new_watch(self._watch.trusts, look=self._watch.looks)
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         self._law.driven(now_s, driven)
@@ -270,6 +283,7 @@ class SwitchedAxis:
             noise_deg=self._watch.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
+            trusts=self._watch.trusts,
         )
 
     def _notices(self) -> tuple[Notice, ...]:
@@ -277,12 +291,30 @@ class SwitchedAxis:
         single = (reported, self._endurance.notice, BLIND if self.settings.window.blind else None)
         return (*self._watch.notices, *(notice for notice in single if notice is not None))
 
-    def _new_watch(self) -> MotionWatch | RunWatch:
+    @property
+    def _reach(self) -> tuple[float, float]:
+        """Between these angles the axis may be brought to rest."""
+        limits, homing = self.settings.limits, self.settings.homing
+        if homing is None:
+            return limits.min_deg, limits.max_deg
+        return max(limits.min_deg, homing.rest_deg[0]), min(limits.max_deg, homing.rest_deg[1])
+
+    def _new_law(self, motors: Mapping[Direction, Motor]) -> SwitchedLaw:
+        return (
+            SwitchedLaw(motors, self._timing, self._reach)
+            if self.settings.homing
+            else SwitchedLaw(motors, self._timing)
+        )
+
+    def _new_watch(self, trusts: Trusts, *, look: bool) -> MotionWatch | RunWatch:
         settings, motors = self.settings, self._law.motion.motors
-        if settings.homing is not None:
-            quiet_s = settings.homing.coast_s + settings.homing.period_s
-            return RunWatch(settings.axis, settings.limits, motors, quiet_s)
-        return MotionWatch(settings.axis, settings.limits, motors, master=settings.master)
+        axis, limits, master, homing = settings.axis, settings.limits, settings.master, settings.homing
+        if homing is not None:
+            return RunWatch(
+                axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look
+            )
+        placed = self._sensing.calibration is not None and Missing.LIMITS not in self.missing
+        return MotionWatch(axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look)
 
     def _learnt(self) -> tuple[LearntMotor, LearntMotor]:
         plus, minus = (self._law.motion.motors[way] for way in (Direction.PLUS, Direction.MINUS))
