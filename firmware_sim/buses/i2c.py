@@ -14,6 +14,8 @@ import threading
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple, Protocol, Self
 
+from firmware_sim.sporadic import Sporadic
+
 READ_FLAG = 0x0001  # I2C_M_RD, linux/i2c.h
 MESSAGES_MAX = 42  # I2C_RDWR_IOCTL_MAX_MSGS, linux/i2c-dev.h
 BLOCK_MAX = 32  # I2C_SMBUS_BLOCK_MAX, linux/i2c.h
@@ -61,6 +63,8 @@ class SimI2CBus:
     def __init__(self, sleep: Callable[[float], None] | None = None, byte_s: float = 90e-6) -> None:
         self.gone: set[int] = set()
         """Fault: addresses that do not answer although a chip is attached there."""
+        self.lapses: dict[int, tuple[Sporadic, ...]] = {}
+        """Fault: by address, transfers that a chip does not answer, now and then."""
         self._sleep = sleep
         self._byte_s = byte_s
         self._chips: dict[int, I2CChip] = {}
@@ -163,7 +167,7 @@ class SimI2CBus:
             heard = 0
             wire_bytes = 0
             for part in parts:
-                if part.address not in self._chips or part.address in self.gone:
+                if part.address not in self._chips or part.address in self.gone or (not heard and self._lapses(part)):
                     wire_bytes += 1  # the first address without an ACK ends the transfer
                     break
                 heard += 1
@@ -178,6 +182,9 @@ class SimI2CBus:
             finally:
                 self._undelivered_bytes = 0
             return replies
+
+    def _lapses(self, first: _Write | _Read) -> bool:
+        return any(lapse.strikes() for lapse in self.lapses.get(first.address, ()))
 
     def _spend(self, wire_bytes: int) -> None:
         duration_s = wire_bytes * self._byte_s

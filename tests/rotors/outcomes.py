@@ -42,6 +42,7 @@ def goes_on(
     return Outcome(remedy=remedy, notice=notice, astray=astray, before=before)
 
 
+BAD = "bad readings"
 STANDS_STILL = "motor runs and pot stands still"
 LOST = Remedy.HOME
 # Arriving after at most 15 s, and then turned by somebody else for a second or two.
@@ -55,6 +56,14 @@ RELAYS_AND_POTS = {
     "pot-reversed": Outcome("pot moves the wrong way", 2.5),
     "pot-stuck": Outcome(STANDS_STILL, 2.0),
     "pot-jumps": goes_on(),  # one reading that is far off moves nothing
+    # Each tenth reading is ridden out, and is too many all the same.
+    "pot-crackles": Outcome(BAD, 5.0),
+    "pot-spikes": Outcome(BAD, 5.0),
+    "adc-noisy": Outcome(BAD, 5.0),
+    "pot-bursts": Outcome("pot open or shorted", 3.5),  # four in a row
+    "adc-gaps": Outcome("sensor silent", 3.0),
+    "adc-frozen": Outcome(STANDS_STILL, 2.0),
+    "pot-drifts": goes_on(),  # 0.4°/s, of a motor of 6
     "motor-stalled": Outcome(STANDS_STILL, 2.0),
     "motor-reversed": Outcome("pot moves the wrong way", 1.0),
     "motor-slow": goes_on(),
@@ -93,6 +102,8 @@ FIRMWARE = dict.fromkeys(
 )
 MOTEUS = FIRMWARE | {
     "silent": Outcome("controller silent", 0.5),
+    "replies-lost": Outcome(BAD, 5.0),
+    "replies-gaps": goes_on(),
     "jammed": Outcome("axis does not follow", 3.5),
     "factory-bounds": Outcome("axis does not follow", 3.5, notice="its position bounds"),  # as sold
     "power-cycled": Outcome("position unknown", 0.1, Remedy.CONFIRM),
@@ -101,6 +112,9 @@ SERVOS = {
     # The board is asked once a second, and noticed at once where it has to be written to.
     "board-unpowered": Outcome("servo board", 1.1),
     "board-dips": Outcome("servo board", 1.1),
+    "board-gone": Outcome("servo board", 1.1),
+    "board-noisy": Outcome("servo board", 1.1),
+    "board-gaps": Outcome("servo board", 1.1),
     "wind-turns": goes_on(),  # it holds against the wind
     # Nothing comes back from a servo.
     "servo-stalled": goes_on(astray=True),

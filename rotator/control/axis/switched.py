@@ -6,21 +6,25 @@ who gave the order.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hw.ports import AngleSource, Direction
+from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
+from rotator.control.axis.met_stops import MetStops
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.run_watch import RunWatch
-from rotator.control.axis.sensing import UNCALIBRATED_SPAN_DEG, Condition, Reading, Sensing
+from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
-from rotator.control.axis.switched_law import SwitchedLaw, Timing
+from rotator.control.axis.short_runs import STANDING, ShortRuns
+from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
 from rotator.control.commands import Decision, Feed, Run
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
@@ -39,6 +43,8 @@ class _Relays:
     """What the relays of this axis do, and when one was last seen closed."""
 
     direction: Direction = Direction.OFF
+    last: Direction = Direction.OFF
+    """The direction of the present or latest run."""
     driven_s: float | None = None
 
 
@@ -51,13 +57,19 @@ class SwitchedAxis:
         self._faults = FaultLatch()
         self._ends = EndCalibration(settings.limits, settings.missing)
         self._condition: Condition | None = None
-        self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
+        # A count does not scatter, and it is corrected by as much as a pulse at once.
+        fastest_dps = math.inf if settings.source is AngleSource.COUNTED else settings.motor.speed_dps
+        self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
         self._timing = Timing(lease_s=lease_s, period_s=period_s)
         motors = settings.learnt or (settings.motor, settings.motor)
         self._law = self._new_law(dict(zip((Direction.PLUS, Direction.MINUS), motors, strict=True)))
         self._watch = self._new_watch(settings.trusts, look=settings.look)
         self._astray: Fault | None = None
         """What the watch made of the latest reading."""
+        self._short_runs = ShortRuns(settings.axis)
+        self._stops = MetStops(settings.axis, settings.limits)
+        self._seen_s = 0.0
+        """The moment of the present cycle."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
         self._relays = _Relays()
 
@@ -128,20 +140,25 @@ class SwitchedAxis:
             self._goal = self._goal.standing()
 
     def see(self, reading: Reading, now_s: float) -> None:
+        self._seen_s = now_s
         lost = self._note_condition(reading.condition)
-        unbelievable = self._sensing.take(reading, now_s)
-        if self._sensing.fresh and self._sensing.angle_deg is not None:
-            self._law.see(reading.at_s, self._sensing.angle_deg)
-            found = self._watch.see(reading.at_s, self._sensing.angle_deg, reading.condition)
+        unbelievable = self._sensing.take(reading, now_s, self._watch.noise_deg)
+        for at_s, angle_deg in self._sensing.places:
+            self._law.see(at_s, angle_deg)
+            found = self._watch.see(at_s, angle_deg, reading.condition)
+            if self.settings.homing is None:
+                found = found or self._short_runs.see(at_s, angle_deg, self._watch.noise_deg)
             self._astray = None if self.homing else found
-        elif self._sensing.fresh and self._sensing.raw is not None:
+        if self._sensing.calibration is None:
             # Without a calibration there is no angle, but a relay that does not open is seen all the same.
-            self._astray = self._watch.see(reading.at_s, UNCALIBRATED_SPAN_DEG * self._sensing.raw, reading.condition)
+            for at_s, unscaled_deg in self._sensing.unscaled:
+                self._astray = self._watch.see(at_s, unscaled_deg, reading.condition)
         # The rotor's own report says more than what can be seen of it from here.
         reported, present = reading.condition.fault, unbelievable or self._astray
         cause = present if reading.condition.latched else reported or present
-        if self._faults.note((None if self.homing else reported) or present or lost, cause=cause):
-            self._law.forget_run()
+        found = (None if self.homing else reported) or present or lost
+        if self._faults.note(found, now_s, cause=cause, tries=self._tries(found)):
+            self._note_strike()
 
     def _note_condition(self, condition: Condition) -> Fault | None:
         """What has become of the rotor since the last reading. A count that has just been lost is a fault, once."""
@@ -149,18 +166,39 @@ class SwitchedAxis:
         if before is None:
             return None
         if condition.scale != before.scale:
-            self._begin_anew()
+            self._begin_anew(self._sensing.calibration)
         if condition.lost and not before.lost and not self.homing:
             return Fault(FaultKind.COUNT_LOST, self.settings.axis, f"homing ({condition.lost})")
         return None
 
     def fail(self, fault: Fault) -> None:
-        if self._faults.fail(fault):
-            self._law.forget_run()
+        if self._faults.fail(fault, self._seen_s, tries=self._tries(fault)):
+            self._note_strike()
 
-    def acknowledge(self) -> None:
-        self._faults.acknowledge()
+    def _tries(self, found: Fault | None) -> int:
+        """How often the motor was on in vain before this fault: it runs now, or its last runs were short."""
+        if self.driven or found is None:
+            return int(self.driven)
+        return max(1, self._short_runs.tries) if found.kind in {*STANDING, FaultKind.WRONG_WAY} else 0
+
+    def _note_strike(self) -> None:
+        """A fault has just stopped the axis."""
+        self._law.forget_run()
+        fault, way = self.fault, self._relays.last
+        if fault is None:
+            return
+        self._short_runs.struck(fault.kind)
+        if fault.kind in STANDING and way and self._sensing.angle_deg is not None:
+            self._stops.stood_still(fault.kind, way, self._sensing.angle_deg)
+
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
+        if not self._faults.acknowledge(now_s, by_person=by_person):
+            return False
         self._watch.acknowledge()
+        if by_person:
+            self._short_runs.forget()
+            self._stops.forget()
+        return True
 
     def checked(self) -> None:
         """A person has looked at both relays, and they are open: no doubt is left."""
@@ -195,24 +233,34 @@ class SwitchedAxis:
         """Whether the axis stands at its limit in that direction, or past it."""
         if self.missing or self._sensing.angle_deg is None or self.homing:
             return False
-        limits, angle_deg = self.settings.limits, self._sensing.angle_deg
+        limits, angle_deg = self._stops.limits, self._sensing.angle_deg
         return angle_deg >= limits.max_deg if direction > 0 else angle_deg <= limits.min_deg
 
     def _wish(self, now_s: float) -> Run:
         """What the goal asks for. A fault ends the goal."""
         if self.fault is not None:
             self._goal = None
-        if self._goal is None or not self._sensing.believable:
+        if self._goal is None or now_s >= self._sensing.ridden_until_s:
             return self._law.rest(now_s)
-        match self._goal:
+        run = self._towards(now_s, self._goal)
+        if self._sensing.believable:
+            return run
+        # A bad reading starts nothing, and what runs may go on for a moment, until the next good one.
+        if run.direction is not self._relays.direction:
+            return self._law.rest(now_s)
+        return Run(run.direction, min(run.until_s, self._sensing.ridden_until_s))
+
+    def _towards(self, now_s: float, goal: AimGoal | JogGoal | HomeGoal) -> Run:
+        match goal:
             case HomeGoal(homing):
                 return self._home(now_s, homing)
             case AimGoal() if self.missing or self._sensing.angle_deg is None:
                 return self._law.rest(now_s)
-            case AimGoal(_, tolerance_deg, Path() as path):
+            case AimGoal(_, tolerance_deg, Path() as path) if self._stops.limits.holds(path.angle_deg(now_s)):
                 return self._law.follow(now_s, path, tolerance_deg)
-            case AimGoal(target_deg, tolerance_deg, _):
-                return self._law.approach(now_s, target_deg, tolerance_deg)
+            case AimGoal(target_deg, tolerance_deg, path):
+                wanted_deg = path.angle_deg(now_s) if path else target_deg
+                return self._law.approach(now_s, self._stops.limits.nearest(wanted_deg), tolerance_deg)
             case JogGoal(_, until_s) if until_s is not None and now_s >= until_s:
                 self._goal = None
                 return self._law.rest(now_s)
@@ -225,7 +273,8 @@ class SwitchedAxis:
             longest_s = min(longest_s, until_s)
         if self.missing or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
-        limit_deg = self._reach[1] if direction > 0 else self._reach[0]
+        limits, reach_deg = self._stops.limits, self._reach
+        limit_deg = min(limits.max_deg, reach_deg[1]) if direction > 0 else max(limits.min_deg, reach_deg[0])
         if (limit_deg - self._sensing.angle_deg) * direction <= JOG_TOLERANCE_DEG:
             self._goal = None
             return self._law.rest(now_s)
@@ -247,11 +296,13 @@ class SwitchedAxis:
             raise ValueError("the sensor has no believable reading")
         calibration = self._ends.take(self._sensing.raw, self._sensing.calibration, high_end=high_end)
         if calibration is not None:
-            self._sensing.calibration = calibration
-            self._begin_anew()
+            self._begin_anew(calibration)
 
-    def _begin_anew(self) -> None:
+    def _begin_anew(self, calibration: Calibration | None) -> None:
         """The readings mean other places than before. Only a motor that counts keeps what it has learnt."""
+        self._sensing.begin_anew(calibration)
+        self._short_runs.forget()
+        self._stops.forget()
         keeps = self.settings.homing is not None
         motors = self._law.motion.motors if keeps else dict.fromkeys(self._law.motion.motors, self.settings.motor)
         self._law = self._new_law(motors)
@@ -260,8 +311,10 @@ class SwitchedAxis:
     def note_driven(self, now_s: float, driven: Direction) -> None:
         self._law.driven(now_s, driven)
         self._watch.driven(now_s, driven)
+        self._short_runs.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
-        self._relays = _Relays(driven, now_s if driven is not Direction.OFF else self._relays.driven_s)
+        on = driven is not Direction.OFF
+        self._relays = _Relays(driven, driven if on else self._relays.last, now_s if on else self._relays.driven_s)
 
     def status(self, now_s: float) -> AxisStatus:
         calibration = self._sensing.calibration
@@ -288,8 +341,10 @@ class SwitchedAxis:
 
     def _notices(self) -> tuple[Notice, ...]:
         reported = self._condition.notice if self._condition else None
-        single = (reported, self._endurance.notice, BLIND if self.settings.window.blind else None)
-        return (*self._watch.notices, *(notice for notice in single if notice is not None))
+        blind = BLIND if self.settings.window.blind else None
+        single = (reported, self._sensing.notice, self._endurance.notice, blind)
+        found = (notice for notice in single if notice is not None)
+        return (*self._watch.notices, *self._stops.notices, *found)
 
     @property
     def _reach(self) -> tuple[float, float]:
@@ -300,11 +355,8 @@ class SwitchedAxis:
         return max(limits.min_deg, homing.rest_deg[0]), min(limits.max_deg, homing.rest_deg[1])
 
     def _new_law(self, motors: Mapping[Direction, Motor]) -> SwitchedLaw:
-        return (
-            SwitchedLaw(motors, self._timing, self._reach)
-            if self.settings.homing
-            else SwitchedLaw(motors, self._timing)
-        )
+        homing = self.settings.homing
+        return SwitchedLaw(motors, self._timing, homing.rest_deg if homing else ANYWHERE)
 
     def _new_watch(self, trusts: Trusts, *, look: bool) -> MotionWatch | RunWatch:
         settings, motors = self.settings, self._law.motion.motors
