@@ -24,7 +24,7 @@ from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.faults import Missing
 from rotator.orders import Mode
-from rotator.status import LearntMotor
+from rotator.status import ALL_OPEN, LearntMotor, Trusts
 from rotator.store.learnt import LearntFile, Motors
 
 
@@ -69,15 +69,25 @@ def build_controller(
     learnt: Mapping[Axis, Motors] | None = None,
     commissioning: Axis | None = None,
     *,
+    trusts: Mapping[Axis, Trusts] | None = None,
     panel: bool = False,
 ) -> Controller:
-    """`learnt`: the motors as earlier runs learnt them. `commissioning`: an axis to be treated as never set up.
+    """`learnt`: the motors as earlier runs learnt them; `trusts`: what an earlier run knew of the relays.
+
+    `commissioning`: an axis to be treated as never set up.
 
     `panel`: a panel runs as well, and reports its mode switch. A rehearsal and a calibration have none, and no mode.
     """
     mount, known = build_mount(config), learnt or {}
     azimuth, elevation = (
-        axis_settings(config, axis, limits, known.get(axis), commissioning=axis is commissioning)
+        axis_settings(
+            config,
+            axis,
+            limits,
+            known.get(axis),
+            (trusts or {}).get(axis, ALL_OPEN),
+            commissioning=axis is commissioning,
+        )
         for axis, limits in ((Axis.AZIMUTH, mount.azimuth), (Axis.ELEVATION, mount.elevation))
     )
     return Controller(
@@ -95,7 +105,13 @@ def build_controller(
 
 
 def axis_settings(
-    config: Config, axis: Axis, limits: Range, learnt: Motors | None, *, commissioning: bool
+    config: Config,
+    axis: Axis,
+    limits: Range,
+    learnt: Motors | None,
+    trusts: Trusts = ALL_OPEN,
+    *,
+    commissioning: bool,
 ) -> AxisSettings:
     """`limits` on the axis's own scale, shifted by its offset. `commissioning`: as if it had never been set up."""
     table, shift = config.axis(axis), build_offsets(config)
@@ -132,6 +148,8 @@ def axis_settings(
         master=config.relays.master is not None,
         learnt=learnt and (_motor(learnt[0]), _motor(learnt[1])),
         homing=homing(config, axis, shift),
+        trusts=trusts,
+        look=True,
     )
 
 
@@ -180,4 +198,5 @@ def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | None:
         home_deg=stop.home_deg + shift.of(axis),
         mostly_closed=stop.mostly_closed,
         switch=f"{axis.value}_low" in config.limits.switches,
+        rest_deg=(stop.rest_deg[0] + shift.of(axis), stop.rest_deg[1] + shift.of(axis)),
     )

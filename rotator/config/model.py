@@ -194,7 +194,7 @@ class Config(Table):
 
     def end_stop(self, axis: Axis) -> EndStop | None:
         """The end stop at which homing ends; None for an axis that does not count pulses, and has no homing."""
-        return self.kind.end_stop(axis) if self.counts(axis) else None
+        return self.kind.end_stop(axis, self.axis(axis).max_deg) if self.counts(axis) else None
 
     def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
         """The lowest and highest possible limit, on the rotor's own scale; None: the tables set no end."""

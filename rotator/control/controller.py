@@ -43,6 +43,7 @@ from rotator.orders import (
     Nudge,
     Order,
     Park,
+    RelaysChecked,
     Release,
     Remark,
     RunTimed,
@@ -190,6 +191,8 @@ class Controller:
                 self._nudge(axis, offset_deg, now_s)
             case Confirm(axis, angle_deg):
                 self._confirm(axis, angle_deg)
+            case RelaysChecked(axis) if axis in self._switched:
+                self._switched[axis].checked()
             case LetGo():
                 self._stop(source, BOTH, latch=True, now_s=now_s)
                 self.errands.append(LetGo())

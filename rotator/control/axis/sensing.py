@@ -56,6 +56,14 @@ class Condition:
     """Its contact is closed since the last of these changes."""
     ends: frozenset[Direction] = frozenset()
     """The directions that a limit switch forbids."""
+    ahead: frozenset[Direction] = frozenset()
+    """The directions in which its contact would change again before the stop."""
+    supplied: bool = True
+    """The motors have their supply, as far as the box knows: no master is open."""
+
+
+NORMAL = Condition()
+"""The rotor has nothing to say."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +73,7 @@ class Reading:
     at_s: float
     raw: float | None
     problem: str = ""
-    condition: Condition = Condition()
+    condition: Condition = NORMAL
 
 
 @dataclass(frozen=True, slots=True)

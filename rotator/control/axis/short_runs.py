@@ -10,7 +10,7 @@ import math
 from collections import deque
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.run_watch import WAYS
+from rotator.control.axis.relay_trust import WAYS
 from rotator.control.axis.sparks import Place
 from rotator.faults import Fault, FaultKind
 
