@@ -84,6 +84,8 @@ class ShortRuns:
             self._ended, self._run = (way, now_s - since_s, now_s), None
         if direction is not Direction.OFF:
             self._count()
+            if self._moved:
+                self._stands_deg = self._smoothed_deg
             self._run, self._from_deg, self._moved = (direction, now_s, speed_dps), self._smoothed_deg, False
 
     def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
