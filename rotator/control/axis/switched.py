@@ -47,7 +47,7 @@ class SwitchedAxis:
         self.settings = settings
         self._goal: AimGoal | JogGoal | HomeGoal | None = None
         self._faults = FaultLatch()
-        self._ends = EndCalibration(settings.limits, settings.missing)
+        self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
         self._condition: Condition | None = None
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
         self._timing = Timing(lease_s=lease_s, period_s=period_s)
