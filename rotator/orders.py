@@ -172,12 +172,21 @@ Personal = SetMode | Nudge | Home | Confirm | RelaysChecked | LetGo | Remark
 Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal
 
 
+PERSONS = ("console", "panel", "calibrate")
+"""What a person uses at the box, as the link of a source. No link of the configuration has such a name."""
+
+
 @dataclass(frozen=True, slots=True)
 class Source:
     """The sender of an order: a link, and the connection on it. A reconnect is a new source."""
 
     link: str
     connection: int = 0
+
+    @property
+    def is_person(self) -> bool:
+        """A person gives these orders at the box: at the console, at the panel, in a calibration."""
+        return self.link in PERSONS
 
     def __str__(self) -> str:
         return f"{self.link}#{self.connection}" if self.connection else self.link

@@ -125,6 +125,7 @@ class Controller:
         """After the cycle: the direction in which each axis's relays are really closed (OFF where it has none)."""
         for axis, control in self._axes.items():
             control.note_driven(now_s, driven[axis])
+        self._jogs.note_driven(now_s)
 
     def status(self, now_s: float, late_s: float = 0.0) -> Status:
         """The state of the box at this moment. `late_s`: how late the last cycle was."""

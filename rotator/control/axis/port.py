@@ -12,7 +12,7 @@ from hw.ports import Direction
 from rotator.control.axis.sensing import Reading
 from rotator.control.commands import Decision
 from rotator.control.sky.pointing import AimGoal
-from rotator.faults import Fault
+from rotator.faults import Fault, Missing
 from rotator.status import AxisStatus
 
 
@@ -40,6 +40,10 @@ class ControlledAxis(Protocol):
     @property
     def driven(self) -> bool:
         """Whether the motor was on after the last cycle."""
+
+    @property
+    def missing(self) -> tuple[Missing, ...]:
+        """What the axis lacks before it may be aimed; empty: nothing."""
 
     @property
     def confirmable(self) -> bool:

@@ -18,7 +18,7 @@ from rotator.control.axis.trend import Trend
 from rotator.control.commands import HOLD, Decision, Hold, Steer
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
-from rotator.faults import Fault
+from rotator.faults import Fault, Missing
 from rotator.status import AxisStatus
 
 RATE_OVER_S = 0.25
@@ -84,6 +84,10 @@ class PositionedAxis:
 
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
+
+    @property
+    def missing(self) -> tuple[Missing, ...]:
+        return self.settings.missing
 
     def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
         self._goal = jog(direction, seconds, now_s, commissioned=not self.settings.missing)

@@ -51,7 +51,7 @@ class SwitchedAxis:
         self.settings = settings
         self._goal: AimGoal | JogGoal | HomeGoal | None = None
         self._attempts = Attempts(settings.axis, settings.limits)
-        self._ends = EndCalibration(settings.limits, settings.missing)
+        self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
         self._condition: Condition | None = None
         # A count does not scatter, and it is corrected by as much as a pulse at once.
         fastest_dps = math.inf if settings.source is AngleSource.COUNTED else settings.motor.speed_dps
