@@ -58,15 +58,15 @@ def file(tmp_path: Path) -> JsonFile:
     return JsonFile(tmp_path / "run" / "of" / "it.json", FORM, "the number")
 
 
-def loaded(file: JsonFile) -> str | int:
-    def parse(content: dict[str, Any]) -> str | int:
-        return number(content)
+ABSENT, DAMAGED = -1, -2
 
-    return file.load(parse, absent="absent", damaged="damaged", consequence="ignored")
+
+def loaded(file: JsonFile) -> int:
+    return file.load(number, absent=ABSENT, damaged=DAMAGED, consequence="ignored")
 
 
 def test_it_makes_its_folders_and_is_read_again(file: JsonFile, caplog: pytest.LogCaptureFixture) -> None:
-    assert loaded(file) == "absent"
+    assert loaded(file) == ABSENT
     assert file.save({"number": 7, "words": "°"})
     assert file.save({"number": 8, "words": "°"})
     assert loaded(file) == 8
@@ -79,13 +79,13 @@ def test_a_damaged_file_is_told_with_what_it_means(file: JsonFile, caplog: pytes
     for damage in (b"{", b"\xff\xfe"):
         file.path.write_bytes(damage)
         caplog.clear()
-        assert loaded(file) == "damaged"
+        assert loaded(file) == DAMAGED
         assert f"{file.path}: ignored: " in caplog.text
 
 
 def test_what_cannot_be_read_is_as_good_as_damaged(file: JsonFile, caplog: pytest.LogCaptureFixture) -> None:
     file.path.mkdir(parents=True)
-    assert loaded(file) == "damaged"
+    assert loaded(file) == DAMAGED
     assert "Is a directory" in caplog.text
 
 

@@ -144,7 +144,10 @@ def test_given_up_it_drives_nothing() -> None:
     rig, homing = PulseRig(180.0), ordered()
     rig.rotor.inject("azimuth-motor-stalled")
     fly(rig, homing)
-    assert homing.step(rig.clock() + 1.0, Direction.OFF, Condition()) is Direction.OFF
+    why = homing.failure
+    for later_s in (1.0, 1000.0):
+        assert homing.step(rig.clock() + later_s, Direction.OFF, Condition()) is Direction.OFF
+    assert homing.failure == why, "the reason stays the first one"
 
 
 def test_a_stop_by_somebody_else_is_waited_out_not_taken_for_quiet() -> None:
