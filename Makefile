@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests test-hamlib test-kernel test-install test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings clean
+.PHONY: run test check tests drills test-hamlib test-kernel test-install test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -67,6 +67,10 @@ bench: $(VENV)/.dev
 # Hostile bytes on every link of two running boxes, for ten minutes or as long as MINUTES says.
 fuzz: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.fuzz --minutes $(or $(MINUTES),10)
+
+# Twenty simulated hours of drills at random, a new seed each time: what may never happen, on every kind of rotor.
+drills: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.drills --hours $(or $(HOURS),20) $(if $(SEED),--seed $(SEED))
 
 # The busy box for an hour in real time, or HOURS, then 24 simulated hours: memory, files and threads must stay.
 soak: $(VENV)/.dev

@@ -138,6 +138,16 @@ class SimGpio:
         with self._header.instant([offset], at_s):
             self._header.lines[offset].outside = level
 
+    def bury_process(self) -> None:
+        """The process that held the header's lines has died: the kernel gives them back, and watches no edge for it."""
+        lines = self._header.lines
+        with self._header.instant([offset for offset, line in enumerate(lines) if line.consumer is not None]):
+            for line in lines:
+                if line.consumer is not None and self.strict:
+                    line.driven = None
+                line.consumer = None
+            self._header.detectors.clear()
+
     def _record(self, at_s: float, changes: Mapping[int, bool]) -> None:
         self.edges.extend(Edge(at_s, offset, level) for offset, level in changes.items())
         for listener in self.on_edges:

@@ -21,6 +21,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+BEYOND = 2.0
+"""A shaft is at most so many closures beyond the end of its range."""
+
 
 @dataclass(frozen=True, slots=True)
 class Cam:
@@ -51,6 +54,10 @@ class Cam:
     def shortest_s(self) -> float:
         """The shortest time between two changes while the rotor runs; a debounce must be much shorter."""
         return min(self.closed_deg, self.spacing_deg - self.closed_deg) / self.speed_dps
+
+    def reaches(self, angle_deg: float) -> bool:
+        """Whether the shaft may stand there. A stop may lie somewhat beyond its angle in the configuration."""
+        return self.low_deg - BEYOND * self.spacing_deg <= angle_deg <= self.high_deg + BEYOND * self.spacing_deg
 
     def begins_deg(self, zone: int) -> float:
         """The zone's lower edge."""

@@ -6,6 +6,7 @@ Does not know how pulses are counted: `hw.sensors.pulses` does.
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Callable, Mapping
 
@@ -21,6 +22,8 @@ from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.relays import RelayRotor
 from rotator.store import counts
+
+log = logging.getLogger(__name__)
 
 KEEP_EVERY_S = 0.5
 """Seconds between two reports of a resting axis to the counts file, which decides when to write."""
@@ -61,6 +64,9 @@ class CountedAxis:
     def begin(self, kept: counts.Place) -> None:
         """Start from the count that the last run stored."""
         match kept.standing:
+            case counts.Standing.KNOWN if not self._counter.reaches(kept.angle_deg):
+                self._doubt = f"its kept count of {kept.angle_deg:g}° is beyond its ends"
+                log.warning("%s must be homed: %s", self._axis.value, self._doubt)
             case counts.Standing.KNOWN:
                 self._place(kept.angle_deg)
             case counts.Standing.NEVER:
