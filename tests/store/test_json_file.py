@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from rotator.store.json_file import JsonFile, decode, encode
+from rotator.store.json_file import LONGEST_BYTES, JsonFile, decode, encode
+from rotator.store.json_file import number as within
 
 FORM = "rotator test 1"
 
@@ -86,7 +87,29 @@ def test_a_damaged_file_is_told_with_what_it_means(file: JsonFile, caplog: pytes
 def test_what_cannot_be_read_is_as_good_as_damaged(file: JsonFile, caplog: pytest.LogCaptureFixture) -> None:
     file.path.mkdir(parents=True)
     assert loaded(file) == DAMAGED
-    assert "Is a directory" in caplog.text
+    assert f"{file.path}: ignored: " in caplog.text
+
+
+@pytest.mark.parametrize(("longer", "read"), [(0, 7), (1, DAMAGED)])
+def test_a_file_a_hundred_times_too_long_is_not_ours(file: JsonFile, longer: int, read: int) -> None:
+    file.save({"number": 7, "words": ""})
+    text = file.path.read_text()
+    file.path.write_text(text + " " * (LONGEST_BYTES - len(text) + longer))
+    assert loaded(file) == read
+
+
+@pytest.mark.parametrize("value", [2, 2.0, 2.5, 3])
+def test_a_number_within_its_bounds_is_taken(value: float) -> None:
+    found = within(value, "the speed", 2.0, 3.0)
+    assert found == value
+    assert isinstance(found, float)
+
+
+@pytest.mark.parametrize("value", [1.999, 3.001, 10**400, -(10**400), float("nan"), True, "2.5", None, [2.5]])
+def test_any_other_is_refused_in_a_short_sentence(value: object) -> None:
+    with pytest.raises(ValueError, match=r"^the speed is .*; it must be a number from 2 to 3$") as refused:
+        within(value, "the speed", 2.0, 3.0)
+    assert len(str(refused.value)) < 120
 
 
 def test_a_write_that_fails_is_logged_once_for_each_reason(file: JsonFile, caplog: pytest.LogCaptureFixture) -> None:
