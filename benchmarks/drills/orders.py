@@ -107,8 +107,9 @@ class Orders:
         for orders in self.axes.values():
             orders.expire(now_s)
         if self._switch is not None and now_s >= self._switch[1]:
-            self._mode, self._switch = self._switch[0], None
-            self._forget(now_s)
+            before, self._mode, self._switch = self._mode, self._switch[0], None
+            if self._mode != before:
+                self._forget(now_s)
 
     def note(self, event: Event) -> None:
         if event.who == PANEL:

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from benchmarks.drills.box import Box, configured
 from benchmarks.drills.judges import Judges, Violation
-from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, build_orders, lapse, spoil
+from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse, spoil
 from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
 from benchmarks.drills.silence import Silence, Words
 from benchmarks.drills.speech import said
@@ -208,6 +208,7 @@ class _Play:
         self._pass(event.number(0), dead=True)
         self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world)
         self._back_s = self._now_s
+        begins_anew(self._config, self._cases, self._world.axes)
 
     def _pass(self, seconds: float, *, dead: bool) -> None:
         """The world goes on, and the control thread gets no turn."""
