@@ -71,7 +71,6 @@ def _try(
     """All chosen mutants of one file, each in rounds of tests until one fails. An explained survivor is not counted."""
     counts: Counter[Outcome] = Counter()
     limits: dict[tuple[str, ...], Ran] = {}
-    survivors = []
     for mutant in chosen:
         outcome = Outcome.SURVIVED
         for each in rounds:
@@ -84,12 +83,10 @@ def _try(
             continue
         counts[outcome] += 1
         if outcome is Outcome.SURVIVED:
-            survivors.append(f"    {mutant.line}: {mutant.was}\n      -> {mutant.now}  ({mutant.operator})")
-            print(survivors[-1], file=sys.stderr, flush=True)
+            print(f"    {mutant.line}: {mutant.was}\n      -> {mutant.now}  ({mutant.operator})", flush=True)
     copy.with_source(file, None)
     dead = counts.total() - counts[Outcome.SURVIVED]
     print(f"{file}: {dead} of {counts.total()} killed, {sum(map(len, rounds))} test files", flush=True)
-    print("".join(f"{each}\n" for each in survivors), end="", flush=True)
     return counts
 
 

@@ -18,6 +18,8 @@ from cosmic_ray.operators.operator import Example, Operator
 from cosmic_ray.plugins import get_operator, operator_names
 from parso.python.tree import Keyword
 
+UNLIKELY = ("ReplaceComparisonOperator_Is", "ReplaceBinaryOperator_BitOr_", "ReplaceUnaryOperator_UAdd")
+"""Nobody writes `a > None` for `a is None` by mistake, or another operator in `int | None`."""
 Position = tuple[int, int]
 """Line from 1, column from 0."""
 
@@ -79,25 +81,29 @@ def mutants(source: str, sample: int | None, chance: random.Random) -> list[Muta
             continue
         new = changed.splitlines()
         at = next((at for at, (a, b) in enumerate(zip(lines, new, strict=False)) if a != b), place[0] - 1)
-        found.append(Mutant(at + 1, place[1], name, lines[at].strip(), new[at].strip(), changed))
+        found.append(Mutant(place[0], place[1], name, lines[place[0] - 1].strip(), new[at].strip(), changed))
     return found
 
 
 def _operators() -> Iterator[tuple[str, Any]]:
     for name in operator_names():
-        kind = get_operator(name)
-        if not kind.arguments():
-            yield name.removeprefix("core/"), kind()
+        kind, plain = get_operator(name), name.removeprefix("core/")
+        if not kind.arguments() and not plain.startswith(UNLIKELY) and not plain.endswith(("_Is", "_IsNot")):
+            yield plain, kind()
+    for way in ("Is_IsNot", "IsNot_Is"):
+        yield f"ReplaceComparisonOperator_{way}", get_operator(f"core/ReplaceComparisonOperator_{way}")()
     yield "DropStatement", DropStatement()
 
 
 def _annotations(source: str) -> Iterator[tuple[Position, Position]]:
-    """Annotations are never run, and `TYPE_CHECKING` is never true."""
+    """What makes no difference: annotations are never run, and these keywords only forbid what is not done."""
     for node in ast.walk(ast.parse(source)):
         match node:
             case ast.arg(annotation=ast.expr() as said) | ast.AnnAssign(annotation=said):
                 pass
             case ast.FunctionDef(returns=ast.expr() as said) | ast.AsyncFunctionDef(returns=ast.expr() as said):
+                pass
+            case ast.keyword(arg="strict" | "frozen" | "slots", value=said):
                 pass
             case _:
                 continue

@@ -101,7 +101,7 @@ class Copy:
             each for place in further for each in (sorted(place.rglob("test_*.py")) if place.is_dir() else [place])
         ]
         quick = [each for each in dict.fromkeys((*asking, *rooms)) if not any(part in each.name for part in SLOW)]
-        first = own or [each for each in asking if each in quick] or quick[:1]
+        first = own or [each for each in asking if each in quick] or quick
         return Tests(self._named(first), self._named(each for each in quick if each not in first))
 
     def _named(self, paths: Iterable[Path]) -> tuple[str, ...]:

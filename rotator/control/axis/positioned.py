@@ -99,7 +99,7 @@ class PositionedAxis:
         self._condition = reading.condition
         self._seen_s = now_s
         unbelievable = self._sensing.take(reading, now_s, self._readings.noise_deg)
-        for at_s, angle_deg in self._sensing.places:
+        for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
             self._readings.see(at_s, angle_deg, self.settings.speed_dps)
         # The rotor's own report says more than what can be seen of it from here.
         reported = reading.condition.fault

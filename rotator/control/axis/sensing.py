@@ -16,7 +16,7 @@ from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.sparks import Place, Sparks
 from rotator.faults import Fault, FaultKind, Notice
 
-BAD_FOR_S = 0.1
+BAD_FOR_S = 0.09
 """Bad readings are a fault after this time (the third one in a row at 20 Hz)."""
 RIDDEN_S = 0.16
 """A motor that runs may go on for so long after the last good reading."""
@@ -103,7 +103,7 @@ class Sensing:
         """Whether the latest reading is a good one."""
         self.places: tuple[Place, ...] = ()
         """The angles that the latest reading shows for the first time, each with its moment: one, or none; or some at
-        once where the axis turns out to be somewhere else."""
+        once where the axis turns out to be somewhere else. Without a calibration, in degrees of the sensor's span."""
         self._sparks = Sparks(fastest_dps)
         self._rate = BadReadings()
         self._seen_s = -math.inf
@@ -111,6 +111,8 @@ class Sensing:
         self._missed = 0
         self._off_line: Fault | None = None
         """The latest reading is a spark."""
+        self._loose: Fault | None = None
+        """There is a spark among the bad readings since the last good one."""
         self._good_s = -math.inf
         """When the last good reading was taken."""
         self._bad_since_s: float | None = None
@@ -149,14 +151,14 @@ class Sensing:
         problem = self._problem(reading, now_s) or self._spark(reading, noise_deg, new=new)
         self.believable = problem is None
         if problem is None:
-            self._good_s, self._bad_since_s = reading.at_s, None
+            self._good_s, self._bad_since_s, self._loose = reading.at_s, None, None
         elif self._bad_since_s is None:
             self._bad_since_s = now_s
         lasts = self._bad_since_s is not None and now_s - self._bad_since_s >= BAD_FOR_S
         # What lasts is a fault of its own, and so is what the rotor reports: neither spoils the rate.
         if new and not lasts and reading.condition.fault is None:
             self._rate.note(reading.at_s, bad=problem is not None or missed)
-        return (problem if lasts else jumping) or self._too_many(now_s, problem)
+        return jumping or ((self._loose or problem) if lasts else self._too_many(now_s, problem))
 
     def _problem(self, reading: Reading, now_s: float) -> Fault | None:
         low, high = self._window.low_raw, self._window.high_raw
@@ -181,11 +183,13 @@ class Sensing:
         if not places:
             measured = f"{angle_deg:.0f}°, a moment after {self._degrees(self.raw or 0.0):.0f}°"
             self._off_line = Fault(FaultKind.POT_JUMPS, self._axis, measured, f"{JUMP_DEG:g}° beyond what it can turn")
+            self._loose = self._loose or self._off_line
             return self._off_line
         self._off_line = None
         self.raw = reading.raw
+        self.places = places
         if self.calibration is not None:
-            self.angle_deg, self.places = angle_deg, places
+            self.angle_deg = angle_deg
         if len(places) > 1:
             self._moved_s.append(reading.at_s)
         return None

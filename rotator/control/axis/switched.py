@@ -10,18 +10,16 @@ import math
 from dataclasses import dataclass
 
 from hw.ports import AngleSource, Direction
+from rotator.control.axis.attempts import Attempts
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.axis.endurance import Endurance
-from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
-from rotator.control.axis.met_stops import MetStops
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
-from rotator.control.axis.short_runs import STANDING, ShortRuns
 from rotator.control.axis.switched_law import SwitchedLaw, Timing
 from rotator.control.commands import Decision, Run
 from rotator.control.sky.plan import Path
@@ -41,8 +39,6 @@ class _Relays:
     """What the relays of this axis do, and when one was last seen closed."""
 
     direction: Direction = Direction.OFF
-    last: Direction = Direction.OFF
-    """The direction of the present or latest run."""
     driven_s: float | None = None
 
 
@@ -52,7 +48,7 @@ class SwitchedAxis:
     def __init__(self, settings: SwitchedSettings, *, lease_s: float, period_s: float) -> None:
         self.settings = settings
         self._goal: AimGoal | JogGoal | HomeGoal | None = None
-        self._faults = FaultLatch()
+        self._attempts = Attempts(settings.axis, settings.limits)
         self._ends = EndCalibration(settings.limits, settings.missing)
         self._condition: Condition | None = None
         # A count does not scatter, and it is corrected by as much as a pulse at once.
@@ -64,10 +60,6 @@ class SwitchedAxis:
         self._watch = self._new_watch()
         self._astray: Fault | None = None
         """What the watch made of the latest reading."""
-        self._short_runs = ShortRuns(settings.axis)
-        self._stops = MetStops(settings.axis, settings.limits)
-        self._seen_s = 0.0
-        """The moment of the present cycle."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
         self._relays = _Relays()
 
@@ -98,7 +90,7 @@ class SwitchedAxis:
 
     @property
     def fault(self) -> Fault | None:
-        return self._faults.fault
+        return self._attempts.fault
 
     @property
     def driven(self) -> bool:
@@ -138,21 +130,19 @@ class SwitchedAxis:
             self._goal = self._goal.standing()
 
     def see(self, reading: Reading, now_s: float) -> None:
-        self._seen_s = now_s
         lost = self._note_condition(reading.condition)
         unbelievable = self._sensing.take(reading, now_s, self._watch.noise_deg)
-        for at_s, angle_deg in self._sensing.places:
+        for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
             self._law.see(at_s, angle_deg)
             found = self._watch.see(at_s, angle_deg, reading.condition.changes)
             if self.settings.homing is None:
-                found = found or self._short_runs.see(at_s, angle_deg, self._watch.noise_deg)
+                found = found or self._attempts.see(at_s, angle_deg, self._watch.noise_deg)
             self._astray = None if self.homing else found
         # The rotor's own report says more than what can be seen of it from here.
         reported, present = reading.condition.fault, unbelievable or self._astray
         cause = present if reading.condition.latched else reported or present
-        found = (None if self.homing else reported) or present or lost
-        if self._faults.note(found, now_s, cause=cause, tries=self._tries(found)):
-            self._note_strike()
+        if self._attempts.note((None if self.homing else reported) or present or lost, now_s, cause=cause):
+            self._law.forget_run()
 
     def _note_condition(self, condition: Condition) -> Fault | None:
         """What has become of the rotor since the last reading. A count that has just been lost is a fault, once."""
@@ -166,33 +156,14 @@ class SwitchedAxis:
         return None
 
     def fail(self, fault: Fault) -> None:
-        if self._faults.fail(fault, self._seen_s, tries=self._tries(fault)):
-            self._note_strike()
-
-    def _tries(self, found: Fault | None) -> int:
-        """How often the motor was on in vain before this fault: it runs now, or its last runs were short."""
-        if self.driven or found is None:
-            return int(self.driven)
-        return max(1, self._short_runs.tries) if found.kind in {*STANDING, FaultKind.WRONG_WAY} else 0
-
-    def _note_strike(self) -> None:
-        """A fault has just stopped the axis."""
-        self._law.forget_run()
-        fault, way = self.fault, self._relays.last
-        if fault is None:
-            return
-        self._short_runs.struck(fault.kind)
-        if fault.kind in STANDING and way and self._sensing.angle_deg is not None:
-            self._stops.stood_still(fault.kind, way, self._sensing.angle_deg)
+        if self._attempts.fail(fault):
+            self._law.forget_run()
 
     def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
-        if not self._faults.acknowledge(now_s, by_person=by_person):
-            return False
-        self._watch.acknowledge()
-        if by_person:
-            self._short_runs.forget()
-            self._stops.forget()
-        return True
+        acknowledged = self._attempts.acknowledge(now_s, by_person=by_person)
+        if acknowledged:
+            self._watch.acknowledge()
+        return acknowledged
 
     def decide(self, now_s: float) -> Decision:
         run = self._safe(self._wish(now_s), now_s)
@@ -218,7 +189,7 @@ class SwitchedAxis:
         """Whether the axis stands at its limit in that direction, or past it."""
         if self.missing or self._sensing.angle_deg is None or self.homing:
             return False
-        limits, angle_deg = self._stops.limits, self._sensing.angle_deg
+        limits, angle_deg = self._attempts.limits, self._sensing.angle_deg
         return angle_deg >= limits.max_deg if direction > 0 else angle_deg <= limits.min_deg
 
     def _wish(self, now_s: float) -> Run:
@@ -241,11 +212,11 @@ class SwitchedAxis:
                 return self._home(now_s, homing)
             case AimGoal() if self.missing or self._sensing.angle_deg is None:
                 return self._law.rest(now_s)
-            case AimGoal(_, tolerance_deg, Path() as path) if self._stops.limits.holds(path.angle_deg(now_s)):
+            case AimGoal(_, tolerance_deg, Path() as path) if self._attempts.limits.holds(path.angle_deg(now_s)):
                 return self._law.follow(now_s, path, tolerance_deg)
             case AimGoal(target_deg, tolerance_deg, path):
                 wanted_deg = path.angle_deg(now_s) if path else target_deg
-                return self._law.approach(now_s, self._stops.limits.nearest(wanted_deg), tolerance_deg)
+                return self._law.approach(now_s, self._attempts.limits.nearest(wanted_deg), tolerance_deg)
             case JogGoal(_, until_s) if until_s is not None and now_s >= until_s:
                 self._goal = None
                 return self._law.rest(now_s)
@@ -258,7 +229,7 @@ class SwitchedAxis:
             longest_s = min(longest_s, until_s)
         if self.missing or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
-        limits = self._stops.limits
+        limits = self._attempts.limits
         limit_deg = limits.max_deg if direction > 0 else limits.min_deg
         if (limit_deg - self._sensing.angle_deg) * direction <= JOG_TOLERANCE_DEG:
             self._goal = None
@@ -286,8 +257,7 @@ class SwitchedAxis:
     def _begin_anew(self, calibration: Calibration | None) -> None:
         """The readings mean other places than before. Only a motor that counts keeps what it has learnt."""
         self._sensing.begin_anew(calibration)
-        self._short_runs.forget()
-        self._stops.forget()
+        self._attempts.forget()
         keeps = self.settings.homing is not None
         motors = self._law.motion.motors if keeps else dict.fromkeys(self._law.motion.motors, self.settings.motor)
         self._law = SwitchedLaw(motors, self._timing)
@@ -296,10 +266,9 @@ class SwitchedAxis:
     def note_driven(self, now_s: float, driven: Direction) -> None:
         self._law.driven(now_s, driven)
         self._watch.driven(now_s, driven)
-        self._short_runs.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
+        self._attempts.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
-        on = driven is not Direction.OFF
-        self._relays = _Relays(driven, driven if on else self._relays.last, now_s if on else self._relays.driven_s)
+        self._relays = _Relays(driven, now_s if driven is not Direction.OFF else self._relays.driven_s)
 
     def status(self, now_s: float) -> AxisStatus:
         calibration = self._sensing.calibration
@@ -328,7 +297,7 @@ class SwitchedAxis:
         blind = BLIND if self.settings.window.blind else None
         single = (reported, self._sensing.notice, self._endurance.notice, blind)
         found = (notice for notice in single if notice is not None)
-        return (*self._watch.notices, *self._stops.notices, *found)
+        return (*self._watch.notices, *self._attempts.notices, *found)
 
     def _new_watch(self) -> MotionWatch | RunWatch:
         settings, motors = self.settings, self._law.motion.motors
