@@ -84,6 +84,7 @@ class Orders:
         """When a person last let it go, or began the program anew."""
         self._switch: tuple[str, float] | None = None
         self._mode = "auto"
+        self._storm = False
 
     def holds(self, axis: str) -> bool:
         """Whether an order for this axis is in force."""
@@ -102,6 +103,14 @@ class Orders:
         self._forget(now_s)
         self._release(now_s)
         self._mode = "auto"
+
+    def links_lost(self, now_s: float) -> None:
+        """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
+        if not self._storm and self._mode == "auto" and PANEL not in self._senders():
+            self._forget(now_s)
+
+    def _senders(self) -> set[str]:
+        return {sender for orders in self.axes.values() for sender in orders.goals}
 
     def expire(self, now_s: float) -> None:
         for orders in self.axes.values():
@@ -130,6 +139,7 @@ class Orders:
             case "storm":
                 if not self._held:
                     self._forget(event.at_s)
+                    self._storm = True
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
             case "home":
@@ -194,6 +204,7 @@ class Orders:
                 orders.expire(event.at_s)
 
     def _forget(self, now_s: float) -> None:
+        self._storm = False
         for axis, orders in self.axes.items():
             orders.forget(now_s)
             if self._parks_idle:
