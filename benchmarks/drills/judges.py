@@ -132,13 +132,14 @@ class Judges:
                 self._away(truth, case, orders)
 
     def _unordered(self, truth: AxisTruth, case: AxisCase) -> None:
-        if self._now_s > self.unattended_s + LEASE_S + STOP_S + LOOK_S and self.ends_at_once:
+        winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s)
+        if self._now_s > self.unattended_s + LEASE_S + winds_down_s and self.ends_at_once:
             self._accuse(AFTER_STOP, truth, f"driven {self._now_s - self.unattended_s:.2f} s after the last lease")
         if self._orders.holds(truth.name) or self._now_s < self.excused_until_s or case.astray:
             case.idle_s = 0.0
             return
         case.idle_s += self._past_s
-        if case.idle_s > STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s):
+        if case.idle_s > winds_down_s:
             last_s = self._orders.ended_s(truth.name)
             judge = AFTER_STOP if self._orders.latched or last_s else NO_ORDER
             self._accuse(judge, truth, f"driven for {case.idle_s:.2f} s; its last order ended at {last_s:.2f} s")

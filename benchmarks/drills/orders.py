@@ -84,6 +84,7 @@ class Orders:
         """When a person last let it go, or began the program anew."""
         self._switch: tuple[str, float] | None = None
         self._mode = "auto"
+        self._storm = False
 
     def holds(self, axis: str) -> bool:
         """Whether an order for this axis is in force."""
@@ -103,12 +104,21 @@ class Orders:
         self._release(now_s)
         self._mode = "auto"
 
+    def links_lost(self, now_s: float) -> None:
+        """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
+        if not self._storm and self._mode == "auto" and PANEL not in self._senders():
+            self._forget(now_s)
+
+    def _senders(self) -> set[str]:
+        return {sender for orders in self.axes.values() for sender in orders.goals}
+
     def expire(self, now_s: float) -> None:
         for orders in self.axes.values():
             orders.expire(now_s)
         if self._switch is not None and now_s >= self._switch[1]:
-            self._mode, self._switch = self._switch[0], None
-            self._forget(now_s)
+            before, self._mode, self._switch = self._mode, self._switch[0], None
+            if self._mode != before:
+                self._forget(now_s)
 
     def note(self, event: Event) -> None:
         if event.who == PANEL:
@@ -129,6 +139,7 @@ class Orders:
             case "storm":
                 if not self._held:
                     self._forget(event.at_s)
+                    self._storm = True
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
             case "home":
@@ -193,6 +204,7 @@ class Orders:
                 orders.expire(event.at_s)
 
     def _forget(self, now_s: float) -> None:
+        self._storm = False
         for axis, orders in self.axes.items():
             orders.forget(now_s)
             if self._parks_idle:
