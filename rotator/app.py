@@ -48,7 +48,7 @@ from rotator.views import lcd
 
 log = logging.getLogger(__name__)
 
-RELAY_LINES = "relay-lines.json"
+RELAY_LINES = "relay-lines"
 """The unit's ExecStopPost reads this file to open the relays of a program that has died."""
 
 
@@ -147,7 +147,7 @@ class App:
     async def _start(self) -> asyncio.Future[Exception | None]:
         """Start everything. Returns the future that is done when the control thread ends. Raises LinkError."""
         if self.station.sentinel and self.station.lines:
-            self._service_manager.leave(RELAY_LINES, self.station.lines.to_json())
+            self._service_manager.leave(RELAY_LINES, self.station.lines.to_text())
             self._tasks.append(asyncio.create_task(process_end(self.station.sentinel.pid), name="sentinel"))
         self._autosave.keep_relays()
         motion_ended = self._engine.start()

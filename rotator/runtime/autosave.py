@@ -12,7 +12,6 @@ from pathlib import Path
 
 from hw.ports import Axis
 from rotator.config.load import ConfigError
-from rotator.config.save import save_axis
 from rotator.control.sky.offsets import Offsets
 from rotator.runtime.loop import ControlLoop
 from rotator.store.learnt import LearntFile, Motors
@@ -90,6 +89,8 @@ class Autosave:
             if self._path is None:
                 log.warning("%s: new calibration, lost at the end: run with --config to keep it", axis.value)
                 continue
+            from rotator.config.save import save_axis  # noqa: PLC0415 - loads tomlkit, which a start can do without
+
             try:
                 save_axis(self._path, axis.value, calibration=self._offsets.own_scale(axis, points))
                 log.info("%s: calibration saved in %s", axis.value, self._path)
