@@ -6,16 +6,22 @@ who gave the order. It does not know how the drive gets to an angle; it sees whe
 
 from __future__ import annotations
 
+import math
+
 from hw.ports import Direction
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import JogGoal, jog, limit_reached
+from rotator.control.axis.pace import Pace
+from rotator.control.axis.reach import UNSEEN_S, lost
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import COMING_DEG, StrayWatch
 from rotator.control.axis.trend import Trend
-from rotator.control.commands import HOLD, Decision, Hold, Steer
+from rotator.control.commands import HOLD, Command, Decision, Hold, Steer
+from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
+from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault
 from rotator.status import AxisStatus
 
@@ -37,6 +43,7 @@ class PositionedAxis:
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
         self._stray = StrayWatch(settings.axis)
         self._readings = Trend()
+        self._pace = Pace(settings)
         self._steered: tuple[Steer, float] | None = None
         """Where the drive was sent last, and when; None: it holds."""
 
@@ -94,6 +101,7 @@ class PositionedAxis:
         unbelievable = self._sensing.take(reading, now_s)
         if self._sensing.fresh and self._sensing.angle_deg is not None:
             self._readings.see(reading.at_s, self._sensing.angle_deg, self.settings.speed_dps)
+            self._pace.see(reading.at_s, self._sensing.angle_deg)
         # The rotor's own report says more than what can be seen of it from here.
         reported = reading.condition.fault
         cause = unbelievable if reading.condition.latched else reported or unbelievable
@@ -119,6 +127,30 @@ class PositionedAxis:
         if self._steered is None:
             self._stray.clear()
         return Decision(command)
+
+    def sweep(self, now_s: float, command: Command | None) -> Range:
+        seen_s = self._sensing.believed_s
+        if self.settings.missing or seen_s is None or now_s - seen_s > UNSEEN_S or lost(self.fault):
+            return UNKNOWN
+        span = self._pace.span(now_s)
+        if not isinstance(command, Steer):
+            return span
+        # It comes to rest at the place of its last command, moving on for as long as that holds.
+        on_deg = abs(command.rate_dps) * (command.until_s - now_s) + self._pace.braking_deg(command.rate_dps)
+        end_deg = command.angle_deg + math.copysign(on_deg, command.rate_dps)
+        near_deg = self.settings.near_deg
+        return span.spanning(min(command.angle_deg, end_deg) - near_deg).spanning(
+            max(command.angle_deg, end_deg) + near_deg
+        )
+
+    @property
+    def room_deg(self) -> float:
+        return 2.0 * self.settings.near_deg
+
+    def hold_back(self, now_s: float, why: str) -> None:
+        self._steered = None
+        if isinstance(self._goal, JogGoal):
+            self._goal = None
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """There are no relays to be noted."""
@@ -182,8 +214,7 @@ class PositionedAxis:
     @property
     def _braking_deg(self) -> float:
         """How far it takes to come to rest from its full speed."""
-        accel_dps2 = self.settings.accel_dps2
-        return self.speed_dps**2 / (2.0 * accel_dps2) if accel_dps2 else 0.0
+        return self._pace.braking_deg(self.speed_dps)
 
     def _within(self, angle_deg: float, rate_dps: float, until_s: float) -> Steer:
         """No further than the limits; at a limit the target moves on alone."""

@@ -93,7 +93,8 @@ class Sensing:
         """Whether the latest reading is a good one."""
         self.fresh = False
         """Whether the latest reading is a good one that had not been taken before."""
-        self._believed_s: float | None = None
+        self.believed_s: float | None = None
+        """When the latest good reading was taken."""
         self._bad_since_s: float | None = None
         self._last: tuple[float, float] | None = None
         self._jumped: Fault | None = None
@@ -104,9 +105,9 @@ class Sensing:
         problem = self._problem(reading, now_s)
         jumping = self._jumping(reading)
         self.believable = problem is None
-        self.fresh = problem is None and reading.at_s != self._believed_s
+        self.fresh = problem is None and reading.at_s != self.believed_s
         if problem is None:
-            self._believed_s = reading.at_s
+            self.believed_s = reading.at_s
             self._bad_since_s = None
             self.raw = reading.raw
             if self.calibration is not None and reading.raw is not None:

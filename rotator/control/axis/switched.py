@@ -6,7 +6,8 @@ who gave the order.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.end_calibration import EndCalibration
@@ -15,13 +16,16 @@ from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion_watch import MotionWatch
+from rotator.control.axis.reach import UNSEEN_S, Bounds, Seen, bounds, lost, swept
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_law import SwitchedLaw, Timing
-from rotator.control.commands import Decision, Run
+from rotator.control.commands import Command, Decision, Run
+from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
+from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Missing, Notice
 from rotator.status import AxisStatus, LearntMotor
 
@@ -38,6 +42,12 @@ class _Relays:
 
     direction: Direction = Direction.OFF
     driven_s: float | None = None
+    last: Direction = Direction.OFF
+    """The direction of the present or latest run."""
+
+    def off_s(self, now_s: float) -> float:
+        """For how long they have been open."""
+        return math.inf if self.driven_s is None else now_s - self.driven_s
 
 
 class SwitchedAxis:
@@ -177,6 +187,37 @@ class SwitchedAxis:
             return self._law.rest(now_s)
         return Run(Direction.OFF, now_s) if self._watch.forbids(run.direction) else run
 
+    def sweep(self, now_s: float, command: Command | None) -> Range:
+        angle_deg, seen_s = self._sensing.angle_deg, self._sensing.believed_s
+        if self.missing or angle_deg is None or seen_s is None or now_s - seen_s > UNSEEN_S or lost(self.fault):
+            return UNKNOWN
+        model_deg, relays = self._law.motion.angle_at(now_s), self._relays
+        seen = Seen(angle_deg, now_s - seen_s, model_deg, relays.direction, relays.last, relays.off_s(now_s))
+        drive = command if isinstance(command, Run) else Run(Direction.OFF, now_s)
+        return swept(seen, self._bounds(), drive.direction, drive.until_s - now_s).widened(self._step_deg)
+
+    @property
+    def room_deg(self) -> float:
+        return max(bound.room_deg for bound in self._bounds().values()) + self._step_deg
+
+    def _bounds(self) -> dict[Direction, Bounds]:
+        return {way: bounds(self.settings.motor, motor) for way, motor in self._law.motion.motors.items()}
+
+    @property
+    def _step_deg(self) -> float:
+        """How far it may be from where it was read: a count tells no more than the pulse that came last."""
+        homing = self.settings.homing
+        return homing.period_s * self.settings.motor.speed_dps if homing else 0.0
+
+    def hold_back(self, now_s: float, why: str) -> None:
+        self._law.rest(now_s)
+        match self._goal:
+            case JogGoal():
+                self._goal = None
+            case HomeGoal():
+                self._goal = None
+                self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, why))
+
     def _beyond(self, direction: Direction) -> bool:
         """Whether the axis stands at its limit in that direction, or past it."""
         if self.missing or self._sensing.angle_deg is None or self.homing:
@@ -248,7 +289,10 @@ class SwitchedAxis:
         self._law.driven(now_s, driven)
         self._watch.driven(now_s, driven)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
-        self._relays = _Relays(driven, now_s if driven is not Direction.OFF else self._relays.driven_s)
+        if driven is Direction.OFF:
+            self._relays = replace(self._relays, direction=driven)
+        else:
+            self._relays = _Relays(driven, now_s, driven)
 
     def status(self, now_s: float) -> AxisStatus:
         calibration = self._sensing.calibration

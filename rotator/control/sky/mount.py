@@ -32,6 +32,32 @@ class Range:
     def holds(self, angle_deg: float) -> bool:
         return self.min_deg <= angle_deg <= self.max_deg
 
+    def meets(self, other: Range) -> bool:
+        """Whether the two have more than an end in common."""
+        return self.min_deg < other.max_deg and other.min_deg < self.max_deg
+
+    def spanning(self, angle_deg: float) -> Range:
+        """The same, stretched to hold this angle."""
+        return Range(min(self.min_deg, angle_deg), max(self.max_deg, angle_deg))
+
+    def widened(self, by_deg: float) -> Range:
+        return Range(self.min_deg - by_deg, self.max_deg + by_deg)
+
+    @property
+    def middle_deg(self) -> float:
+        return (self.min_deg + self.max_deg) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Sector:
+    """Where the antenna would touch something: a chimney, a guy wire, the tower."""
+
+    name: str
+    azimuth: Range
+    elevation: Range
+    margin_deg: float
+    """What is kept free around it, on each side."""
+
 
 @dataclass(frozen=True, slots=True)
 class Mount:
@@ -43,6 +69,8 @@ class Mount:
     """A person has said that the antenna clears everything on its way over the top."""
     horizon: tuple[tuple[float, float], ...] = ()
     """Points (azimuth, least elevation), azimuth rising from 0 to below 360: trees, the neighbour's roof."""
+    sectors: tuple[Sector, ...] = ()
+    """Where the antenna must not be, nor pass, on the axes' own scales."""
 
     def axis_angles(
         self, azimuth_deg: float, elevation_deg: float | None, near_azimuth_deg: float
