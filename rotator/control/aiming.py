@@ -49,7 +49,8 @@ class Aiming:
         elif aim.azimuth_deg is not None:
             stands_deg = self._azimuth.angle_deg
             from_deg = self._mount.azimuth.min_deg if stands_deg is None else stands_deg
-            self._set_goals(self._pointing.aim(now_s, aim, from_deg, self._elevation.angle_deg or 0.0))
+            near_deg, over = self._round.turn(now_s, aim, from_deg)
+            self._set_goals(self._pointing.aim(now_s, aim, near_deg, self._elevation.angle_deg or 0.0, over=over))
             self._asked = asked
         elif aim.elevation_deg is not None:
             self.forget((Axis.ELEVATION,))

@@ -6,17 +6,20 @@ axis as it is. What keeps the antenna out of a sector for certain is the `fence`
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.sky.detour import BESIDE_DEG, Detour, Detours
-from rotator.control.sky.mount import Mount
+from rotator.control.sky.mount import ZENITH_DEG, Mount
+from rotator.control.sky.nudges import FULL_TURN_DEG
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.route import Speeds
 from rotator.control.sky.sectors import Box, Place
 from rotator.faults import Notice
+from rotator.orders import Aim
 
 PLACE_TOLERANCE_DEG = 0.8 * BESIDE_DEG
 """How near to a place on its way an axis has to come."""
@@ -26,6 +29,7 @@ SAME_DEG = 0.25
 
 class GoingRound:
     def __init__(self, mount: Mount, axes: Mapping[Axis, ControlledAxis]) -> None:
+        self._mount = mount
         self._axes = axes
         self.detours = detours(mount, axes) if mount.sectors else None
         self._wishes: dict[Axis, AimGoal] = {}
@@ -39,6 +43,30 @@ class GoingRound:
         """What this axis was asked for, as far as it still aims."""
         aiming = self._axes[axis].aiming
         return self._wishes.get(axis, aiming) if aiming is not None and self.detours is not None else aiming
+
+    def turn(self, now_s: float, aim: Aim, from_deg: float) -> tuple[float, bool]:
+        """Near which azimuth the target is to be met, and whether over the top: where the way takes the least time.
+
+        Without sectors, or where no place is free: the nearest turn, as the mount knows it.
+        """
+        azimuth_deg, elevation_deg = aim.azimuth_deg, aim.elevation_deg
+        if self.detours is None or azimuth_deg is None or elevation_deg is None:
+            return from_deg, False
+        if azimuth_deg > FULL_TURN_DEG or elevation_deg > ZENITH_DEG:  # the sender names the place
+            return from_deg, False
+        here = self._here(now_s)
+        if not here.known:
+            return from_deg, False
+        ways = [
+            (self.detours.seconds(here, (place_deg, raised_deg)), over, abs(place_deg - from_deg), place_deg)
+            for place_deg, raised_deg, over in self._mount.places(azimuth_deg, elevation_deg)
+        ]
+        # Over the top only where no other place is free.
+        ways = [way for way in ways if math.isfinite(way[0])]
+        if not ways:
+            return from_deg, False
+        _, over, _, place_deg = min(ways, key=lambda way: (way[1], way[0], way[2]))
+        return place_deg, over
 
     def aim(self, axis: Axis, goal: AimGoal) -> None:
         """Go there from now on."""
@@ -64,7 +92,7 @@ class GoingRound:
         self._noticed.clear()
         # An axis that jogs or homes is led by nothing: the fence ends it in time.
         free = all(axis in wishes or not self._axes[axis].busy for axis in Axis)
-        here = Box(*(self._axes[axis].sweep(now_s, None) for axis in Axis))
+        here = self._here(now_s)
         if not wishes or not free or not here.known:
             self._target = self._detour = None
             self._give(wishes)
@@ -113,6 +141,9 @@ class GoingRound:
         if detour.leaves:
             for axis in Axis:
                 self._noticed[axis] = Notice(f"the antenna is in {detour.sector}: it only leaves it", "IN FORBIDDEN")
+
+    def _here(self, now_s: float) -> Box:
+        return Box(*(self._axes[axis].sweep(now_s, None) for axis in Axis))
 
     def _give(self, wishes: Mapping[Axis, AimGoal]) -> None:
         for axis, wish in wishes.items():

@@ -10,8 +10,12 @@ import math
 from dataclasses import dataclass
 
 from hw.ports import Direction
-from rotator.control.axis.motion import Motor
+from rotator.control.axis.motion import Motion, Motor
+from rotator.control.axis.sensing import Sensing
+from rotator.control.axis.settings import SwitchedSettings
+from rotator.control.commands import Run
 from rotator.control.sky.mount import Range
+from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind
 
 FASTER, FASTER_LEARNT = 1.5, 1.2
@@ -33,20 +37,23 @@ def lost(fault: Fault | None) -> bool:
     return fault is not None and fault.kind not in TRUSTED
 
 
-@dataclass(frozen=True, slots=True)
-class Seen:
-    """Where a switched axis was seen, and what its relays do."""
+class Runs:
+    """What the relays of an axis do, and did last."""
 
-    angle_deg: float
-    """The latest good reading."""
-    age_s: float
-    model_deg: float
-    """Where the model of the motor has it now."""
-    direction: Direction
-    last: Direction
-    """The direction of the latest run."""
-    off_s: float
-    """For how long the relays have been open."""
+    def __init__(self) -> None:
+        self.direction = Direction.OFF
+        self.last = Direction.OFF
+        """The direction of the present or latest run."""
+        self._driven_s = -math.inf
+
+    def note(self, now_s: float, driven: Direction) -> None:
+        self.direction = driven
+        if driven is not Direction.OFF:
+            self.last, self._driven_s = driven, now_s
+
+    def off_s(self, now_s: float) -> float:
+        """For how long they have been open."""
+        return now_s - self._driven_s
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,21 +77,44 @@ def bounds(described: Motor, learnt: Motor) -> Bounds:
     return Bounds(fastest_dps, max(described.lag_s, learnt.lag_s))
 
 
-def swept(seen: Seen, motors: dict[Direction, Bounds], drive: Direction, drive_s: float) -> Range:
-    """Where the axis may pass until it rests, if it is driven that way for so long from now on (OFF: not at all)."""
-    near = abs(seen.angle_deg - seen.model_deg) <= NEAR_MODEL_DEG
-    span = Range(seen.model_deg, seen.model_deg).spanning(seen.angle_deg if near else seen.model_deg)
-    if seen.last is not Direction.OFF:
-        motor = motors[seen.last]
-        if seen.direction is seen.last:
-            span = _further(span, seen.last, motor.speed_dps * seen.age_s + motor.coast_deg)
-        else:
-            span = _further(span, seen.last, motor.coast_deg * math.exp(-seen.off_s / (FASTER * motor.lag_s)))
-    if drive is Direction.OFF:
-        return span
-    motor = motors[drive]
-    coast_deg = 0.0 if drive is seen.direction else motor.coast_deg
-    return _further(span, drive, motor.speed_dps * drive_s + coast_deg)
+class Reach:
+    def __init__(self, settings: SwitchedSettings) -> None:
+        self._described = settings.motor
+        homing = settings.homing
+        self._step_deg = homing.period_s * settings.motor.speed_dps if homing else 0.0
+        """How far it may be from where it was read: a count tells no more than the pulse that came last."""
+
+    def room_deg(self, motion: Motion) -> float:
+        """How far it may go on before a command can end that, at its first start too."""
+        return max(bound.room_deg for bound in self._bounds(motion).values()) + self._step_deg
+
+    def swept(self, now_s: float, sensing: Sensing, motion: Motion, runs: Runs, run: Run | None) -> Range:
+        """Where the axis may pass until it rests, if this run is the last one; None: if it is to stop now."""
+        angle_deg, seen_s = sensing.angle_deg, sensing.believed_s
+        if angle_deg is None or seen_s is None or now_s - seen_s > UNSEEN_S:
+            return UNKNOWN
+        model_deg = motion.angle_at(now_s)
+        near = abs(angle_deg - model_deg) <= NEAR_MODEL_DEG
+        span = Range(model_deg, model_deg).spanning(angle_deg if near else model_deg).widened(self._step_deg)
+        motors = self._bounds(motion)
+        if runs.last is not Direction.OFF:
+            span = _further(span, runs.last, _going_on_deg(motors[runs.last], runs, now_s - seen_s, now_s))
+        if run is None or run.direction is Direction.OFF:
+            return span
+        motor = motors[run.direction]
+        # A motor that runs that way already has its coast in the span.
+        coast_deg = 0.0 if run.direction is runs.direction else motor.coast_deg
+        return _further(span, run.direction, motor.speed_dps * max(0.0, run.until_s - now_s) + coast_deg)
+
+    def _bounds(self, motion: Motion) -> dict[Direction, Bounds]:
+        return {direction: bounds(self._described, motor) for direction, motor in motion.motors.items()}
+
+
+def _going_on_deg(motor: Bounds, runs: Runs, age_s: float, now_s: float) -> float:
+    """How far it has gone since it was seen, and goes on until it rests."""
+    if runs.direction is runs.last:
+        return motor.speed_dps * age_s + motor.coast_deg
+    return motor.coast_deg * math.exp(-runs.off_s(now_s) / (FASTER * motor.lag_s))
 
 
 def _further(span: Range, direction: Direction, by_deg: float) -> Range:

@@ -6,9 +6,6 @@ who gave the order.
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
-
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.axis.endurance import Endurance
@@ -16,7 +13,7 @@ from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion_watch import MotionWatch
-from rotator.control.axis.reach import UNSEEN_S, Bounds, Seen, bounds, lost, swept
+from rotator.control.axis.reach import Reach, Runs, lost
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
@@ -36,20 +33,6 @@ SETTLED_AFTER_S = 1.0
 BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
 
 
-@dataclass(frozen=True, slots=True)
-class _Relays:
-    """What the relays of this axis do, and when one was last seen closed."""
-
-    direction: Direction = Direction.OFF
-    driven_s: float | None = None
-    last: Direction = Direction.OFF
-    """The direction of the present or latest run."""
-
-    def off_s(self, now_s: float) -> float:
-        """For how long they have been open."""
-        return math.inf if self.driven_s is None else now_s - self.driven_s
-
-
 class SwitchedAxis:
     """The kind of `ControlledAxis` that relays drive. It can be homed where `settings.homing` says how."""
 
@@ -67,7 +50,8 @@ class SwitchedAxis:
         self._astray: Fault | None = None
         """What the watch made of the latest reading."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
-        self._relays = _Relays()
+        self._runs = Runs()
+        self._reach = Reach(settings)
 
     @property
     def angle_deg(self) -> float | None:
@@ -100,7 +84,7 @@ class SwitchedAxis:
 
     @property
     def driven(self) -> bool:
-        return self._relays.direction is not Direction.OFF
+        return self._runs.direction is not Direction.OFF
 
     @property
     def confirmable(self) -> bool:
@@ -113,8 +97,7 @@ class SwitchedAxis:
         return (*self._ends.missing, Missing.HOMING) if lost else self._ends.missing
 
     def moving(self, now_s: float) -> bool:
-        driven_s = self._relays.driven_s
-        return driven_s is not None and now_s - driven_s < SETTLED_AFTER_S
+        return self._runs.off_s(now_s) < SETTLED_AFTER_S
 
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
@@ -188,35 +171,21 @@ class SwitchedAxis:
         return Run(Direction.OFF, now_s) if self._watch.forbids(run.direction) else run
 
     def sweep(self, now_s: float, command: Command | None) -> Range:
-        angle_deg, seen_s = self._sensing.angle_deg, self._sensing.believed_s
-        if self.missing or angle_deg is None or seen_s is None or now_s - seen_s > UNSEEN_S or lost(self.fault):
+        if self.missing or lost(self.fault):
             return UNKNOWN
-        model_deg, relays = self._law.motion.angle_at(now_s), self._relays
-        seen = Seen(angle_deg, now_s - seen_s, model_deg, relays.direction, relays.last, relays.off_s(now_s))
-        drive = command if isinstance(command, Run) else Run(Direction.OFF, now_s)
-        return swept(seen, self._bounds(), drive.direction, drive.until_s - now_s).widened(self._step_deg)
+        run = command if isinstance(command, Run) else None
+        return self._reach.swept(now_s, self._sensing, self._law.motion, self._runs, run)
 
     @property
     def room_deg(self) -> float:
-        return max(bound.room_deg for bound in self._bounds().values()) + self._step_deg
-
-    def _bounds(self) -> dict[Direction, Bounds]:
-        return {way: bounds(self.settings.motor, motor) for way, motor in self._law.motion.motors.items()}
-
-    @property
-    def _step_deg(self) -> float:
-        """How far it may be from where it was read: a count tells no more than the pulse that came last."""
-        homing = self.settings.homing
-        return homing.period_s * self.settings.motor.speed_dps if homing else 0.0
+        return self._reach.room_deg(self._law.motion)
 
     def hold_back(self, now_s: float, why: str) -> None:
         self._law.rest(now_s)
-        match self._goal:
-            case JogGoal():
-                self._goal = None
-            case HomeGoal():
-                self._goal = None
-                self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, why))
+        if self.homing:
+            self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, why))
+        if not isinstance(self._goal, AimGoal):
+            self._goal = None
 
     def _beyond(self, direction: Direction) -> bool:
         """Whether the axis stands at its limit in that direction, or past it."""
@@ -263,7 +232,7 @@ class SwitchedAxis:
 
     def _home(self, now_s: float, homing: Homing) -> Run:
         assert self._condition is not None, "an axis homes only after its first reading"
-        direction = homing.step(now_s, self._relays.direction, self._condition)
+        direction = homing.step(now_s, self._runs.direction, self._condition)
         if homing.failure:
             self._goal = None
             self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, homing.failure))
@@ -289,10 +258,7 @@ class SwitchedAxis:
         self._law.driven(now_s, driven)
         self._watch.driven(now_s, driven)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
-        if driven is Direction.OFF:
-            self._relays = replace(self._relays, direction=driven)
-        else:
-            self._relays = _Relays(driven, now_s, driven)
+        self._runs.note(now_s, driven)
 
     def status(self, now_s: float) -> AxisStatus:
         calibration = self._sensing.calibration
@@ -303,7 +269,7 @@ class SwitchedAxis:
             raw=self._sensing.raw,
             source=self.settings.source,
             target_deg=self.aiming.target_deg if self.aiming else None,
-            drive=self._relays.direction,
+            drive=self._runs.direction,
             moving=self.moving(now_s),
             missing=self.missing,
             lost=self._condition.lost if self._condition else "",
