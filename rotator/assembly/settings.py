@@ -102,6 +102,7 @@ def build_controller(
             park_after_s=config.mount.park_after_s,
             on_sky=config.mount.tolerance == "sky",
             mode=Mode.PARK if panel and config.panel.has_mode_switch else Mode.AUTO,
+            attended=commissioning is not None,
         )
     )
 

@@ -48,8 +48,12 @@ class Fence:
             return commands
         # The motor that runs goes first: one that waits for the other starts once, one that is stopped starts twice.
         moves.sort(key=lambda axis: not self._axes[axis].driven)
-        swept, granted = here, []
+        swept = here
+        granted: list[Axis] = []
+        inside = bool(self._met(here))
         for axis in moves:
+            if inside and granted:
+                break  # one axis leads out, and the other one stands
             for command in self._shorter(now_s, axis, commands[axis]):
                 there = swept.but(axis, self._axes[axis].sweep(now_s, command))
                 if here.of(axis) != UNKNOWN and may_sweep(self._sectors, here, there, self._limits):

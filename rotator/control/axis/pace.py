@@ -31,6 +31,10 @@ class Pace:
         self._readings: deque[tuple[float, float]] = deque(maxlen=16)
         self._trailing_deg: float | None = None
         """Where a modelled axis is at its slowest."""
+        self._place_deg: float | None = None
+        """Where it was sent last, to rest there."""
+        self._stops = False
+        """It could come to rest there when it was sent, and so it will not go beyond."""
 
     def see(self, at_s: float, angle_deg: float) -> None:
         """A new good reading."""
@@ -41,8 +45,32 @@ class Pace:
         self._trailing_deg += math.copysign(min(abs(behind_deg), most_deg), behind_deg)
         self._readings.append((at_s, angle_deg))
 
+    def sent(self, now_s: float, place_deg: float | None) -> None:
+        """It is sent to rest there from now on. None: it moves on with its target, or holds."""
+        if place_deg is None or not self._readings:
+            return
+        if place_deg != self._place_deg:
+            self._place_deg, self._stops = place_deg, False
+        ahead_deg, span = place_deg - self._readings[-1][1], self._braking_span(now_s)
+        near_deg = self._settings.near_deg
+        able = span.max_deg <= place_deg + near_deg if ahead_deg > 0 else span.min_deg >= place_deg - near_deg
+        self._stops = self._stops or able
+
+    def moves_on(self) -> None:
+        """Its target moves: it may go beyond the place where it was sent last."""
+        self._place_deg, self._stops = None, False
+
     def span(self, now_s: float) -> Range:
         """Where the axis may be from now until it rests, if it is to stop now. There must have been a reading."""
+        span = self._braking_span(now_s)
+        if not self._stops or self._modelled or self._place_deg is None:
+            return span
+        angle_deg, near_deg = self._readings[-1][1], self._settings.near_deg
+        if self._place_deg > angle_deg:
+            return Range(span.min_deg, max(angle_deg, min(span.max_deg, self._place_deg + near_deg)))
+        return Range(min(angle_deg, max(span.min_deg, self._place_deg - near_deg)), span.max_deg)
+
+    def _braking_span(self, now_s: float) -> Range:
         at_s, angle_deg = self._readings[-1]
         span = Range(angle_deg, angle_deg)
         if self._modelled:

@@ -124,6 +124,11 @@ class PositionedAxis:
             self.fail(limit_reached(self.settings.axis, blocked))
             self._goal, command = None, HOLD
         self._steered = (command, now_s) if isinstance(command, Steer) else None
+        match command:
+            case Steer(place_deg, 0.0, _):
+                self._pace.sent(now_s, place_deg)
+            case Steer():
+                self._pace.moves_on()
         if self._steered is None:
             self._stray.clear()
         return Decision(command)
