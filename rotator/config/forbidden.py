@@ -71,6 +71,43 @@ def forbidden_faults(
     return faults
 
 
+def seen_again(tables: Sequence[ForbiddenTable], axes: Mapping[Axis, AxisTable]) -> list[tuple[str, str]]:
+    """What stands in a sector stands in the same direction on another turn, or over the top, if the rotor goes there.
+
+    For each such place without a sector of its own: what and where it is, and the keys of a table for it.
+    """
+    azimuth, elevation = axes[Axis.AZIMUTH], axes[Axis.ELEVATION]
+    found = []
+    for table in tables:
+        (west_deg, east_deg), (low_deg, high_deg) = table.azimuth_deg, table.elevation_deg
+        again = [
+            (f"{table.name} stands on the other turn of the azimuth too", turn_deg, low_deg, high_deg)
+            for turn_deg in (-360.0, 360.0)
+        ]
+        again += [
+            (f"over the top the antenna meets {table.name} too", turn_deg, 180.0 - high_deg, 180.0 - low_deg)
+            for turn_deg in (-180.0, 180.0)
+        ]
+        for what, turn_deg, bottom_deg, top_deg in again:
+            west, east = max(west_deg + turn_deg, azimuth.min_deg), min(east_deg + turn_deg, azimuth.max_deg)
+            bottom, top = max(bottom_deg, elevation.min_deg), min(top_deg, elevation.max_deg)
+            if west < east and bottom < top and not _covered(tables, (west, east), (bottom, top)):
+                keys = f"azimuth_deg = [{west:g}, {east:g}], elevation_deg = [{bottom:g}, {top:g}]"
+                found.append((what, keys))
+    return found
+
+
+def _covered(tables: Sequence[ForbiddenTable], azimuth_deg: Point, elevation_deg: Point) -> bool:
+    """Whether one of the sectors holds all of this."""
+    return any(
+        table.azimuth_deg[0] <= azimuth_deg[0]
+        and azimuth_deg[1] <= table.azimuth_deg[1]
+        and table.elevation_deg[0] <= elevation_deg[0]
+        and elevation_deg[1] <= table.elevation_deg[1]
+        for table in tables
+    )
+
+
 def _overlaps(span: Point, axis: AxisTable) -> bool:
     return span[0] <= axis.max_deg and span[1] >= axis.min_deg
 
