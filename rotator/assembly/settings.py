@@ -11,6 +11,7 @@ from pathlib import Path
 from hw.ports import AngleSource, Axis
 from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
 from rotator.config.axes import AxisTable
+from rotator.config.forbidden import ForbiddenTable
 from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
 from rotator.control.axis.calibration_table import Calibration
@@ -20,7 +21,7 @@ from rotator.control.axis.sensing import ANYTHING, Window
 from rotator.control.axis.settings import NEAR_DEG, AxisSettings, PositionedSettings, SwitchedSettings
 from rotator.control.controller import Controller
 from rotator.control.settings import Settings
-from rotator.control.sky.mount import Mount, Range
+from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.faults import Missing
 from rotator.orders import Mode
@@ -42,6 +43,17 @@ def build_mount(config: Config) -> Mount:
         park_elevation_deg=config.mount.park_elevation_deg + shift.elevation_deg,
         flip=config.mount.flip == "over-top",
         horizon=tuple(config.mount.horizon),
+        sectors=tuple(build_sector(table, shift) for table in config.mount.forbidden),
+    )
+
+
+def build_sector(table: ForbiddenTable, shift: Offsets) -> Sector:
+    (west_deg, east_deg), (low_deg, high_deg) = table.azimuth_deg, table.elevation_deg
+    return Sector(
+        name=table.name,
+        azimuth=Range(west_deg + shift.azimuth_deg, east_deg + shift.azimuth_deg),
+        elevation=Range(low_deg + shift.elevation_deg, high_deg + shift.elevation_deg),
+        margin_deg=table.margin_deg,
     )
 
 
@@ -100,6 +112,7 @@ def build_controller(
             park_after_s=config.mount.park_after_s,
             on_sky=config.mount.tolerance == "sky",
             mode=Mode.PARK if panel and config.panel.has_mode_switch else Mode.AUTO,
+            attended=commissioning is not None,
         )
     )
 

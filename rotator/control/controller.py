@@ -19,6 +19,7 @@ from rotator.control.axis.sensing import Reading
 from rotator.control.axis.settings import PositionedSettings, SwitchedSettings
 from rotator.control.axis.switched import SwitchedAxis
 from rotator.control.commands import Acknowledge, Command, Errand, Place
+from rotator.control.fence import Fence
 from rotator.control.homing_queue import HomingQueue
 from rotator.control.jogs import Jogs
 from rotator.control.rights import deed_of
@@ -72,6 +73,7 @@ class Controller:
         self._authority = Authority(settings.mode, max(tolerances_deg))
         self._aiming = Aiming(settings.mount, axes, Pointing(settings.mount, *tolerances_deg, on_sky=settings.on_sky))
         self._homing = HomingQueue({name: axis for name, axis in switched.items() if axis.settings.homing is not None})
+        self._fence = Fence(settings.mount, axes, period_s=settings.period_s, attended=settings.attended)
         self._timed = TimedList()
         self._jogs = Jogs(axes)
         self._speed_level = 4
@@ -109,7 +111,7 @@ class Controller:
             commands[axis] = decision.command
             if decision.homed_deg is not None:
                 self.errands.append(Place(axis, decision.homed_deg))
-        return commands
+        return self._fence.passed(now_s, commands)
 
     def links_lost(self) -> None:
         """No order arrives from links and consoles, a stop neither: what they ordered ends.
@@ -150,7 +152,8 @@ class Controller:
 
     def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
         status = self._axes[axis].status(now_s)
-        return replace(status, notices=status.notices + self._remarks[axis]) if self._remarks[axis] else status
+        more = self._remarks[axis] + self._aiming.notices(axis) + self._fence.notices(axis, now_s)
+        return replace(status, notices=status.notices + more) if more else status
 
     def _note_lateness(self, now_s: float) -> None:
         """A motor ran for longer than a cycle unwatched: the guard has opened its relay, and a person should know."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.attempts import Attempts
@@ -19,13 +18,16 @@ from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
+from rotator.control.axis.reach import Reach, Runs, lost
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
-from rotator.control.commands import Decision, Feed, Run
+from rotator.control.commands import Command, Decision, Feed, Run
+from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
+from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Missing, Notice
 from rotator.status import AxisStatus, LearntMotor, Trusts
 
@@ -34,14 +36,6 @@ JOG_TOLERANCE_DEG = 0.5
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""
 BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
-
-
-@dataclass(frozen=True, slots=True)
-class _Relays:
-    """What the relays of this axis do, and when one was last seen closed."""
-
-    direction: Direction = Direction.OFF
-    driven_s: float | None = None
 
 
 class SwitchedAxis:
@@ -63,7 +57,8 @@ class SwitchedAxis:
         self._astray: Fault | None = None
         """What the watch made of the latest reading."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
-        self._relays = _Relays()
+        self._runs = Runs()
+        self._reach = Reach(settings)
 
     @property
     def angle_deg(self) -> float | None:
@@ -96,7 +91,7 @@ class SwitchedAxis:
 
     @property
     def driven(self) -> bool:
-        return self._relays.direction is not Direction.OFF
+        return self._runs.direction is not Direction.OFF
 
     @property
     def confirmable(self) -> bool:
@@ -109,8 +104,7 @@ class SwitchedAxis:
         return (*self._ends.missing, Missing.HOMING) if lost else self._ends.missing
 
     def moving(self, now_s: float) -> bool:
-        driven_s = self._relays.driven_s
-        return driven_s is not None and now_s - driven_s < SETTLED_AFTER_S
+        return self._runs.off_s(now_s) < SETTLED_AFTER_S
 
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
@@ -200,6 +194,23 @@ class SwitchedAxis:
         # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
         return Feed(now_s + self._timing.lease_s) if self.settings.master else Run(Direction.OFF, now_s)
 
+    def sweep(self, now_s: float, command: Command | None) -> Range:
+        if self.missing or lost(self.fault):
+            return UNKNOWN
+        run = command if isinstance(command, Run) else None
+        return self._reach.swept(now_s, self._sensing, self._law.motion, self._runs, run)
+
+    @property
+    def room_deg(self) -> float:
+        return self._reach.room_deg(self._law.motion)
+
+    def hold_back(self, now_s: float, why: str) -> None:
+        self._law.rest(now_s)
+        if self.homing:
+            self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, why))
+        if not isinstance(self._goal, AimGoal):
+            self._goal = None
+
     def _beyond(self, direction: Direction) -> bool:
         """Whether the axis stands at its limit in that direction, or past it."""
         if self.missing or self._sensing.angle_deg is None or self.homing:
@@ -217,7 +228,7 @@ class SwitchedAxis:
         if self._sensing.believable:
             return run
         # A bad reading starts nothing, and what runs may go on for a moment, until the next good one.
-        if run.direction is not self._relays.direction:
+        if run.direction is not self._runs.direction:
             return self._law.rest(now_s)
         return Run(run.direction, min(run.until_s, self._sensing.ridden_until_s))
 
@@ -244,8 +255,8 @@ class SwitchedAxis:
             longest_s = min(longest_s, until_s)
         if self.missing or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
-        limits, reach_deg = self._attempts.limits, self._reach
-        limit_deg = min(limits.max_deg, reach_deg[1]) if direction > 0 else max(limits.min_deg, reach_deg[0])
+        limits, rests_deg = self._attempts.limits, self._rests_deg
+        limit_deg = min(limits.max_deg, rests_deg[1]) if direction > 0 else max(limits.min_deg, rests_deg[0])
         if (limit_deg - self._sensing.angle_deg) * direction <= JOG_TOLERANCE_DEG:
             self._goal = None
             return self._law.rest(now_s)
@@ -255,7 +266,7 @@ class SwitchedAxis:
 
     def _home(self, now_s: float, homing: Homing) -> Run:
         assert self._condition is not None, "an axis homes only after its first reading"
-        direction = homing.step(now_s, self._relays.direction, self._condition)
+        direction = homing.step(now_s, self._runs.direction, self._condition)
         if homing.failure:
             self._goal = None
             self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, homing.failure))
@@ -283,7 +294,7 @@ class SwitchedAxis:
         self._watch.driven(now_s, driven)
         self._attempts.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
-        self._relays = _Relays(driven, now_s if driven is not Direction.OFF else self._relays.driven_s)
+        self._runs.note(now_s, driven)
 
     def status(self, now_s: float) -> AxisStatus:
         calibration = self._sensing.calibration
@@ -294,7 +305,7 @@ class SwitchedAxis:
             raw=self._sensing.raw,
             source=self.settings.source,
             target_deg=self.aiming.target_deg if self.aiming else None,
-            drive=self._relays.direction,
+            drive=self._runs.direction,
             moving=self.moving(now_s),
             missing=self.missing,
             lost=self._condition.lost if self._condition else "",
@@ -316,7 +327,7 @@ class SwitchedAxis:
         return (*self._watch.notices, *self._attempts.notices, *found)
 
     @property
-    def _reach(self) -> tuple[float, float]:
+    def _rests_deg(self) -> tuple[float, float]:
         """Between these angles the axis may be brought to rest."""
         limits, homing = self.settings.limits, self.settings.homing
         if homing is None:
