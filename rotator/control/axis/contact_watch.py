@@ -49,6 +49,8 @@ class ContactWatch:
         """The latest changes of the present or latest run."""
         self._blind_s = 0.0
         """For how long relays were closed since the contact last changed."""
+        self._ran_since = {PLUS: False, MINUS: False}
+        """Whether a relay has been closed again since it was doubted."""
 
     @property
     def trusts(self) -> Trusts:
@@ -77,6 +79,7 @@ class ContactWatch:
             if self._trust[direction] is Trust.OPEN:
                 self._trust[direction] = Trust.UNSEEN
             self._moments_s.clear()
+            self._ran_since[direction] = True
         self._driven, self._since_s = direction, now_s
 
     def see(self, at_s: float, condition: Condition) -> None:
@@ -113,8 +116,8 @@ class ContactWatch:
     def _turns_by_itself(self) -> None:
         """The contact changes, and does not say which way the axis turns."""
         for way in (PLUS, MINUS):
-            if self._trust[way] is Trust.UNSEEN and way is self._last:
-                self._trust[way] = Trust.DOUBTED
+            if self._trust[way] is not Trust.OPEN and way is self._last:
+                self._trust[way], self._ran_since[way] = Trust.DOUBTED, False
             elif self._trust[way] is Trust.OPEN:
                 self._trust[way] = Trust.UNSEEN
 
@@ -122,7 +125,7 @@ class ContactWatch:
         self.looked = True
         ahead = BOTH_WAYS if condition.lost or self.homing else condition.ahead
         for way in (PLUS, MINUS):
-            own = way is self._last and self._since_s > -math.inf
+            own = way is self._last and self._ran_since[way]
             followed = self.homing or self._blind_s <= BLIND_PERIODS * self._period_s
             if self._trust[way] is Trust.DOUBTED:
                 # Only a run of its own shows that it opens.
@@ -132,4 +135,4 @@ class ContactWatch:
             if followed and way in ahead:
                 self._trust[way] = Trust.OPEN
             elif self._trust[way] is Trust.UNSEEN:
-                self._trust[way] = Trust.DOUBTED
+                self._trust[way], self._ran_since[way] = Trust.DOUBTED, False

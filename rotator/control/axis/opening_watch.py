@@ -35,6 +35,8 @@ MEASURED_AFTER_S = 0.6
 """A run as long as this shows the motor's speed; in a shorter one it is still gathering it."""
 STEADY_S = 1.5
 """After this time the motor runs at its full speed, and the run's last second shows it exactly."""
+UNSEEN_S = 0.3
+"""An axis that was held for less than this at the end of a run seems to turn until the end."""
 BLIND_S = 1.0
 """So long, in all, an axis may have been driven by short runs that it was not seen to follow."""
 RAN_ON_S, RAN_ON_SHARE = 0.45, 0.9
@@ -86,10 +88,14 @@ class OpeningWatch:
         self._unbroken = False
         """There has been a supply ever since the latest run."""
         self._latest: deque[float] = deque(maxlen=3)
+        self._resting: deque[float] = deque(maxlen=10)
+        """The latest readings without a relay on."""
         self._rest_deg: float | None = None
         """Where the axis stands."""
         self._line: Slope | None = None
         """How the present run turns the axis."""
+        self._run_dps = 0.0
+        """The fastest that the axis has turned in this run, for certain."""
         self._turned_s = -math.inf
         """When the axis was last seen to turn."""
         self._from_deg: float | None = None
@@ -153,8 +159,9 @@ class OpeningWatch:
             if self._trust[direction] is Trust.OPEN:
                 self._trust[direction] = Trust.UNSEEN
             self._from_deg = self._rest_deg if self._from_deg is None else self._from_deg
+            self._resting.clear()
             self._rest_deg = self._line = self._ended = self._lagged_deg = None
-            self.ran_on, self._going = False, 0
+            self.ran_on, self._going, self._run_dps = False, 0, 0.0
 
     def see(self, at_s: float, angle_deg: float, *, supplied: bool) -> None:
         """A good reading, on the line of the others."""
@@ -165,6 +172,7 @@ class OpeningWatch:
             self._supplied_s, self._unbroken = None, False
         else:
             self._supplied_s = at_s if self._supplied_s is None else self._supplied_s
+            self._resting.append(angle_deg)
             self._see_rest(at_s)
 
     @property
@@ -182,11 +190,12 @@ class OpeningWatch:
         self._supplied_s, self._unbroken = relays.since_s, True
         self._line = self._turning(at_s, relays.since_s)
         if self._line is not None:
+            self._run_dps = max(self._run_dps, abs(self._line.speed_dps) - 2.0 * self._line.rough_dps)
             self._turned_s, self._blind_s, self._from_deg = at_s, 0.0, None
             for way, held_deg in list(self._held_deg.items()):
                 if (self._place_deg - held_deg) * way > 2.0 * BEYOND_DEG:
                     del self._held_deg[way]
-        elif at_s - max(relays.since_s, self._turned_s) > BLIND_S:
+        elif at_s - max(relays.since_s, self._turned_s) > max(BLIND_S, 1.5 * self._unseen_s):
             self._held_deg[relays.direction] = self._place_deg
 
     def _turning(self, at_s: float, since_s: float) -> Slope | None:
@@ -197,7 +206,11 @@ class OpeningWatch:
             return None
         for window_s in END_WINDOWS_S:
             slope = trend.slope(max(since_s, at_s - window_s))
-            if slope is None or abs(slope.speed_dps) < 3.5 * slope.rough_dps:
+            if slope is None:
+                continue
+            if abs(slope.speed_dps) + 3.0 * slope.rough_dps < max(self.fed_dps, FED_SHARE * self._run_dps):
+                return None  # it stands, whatever the longer windows still hold
+            if abs(slope.speed_dps) < 3.5 * slope.rough_dps:
                 continue
             # It may have stopped within this window: then its end is slower than the whole.
             going_dps = latest.speed_dps * math.copysign(1.0, slope.speed_dps) + 2.0 * latest.rough_dps
@@ -240,7 +253,7 @@ class OpeningWatch:
         slowed = slope.speed_dps * way + 3.0 * slope.rough_dps < SLOWED_SHARE * abs(line.speed_dps)
         passed_s = at_s - ended.off_s
         gone_deg = (self._place_deg - ended.angle_deg) * way
-        if (slowed and self._free(way)) or self._still_coasts(passed_s, gone_deg, line):
+        if (slowed and self._free(way, self._place_deg)) or self._still_coasts(passed_s, gone_deg, line):
             self._trust[ended.direction] = Trust.OPEN
         elif passed_s >= RAN_ON_S and ended.lasted_s >= STEADY_S:
             least_deg = RAN_ON_SHARE * abs(line.speed_dps) * passed_s
@@ -270,7 +283,7 @@ class OpeningWatch:
 
     def _note_standing(self) -> None:
         self.looked = True
-        self._rest_deg = self._place_deg
+        self._rest_deg = sum(self._resting) / len(self._resting)
         for way in (PLUS, MINUS):
             if self._trust[way] is Trust.OPEN:
                 continue
@@ -279,7 +292,7 @@ class OpeningWatch:
             if self._trust[way] is Trust.WELDED:
                 # The supply may have been switched off by hand: only a run that was seen shows that it opens.
                 shown = shown and ended is not None and ended.line is not None
-            if shown and not self.ran_on and self._free(way):
+            if shown and not self.ran_on and self._free(way, self._rest_deg):
                 self._trust[way] = Trust.OPEN
             elif self._trust[way] is Trust.UNSEEN:
                 self._trust[way] = Trust.DOUBTED
@@ -288,14 +301,18 @@ class OpeningWatch:
         """Whether the axis turned when its latest run ended; after a short run, whether it may have."""
         if ended.line is not None:
             return True
-        if ended.off_s - ended.lasted_s <= self._turned_s:
-            # In this run it turned: until the end, or until something held it.
-            return ended.off_s - self._turned_s <= END_WINDOWS_S[1]
+        if ended.off_s - ended.lasted_s <= self._turned_s < ended.off_s - self._unseen_s:
+            return False  # in this run it turned at first, and something held it
         if self._from_deg is None:
             self._from_deg = self._place_deg
         elif abs(self._place_deg - self._from_deg) > SURE_NOISES * self._seen.trend.noise_deg:
             self._blind_s, self._from_deg = 0.0, self._place_deg
-        return self._blind_s <= BLIND_S
+        return self._blind_s <= max(BLIND_S, 1.5 * self._unseen_s)
+
+    @property
+    def _unseen_s(self) -> float:
+        """For so long the noise may hide that a motor with current turns."""
+        return max(UNSEEN_S, self._seen.trend.window_s(self.fed_dps / 3.5))
 
     def _moved_from(self, rest_deg: float) -> bool:
         return abs(self._place_deg - rest_deg) > MOVED_DEG + 4.0 * self._seen.trend.noise_deg
@@ -317,9 +334,8 @@ class OpeningWatch:
             if self._trust[way] is Trust.UNSEEN:
                 self._trust[way] = Trust.DOUBTED
 
-    def _free(self, way: Direction) -> bool:
-        """Whether a motor with current could turn on that way from here."""
-        place_deg = self._place_deg
+    def _free(self, way: Direction, place_deg: float) -> bool:
+        """Whether a motor with current could turn on that way from there."""
         held_deg = self._held_deg.get(way)
         if held_deg is not None and (held_deg - place_deg) * way < 2.0 * BEYOND_DEG:
             return False
