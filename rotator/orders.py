@@ -140,6 +140,13 @@ class Confirm:
 
 
 @dataclass(frozen=True, slots=True)
+class RelaysChecked:
+    """A person has looked at both relays of this axis, and they are open: what the box could not see itself."""
+
+    axis: Axis
+
+
+@dataclass(frozen=True, slots=True)
 class LetGo:
     """Motors without torque. A person orders it, for an antenna that is out of balance turns."""
 
@@ -159,7 +166,7 @@ class Leave:
     """The sender's connection has ended: its jog without a time and its stream end with it."""
 
 
-Personal = SetMode | Nudge | Home | Confirm | LetGo | Remark
+Personal = SetMode | Nudge | Home | Confirm | RelaysChecked | LetGo | Remark
 """Orders that only a person at the panel or on the console may give."""
 
 Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal

@@ -78,7 +78,7 @@ class SimRelayPotRotor(RelayedRotor):
 
     def _wiper_v(self, axis: RelayPotAxis) -> float:
         with self._lock:
-            self._advance()
+            axis.motor.advance(self._clock())
             return axis.pot.volts(axis.motor.shaft_deg)
 
     def _fault_table(self) -> dict[str, SimFault]:
@@ -98,6 +98,7 @@ class SimRelayPotRotor(RelayedRotor):
                 f"{name}-wind-turns": self._fault_of(axis.motor, "pushed", WIND_SHARE, 0.0),
                 f"{name}-stop-early": self._fault_of(axis.motor, "stop_high_deg", early_deg, stop_deg),
             }
+            table |= self._pot_sampling(name, axis.pot)
         return table | self._motor_faults()
 
     def _pot_fault(self, axis: RelayPotAxis, fault: PotFault) -> SimFault:

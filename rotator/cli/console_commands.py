@@ -81,6 +81,17 @@ def confirm(path: Path | None, axis: str, degrees: str) -> None:
     console.confirm(path, Axis(axis), angle_deg)
 
 
+@click.command(name="relays-checked")
+@CONFIG
+@YES
+@AXIS
+def relays_checked(path: Path | None, yes: bool, axis: str) -> None:
+    """Say that you have looked at an axis's relays, and both are open."""
+    from rotator.cli import console
+
+    console.relays_checked(path, Axis(axis), yes=yes)
+
+
 @click.command(name="let-go")
 @CONFIG
 @YES
@@ -113,4 +124,4 @@ def panel(path: Path | None, words: tuple[str, ...]) -> None:
     console.hand(path, hand)
 
 
-CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, let_go, panel)
+CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, relays_checked, let_go, panel)

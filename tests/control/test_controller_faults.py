@@ -21,10 +21,20 @@ MOVES: list[Order] = [Aim(235, 60), Jog(AZ, PLUS), Jog(AZ, PLUS, 1.0), Park(), L
 
 
 @pytest.mark.parametrize("raw", BROKEN)
-def test_the_first_bad_reading_stops_the_axis_and_only_that(desk: Any, raw: float | None) -> None:
+def test_the_third_bad_reading_in_a_row_stops_the_axis_and_only_that(desk: Any, raw: float | None) -> None:
     desk.step(Aim(235, 60))
     desk.instead[AZ] = raw
+    desk.step()
+    assert desk.step() == {AZ: PLUS, EL: PLUS}, "the second one too is ridden out"
     assert desk.step() == {AZ: OFF, EL: PLUS}
+
+
+@pytest.mark.parametrize("raw", BROKEN)
+def test_a_bad_reading_starts_nothing(desk: Any, raw: float | None) -> None:
+    desk.instead[AZ] = raw
+    assert desk.step(Aim(235, 60)) == {AZ: OFF, EL: PLUS}
+    desk.instead.clear()
+    assert desk.step() == {AZ: PLUS, EL: PLUS}
 
 
 def test_a_spark_costs_a_moment_and_no_more(desk: Any) -> None:

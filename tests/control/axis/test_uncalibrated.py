@@ -63,10 +63,11 @@ def test_a_second_press_is_a_second_turn_and_may_go_back(fresh: Any) -> None:
     assert fresh.step(Jog(AZ, MINUS)) == {AZ: MINUS, EL: OFF}
 
 
-def test_the_other_way_at_once_is_obeyed(fresh: Any) -> None:
+def test_the_other_way_is_obeyed_as_soon_as_the_relay_is_seen_to_open(fresh: Any) -> None:
     fresh.step(Jog(AZ, PLUS))
     fresh.run(0.5)
-    assert fresh.step(Jog(AZ, MINUS)) == {AZ: MINUS, EL: OFF}
+    assert fresh.step(Jog(AZ, MINUS)) == RESTING
+    assert fresh.run(1.0) == {(AZ, MINUS)}
 
 
 @pytest.mark.parametrize("every", [0.05, 0.3, 1.0, 1.9, 2.5, 3.1])
