@@ -82,7 +82,7 @@ async def soak(seconds: float, seed: int) -> Soaked:
         if world.shorted_s:
             seen.found.append(f"both directions of a motor had current for {world.shorted_s} s")
         _read_log(box.log, seen)
-    _judge(seen)
+    judge(seen)
     return seen
 
 
@@ -219,7 +219,7 @@ def _read_log(path: Path, seen: Soaked) -> None:
     seen.found += [f"log, {count} times: {text}" for text, count in texts.items()]
 
 
-def _judge(seen: Soaked) -> None:
+def judge(seen: Soaked) -> None:
     settled = seen.settled
     if not settled:
         return
