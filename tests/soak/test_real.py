@@ -42,20 +42,29 @@ def test_an_odd_moment_is_no_growth() -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "says"),
-    [
-        ({"files": 45}, "file descriptors grew from 44 to 45"),
-        ({"tasks": 34}, "asyncio tasks grew from 33 to 34"),
-        ({"threads": OWN[:-1]}, "lost ['sensors'], new []"),
-        ({"threads": (*OWN, "stray")}, "lost [], new ['stray']"),
-    ],
+    ("threads", "says"),
+    [(OWN[:-1], "lost ['sensors'], new []"), ((*OWN, "stray"), "lost [], new ['stray']")],
 )
-def test_one_reading_is_enough_for_files_tasks_and_threads(change: dict[str, object], says: str) -> None:
+def test_a_thread_that_is_missing_once_or_new_is_told(threads: tuple[str, ...], says: str) -> None:
     seen = soaked()
-    seen.held[20] = replace(seen.held[20], **change)  # type: ignore[arg-type]
+    seen.held[20] = replace(seen.held[20], threads=threads)
     judge(seen)
     (found,) = seen.found
     assert says in found
+
+
+@pytest.mark.parametrize(
+    ("more", "says"),
+    [({"files": 45}, "file descriptors grew from 44 to 45"), ({"tasks": 34}, "asyncio tasks grew from 33 to 34")],
+)
+def test_one_file_or_task_that_stays_is_growth_and_one_that_passes_is_none(more: dict[str, int], says: str) -> None:
+    seen = soaked()
+    seen.held[12] = replace(seen.held[12], **more)  # type: ignore[arg-type]
+    judge(seen)
+    assert seen.found == []
+    seen.held[12:] = [replace(each, **more) for each in seen.held[12:]]  # type: ignore[arg-type]
+    judge(seen)
+    assert seen.found == [says]
 
 
 def test_asyncio_s_worker_threads_come_as_they_are_needed() -> None:
