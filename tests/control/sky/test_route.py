@@ -70,3 +70,11 @@ def test_what_is_below_the_horizon_is_not_lost() -> None:
 def test_without_a_path_ahead_everything_stays() -> None:
     present = Way(440.0, flipped=False)
     assert way(G5500, [(80.0, 20.0)], present) == present
+
+
+@pytest.mark.parametrize(("elevation_dps", "flipped"), [(2.7, True), (2.0, False)])
+def test_of_two_changes_the_one_that_takes_less_time_is_made(elevation_dps: float, flipped: bool) -> None:
+    """Through north at 20° of elevation: a whole turn takes 60 s; over the top 140° of elevation take 52 s, or 70."""
+    speeds = Speeds(6.0, elevation_dps)
+    found = best_way(NO_OVERLAP, through(340.0, 1.0, 30), Way(340.0, flipped=False), speeds, may_flip=True)
+    assert found == (Way(160.0, flipped=True) if flipped else Way(-20.0, flipped=False))

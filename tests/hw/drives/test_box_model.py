@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from hw.drives.box_model import FAST, SLOW, TIGHT_DEG, BoxModel
+from hw.drives.box_model import FAST, SLOW, TIGHT_DEG, BoxModel, RestLead
 
 SPEED_DPS, BAND_DEG = 6.0, 2.0
 
@@ -98,3 +98,104 @@ def test_where_the_rotor_may_not_have_arrived_the_side_where_it_may_be_decides(
     low_deg: float, high_deg: float, before: int, way: int
 ) -> None:
     assert model(100.0, low_deg, high_deg).way(100.0, before, 1.5) == way
+
+
+# --- how far before the wiper it rests
+
+
+class Bench:
+    """A lead with a dead band of 2° and a coast of 0.5°, and a rotor that the test puts somewhere."""
+
+    def __init__(self) -> None:
+        self.lead = RestLead(dead_band_deg=2.0, coast_deg=0.5)
+        self.now_s = 10.0
+
+    def moved(self, from_deg: float, rests_deg: float, wiper_deg: float, way: int) -> None:
+        """A move in that direction, and a rest that lasts."""
+        self.lead.ordered(wiper_deg, way, self.now_s)
+        for angle_deg in (from_deg, (from_deg + rests_deg) / 2, rests_deg):
+            self.lead.seen(angle_deg, self.now_s)
+            self.now_s += 0.5
+        self.rests(rests_deg)
+
+    def rests(self, angle_deg: float, seconds: float = 1.5) -> None:
+        for _ in range(round(seconds / 0.1)):
+            self.now_s += 0.1
+            self.lead.seen(angle_deg, self.now_s)
+
+
+def test_before_anything_was_seen_the_lead_is_the_file_s() -> None:
+    assert Bench().lead.of(1) == Bench().lead.of(-1) == 1.5
+    assert RestLead(dead_band_deg=1.0, coast_deg=3.0).of(1) == 0.0, "never less than nothing"
+
+
+@pytest.mark.parametrize(("way", "from_deg", "rests_deg"), [(1, 60.0, 97.5), (-1, 140.0, 102.5)])
+def test_half_of_what_a_rest_shows_is_learnt_for_that_direction_alone(
+    way: int, from_deg: float, rests_deg: float
+) -> None:
+    bench = Bench()
+    bench.moved(from_deg, rests_deg, 100.0, way)
+    assert bench.lead.of(way) == pytest.approx(1.5 + 0.5 * (2.5 - 1.5))
+    assert bench.lead.of(-way) == 1.5
+    bench.rests(rests_deg, 5.0)
+    assert bench.lead.of(way) == pytest.approx(2.0), "one rest is learnt from once"
+
+
+@pytest.mark.parametrize(
+    ("short_deg", "learnt_deg"),
+    [(4.0, 2.75), (4.1, 1.5), (0.0, 0.75), (-0.6, 0.45), (-0.7, 1.5), (-3.0, 1.5), (10.0, 1.5)],
+)
+def test_a_stalled_motor_teaches_nothing(short_deg: float, learnt_deg: float) -> None:
+    """It rests at most twice the dead band short of the wiper, or its coast beyond it."""
+    bench = Bench()
+    bench.moved(60.0, 100.0 - short_deg, 100.0, 1)
+    assert bench.lead.of(1) == pytest.approx(learnt_deg)
+
+
+def test_a_lead_never_falls_below_nothing() -> None:
+    bench = Bench()
+    for turn in range(8):
+        bench.moved(60.0 + turn, 100.5, 100.0 + turn / 1000, 1)
+        bench.lead.ordered(60.0, -1, bench.now_s)
+    assert bench.lead.of(1) == 0.0
+
+
+def test_only_a_rest_after_three_degrees_shows_the_dead_band() -> None:
+    for from_deg, learns in ((97.5 - 2.9, False), (97.5 - 3.1, True)):
+        bench = Bench()
+        bench.moved(from_deg, 97.5, 100.0, 1)
+        assert (bench.lead.of(1) != 1.5) is learns
+
+
+def test_a_new_target_in_the_same_direction_goes_on_with_the_same_move() -> None:
+    bench = Bench()
+    bench.lead.ordered(98.0, 1, bench.now_s)
+    bench.lead.seen(94.0, bench.now_s)
+    bench.lead.seen(95.0, bench.now_s + 0.5)
+    bench.now_s += 1.0
+    bench.lead.ordered(100.0, 1, bench.now_s)
+    bench.lead.seen(97.5, bench.now_s + 0.5)
+    bench.now_s += 0.5
+    bench.rests(97.5)
+    assert bench.lead.of(1) == pytest.approx(2.0), "it came from 94°, 3.5° in all"
+
+
+def test_the_other_direction_begins_a_new_move() -> None:
+    bench = Bench()
+    bench.moved(60.0, 97.5, 100.0, 1)
+    bench.lead.ordered(95.0, -1, bench.now_s)
+    bench.rests(96.6)
+    assert bench.lead.of(-1) == 1.5, "0.9° are no such turn"
+
+
+def test_a_wiper_set_to_where_the_rotor_is_teaches_nothing() -> None:
+    bench = Bench()
+    bench.lead.seen(60.0, bench.now_s)
+    bench.lead.ordered(100.0, 1, bench.now_s)
+    bench.lead.seen(60.0, bench.now_s)
+    bench.lead.forget()
+    bench.rests(97.5)
+    assert bench.lead.of(1) == 1.5
+    bench.lead.ordered(97.5, 0, bench.now_s)
+    bench.rests(97.5)
+    assert bench.lead.of(0) == 1.5, "and a wiper that stays is no move"

@@ -290,6 +290,7 @@ def test_who_waits_has_no_more_patience_than_was_asked() -> None:
 def test_a_command_wakes_who_waits() -> None:
     bench = Bench(guarded=False)
     waiting = Waiting(bench.bank, 3600.0)
+    assert not waiting.back.wait(0.05), "nothing is due: it sleeps"
     for _ in range(1000):
         bench.drive(AZ, PLUS, 0.2)
         bench.drive(AZ, OFF)
