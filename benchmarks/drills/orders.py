@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass, field
 
 from benchmarks.drills.script import PANEL, PEOPLE, Event
+from benchmarks.drills.silenced import Silenced
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
@@ -81,6 +82,9 @@ class Orders:
         """When anybody last stopped both axes, or a person let it go: faults are acknowledged."""
         self._switch: tuple[str, float] | None = None
         self._mode = "auto"
+        self._silenced = Silenced()
+        self.heard = 0
+        """How many orders there have been."""
 
     def holds(self, axis: str) -> bool:
         """Whether an order for this axis is in force."""
@@ -98,15 +102,18 @@ class Orders:
         """The program ends, and all orders with it; a new one begins with no order, and no stop."""
         self._forget(now_s)
         self.latched, self._mode = False, "auto"
+        self._silenced.forget()
 
     def expire(self, now_s: float) -> None:
         for orders in self.axes.values():
             orders.expire(now_s)
         if self._switch is not None and now_s >= self._switch[1]:
             self._mode, self._switch = self._switch[0], None
+            self._silenced.forget()
             self._forget(now_s)
 
     def note(self, event: Event) -> None:
+        self.heard += 1
         if event.who == PANEL:
             self._note_panel(event)
         elif event.who in PEOPLE:
@@ -122,6 +129,7 @@ class Orders:
                 self.acknowledged_s = event.at_s
             case "resume":
                 self.latched = False
+                self._silenced.forget()
                 self.acknowledged_s = event.at_s
             case "storm":
                 if not self._held:
@@ -153,7 +161,17 @@ class Orders:
 
     def _note_order(self, event: Event) -> None:
         match event.what:
-            case "aim" | "stream":
+            case "aim":
+                if self._silenced.aim(event):
+                    return
+            case "stop":
+                self._silenced.stop(event)
+            case "ask" | "junk" | "speed":
+                pass
+            case _:
+                self._silenced.other(event)
+        match event.what:
+            case "aim":
                 self._aim(event, "azimuth", self._azimuths(event.number(0), event.number(1)))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":

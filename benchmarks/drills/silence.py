@@ -15,7 +15,7 @@ from benchmarks.drills.world import AxisTruth
 from rotator.status import Status
 
 SILENT_S = 5.0
-AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent", "board-unpowered")
+AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent", "board-unpowered", "hung")
 DRIVEN = ("motor-stalled", "pot-stuck", "stands", "jammed", "contact-stuck-open", "contact-stuck-closed")
 """Only while the motor has current is there anything to be seen."""
 TURNING_SHARE = 0.5
