@@ -33,6 +33,8 @@ class Find:
     after_h: float
     """Simulated hours played until then."""
     measured: str
+    drawn_from: str
+    """SEED.NUMBER/KIND of the drill."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,12 +67,13 @@ def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> H
         plant(bug, tree)
         while played_h < hours:
             result = _campaign(tree, ["--seed", str(seed), "--hours", f"{hours - played_h:g}", "--first"], kind)
+            played_h += sum(float(tally["hours"]) for tally in result["kinds"].values())
             for found in result["found"]:
-                find = Find(found["judge"], found["kind"], played_h + found["at_h"], found["measured"])
                 if not _shows(sound, found["script"]):
-                    return Hunt(bug, find.after_h, find, also_without)
+                    drawn_from = str(found["drawn_from"])
+                    find = Find(found["judge"], drawn_from.partition("/")[2], played_h, found["measured"], drawn_from)
+                    return Hunt(bug, played_h, find, also_without)
                 also_without += 1
-            played_h += result["hours"]
             seed += 1
     return Hunt(bug, played_h, None, also_without)
 
