@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True, slots=True)
-class Alarm:
+class Alarm(NamedTuple):  # asked some hundred times in each simulated second: a tuple is taken apart faster
     """A call at its moment while the program sleeps, as of a guard or a sampler.
 
     Of two alarms due at one moment, the one added first rings first.
@@ -58,12 +57,12 @@ class SimClock:
         """Let time pass up to `moment_s`, and ring the alarms on the way, oldest first."""
         while True:
             first, first_s = None, math.inf
-            for alarm in self._alarms:
-                due_s = alarm.due_s()
+            for ask_s, ring in self._alarms:
+                due_s = ask_s()
                 if due_s is not None and due_s <= moment_s and due_s < first_s:
-                    first, first_s = alarm, due_s
+                    first, first_s = ring, due_s
             if first is None:
                 break
             self._now_s = max(self._now_s, first_s)
-            first.ring(self._now_s)
+            first(self._now_s)
         self._now_s = max(self._now_s, moment_s)

@@ -27,6 +27,7 @@ class FaultKind(Enum):
     SENSOR_SILENT = "sensor silent", "SENSOR SILENT", EasycommError.SENSOR
     SENSOR_LATE = "sensor late", "SENSOR LATE", EasycommError.SENSOR
     POT_JUMPS = "pot jumps", "POT JUMPS", EasycommError.SENSOR
+    BAD_READINGS = "bad readings", "BAD READINGS", EasycommError.SENSOR
     WRONG_WAY = "pot moves the wrong way", "WRONG WAY", EasycommError.SENSOR
     STANDS_STILL = "motor runs and pot stands still", "STANDS STILL", EasycommError.JAM
     RUN_TOO_LONG = "motor on longer than the travel takes", "RUN TOO LONG", EasycommError.JAM

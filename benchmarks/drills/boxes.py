@@ -21,6 +21,8 @@ PANEL: dict[str, Any] = {
 }
 SWITCHES = {"azimuth_low": 12, "azimuth_high": 17, "elevation_low": 27, "elevation_high": 26}
 POTS = ("pot-open", "pot-shorted", "pot-reversed", "pot-stuck", "pot-jumps", "pot-loose")
+SAMPLES = ("pot-crackles", "pot-spikes", "pot-bursts")
+CONVERTER = ("adc-noisy", "adc-gaps")
 RELAYS = ("motor-stalled", "motor-reversed", "hand-turns")
 BOTH = ("azimuth", "elevation")
 FIRMWARE = ("gate-driver", "over-voltage", "encoder", "over-temperature", "under-voltage", "position-invalid", "timing")
@@ -28,35 +30,62 @@ FIRMWARE = ("gate-driver", "over-voltage", "encoder", "over-temperature", "under
 
 @dataclass(frozen=True, slots=True)
 class Rotor:
-    """A kind. `faults` of an axis, by the simulators' names without it; `shared` ones have no axis."""
+    """A kind. `faults` of an axis, by the simulators' names without it; `shared` ones have no axis.
+
+    `sporadic` ones strike each so many-th time, of an axis or `shared_sporadic`.
+    """
 
     kind: str
     profile: str
     faults: tuple[str, ...]
     shared: tuple[str, ...] = ()
+    sporadic: tuple[str, ...] = ()
+    shared_sporadic: tuple[str, ...] = ()
     top_deg: tuple[float, float] = (360.0, 180.0)
     geared: bool = True
     relays: bool = False
 
 
 ROTORS = (
-    Rotor("relay-pot", "g5500", (*POTS, *RELAYS, "stop-early"), ("adc-gone",), (450.0, 180.0), relays=True),
     Rotor(
-        "relay-pulse",
-        "u100",
-        ("contact-stuck-open", "contact-stuck-closed", "pulses-missed", "pulses-doubled", *RELAYS),
+        kind="relay-pot",
+        profile="g5500",
+        faults=(*POTS, *RELAYS, "stop-early"),
+        shared=("adc-gone",),
+        sporadic=SAMPLES,
+        shared_sporadic=CONVERTER,
+        top_deg=(450.0, 180.0),
         relays=True,
     ),
-    Rotor("digipot", "orbit360", ("chip-dips", "select-broken", "motor-stalled"), (), (360.0, 90.0)),
     Rotor(
-        "servo",
-        "servos",
-        ("servo-stalled", "servo-unpowered", "wind-turns"),
-        ("board-unpowered", "board-dips"),
-        (180.0, 180.0),
+        kind="relay-pulse",
+        profile="u100",
+        faults=("contact-stuck-open", "contact-stuck-closed", *RELAYS),
+        sporadic=("pulses-missed", "pulses-doubled"),
+        relays=True,
+    ),
+    Rotor(
+        kind="digipot",
+        profile="orbit360",
+        faults=("chip-dips", "select-broken", "motor-stalled"),
+        top_deg=(360.0, 90.0),
+    ),
+    Rotor(
+        kind="servo",
+        profile="servos",
+        faults=("servo-stalled", "servo-unpowered", "wind-turns"),
+        shared=("board-unpowered", "board-dips"),
+        top_deg=(180.0, 180.0),
         geared=False,
     ),
-    Rotor("moteus", "isel", ("silent", "jammed", "power-cycled", *FIRMWARE), (), (450.0, 90.0), geared=False),
+    Rotor(
+        kind="moteus",
+        profile="isel",
+        faults=("silent", "jammed", "power-cycled", *FIRMWARE),
+        sporadic=("replies-lost", "replies-gaps"),
+        top_deg=(450.0, 90.0),
+        geared=False,
+    ),
 )
 KINDS = {rotor.kind: rotor for rotor in ROTORS}
 

@@ -12,7 +12,7 @@ from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, PROGRAM, WORLD
 from benchmarks.drills.stories import stories
 
 STORIES = 0.9
-SHORTEST_S, LONGEST_S = 60.0, 1200.0
+SHORTEST_S, LONGEST_S = 30.0, 900.0
 WAYS = ("cw", "ccw", "up", "down")
 BADS = ("zero", "full", "far", "near", "last")
 JUNK = ("W1", "\x00\xff", "P nan nan\n", "AZ EL 12\n", "M 99 99\r", "stop?", ";;;", "<PST>", "\r\n", "W999 999\r")
@@ -72,7 +72,7 @@ def _azimuth(chance: random.Random, mast: Mast) -> float:
         case 0:
             return chance.choice((0.0, 1.0, 359.0, 360.0))
         case 1:
-            return mast.top_deg[0] - chance.uniform(-5.0, 5.0)
+            return min(450.0, mast.top_deg[0] - chance.uniform(-5.0, 5.0))
         case _:
             return float(chance.randrange(round(mast.top_deg[0])))
 
@@ -233,7 +233,9 @@ def _trouble(chance: random.Random, mast: Mast) -> tuple[tuple[str, *Happening],
     if rotor.relays:
         choices += ["weld", "weld", "pace", "push", "sticks"]
     if mast.has_pots:
-        choices += ["every", "every", "burst", "noise", "drift", "stands", "deaf"]
+        choices += ["every", "burst", "noise", "drift", "stands"]
+    if rotor.sporadic or rotor.shared_sporadic:
+        choices += ["sporadic", "sporadic"]
     match chance.choice(choices):
         case "weld":
             return ("weld", axis, float(chance.choice((-1, 1)))), ("unweld", axis)
@@ -253,8 +255,9 @@ def _trouble(chance: random.Random, mast: Mast) -> tuple[tuple[str, *Happening],
             return ("drift", axis, chance.uniform(-0.1, 0.1), chance.uniform(1.0, 10.0)), None
         case "stands":
             return ("stands", axis, 1.0), ("stands", axis, 0.0)
-        case "deaf":
-            return ("deaf", float(chance.randrange(2, 40))), ("deaf", 0.0)
+        case "sporadic":
+            name = chance.choice([*(f"{axis}-{name}" for name in rotor.sporadic), *rotor.shared_sporadic])
+            return ("fault", f"{name}:{chance.randrange(2, 40)}"), ("clear", name)
     names = [f"{axis}-{name}" for name in rotor.faults] + list(rotor.shared)
     if mast.has_switches:
         names += [f"{axis}-low-switch-open", f"{axis}-high-switch-open"]

@@ -94,7 +94,7 @@ class Judges:
         self.cases = cases
         self._orders = orders
         self._master = master
-        self._acknowledged_s = 0.0
+        self._acknowledged_s = self._released_s = 0.0
         self._now_s = self._past_s = 0.0
         self.unattended_s = math.inf
         """Since when the control thread gets no turn, or the program is dead."""
@@ -113,6 +113,10 @@ class Judges:
             self._acknowledged_s = self._orders.acknowledged_s
             for case in self.cases:
                 case.beyond_s = 0.0
+        if self._orders.released_s != self._released_s:
+            self._released_s = self._orders.released_s
+            for case in self.cases:
+                case.tries_s.clear()
         for truth, case in zip(axes, self.cases, strict=True):
             if truth.shorted_s > case.shorted_s:
                 self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")

@@ -14,6 +14,7 @@ from benchmarks.drills.silenced import Silenced
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
+TURN_DEG = 360.0
 UNCALIBRATED_S = 2.0
 """A press of an axis that was never set up."""
 SWITCH_S = 1.3
@@ -80,6 +81,8 @@ class Orders:
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
         """When anybody last stopped both axes, or a person let it go: faults are acknowledged."""
+        self.released_s = 0.0
+        """When a person last let it go, or began the program anew."""
         self._switch: tuple[str, float] | None = None
         self._mode = "auto"
         self._silenced = Silenced()
@@ -101,8 +104,8 @@ class Orders:
     def forget_all(self, now_s: float) -> None:
         """The program ends, and all orders with it; a new one begins with no order, and no stop."""
         self._forget(now_s)
-        self.latched, self._mode = False, "auto"
-        self._silenced.forget()
+        self._release(now_s)
+        self._mode = "auto"
 
     def expire(self, now_s: float) -> None:
         for orders in self.axes.values():
@@ -128,9 +131,7 @@ class Orders:
                 self.latched = True
                 self.acknowledged_s = event.at_s
             case "resume":
-                self.latched = False
-                self._silenced.forget()
-                self.acknowledged_s = event.at_s
+                self._release(event.at_s)
             case "storm":
                 if not self._held:
                     self._forget(event.at_s)
@@ -152,8 +153,7 @@ class Orders:
                 self._forget(event.at_s)
                 self.latched = True
             case "stop":
-                self.latched = False
-                self.acknowledged_s = event.at_s
+                self._release(event.at_s)
             case "knob":
                 self._anywhere(event, event.text(0))
             case "jog":
@@ -172,10 +172,10 @@ class Orders:
                 self._silenced.other(event)
         match event.what:
             case "aim":
-                self._aim(event, "azimuth", self._azimuths(event.number(0), event.number(1)))
+                self._aim_azimuth(event, event.number(1))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
-                self._aim(event, "azimuth", self._azimuths(event.number(0), 0.0))
+                self._aim_azimuth(event, 0.0)
             case "aim-elevation":
                 self._aim(event, "elevation", self._elevations(event.number(0)))
             case "jog":
@@ -197,6 +197,11 @@ class Orders:
                     self._anywhere(event, axis)
             case "leave":
                 self._left(event)
+
+    def _release(self, now_s: float) -> None:
+        self.latched = False
+        self._silenced.forget()
+        self.acknowledged_s = self.released_s = now_s
 
     def _left(self, event: Event) -> None:
         for orders in self.axes.values():
@@ -224,6 +229,14 @@ class Orders:
         goals[event.who] = Goal(angles_deg, 0, event.at_s, rate_dps=rate_dps)
         if self._parks_idle:
             goals.setdefault("idle", Goal((self._park_deg[axis],), 0, event.at_s))
+
+    def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
+        """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
+        angles_deg = self._azimuths(event.number(0), elevation_deg)
+        before = self.axes["azimuth"].goals.get(event.who)
+        if before and (event.number(0) > TURN_DEG or not angles_deg):
+            angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
+        self._aim(event, "azimuth", angles_deg)
 
     def _azimuths(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, ...]:
         """Every axis angle that shows there, over the top too where it may be."""

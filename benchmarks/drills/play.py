@@ -67,7 +67,7 @@ class _Play:
         self._config = configured(drill, self._folder)
         self._box = Box(drill, self._config, self._folder, self._clock, None)
         self._world = World(self._box.world, self._clock)
-        self._troubles = Troubles(self._box.world, self._clock, drill.seed, self._config.adc.address)
+        self._troubles = Troubles(self._box.world, self._clock, drill.seed)
         self._cases = axis_cases(self._config, self._world.axes)
         self._orders = build_orders(self._config, lacking=drill.commissioning)
         has_master = self._config.rotor.switched and self._config.relays.master is not None
@@ -78,6 +78,8 @@ class _Play:
         """The reading thread hangs."""
         self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
         self._acted_s = -1.0
+        self._back_s = 0.0
+        """When the program began: what was sent to it before is lost."""
 
     @property
     def _now_s(self) -> float:
@@ -106,7 +108,7 @@ class _Play:
                 event = events.popleft()
                 self._sleep_until(event.at_s)
                 before_s = self._now_s
-                self._happen(event)
+                self._happen(replace(event, at_s=before_s), late_s=before_s - event.at_s)
                 if self._now_s > before_s + self._period_s:  # the control thread had no turn meanwhile
                     next_s = self._now_s
                 continue
@@ -134,9 +136,10 @@ class _Play:
         self._orders.expire(now_s)
         self._judges.look(now_s, self._world.axes)
         self._judges.count(self._world.relay_starts)
-        self._silence.look(now_s, self._world.axes, self._box.loop.status)
+        ordered = any(map(self._orders.holds, self._orders.axes))
+        self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered)
 
-    def _happen(self, event: Event) -> None:
+    def _happen(self, event: Event, late_s: float) -> None:
         match event.who:
             case str(who) if who == WORLD:
                 self._befall(event)
@@ -148,7 +151,7 @@ class _Play:
                 self._orders.note(event)
                 words = [f"{word:.3f}" if isinstance(word, float) else str(word) for word in (event.what, *event.args)]
                 self._box.hand(words)
-            case _:
+            case _ if event.at_s - late_s >= self._back_s:
                 self._hear(event)
 
     def _hear(self, event: Event) -> None:
@@ -162,6 +165,8 @@ class _Play:
             if not (data := said(event)):
                 return
             self._orders.note(event)
+            if event.what == "calibrate":
+                self._cases[0 if event.text(0) == "azimuth" else 1].trusted = False  # a person says where it stands
             self._box.hear(event.who, data)
         if self._now_s - self._acted_s >= MOST_ACTS_S:
             self._acted_s = self._now_s
@@ -212,15 +217,15 @@ class _Play:
         self._silence.pause()
         self._pass(event.number(0), dead=True)
         self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world)
+        self._back_s = self._now_s
 
     def _pass(self, seconds: float, *, dead: bool) -> None:
         """The world goes on, and the control thread gets no turn."""
-        end_s = self._now_s + seconds
         self._judges.unattended_s = self._now_s
         # In a thread that stands still, the guard still ends every command; a dead program leaves chips as they are.
         self._judges.ends_at_once = not dead or self._config.rotor.type not in KEEP_THEIR_ORDER
-        while end_s - self._now_s > 1e-6:  # the clock counts from another moment, and rounds
-            self._sleep_until(min(self._now_s + STEP_S, end_s))
+        for _ in range(math.ceil(seconds / STEP_S)):
+            self._clock.sleep(STEP_S)
             self._troubles.look()
             self._world.look()
             self._judges.look(self._now_s, self._world.axes)

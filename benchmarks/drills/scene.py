@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from benchmarks.drills.judges import COUNTED_PERIODS, TRY_S, AxisCase, Judges
 from benchmarks.drills.orders import Orders, Ranges
-from benchmarks.drills.script import Drill, Event
+from benchmarks.drills.script import WORLD, Drill, Event
 from benchmarks.drills.world import AxisTruth
 from hw.ports import AngleSource, Axis
 from rotator.assembly.settings import build_offsets
@@ -21,6 +21,9 @@ NOISE_SIGMAS = 5.0
 NOISY_DEG, NOISY_TRY_S = 0.2, 2.4
 SLOW_DPS, SLOW_TRY_S = 2.0, 4.0
 """Noise hides a slow motor: these are docs/safety.md's."""
+READINGS = ("every", "burst", "noise", "drift", "stands")
+SENSORS = ("pot-", "adc-", "contact-", "pulses-", "replies-")
+"""How the simulators' names of faults of a sensor begin, without their axis."""
 DIP_S = 1.2
 """A chip that has lost its supply for a moment gets its order again within a second."""
 
@@ -85,6 +88,14 @@ def lapse(drill: Drill) -> Iterator[Event]:
                     yield Event(event.at_s + number / rate_hz, event.who, "aim", (turned_deg % 360.0, elevation_deg))
             case _:
                 yield event
+
+
+def spoils_readings(event: Event) -> bool:
+    """Whether this is a trouble of a sensor alone, or the end of one."""
+    if event.who != WORLD or event.what in READINGS:
+        return event.who == WORLD
+    name = str(event.args[0]).removeprefix("azimuth-").removeprefix("elevation-")
+    return event.what in ("fault", "clear") and name.startswith(SENSORS)
 
 
 def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, event: Event) -> None:

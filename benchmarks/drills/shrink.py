@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from benchmarks.drills.judges import Violation
@@ -18,6 +19,7 @@ AFTER_S = 0.2
 
 Shows = Callable[[Drill], Violation | None]
 """The violation that is looked for, if this drill shows it."""
+Change = Callable[[Drill], Drill]
 
 
 class Budget:
@@ -46,11 +48,12 @@ def shrink(drill: Drill, violation: Violation, shows: Shows, budget: Budget) -> 
 
     changed = True
     while changed and budget.left_s > 0:
-        before = len(best[0].events), len(best[0].tables)
+        before = best[0]
         _fewer(lambda: best[0], tried)
-        for plainer in _plainer(best[0]):
-            tried(plainer)
-        changed = (len(best[0].events), len(best[0].tables)) != before
+        for change in _plainer(best[0]):
+            if (plainer := change(best[0])) != best[0]:
+                tried(plainer)
+        changed = best[0] != before
     for sooner in _sooner(best[0]):
         tried(sooner)
     return best
@@ -70,20 +73,34 @@ def _fewer(best: Callable[[], Drill], tried: Callable[[Drill], bool]) -> None:
         size //= 2
 
 
-def _plainer(drill: Drill) -> Iterator[Drill]:
-    """The same drill with less of a box, one key at a time; and with streams of fewer orders."""
+def _plainer(drill: Drill) -> Iterator[Change]:
+    """What makes a drill plainer: less of a box, one key at a time; and streams of fewer orders."""
     for key, value in drill.tables.items():
-        rest = {name: table for name, table in drill.tables.items() if name != key}
-        yield replace(drill, tables=rest)
-        if isinstance(value, dict):
-            for inner in value:
-                yield replace(drill, tables=drill.tables | {key: _without(value, inner)})
-    if drill.commissioning:
-        yield replace(drill, commissioning="")
-    for place, event in enumerate(drill.events):
-        if event.what in ("stream", "flood") and float(event.args[-1]) > 1:
-            fewer = replace(event, args=(*event.args[:-1], float(event.args[-1]) // 2))
-            yield drill.with_events((*drill.events[:place], fewer, *drill.events[place + 1 :]))
+        yield partial(_without_table, key=key)
+        for inner in value:
+            yield partial(_without_key, key=key, inner=inner)
+    yield partial(replace, commissioning="")
+    for place in range(len(drill.events)):
+        yield partial(_halved, place=place)
+
+
+def _without_table(drill: Drill, *, key: str) -> Drill:
+    return replace(drill, tables=_without(drill.tables, key))
+
+
+def _without_key(drill: Drill, *, key: str, inner: str) -> Drill:
+    if key not in drill.tables:
+        return drill
+    return replace(drill, tables=drill.tables | {key: _without(drill.tables[key], inner)})
+
+
+def _halved(drill: Drill, *, place: int) -> Drill:
+    """With half of the orders of one stream."""
+    event = drill.events[place]
+    if event.what not in ("stream", "flood"):
+        return drill
+    fewer = replace(event, args=(*event.args[:-1], max(1.0, float(event.args[-1]) // 2)))
+    return drill.with_events((*drill.events[:place], fewer, *drill.events[place + 1 :]))
 
 
 def _without(table: dict[str, Any], key: str) -> dict[str, Any]:

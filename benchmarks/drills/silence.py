@@ -15,7 +15,9 @@ from benchmarks.drills.world import AxisTruth
 from rotator.status import Status
 
 SILENT_S = 5.0
-AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent", "board-unpowered", "hung")
+AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent", "hung")
+ORDERED = ("board-unpowered",)
+"""Only with an order in force is the part in use."""
 DRIVEN = ("motor-stalled", "pot-stuck", "stands", "jammed", "contact-stuck-open", "contact-stuck-closed")
 """Only while the motor has current is there anything to be seen."""
 TURNING_SHARE = 0.5
@@ -58,13 +60,13 @@ class Silence:
 
     def begin(self, name: str, now_s: float) -> None:
         axis = "elevation" if name.startswith("elevation") else "azimuth"
-        plain = name.removeprefix("azimuth-").removeprefix("elevation-")
-        seen = plain in AT_ONCE or (plain in DRIVEN and self._feels[axis])
+        plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
+        seen = plain in (*AT_ONCE, *ORDERED) or (plain in DRIVEN and self._feels[axis])
         if seen or plain.startswith(("relay-welded", "hand-turns")):
             self._lasting.append(_Lasting(plain, axis, now_s))
 
     def end(self, name: str) -> None:
-        plain = name.removeprefix("azimuth-").removeprefix("elevation-")
+        plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
         self._lasting = [each for each in self._lasting if each.name != plain]
 
     def pause(self) -> None:
@@ -72,7 +74,8 @@ class Silence:
         for each in self._lasting:
             each.seen_s = 0.0
 
-    def look(self, now_s: float, axes: list[AxisTruth], status: Status) -> None:
+    def look(self, now_s: float, axes: list[AxisTruth], status: Status, *, ordered: bool) -> None:
+        """`ordered`: an order is in force."""
         past_s, self._looked_s = now_s - self._looked_s, now_s
         if not self._lasting:
             return
@@ -82,15 +85,17 @@ class Silence:
                 self._lasting.remove(each)
                 continue
             truth = axes[0 if each.axis == "azimuth" else 1]
-            each.seen_s = each.seen_s + past_s if self._to_be_seen(each, truth) else 0.0
+            each.seen_s = each.seen_s + past_s if self._to_be_seen(each, truth, ordered=ordered) else 0.0
             if each.seen_s > SILENT_S + LOOK_S:
                 self.found.append(Violation(now_s, SILENCE, each.axis, f"{each.name} for {each.seen_s:.2f} s"))
                 self._lasting.remove(each)
 
     @staticmethod
-    def _to_be_seen(fault: _Lasting, truth: AxisTruth) -> bool:
+    def _to_be_seen(fault: _Lasting, truth: AxisTruth, *, ordered: bool) -> bool:
         if fault.name in AT_ONCE:
             return True
+        if fault.name in ORDERED:
+            return ordered
         if fault.name in DRIVEN:
             return truth.coil != 0
         return truth.coil == 0 and abs(truth.speed_dps) > TURNING_SHARE * truth.full_dps

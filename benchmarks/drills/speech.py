@@ -24,7 +24,7 @@ EASYCOMM_WAYS = {"cw": "MR", "ccw": "ML", "up": "MU", "down": "MD"}
 def said(event: Event) -> bytes:
     """The bytes of an event of a link or a console; empty: this protocol has no words for it."""
     if event.what == "junk":
-        return event.text(0).encode("latin-1")
+        return event.text(0).encode("latin-1") + b"\r\n"  # else the next order would be a part of it
     if event.who.startswith("console"):
         return _line(_console(event), b"\n")
     match PROTOCOLS[event.who]:
@@ -45,10 +45,10 @@ def _line(text: str, end: bytes) -> bytes:
 def _gs232(event: Event) -> str:
     match event.what, event.args:
         case "aim", (azimuth_deg, elevation_deg):
-            # The command set has neither negative angles nor decimals.
-            return f"W{round(float(azimuth_deg)) % 451:03d} {max(0, round(float(elevation_deg))):03d}"
+            # The command set has neither negative elevations nor decimals.
+            return f"W{round(float(azimuth_deg)):03d} {max(0, round(float(elevation_deg))):03d}"
         case "aim-azimuth", (azimuth_deg,):
-            return f"M{round(float(azimuth_deg)) % 451:03d}"
+            return f"M{round(float(azimuth_deg)):03d}"
         case "jog", (way,):
             return GS232_WAYS[str(way)]
         case "stop", ():

@@ -53,6 +53,9 @@ class Story:
             if chance.random() < 0.5:
                 self._way = 1 - self._way
             self._move()
+            if chance.random() < 0.5:
+                self._pause()
+                self._stop()
         self.ends_s += chance.choice((5.0, 5.0, 15.0, 15.0, 30.0, 90.0))
 
     def _pause(self) -> None:
@@ -66,7 +69,7 @@ class Story:
         """An order that turns the axis of this story its way for a while."""
         way = WAYS[self._axis][self._way]
         aim_deg = [self._far(0), self._far(1)]
-        match self._chance.randrange(10):
+        match self._chance.randrange(11):
             case 0:
                 self._add(self._link, "jog", way)
             case 1:
@@ -77,6 +80,8 @@ class Story:
                     self.ends_s += self._chance.choice((0.5, 2.0, 5.5))
             case 3 | 8:
                 self._insist(aim_deg)
+            case 9:
+                self._waver()
             case 4 if "gs232" in self._link:
                 self._add(self._link, "list", 2.0, *aim_deg, self._near(0), self._near(1), *aim_deg)
                 self._pause()
@@ -96,6 +101,12 @@ class Story:
         count = round(self._chance.choice(INSISTS_S))
         self._add(self._link, "stream", *aim_deg, 0.0, 0.0, 1.0, float(count))
         self.ends_s += self._chance.choice((0.5, 5.0))
+
+    def _waver(self) -> None:
+        """A hand that goes to and fro."""
+        for turn in range(8):
+            self._add(self._link, "jog", WAYS[self._axis][turn % 2])
+            self.ends_s += self._chance.choice((0.03, 0.06, 0.1, 0.3))
 
     def _far(self, axis: int) -> float:
         """An angle far along the way, near the end of the range."""
@@ -139,11 +150,10 @@ class Story:
             case 4:
                 self._add(self._link, "stop-axis", BOTH[self._axis])
             case 5:
-                # Both keys of a program's window at once, under a flood that its operator does not see.
-                self._add("gs232b", "flood", self._near(0), self._near(1), 0.0, 500.0, 200.0)
+                # One line stops one axis after the other, under a flood that its operator does not see.
+                self._add("easycomm2", "flood", self._near(0), self._near(1), 0.0, 500.0, 200.0)
                 self.ends_s += 0.4
-                for axis in BOTH:
-                    self._add("gs232b", "stop-axis", axis)
+                self._add("easycomm2", "stop")
             case 6:
                 self._add(self._link, "leave")
                 self._add(self._other, "leave")
@@ -158,6 +168,11 @@ def stories(chance: random.Random, mast: Mast, trouble: Trouble) -> tuple[list[E
     """A few stories one after the other, and when the last one is over."""
     events: list[Event] = []
     at_s = chance.choice((0.2, 3.0))
+    for axis in BOTH:
+        if mast.rotor.relays and chance.random() < 0.3:
+            events.append(Event(0.0, WORLD, "sticks", (axis, round(chance.uniform(0.02, 0.15), 3))))
+        if mast.rotor.kind == "relay-pulse" and chance.random() < 0.8:
+            events.append(Event(0.1, chance.choice(PEOPLE), "confirm", (axis, 0.0)))
     for _ in range(chance.choice((1, 1, 2, 3))):
         story = Story(chance, mast, at_s, trouble)
         events += story.events

@@ -32,7 +32,7 @@ class Wiper:
         self.every = 0
         """Each so many readings is bad."""
         self.bad = "zero"
-        """What a bad reading shows: zero, full, far, near, last."""
+        """What a bad reading shows: zero, full, far, near; last: the one before."""
         self.noise_deg = 0.0
         self.drift_dps = 0.0
         self.drift_most_deg = 0.0
@@ -71,33 +71,15 @@ class Wiper:
                 return self._last_v
 
 
-class DeafNow(set[int]):
-    """The addresses that do not answer on a bus: those in the set, and every so many-th transfer of one more."""
-
-    address = 0
-    every = 0
-    _count = 0
-
-    def __contains__(self, address: object) -> bool:
-        if self.every and address == self.address:
-            self._count += 1
-            if self._count % self.every == 0:
-                return True
-        return super().__contains__(address)
-
-
 class Troubles:
-    """The troubles of one simulated rotor. `adc_address`: of the converter that reads the pots."""
+    """The troubles of one simulated rotor."""
 
-    def __init__(self, rotor: SimRotor, clock: Callable[[], float], seed: str, adc_address: int) -> None:
+    def __init__(self, rotor: SimRotor, clock: Callable[[], float], seed: str) -> None:
         self._rotor = rotor
         self._clock = clock
         self.wipers: dict[str, Wiper] = {}
         self._waiting: dict[tuple[str, int], None] = {}
         """Contacts that weld when they close next."""
-        self.deaf = DeafNow()
-        self.deaf.address = adc_address
-        rotor.bus.gone = self.deaf
         for name, volts in list(rotor.wipers.items()):
             self.wipers[name] = rotor.wipers[name] = Wiper(volts, 0.9 * SUPPLY_V / 360.0, clock, f"{seed} {name}")
 
@@ -112,19 +94,15 @@ class Troubles:
         axis = str(args[0]) if args else ""
         match what:
             case "fault":
-                if axis in self._rotor.faults:
-                    self._rotor.inject(axis)
+                self._rotor.inject(axis)
             case "clear":
-                if axis in self._rotor.faults:
-                    self._rotor.clear(axis)
+                self._rotor.clear(axis)
             case "weld":
                 self._waiting[axis, int(float(args[1]))] = None
             case "unweld":
                 self._unweld(axis)
             case "pace" | "push" | "sticks":
                 self._turn(what, axis, float(args[1]))
-            case "deaf":
-                self.deaf.every = int(float(args[0]))
             case _ if axis in self.wipers:
                 self._spoil(self.wipers[axis], what, args[1:])
 

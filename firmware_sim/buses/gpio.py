@@ -27,7 +27,7 @@ from firmware_sim.buses.gpio_request import (
 
 __all__ = ["ChipInfo", "Edge", "LineInfo", "RequestReleasedError", "SimChip", "SimGpio", "SimLineRequest"]
 
-EDGES_KEPT = 10_000
+EDGES_KEPT = 2_000
 """How many changes of the header's pins `edges` holds; older ones are dropped."""
 DEFAULT_CHIPS = {"/dev/gpiochip0": "pinctrl-bcm2711"}
 

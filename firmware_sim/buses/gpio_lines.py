@@ -70,17 +70,36 @@ class Bank:
             self._settle(moment_s)
             before = {offset: self.lines[offset].level for offset in offsets}
             yield
-            after = {offset: self.lines[offset].level for offset in before}
-            changes = {offset: level for offset, level in after.items() if level != before[offset]}
-            if not changes:
-                return
-            for offset, level in changes.items():
-                if offset in self.detectors:
-                    self.detectors[offset].change(moment_s, level)
-            self.changed(moment_s, changes)
+            self._report(moment_s, before)
+
+    def drive(self, levels: Mapping[int, bool]) -> None:
+        """Give these outputs their levels, all at once: `instant` for what is done most often."""
+        with self.lock:
+            moment_s, lines = self.clock(), self.lines
+            self._settle(moment_s)
+            before = {}
+            for offset, level in levels.items():
+                if lines[offset].driven is not level:
+                    before[offset] = lines[offset].level
+                    lines[offset].driven = level
+            self._report(moment_s, before)
+
+    def _report(self, moment_s: float, before: Mapping[int, bool]) -> None:
+        """Tell the detectors and `changed` which of these pins have another level than before."""
+        changes = {
+            offset: self.lines[offset].level for offset, was in before.items() if self.lines[offset].level != was
+        }
+        if not changes:
+            return
+        for offset, level in changes.items():
+            if offset in self.detectors:
+                self.detectors[offset].change(moment_s, level)
+        self.changed(moment_s, changes)
 
     def _settle(self, until_s: float) -> None:
         """End the debounce periods that are over by `until_s`, oldest first."""
+        if not self.detectors:
+            return
         due = [detector for detector in self.detectors.values() if detector.due_s <= until_s]
         for detector in sorted(due, key=lambda detector: detector.due_s):
             detector.settle()

@@ -56,6 +56,7 @@ class SimLineRequest:
     ) -> None:
         self._bank = bank
         self._settings = settings
+        self._active_low = {offset: bool(wanted.active_low) for offset, wanted in settings.items()}
         self._strict = strict
         self._live = True
         self._events = EventQueue(len(settings), event_buffer_size)
@@ -125,11 +126,10 @@ class SimLineRequest:
     def set_values(self, values: Mapping[int, Enum]) -> None:
         self._check_live()
         self._check_ours(values)
-        with self._bank.instant(values):
+        with self._bank.lock:
             if any(self._bank.lines[offset].driven is None for offset in values):
                 raise PermissionError(errno.EPERM, os.strerror(errno.EPERM))  # an input cannot be set
-            for offset, value in values.items():
-                self._bank.lines[offset].driven = is_active(value) != self._settings[offset].active_low
+            self._bank.drive({each: is_active(value) != self._active_low[each] for each, value in values.items()})
 
     def get_value(self, line: int) -> Any:
         return self.get_values([line])[0]

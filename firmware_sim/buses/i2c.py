@@ -35,22 +35,11 @@ class I2CChip(Protocol):
         """The bytes of one read message. Raises Nack."""
 
 
-class _Write(NamedTuple):  # some hundred thousand of these in a simulated hour: a tuple is made faster
-    address: int
-    data: bytes
-
-    @property
-    def wire_bytes(self) -> int:
-        return 1 + len(self.data)
-
-
-class _Read(NamedTuple):
+class _Message(NamedTuple):  # some hundred thousand of these in a simulated hour: a tuple is made faster
     address: int
     length: int
-
-    @property
-    def wire_bytes(self) -> int:
-        return 1 + self.length
+    data: bytes | None
+    """The bytes that it writes; None: it reads `length` bytes."""
 
 
 class SimI2CBus:
@@ -124,40 +113,44 @@ class SimI2CBus:
         """One transfer of real `smbus2.i2c_msg` objects, joined by repeated starts; reads fill their buffers."""
         if not 0 < len(i2c_msgs) <= MESSAGES_MAX:
             raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
-        replies = iter(self._transfer(*[_part(message) for message in i2c_msgs]))
-        for message in i2c_msgs:
-            if message.flags & READ_FLAG:
-                ctypes.memmove(message.buf, next(replies), message.len)
+        messages = []
+        for each in i2c_msgs:
+            length = each.len
+            messages.append(_Message(each.addr, length, None if each.flags & READ_FLAG else each.buf[:length]))
+        replies = iter(self._transfer(messages))
+        for each, message in zip(i2c_msgs, messages, strict=True):
+            if message.data is None:
+                ctypes.memmove(each.buf, next(replies), message.length)
 
     def write_quick(self, i2c_addr: int, force: bool | None = None) -> None:
-        self._transfer(_Write(i2c_addr, b""))
+        self._transfer([_write(i2c_addr)])
 
     def write_byte(self, i2c_addr: int, value: int, force: bool | None = None) -> None:
-        self._transfer(_Write(i2c_addr, _octets(value)))
+        self._transfer([_write(i2c_addr, value)])
 
     def read_byte(self, i2c_addr: int, force: bool | None = None) -> int:
-        return self._transfer(_Read(i2c_addr, 1))[0][0]
+        return self._transfer([_Message(i2c_addr, 1, None)])[0][0]
 
     def write_byte_data(self, i2c_addr: int, register: int, value: int, force: bool | None = None) -> None:
-        self._transfer(_Write(i2c_addr, _octets(register, value)))
+        self._transfer([_write(i2c_addr, register, value)])
 
     def read_byte_data(self, i2c_addr: int, register: int, force: bool | None = None) -> int:
-        return self._transfer(_Write(i2c_addr, _octets(register)), _Read(i2c_addr, 1))[0][0]
+        return self._transfer([_write(i2c_addr, register), _Message(i2c_addr, 1, None)])[0][0]
 
     def write_i2c_block_data(
         self, i2c_addr: int, register: int, data: Iterable[int], force: bool | None = None
     ) -> None:
-        block = _octets(*data)
+        block = tuple(data)
         _check_block(len(block))
-        self._transfer(_Write(i2c_addr, _octets(register) + block))
+        self._transfer([_write(i2c_addr, register, *block)])
 
     def read_i2c_block_data(self, i2c_addr: int, register: int, length: int, force: bool | None = None) -> list[int]:
         _check_block(length)
-        return list(self._transfer(_Write(i2c_addr, _octets(register)), _Read(i2c_addr, length))[0])
+        return list(self._transfer([_write(i2c_addr, register), _Message(i2c_addr, length, None)])[0])
 
     # --- the wire
 
-    def _transfer(self, *parts: _Write | _Read) -> list[bytes]:
+    def _transfer(self, messages: list[_Message]) -> list[bytes]:
         """One transfer. Returns the answers to its reads, in order. Raises OSError."""
         if self._closed:
             raise OSError(errno.EBADF, os.strerror(errno.EBADF))
@@ -166,16 +159,16 @@ class SimI2CBus:
                 raise OSError(errno.ETIMEDOUT, os.strerror(errno.ETIMEDOUT))
             heard = 0
             wire_bytes = 0
-            for part in parts:
-                if part.address not in self._chips or part.address in self.gone or (not heard and self._lapses(part)):
-                    wire_bytes += 1  # the first address without an ACK ends the transfer
-                    break
+            for address, length, _ in messages:
+                wire_bytes += 1
+                if address not in self._chips or address in self.gone or (not heard and self._lapses(address)):
+                    break  # the first address without an ACK ends the transfer
                 heard += 1
-                wire_bytes += part.wire_bytes
+                wire_bytes += length
             self._spend(wire_bytes)
             try:
-                replies = [reply for part in parts[:heard] if (reply := self._deliver(part)) is not None]
-                if heard < len(parts):
+                replies = [reply for message in messages[:heard] if (reply := self._deliver(message)) is not None]
+                if heard < len(messages):
                     raise Nack
             except Nack:
                 raise OSError(errno.EREMOTEIO, os.strerror(errno.EREMOTEIO)) from None
@@ -183,8 +176,8 @@ class SimI2CBus:
                 self._undelivered_bytes = 0
             return replies
 
-    def _lapses(self, first: _Write | _Read) -> bool:
-        return any(lapse.strikes() for lapse in self.lapses.get(first.address, ()))
+    def _lapses(self, address: int) -> bool:
+        return any(lapse.strikes() for lapse in self.lapses.get(address, ()))
 
     def _spend(self, wire_bytes: int) -> None:
         duration_s = wire_bytes * self._byte_s
@@ -194,31 +187,28 @@ class SimI2CBus:
             self._sleep(duration_s)
         self._undelivered_bytes = wire_bytes
 
-    def _deliver(self, part: _Write | _Read) -> bytes | None:
-        chip = self._chips[part.address]
+    def _deliver(self, message: _Message) -> bytes | None:
+        address, length, data = message
+        chip = self._chips[address]
         self._undelivered_bytes -= 1  # the address byte
-        if isinstance(part, _Read):
-            reply = chip.read(part.length)  # a chip fixes its answer at its address byte, not at the last bit
-            self._undelivered_bytes -= part.length
-            return reply[: part.length].ljust(part.length, b"\xff")  # no chip pulls SDA down: the master reads ones
-        if part.address in self._bytewise:
-            for value in part.data:
+        if data is None:
+            reply = chip.read(length)  # a chip fixes its answer at its address byte, not at the last bit
+            self._undelivered_bytes -= length
+            # Where no chip pulls SDA down the master reads ones.
+            return reply if len(reply) == length else reply[:length].ljust(length, b"\xff")
+        if address in self._bytewise:
+            for value in data:
                 self._undelivered_bytes -= 1
                 chip.write(bytes([value]))
         else:
-            self._undelivered_bytes -= len(part.data)
-            chip.write(part.data)
+            self._undelivered_bytes -= length
+            chip.write(data)
         return None
 
 
-def _part(message: Any) -> _Write | _Read:
-    if message.flags & READ_FLAG:
-        return _Read(message.addr, message.len)
-    return _Write(message.addr, message.buf[: message.len])
-
-
-def _octets(*values: int) -> bytes:
-    return bytes(value & 0xFF for value in values)  # smbus2 puts them into a c_uint8, which cuts them the same way
+def _write(address: int, *values: int) -> _Message:
+    data = bytes(value & 0xFF for value in values)  # smbus2 puts them into a c_uint8, which cuts them the same way
+    return _Message(address, len(data), data)
 
 
 def _check_block(length: int) -> None:

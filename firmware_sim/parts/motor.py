@@ -67,6 +67,11 @@ class SimMotor:
         self._moving_contacts: deque[tuple[float, tuple[bool, bool]]] = deque()
 
     @property
+    def fastest_dps(self) -> float:
+        """No faster can it turn, as its faults are now."""
+        return self.spec.speed_dps * max(1.0, self.pace, abs(self.pushed))
+
+    @property
     def rests_deg(self) -> float:
         """Where the shaft comes to rest if the current ends now: the coast ends at a stop at the latest."""
         return self._stopped(self.shaft_deg + self.speed_dps * self.spec.lag_s)
@@ -92,25 +97,23 @@ class SimMotor:
             self._contacts = contacts
         self._run(now_s)
 
-    def _fed(self) -> int:
-        plus, minus = self._contacts
-        plus, minus = plus or self.welded > 0, minus or self.welded < 0
-        if not self.supply:
-            return 0
-        return (int(plus) - int(minus)) * (-1 if self.reversed else 1)
-
     def _run(self, until_s: float) -> None:
         left_s = until_s - self._now_s
         if left_s <= 0:
             return
         from_s, self._now_s = self._now_s, until_s
-        if self.supply and (self._contacts[0] or self.welded > 0) and (self._contacts[1] or self.welded < 0):
-            self.shorted_s += left_s
-        self.drive = self._fed()
-        share = self.drive * self.pace if self.drive else self.pushed
-        wanted_dps = 0.0 if self.stalled else share * self.spec.speed_dps
+        plus, minus = self._contacts
+        self.drive = 0
+        if self.supply and (plus or minus or self.welded):
+            plus, minus = plus or self.welded > 0, minus or self.welded < 0
+            if plus and minus:
+                self.shorted_s += left_s
+            self.drive = (plus - minus) * (-1 if self.reversed else 1)
+        wanted_dps = (self.drive * self.pace if self.drive else self.pushed) * self.spec.speed_dps
         if self.stalled:
-            self.speed_dps = 0.0
+            self.speed_dps = wanted_dps = 0.0
+        if wanted_dps == 0.0 and self.speed_dps == 0.0:
+            return
         # A reversal is two turns: the backlash then begins at the angle where the shaft really turned back.
         turn_s = self._time_to_standstill(wanted_dps)
         if turn_s is not None and turn_s < left_s:
@@ -125,22 +128,23 @@ class SimMotor:
 
     def _glide(self, wanted_dps: float, seconds: float, from_s: float) -> None:
         """Turn for so many seconds while the speed approaches `wanted_dps`."""
-        if wanted_dps == 0.0 and self.speed_dps == 0.0:
-            return
         lag_s, start_deg = self.spec.lag_s, self.shaft_deg
         gap_dps = self.speed_dps - wanted_dps
 
-        def shaft_deg(after_s: float) -> float:
-            if lag_s <= 0:
-                return start_deg + wanted_dps * after_s
-            return start_deg + wanted_dps * after_s + gap_dps * lag_s * (1.0 - math.exp(-after_s / lag_s))
+        def shaft_deg(after_s: float, fade: float) -> float:
+            return start_deg + wanted_dps * after_s + gap_dps * lag_s * (1.0 - fade)
 
-        self.speed_dps = wanted_dps if lag_s <= 0 else wanted_dps + gap_dps * math.exp(-seconds / lag_s)
+        fade = math.exp(-seconds / lag_s) if lag_s > 0 else 0.0
+        self.speed_dps = wanted_dps + gap_dps * fade
         if wanted_dps == 0.0 and abs(self.speed_dps) < 1e-6:  # slower than 1e-6 °/s is standstill
             self.speed_dps = 0.0
-        self._move_to(shaft_deg(seconds))
+        self._move_to(shaft_deg(seconds, fade))
         for listener in self.on_turn:
-            listener(from_s, seconds, lambda after_s: self._stopped(shaft_deg(after_s)))
+
+            def turned(after_s: float) -> float:
+                return self._stopped(shaft_deg(after_s, math.exp(-after_s / lag_s) if lag_s > 0 else 0.0))
+
+            listener(from_s, seconds, turned)
 
     def _move_to(self, shaft_deg: float) -> None:
         self.shaft_deg = self._stopped(shaft_deg)

@@ -80,7 +80,10 @@ class SimPot:
         """The wiper as a share of the supply, 0 to 1."""
         if self.crackles.strikes() or self.bursts.strikes():
             return 0.0
-        match self.fault:
+        fault = self.fault
+        if fault is PotFault.NONE:
+            return self._healthy(shaft_deg)
+        match fault:
             case PotFault.OPEN:
                 return 0.0
             case PotFault.SHORTED:
@@ -89,8 +92,6 @@ class SimPot:
                 return self._stuck_ratio
             case PotFault.REVERSED:
                 return 1.0 - self._healthy(shaft_deg)
-            case PotFault.NONE:
-                return self._healthy(shaft_deg)
 
     def break_down(self, fault: PotFault, shaft_deg: float) -> None:
         """Begin that fault with the shaft at `shaft_deg`; NONE ends it. A stuck wiper then stays at that angle."""

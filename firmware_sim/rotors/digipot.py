@@ -48,18 +48,22 @@ class SimBox:
 
     def advance(self, now_s: float) -> None:
         """Compare and turn up to `now_s`."""
+        reach_deg = self.motor.fastest_dps * COMPARE_S
         while self._now_s < now_s:
-            self._compare()
-            self._now_s = min(self._now_s + COMPARE_S, now_s)
+            # Comparisons before the shaft can have come to the edge of the dead band change nothing.
+            idle = int(abs(self._compare()) / reach_deg)
+            self._now_s = min(self._now_s + max(1, idle) * COMPARE_S, now_s)
             self.motor.advance(self._now_s)
 
-    def _compare(self) -> None:
+    def _compare(self) -> float:
+        """Switch the motor. Returns how far the error is from the edge of the dead band."""
         error_deg = self.chip.share() * self.spec.full_deg - self.motor.shaft_deg
         driven = 0 if abs(error_deg) <= self.spec.dead_band_deg else 1 if error_deg > 0 else -1
         if driven != self._driven:
             self._driven = driven
             self.starts += driven != 0
             self.motor.coils(driven > 0, driven < 0, self._now_s)
+        return abs(error_deg) - self.spec.dead_band_deg
 
 
 class SimDigipotRotor(GearedRotor):

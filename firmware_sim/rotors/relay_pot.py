@@ -78,7 +78,7 @@ class SimRelayPotRotor(RelayedRotor):
 
     def _wiper_v(self, axis: RelayPotAxis) -> float:
         with self._lock:
-            self._advance()
+            axis.motor.advance(self._clock())
             return axis.pot.volts(axis.motor.shaft_deg)
 
     def _fault_table(self) -> dict[str, SimFault]:

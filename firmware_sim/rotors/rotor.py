@@ -33,6 +33,8 @@ SHAKEN_G = 0.5
 """Fault `elevation-shaken`: the shaking of the sensor's board, rms."""
 EACH_READING = 10
 """Faults of single readings and answers strike each so many times, unless another number is asked for."""
+EACH_TRANSFER = 20
+"""Faults of single transfers on the I2C bus do so: a reading takes some of them."""
 EACH_BURST = 60
 """Faults of several readings in a row begin each so many readings."""
 LAPSE = 8
@@ -150,7 +152,7 @@ class SimRotor(Fallible):
         self.faults[f"{name}-gone"] = SimFault(lambda: gone.add(address), lambda: gone.discard(address))
         noise, gaps = Sporadic(chance=random.Random(address)), Sporadic(LAPSE)
         self.bus.lapses[address] = noise, gaps
-        self.faults[f"{name}-noisy"] = self._sporadic_fault(noise, EACH_READING)
+        self.faults[f"{name}-noisy"] = self._sporadic_fault(noise, EACH_TRANSFER)
         self.faults[f"{name}-gaps"] = self._sporadic_fault(gaps, LAPSE * EACH_READING)
 
     def wire_as5600(self, name: str, address: int) -> None:

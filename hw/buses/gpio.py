@@ -9,15 +9,17 @@ from __future__ import annotations
 import errno
 import glob
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from datetime import timedelta
-from typing import Any
+from typing import Any, TypeVar
 
 from hw.ports import ContactChange, HardwareError
 
 PI_HEADER_LABEL = r"pinctrl-(bcm2835|bcm2711|rp1)"
 """The label of the chip with the 40-pin header. The chip's number is no key: on the Pi 5 it changed twice."""
+
+T = TypeVar("T")
 
 EVENTS_KEPT = 1024
 """How many changes the kernel records, its maximum: 20 s of a contact that chatters 50 times a second."""
@@ -78,15 +80,15 @@ class _HeldLines:
         self._closed = True
         self._request.release()
 
-    @contextmanager
-    def _to(self, doing: str) -> Iterator[None]:
-        """Turn an OSError of the body into a HardwareError. `doing`: the body's task in words, for its text."""
+    def _ask(self, call: Callable[[], T], doing: str, names: Iterable[object]) -> T:
+        """What the call of the request returns. `doing` and `names` are its task in words, for the HardwareError."""
         if self._closed:
-            raise HardwareError(f"GPIO: cannot {doing}: the lines have been released")
+            raise HardwareError(f"GPIO: cannot {doing} {', '.join(map(str, names))}: the lines have been released")
         try:
-            yield
+            return call()
         except OSError as fault:
-            raise HardwareError(f"GPIO: cannot {doing}: {fault.strerror or fault}") from fault
+            why = fault.strerror or fault
+            raise HardwareError(f"GPIO: cannot {doing} {', '.join(map(str, names))}: {why}") from fault
 
 
 class GpioOutputs(_HeldLines):
@@ -109,8 +111,7 @@ class GpioOutputs(_HeldLines):
 
     def set(self, levels: dict[str, bool]) -> None:
         values = {self._offsets[name]: self._on if on else self._off for name, on in levels.items()}
-        with self._to(f"switch {', '.join(levels)}"):
-            self._request.set_values(values)
+        self._ask(lambda: self._request.set_values(values), "switch", levels)
 
 
 class GpioInputs(_HeldLines):
@@ -128,8 +129,7 @@ class GpioInputs(_HeldLines):
 
     def read(self) -> dict[str, bool]:
         """Each switch by name, True: closed. Raises HardwareError."""
-        with self._to(f"read {', '.join(self._offsets)}"):
-            values = self._request.get_values(list(self._offsets.values()))
+        values = self._ask(lambda: self._request.get_values(list(self._offsets.values())), "read", self._offsets)
         return {name: value is self._active for name, value in zip(self._offsets, values, strict=True)}
 
 
@@ -154,6 +154,7 @@ class GpioContact(_HeldLines):
     ) -> None:
         line = real_gpiod().line
         self._offset = offset
+        self._names = (f"GPIO{offset}",)
         self._active = line.Value.ACTIVE
         self._seqno = 0
         resting = line.Bias.PULL_UP if active_low else line.Bias.PULL_DOWN
@@ -169,19 +170,21 @@ class GpioContact(_HeldLines):
         )
 
     def closed(self) -> bool:
-        with self._to(f"read GPIO{self._offset}"):
-            return bool(self._request.get_value(self._offset) is self._active)
+        value = self._ask(lambda: self._request.get_value(self._offset), "read", self._names)
+        return bool(value is self._active)
 
     def changes(self) -> list[ContactChange]:
+        return self._ask(self._read_changes, "read", self._names)
+
+    def _read_changes(self) -> list[ContactChange]:
         changes: list[ContactChange] = []
-        with self._to(f"read GPIO{self._offset}"):
-            while self._request.wait_edge_events(0):
-                for event in self._request.read_edge_events():
-                    # The kernel numbers the events of a line: a gap means events dropped because its buffer was full.
-                    lost = event.line_seqno - self._seqno - 1
-                    self._seqno = event.line_seqno
-                    closed = event.event_type.name == "RISING_EDGE"
-                    changes.append(ContactChange(event.timestamp_ns * 1e-9, closed, lost))
+        while self._request.wait_edge_events(0):
+            for event in self._request.read_edge_events():
+                # The kernel numbers the events of a line: a gap means events dropped because its buffer was full.
+                lost = event.line_seqno - self._seqno - 1
+                self._seqno = event.line_seqno
+                closed = event.event_type.name == "RISING_EDGE"
+                changes.append(ContactChange(event.timestamp_ns * 1e-9, closed, lost))
         return changes
 
 

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import errno
 from collections.abc import Sequence
+from functools import lru_cache
+from threading import get_ident
 from typing import Any
 
 from smbus2 import SMBus, i2c_msg
@@ -21,22 +23,27 @@ class SmbusI2C:
         self._bus = bus
         self._name = name
         self._closed = False
+        self._questions: dict[tuple[int, int, tuple[bytes, ...], int], _Question] = {}
+        """By thread: a question is asked some ten times a second, and to make its messages takes longer than to send
+        them to the kernel."""
 
     def write(self, address: int, data: bytes) -> None:
-        self._transfer(address, i2c_msg.write(address, data))
+        self._transfer(address, _written(address, data))
 
     def write_read(self, address: int, data: bytes, count: int) -> bytes:
-        answer = i2c_msg.read(address, count)
-        self._transfer(address, i2c_msg.write(address, data), answer)
-        return bytes(answer)
+        return self._ask(address, (data,), count)[0]
 
     def read_each(self, address: int, registers: Sequence[int], count: int) -> list[bytes]:
-        answers = [i2c_msg.read(address, count) for _ in registers]
-        pairs = [
-            (i2c_msg.write(address, [register]), answer) for register, answer in zip(registers, answers, strict=True)
-        ]
-        self._transfer(address, *(message for pair in pairs for message in pair))
-        return [bytes(answer) for answer in answers]
+        return self._ask(address, tuple(bytes((register,)) for register in registers), count)
+
+    def _ask(self, address: int, writes: tuple[bytes, ...], count: int) -> list[bytes]:
+        """Write and read for each of these, in one transfer."""
+        key = get_ident(), address, writes, count
+        question = self._questions.get(key)
+        if question is None:
+            question = self._questions[key] = _Question(address, writes, count)
+        self._transfer(address, *question.messages)
+        return [bytes(answer) for answer in question.answers]
 
     def answers(self, address: int) -> bool:
         """Whether a chip acknowledges the address when one byte is read. Raises HardwareError: the bus itself fails."""
@@ -60,6 +67,21 @@ class SmbusI2C:
             self._bus.i2c_rdwr(*messages)
         except OSError as fault:
             raise HardwareError(f"I2C {self._name}: {_explain(fault)} (address 0x{address:02x})") from fault
+
+
+class _Question:
+    """A transfer that can be sent again and again, by one thread: the answers stand in the same places each time."""
+
+    def __init__(self, address: int, writes: tuple[bytes, ...], count: int) -> None:
+        self.answers = [i2c_msg.read(address, count) for _ in writes]
+        pairs = zip([_written(address, data) for data in writes], self.answers, strict=True)
+        self.messages = [message for pair in pairs for message in pair]
+
+
+@lru_cache(maxsize=256)
+def _written(address: int, data: bytes) -> i2c_msg:
+    """A message that writes. It can be sent again, by any thread: sending changes nothing in it."""
+    return i2c_msg.write(address, data)
 
 
 def _explain(fault: OSError) -> str:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import click
@@ -15,6 +16,21 @@ CONFIG = click.option(
 )
 YES = click.option("--yes", is_flag=True, help="Do not ask.")
 AXIS = click.argument("axis", type=click.Choice([axis.value for axis in Axis]))
+
+
+class Number(click.ParamType):  # type: ignore[type-arg]  # older clicks know no argument
+    """A number with a decimal point or a decimal comma."""
+
+    name = "number"
+
+    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        if isinstance(value, float):
+            return value
+        if not re.fullmatch(r"[-+]?[0-9]{1,4}(?:[.,][0-9]{0,4})?", text := str(value)):
+            self.fail(f"{text!r} is no number; write it like 438.5 or 438,5", param, ctx)
+        return float(text.replace(",", "."))
+
+
 MINUS_IS_A_NUMBER = {"ignore_unknown_options": True}
 
 
@@ -69,7 +85,7 @@ def home(path: Path | None, yes: bool, axis: str) -> None:
 @click.command(context_settings=MINUS_IS_A_NUMBER)
 @CONFIG
 @AXIS
-@click.argument("degrees", type=float)
+@click.argument("degrees", type=Number())
 def confirm(path: Path | None, axis: str, degrees: float) -> None:
     """Confirm the angle of an axis, in DEGREES. A moteus behind a gear needs it after power-on."""
     from rotator.cli import console

@@ -94,6 +94,9 @@ class Controller:
                 control.see(readings[axis], now_s)
         for source, order in orders:
             self._take(source, order, now_s)
+        if any(control.fault for control in self._axes.values()):
+            # A list that went on when the fault is acknowledged would start a motor without an order.
+            self._timed.halt()
         if (point := self._timed.due(now_s)) is not None:
             self._point_at(Aim(*point), now_s)
         self._home_next(now_s)
@@ -162,7 +165,7 @@ class Controller:
                 self._stop(source, axes, latch=latch, now_s=now_s)
             case Release():
                 self._authority.released()
-                self._acknowledge()
+                self._acknowledge(now_s, by_person=True)
             case ClearTimed():
                 self._timed.clear()
             case Speed(level):
@@ -283,19 +286,19 @@ class Controller:
         if len(axes) == len(self._axes):
             self._authority.stopped(source, now_s, latch=latch)
             if not latch and not self._authority.latched:
-                self._acknowledge()
+                self._acknowledge(now_s, by_person=False)
 
     def _halt(self, axes: tuple[Axis, ...]) -> None:
         self._timed.halt()
         self._aiming.halt(axes)
 
-    def _acknowledge(self) -> None:
+    def _acknowledge(self, now_s: float, *, by_person: bool) -> None:
         if any(control.fault for control in self._axes.values()):
             # The order that was in force when the fault came is not taken up again.
             self._aiming.drop()
         for axis, control in self._axes.items():
-            control.acknowledge()
-            self.errands.append(Acknowledge(axis))
+            if control.acknowledge(now_s, by_person=by_person):
+                self.errands.append(Acknowledge(axis))
 
     def _calibrate(self, axis: Axis, now_s: float, *, high_end: bool) -> None:
         if any(control.moving(now_s) for control in self._axes.values()):

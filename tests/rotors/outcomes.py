@@ -14,6 +14,7 @@ class Remedy(Enum):
 
     NOTHING = "the next order is enough"
     ACKNOWLEDGE = "a stop, and the next order"
+    LATER = "a stop after a second of good readings, and the next order"
     AGAIN = "one run in the direction of the relay that had welded"
     HOME = "homing: the count is lost"
     CONFIRM = "saying where it points"
@@ -32,6 +33,8 @@ class Outcome:
     """What it begins to say though it goes on."""
     astray: bool = False
     """Without a word the box takes it for somewhere else: nothing tells it."""
+    by_chance: str = ""
+    """What the box may call it as well; empty: it always has one name."""
     before: bool = False
     """It strikes before the order, because it would not matter in mid-move."""
 
@@ -52,14 +55,14 @@ RELAYS_AND_POTS = {
     "adc-gone": Outcome("sensor silent", 0.3),
     "pot-open": Outcome("pot open or shorted", 0.3),
     "pot-shorted": Outcome("pot open or shorted", 0.3),
-    "pot-loose": Outcome("pot jumps", 0.3),
+    "pot-loose": Outcome("pot jumps", 0.3, Remedy.LATER, by_chance="pot open or shorted"),
     "pot-reversed": Outcome("pot moves the wrong way", 2.5),
     "pot-stuck": Outcome(STANDS_STILL, 2.0),
     "pot-jumps": goes_on(),  # one reading that is far off moves nothing
     # Each tenth reading is ridden out, and is too many all the same.
-    "pot-crackles": Outcome(BAD, 5.0),
-    "pot-spikes": Outcome(BAD, 5.0),
-    "adc-noisy": Outcome(BAD, 5.0),
+    "pot-crackles": Outcome(BAD, 5.0, Remedy.LATER),
+    "pot-spikes": Outcome(BAD, 5.0, Remedy.LATER),
+    "adc-noisy": Outcome(BAD, 6.0, Remedy.LATER),
     "pot-bursts": Outcome("pot open or shorted", 3.5),  # four in a row
     "adc-gaps": Outcome("sensor silent", 3.0),
     "adc-frozen": Outcome(STANDS_STILL, 2.0),
@@ -102,8 +105,8 @@ FIRMWARE = dict.fromkeys(
 )
 MOTEUS = FIRMWARE | {
     "silent": Outcome("controller silent", 0.5),
-    "replies-lost": Outcome(BAD, 5.0),
-    "replies-gaps": goes_on(),
+    "replies-lost": Outcome(BAD, 5.0, Remedy.LATER),
+    "replies-gaps": Outcome(BAD, 5.0, Remedy.LATER),
     "jammed": Outcome("axis does not follow", 3.5),
     "factory-bounds": Outcome("axis does not follow", 3.5, notice="its position bounds"),  # as sold
     "power-cycled": Outcome("position unknown", 0.1, Remedy.CONFIRM),
@@ -114,7 +117,7 @@ SERVOS = {
     "board-dips": Outcome("servo board", 1.1),
     "board-gone": Outcome("servo board", 1.1),
     "board-noisy": Outcome("servo board", 1.1),
-    "board-gaps": Outcome("servo board", 1.1),
+    "board-gaps": goes_on(),  # over before it moves on
     "wind-turns": goes_on(),  # it holds against the wind
     # Nothing comes back from a servo.
     "servo-stalled": goes_on(astray=True),

@@ -66,8 +66,10 @@ class ControlledAxis(Protocol):
     def fail(self, fault: Fault) -> None:
         """Stop until the fault is acknowledged."""
 
-    def acknowledge(self) -> None:
-        """A person or a stop has acknowledged the fault. While its cause is there, the fault stays."""
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
+        """A person, or a stop on a link, acknowledges the fault. While its cause is there, the fault stays; and a
+        link alone does not let a motor be tried for ever. Returns whether it counts.
+        """
 
     @property
     def fault(self) -> Fault | None:

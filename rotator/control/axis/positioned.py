@@ -6,7 +6,9 @@ who gave the order. It does not know how the drive gets to an angle; it sees whe
 
 from __future__ import annotations
 
-from hw.ports import Direction
+import math
+
+from hw.ports import AngleSource, Direction
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import JogGoal, jog, limit_reached
 from rotator.control.axis.sensing import Condition, Reading, Sensing
@@ -34,8 +36,12 @@ class PositionedAxis:
         self._faults = FaultLatch()
         self._condition = Condition()
         self._lease_s = lease_s
-        self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
-        self._stray = StrayWatch(settings.axis)
+        # A model jumps where it is corrected, and it does not scatter.
+        fastest_dps = settings.speed_dps if settings.source is AngleSource.MEASURED else math.inf
+        self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
+        self._stray = StrayWatch(settings.axis, settings.speed_dps)
+        self._seen_s = 0.0
+        """The moment of the present cycle."""
         self._readings = Trend()
         self._steered: tuple[Steer, float] | None = None
         """Where the drive was sent last, and when; None: it holds."""
@@ -91,24 +97,27 @@ class PositionedAxis:
 
     def see(self, reading: Reading, now_s: float) -> None:
         self._condition = reading.condition
-        unbelievable = self._sensing.take(reading, now_s)
-        if self._sensing.fresh and self._sensing.angle_deg is not None:
-            self._readings.see(reading.at_s, self._sensing.angle_deg, self.settings.speed_dps)
+        self._seen_s = now_s
+        unbelievable = self._sensing.take(reading, now_s, self._readings.noise_deg)
+        for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
+            self._readings.see(at_s, angle_deg, self.settings.speed_dps)
         # The rotor's own report says more than what can be seen of it from here.
         reported = reading.condition.fault
         cause = unbelievable if reading.condition.latched else reported or unbelievable
-        self._faults.note(reported or unbelievable or self._straying(now_s), cause=cause)
+        found = reported or unbelievable or self._straying(now_s)
+        self._faults.note(found, now_s, cause=cause, tries=int(self.driven))
 
     def _straying(self, now_s: float) -> Fault | None:
         steered = self._steered[0] if self._steered else None
-        return self._stray.see(now_s, steered, self._sensing.angle_deg, settling=self._condition.settling)
+        noise_deg = self._readings.noise_deg if self.settings.source is AngleSource.MEASURED else 0.0
+        return self._stray.see(now_s, steered, self._sensing.angle_deg, noise_deg, settling=self._condition.settling)
 
     def fail(self, fault: Fault) -> None:
-        self._faults.fail(fault)
+        self._faults.fail(fault, self._seen_s, tries=int(self.driven))
 
-    def acknowledge(self) -> None:
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
         self._stray.clear()
-        self._faults.acknowledge()
+        return self._faults.acknowledge(now_s, by_person=by_person)
 
     def decide(self, now_s: float) -> Decision:
         command = self._wish(now_s)
@@ -116,8 +125,6 @@ class PositionedAxis:
             self.fail(limit_reached(self.settings.axis, blocked))
             self._goal, command = None, HOLD
         self._steered = (command, now_s) if isinstance(command, Steer) else None
-        if self._steered is None:
-            self._stray.clear()
         return Decision(command)
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
@@ -138,16 +145,20 @@ class PositionedAxis:
             confirmable=self.confirmable,
             fault=self.fault,
             noise_deg=self._readings.noise_deg,
-            notices=(self._condition.notice,) if self._condition.notice else (),
+            notices=tuple(each for each in (self._condition.notice, self._sensing.notice) if each),
         )
 
     def _wish(self, now_s: float) -> Steer | Hold:
         """What the goal asks for. A fault ends the goal."""
         if self.fault is not None:
             self._goal = None
-        if self._goal is None or not self._sensing.believable or self._sensing.angle_deg is None:
+        # A bad reading starts nothing, and what moves may go on for a moment, until the next good one.
+        trusted = self._sensing.believable or self._steered is not None
+        if self._goal is None or not trusted or self._sensing.angle_deg is None:
             return HOLD
-        until_s = now_s + self._lease_s
+        until_s = min(now_s + self._lease_s, self._sensing.ridden_until_s)
+        if until_s <= now_s:
+            return HOLD
         match self._goal:
             case AimGoal() if self.settings.missing:
                 return HOLD

@@ -6,12 +6,14 @@ who gave the order.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from hw.ports import AngleSource, Direction
+from rotator.control.axis.attempts import Attempts
+from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.axis.endurance import Endurance
-from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion_watch import MotionWatch
@@ -46,10 +48,12 @@ class SwitchedAxis:
     def __init__(self, settings: SwitchedSettings, *, lease_s: float, period_s: float) -> None:
         self.settings = settings
         self._goal: AimGoal | JogGoal | HomeGoal | None = None
-        self._faults = FaultLatch()
+        self._attempts = Attempts(settings.axis, settings.limits)
         self._ends = EndCalibration(settings.limits, settings.missing)
         self._condition: Condition | None = None
-        self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
+        # A count does not scatter, and it is corrected by as much as a pulse at once.
+        fastest_dps = math.inf if settings.source is AngleSource.COUNTED else settings.motor.speed_dps
+        self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
         self._timing = Timing(lease_s=lease_s, period_s=period_s)
         motors = settings.learnt or (settings.motor, settings.motor)
         self._law = SwitchedLaw(dict(zip((Direction.PLUS, Direction.MINUS), motors, strict=True)), self._timing)
@@ -86,7 +90,7 @@ class SwitchedAxis:
 
     @property
     def fault(self) -> Fault | None:
-        return self._faults.fault
+        return self._attempts.fault
 
     @property
     def driven(self) -> bool:
@@ -127,15 +131,17 @@ class SwitchedAxis:
 
     def see(self, reading: Reading, now_s: float) -> None:
         lost = self._note_condition(reading.condition)
-        unbelievable = self._sensing.take(reading, now_s)
-        if self._sensing.fresh and self._sensing.angle_deg is not None:
-            self._law.see(reading.at_s, self._sensing.angle_deg)
-            found = self._watch.see(reading.at_s, self._sensing.angle_deg, reading.condition.changes)
+        unbelievable = self._sensing.take(reading, now_s, self._watch.noise_deg)
+        for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
+            self._law.see(at_s, angle_deg)
+            found = self._watch.see(at_s, angle_deg, reading.condition.changes)
+            if self.settings.homing is None:
+                found = found or self._attempts.see(at_s, angle_deg, self._watch.noise_deg)
             self._astray = None if self.homing else found
         # The rotor's own report says more than what can be seen of it from here.
         reported, present = reading.condition.fault, unbelievable or self._astray
         cause = present if reading.condition.latched else reported or present
-        if self._faults.note((None if self.homing else reported) or present or lost, cause=cause):
+        if self._attempts.note((None if self.homing else reported) or present or lost, now_s, cause=cause):
             self._law.forget_run()
 
     def _note_condition(self, condition: Condition) -> Fault | None:
@@ -144,18 +150,20 @@ class SwitchedAxis:
         if before is None:
             return None
         if condition.scale != before.scale:
-            self._begin_anew()
+            self._begin_anew(self._sensing.calibration)
         if condition.lost and not before.lost and not self.homing:
             return Fault(FaultKind.COUNT_LOST, self.settings.axis, f"homing ({condition.lost})")
         return None
 
     def fail(self, fault: Fault) -> None:
-        if self._faults.fail(fault):
+        if self._attempts.fail(fault):
             self._law.forget_run()
 
-    def acknowledge(self) -> None:
-        self._faults.acknowledge()
-        self._watch.acknowledge()
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
+        acknowledged = self._attempts.acknowledge(now_s, by_person=by_person)
+        if acknowledged:
+            self._watch.acknowledge()
+        return acknowledged
 
     def decide(self, now_s: float) -> Decision:
         run = self._safe(self._wish(now_s), now_s)
@@ -181,24 +189,34 @@ class SwitchedAxis:
         """Whether the axis stands at its limit in that direction, or past it."""
         if self.missing or self._sensing.angle_deg is None or self.homing:
             return False
-        limits, angle_deg = self.settings.limits, self._sensing.angle_deg
+        limits, angle_deg = self._attempts.limits, self._sensing.angle_deg
         return angle_deg >= limits.max_deg if direction > 0 else angle_deg <= limits.min_deg
 
     def _wish(self, now_s: float) -> Run:
         """What the goal asks for. A fault ends the goal."""
         if self.fault is not None:
             self._goal = None
-        if self._goal is None or not self._sensing.believable:
+        if self._goal is None or now_s >= self._sensing.ridden_until_s:
             return self._law.rest(now_s)
-        match self._goal:
+        run = self._towards(now_s, self._goal)
+        if self._sensing.believable:
+            return run
+        # A bad reading starts nothing, and what runs may go on for a moment, until the next good one.
+        if run.direction is not self._relays.direction:
+            return self._law.rest(now_s)
+        return Run(run.direction, min(run.until_s, self._sensing.ridden_until_s))
+
+    def _towards(self, now_s: float, goal: AimGoal | JogGoal | HomeGoal) -> Run:
+        match goal:
             case HomeGoal(homing):
                 return self._home(now_s, homing)
             case AimGoal() if self.missing or self._sensing.angle_deg is None:
                 return self._law.rest(now_s)
-            case AimGoal(_, tolerance_deg, Path() as path):
+            case AimGoal(_, tolerance_deg, Path() as path) if self._attempts.limits.holds(path.angle_deg(now_s)):
                 return self._law.follow(now_s, path, tolerance_deg)
-            case AimGoal(target_deg, tolerance_deg, _):
-                return self._law.approach(now_s, target_deg, tolerance_deg)
+            case AimGoal(target_deg, tolerance_deg, path):
+                wanted_deg = path.angle_deg(now_s) if path else target_deg
+                return self._law.approach(now_s, self._attempts.limits.nearest(wanted_deg), tolerance_deg)
             case JogGoal(_, until_s) if until_s is not None and now_s >= until_s:
                 self._goal = None
                 return self._law.rest(now_s)
@@ -211,7 +229,7 @@ class SwitchedAxis:
             longest_s = min(longest_s, until_s)
         if self.missing or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
-        limits = self.settings.limits
+        limits = self._attempts.limits
         limit_deg = limits.max_deg if direction > 0 else limits.min_deg
         if (limit_deg - self._sensing.angle_deg) * direction <= JOG_TOLERANCE_DEG:
             self._goal = None
@@ -234,11 +252,12 @@ class SwitchedAxis:
             raise ValueError("the sensor has no believable reading")
         calibration = self._ends.take(self._sensing.raw, self._sensing.calibration, high_end=high_end)
         if calibration is not None:
-            self._sensing.calibration = calibration
-            self._begin_anew()
+            self._begin_anew(calibration)
 
-    def _begin_anew(self) -> None:
+    def _begin_anew(self, calibration: Calibration | None) -> None:
         """The readings mean other places than before. Only a motor that counts keeps what it has learnt."""
+        self._sensing.begin_anew(calibration)
+        self._attempts.forget()
         keeps = self.settings.homing is not None
         motors = self._law.motion.motors if keeps else dict.fromkeys(self._law.motion.motors, self.settings.motor)
         self._law = SwitchedLaw(motors, self._timing)
@@ -247,6 +266,7 @@ class SwitchedAxis:
     def note_driven(self, now_s: float, driven: Direction) -> None:
         self._law.driven(now_s, driven)
         self._watch.driven(now_s, driven)
+        self._attempts.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
         self._relays = _Relays(driven, now_s if driven is not Direction.OFF else self._relays.driven_s)
 
@@ -274,8 +294,10 @@ class SwitchedAxis:
 
     def _notices(self) -> tuple[Notice, ...]:
         reported = self._condition.notice if self._condition else None
-        single = (reported, self._endurance.notice, BLIND if self.settings.window.blind else None)
-        return (*self._watch.notices, *(notice for notice in single if notice is not None))
+        blind = BLIND if self.settings.window.blind else None
+        single = (reported, self._sensing.notice, self._endurance.notice, blind)
+        found = (notice for notice in single if notice is not None)
+        return (*self._watch.notices, *self._attempts.notices, *found)
 
     def _new_watch(self) -> MotionWatch | RunWatch:
         settings, motors = self.settings, self._law.motion.motors

@@ -27,7 +27,9 @@ class Range:
     max_deg: float
 
     def nearest(self, angle_deg: float) -> float:
-        return min(max(angle_deg, self.min_deg), self.max_deg)
+        if angle_deg > self.max_deg:
+            return self.max_deg
+        return angle_deg if angle_deg > self.min_deg else self.min_deg
 
     def holds(self, angle_deg: float) -> bool:
         return self.min_deg <= angle_deg <= self.max_deg

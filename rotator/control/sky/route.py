@@ -47,11 +47,13 @@ def best_way(mount: Mount, directions: Sequence[Direction], present: Way, speeds
 
     `directions`: where the target will be, `STEP_S` apart, from now to where it sets.
     """
+    here = _Flown(mount, directions, present)
+    best_s, change = here.lost_s[-1] - WORTH_S, None
+    if best_s <= 0.0:  # no other way can lose so much less
+        return present
     ways = [Way(present.azimuth_deg + turn, present.flipped) for turn in (-360.0, 360.0)]
     if may_flip and mount.flip:
         ways += [Way(present.azimuth_deg + turn, not present.flipped) for turn in (-180.0, 180.0)]
-    here = _Flown(mount, directions, present)
-    best_s, change = here.lost_s[-1] - WORTH_S, None
     plans = []
     for way in ways:
         there = _Flown(mount, directions, way)

@@ -108,8 +108,9 @@ class _Fit:
         self._ahead = _unit(azimuth_deg, elevation_deg)
         self._right: Vector = (math.cos(az), -math.sin(az), 0.0)
         self._up: Vector = (-math.sin(el) * math.sin(az), -math.sin(el) * math.cos(az), math.cos(el))
-        matrix = [[0.0] * 5 for _ in range(5)]
-        side = [0.0] * 5
+        # x (1 + g s) = a + b s, and the same for y: linear in the five unknowns a, b, c, d, g. An order gives the rows
+        # (1, s, 0, 0, -s x | x) and (0, 0, 1, s, -s y | y); what follows are the weighted sums of their products.
+        n = ns = nss = nx = ny = nsx = nsy = nsxx = nssx = nssy = nsyy = nssxx = 0.0
         for at_s, order_az_deg, order_el_deg in orders:
             seen = _unit(order_az_deg, order_el_deg)
             facing = _dot(seen, self._ahead)
@@ -118,25 +119,38 @@ class _Fit:
             s = at_s - last_s
             weight = math.exp(s / memory_s) * facing * facing
             x, y = _dot(seen, self._right) / facing, _dot(seen, self._up) / facing
-            # x (1 + g s) = a + b s, and the same for y: linear in the five unknowns a, b, c, d, g.
-            for row, value in (((1.0, s, 0.0, 0.0, -s * x), x), ((0.0, 0.0, 1.0, s, -s * y), y)):
-                for i in range(5):
-                    if row[i]:
-                        side[i] += weight * row[i] * value
-                        for j in range(5):
-                            matrix[i][j] += weight * row[i] * row[j]
-        for i, prior in ((1, _SIDEWAYS_PRIOR), (3, _SIDEWAYS_PRIOR), (4, _APPROACH_PRIOR)):
-            # The finer the orders, the weaker the assumptions: they go with the square, as the errors do.
-            matrix[i][i] += prior * grain_deg * grain_deg
-        self._a, self._b, self._c, self._d, self._g = _solve(matrix, side)
+            weight_s = weight * s
+            weight_sx, weight_sy = weight_s * x, weight_s * y
+            n += weight
+            ns += weight_s
+            nss += weight_s * s
+            nx += weight * x
+            ny += weight * y
+            nsx += weight_sx
+            nsy += weight_sy
+            nssx += weight_sx * s
+            nssy += weight_sy * s
+            nsxx += weight_sx * x
+            nsyy += weight_sy * y
+            nssxx += weight_sx * s * x + weight_sy * s * y
+        # The finer the orders, the weaker the assumptions: they go with the square, as the errors do.
+        sideways, approach = (prior * grain_deg * grain_deg for prior in (_SIDEWAYS_PRIOR, _APPROACH_PRIOR))
+        matrix = [
+            [n, ns, 0.0, 0.0, -nsx],
+            [ns, nss + sideways, 0.0, 0.0, -nssx],
+            [0.0, 0.0, n, ns, -nsy],
+            [0.0, 0.0, ns, nss + sideways, -nssy],
+            [-nsx, -nssx, -nsy, -nssy, nssxx + approach],
+        ]
+        self._a, self._b, self._c, self._d, self._g = _solve(matrix, [nx, nsx, ny, nsy, -nsxx - nsyy])
 
     def direction(self, at_s: float) -> tuple[float, float]:
         s = at_s - self.at_s
         x, y, z = self._a + self._b * s, self._c + self._d * s, 1.0 + self._g * s
-        east, north, up = (
-            x * right + y * upward + z * ahead
-            for right, upward, ahead in zip(self._right, self._up, self._ahead, strict=True)
-        )
+        right, upward, ahead = self._right, self._up, self._ahead
+        east = x * right[0] + y * upward[0] + z * ahead[0]
+        north = x * right[1] + y * upward[1] + z * ahead[1]
+        up = x * right[2] + y * upward[2] + z * ahead[2]
         return math.degrees(math.atan2(east, north)) % 360.0, math.degrees(math.atan2(up, math.hypot(east, north)))
 
 
