@@ -150,10 +150,11 @@ class Story:
             case 4:
                 self._add(self._link, "stop-axis", BOTH[self._axis])
             case 5:
-                # One line stops one axis after the other, under a flood that its operator does not see.
-                self._add("easycomm2", "flood", self._near(0), self._near(1), 0.0, 500.0, 200.0)
-                self.ends_s += 0.4
-                self._add("easycomm2", "stop")
+                # A program stops one axis and then the other, in one write, under its own flood.
+                self._add("gs232b", "flood", self._near(0), self._near(1), 0.0, 500.0, 200.0)
+                self.ends_s += 0.399
+                for axis in BOTH:
+                    self._add("gs232b", "stop-axis", axis)
             case 6:
                 self._add(self._link, "leave")
                 self._add(self._other, "leave")
