@@ -24,8 +24,8 @@ def draw(seed: str, kind: str = "") -> Drill:
     rotor = KINDS[kind] if kind else chance.choice(ROTORS)
     mast = draw_mast(chance, rotor)
     if chance.random() < STORIES:
-        events, seconds = stories(chance, mast, lambda: _trouble(chance, mast))
-        return _drill(mast, seconds, events, seed)
+        told, ends_s = stories(chance, mast, lambda: _trouble(chance, mast))
+        return _drill(mast, ends_s, told, seed)
     seconds = round(SHORTEST_S * (LONGEST_S / SHORTEST_S) ** chance.random(), 1)
     events: list[Event] = []
     for who in chance.sample(LINKS, chance.choice((1, 1, 1, 2, 3))):
