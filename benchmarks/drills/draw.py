@@ -270,10 +270,12 @@ def _time(chance: random.Random, seconds: float, moments_s: list[float]) -> list
     events: list[Event] = []
     for _ in range(chance.choice((0, 0, 0, 1, 2))):
         at_s = _when(chance, seconds, moments_s)
-        match chance.randrange(3):
+        match chance.randrange(4):
             case 0:
-                events.append(_event(at_s, CLOCK, "late", chance.choice((0.1, 0.3, 0.6, 1.0, 5.0))))
+                events.append(_event(at_s, CLOCK, "stalled", chance.choice((0.5, 1.5, 5.0, 20.0))))
             case 1:
+                events.append(_event(at_s, CLOCK, "late", chance.choice((0.1, 0.3, 0.6, 1.0, 5.0))))
+            case 2:
                 events.append(_event(at_s, CLOCK, "hung", chance.choice((0.1, 0.2, 0.5, 3.0))))
             case _:
                 events.append(_event(at_s, CLOCK, "jitter", chance.uniform(1.0, 60.0), chance.choice((0.02, 0.1, 0.3))))

@@ -149,15 +149,15 @@ class Judges:
             self.found.append(Violation(self._now_s, STARTS, "both axes", measured))
 
     def _unordered(self, truth: AxisTruth, case: AxisCase) -> None:
-        stops_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s)
+        winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s)
         excused = self._now_s < self.excused_until_s or case.astray
-        if self._now_s > self.unattended_s + LEASE_S + stops_s and self.ends_at_once and not excused:
+        if self._now_s > self.unattended_s + LEASE_S + winds_down_s and self.ends_at_once and not excused:
             self._accuse(AFTER_STOP, truth, f"driven {self._now_s - self.unattended_s:.2f} s after the last lease")
         if self._orders.holds(truth.name) or excused:
             case.idle_s = 0.0
             return
         case.idle_s += self._past_s
-        if case.idle_s > stops_s:
+        if case.idle_s > winds_down_s:
             last_s = self._orders.ended_s(truth.name)
             judge = AFTER_STOP if self._orders.latched or last_s else NO_ORDER
             self._accuse(judge, truth, f"driven for {case.idle_s:.2f} s; its last order ended at {last_s:.2f} s")

@@ -88,6 +88,7 @@ class Orders:
         self._silenced = Silenced()
         self.heard = 0
         """How many orders there have been."""
+        self._storm = False
 
     def holds(self, axis: str) -> bool:
         """Whether an order for this axis is in force."""
@@ -107,13 +108,22 @@ class Orders:
         self._release(now_s)
         self._mode = "auto"
 
+    def links_lost(self, now_s: float) -> None:
+        """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
+        if not self._storm and self._mode == "auto" and PANEL not in self._senders():
+            self._forget(now_s)
+
+    def _senders(self) -> set[str]:
+        return {sender for orders in self.axes.values() for sender in orders.goals}
+
     def expire(self, now_s: float) -> None:
         for orders in self.axes.values():
             orders.expire(now_s)
         if self._switch is not None and now_s >= self._switch[1]:
-            self._mode, self._switch = self._switch[0], None
-            self._silenced.forget()
-            self._forget(now_s)
+            before, self._mode, self._switch = self._mode, self._switch[0], None
+            if self._mode != before:
+                self._forget(now_s)
+                self._silenced.forget()
 
     def note(self, event: Event) -> None:
         self.heard += 1
@@ -135,6 +145,7 @@ class Orders:
             case "storm":
                 if not self._held:
                     self._forget(event.at_s)
+                    self._storm = True
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
             case "home":
@@ -210,6 +221,7 @@ class Orders:
                 orders.expire(event.at_s)
 
     def _forget(self, now_s: float) -> None:
+        self._storm = False
         for axis, orders in self.axes.items():
             orders.forget(now_s)
             if self._parks_idle:

@@ -17,7 +17,7 @@ from pathlib import Path
 
 from benchmarks.drills.box import Box, configured
 from benchmarks.drills.judges import Judges, Violation
-from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, build_orders, lapse, spoil
+from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse, spoil
 from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
 from benchmarks.drills.silence import Silence, Words
 from benchmarks.drills.speech import said
@@ -29,6 +29,8 @@ STARTED_S = 1000.0
 STEP_S = 0.05
 """How often the world is looked at while no control cycle comes."""
 FAILS = "the program ends with an exception"
+STALLED_S = 1.0
+"""Links whose event loop has stood still for longer have lost their orders."""
 MOST_ACTS_S = 0.01
 """Orders that come faster than this are taken together, as by a thread that is woken."""
 
@@ -77,6 +79,10 @@ class _Play:
         self._blind = False
         """The reading thread hangs."""
         self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
+        self._stalled_s: tuple[float, float] | None = None
+        """The event loop of the links stands still, from when to when; None: it runs."""
+        self._unheard: list[Event] = []
+        """What links and people have sent to it meanwhile."""
         self._acted_s = -1.0
         self._back_s = 0.0
         """When the program began: what was sent to it before is lost."""
@@ -113,6 +119,7 @@ class _Play:
                     next_s = self._now_s
                 continue
             self._sleep_until(next_s)
+            self._tick()
             self._cycle()
             self._look()
             late_s = self._chance.uniform(0.0, self._jitter_s) if self._now_s < self._jitter_until_s else 0.0
@@ -154,8 +161,25 @@ class _Play:
             case _ if event.at_s - late_s >= self._back_s:
                 self._hear(event)
 
+    def _tick(self) -> None:
+        """The event loop ticks, or stands still; what it has missed it then hears at once."""
+        if self._stalled_s is None:
+            self._box.events.tick()
+            return
+        since_s, until_s = self._stalled_s
+        if self._now_s > since_s + STALLED_S:
+            self._orders.links_lost(self._now_s)
+        if self._now_s >= until_s:
+            self._stalled_s, unheard, self._unheard = None, self._unheard, []
+            self._box.events.tick()
+            for event in unheard:
+                self._hear(replace(event, at_s=self._now_s))
+
     def _hear(self, event: Event) -> None:
         """Bytes of a link or a person: they wake the control thread, as any order does."""
+        if self._stalled_s is not None:
+            self._unheard.append(event)
+            return
         if event.what == "leave":
             self._orders.note(event)
             self._box.leave(event.who)
@@ -200,6 +224,8 @@ class _Play:
             case "hung":
                 self._blind_until_s = self._now_s + seconds
                 self._silence.begin("hung", self._now_s)
+            case "stalled":
+                self._stalled_s = self._now_s, self._now_s + seconds
             case "jitter":
                 self._jitter_until_s, self._jitter_s = self._now_s + seconds, event.number(1)
 
@@ -213,11 +239,13 @@ class _Play:
             kept.rename(self._folder)
         else:
             self._box.end()
+        self._stalled_s, self._unheard = None, []
         self._orders.forget_all(self._now_s)
         self._silence.pause()
         self._pass(event.number(0), dead=True)
         self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world)
         self._back_s = self._now_s
+        begins_anew(self._config, self._cases, self._world.axes)
 
     def _pass(self, seconds: float, *, dead: bool) -> None:
         """The world goes on, and the control thread gets no turn."""

@@ -122,3 +122,13 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.trusted, case.astray = False, True
             case "fault" if case.counts:
                 case.trusted = False
+
+
+def begins_anew(config: Config, cases: tuple[AxisCase, AxisCase], truths: list[AxisTruth]) -> None:
+    """The program has begun again: a control box without feedback is taken to stand where the file says."""
+    if config.rotor.type != "digipot":
+        return
+    for axis, case, truth in zip(Axis, cases, truths, strict=True):
+        table = config.digipot.of(axis)
+        if not case.feels and abs(truth.shaft_deg - table.start_deg) > table.dead_band_deg:
+            case.trusted, case.astray = False, True
