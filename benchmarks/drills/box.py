@@ -75,6 +75,8 @@ class Box:
         self._clock = clock
         self._folder = folder
         self.alive = True
+        if world is not None:
+            world.bus.open()
         self.station = Station(
             config,
             clock,

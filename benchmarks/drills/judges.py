@@ -39,6 +39,8 @@ STREAM_LEAD_S = 5.0
 START_S = 0.5
 """So long a motor may take to get going; a shorter pulse of current is no try."""
 GOING_SHARE = 0.1
+CHATTER_S, CHATTER_STARTS, STARTS_AN_ORDER = 10.0, 20, 2
+"""An order starts each axis once; so many more in that time are no control."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,6 +104,8 @@ class Judges:
         """Until then the hardware moves by itself, as after a dip of its supply."""
         self.found: list[Violation] = []
         self._told: set[tuple[str, str]] = set()
+        self._starts: deque[tuple[float, int]] = deque()
+        """The relay starts so far, less those that orders ask for, at each look of the last CHATTER_S."""
 
     def look(self, now_s: float, axes: list[AxisTruth]) -> None:
         self._past_s, self._now_s = now_s - self._now_s, now_s
@@ -131,11 +135,25 @@ class Judges:
                 self._beyond(truth, case)
                 self._away(truth, case, orders)
 
+    def count(self, relay_starts: int | None) -> None:
+        """A motor that starts and stops several times a second, for no order: at once, without a twin to compare it."""
+        if relay_starts is None:
+            return
+        due = relay_starts - STARTS_AN_ORDER * self._orders.heard
+        self._starts.append((self._now_s, due))
+        while self._starts[0][0] < self._now_s - CHATTER_S:
+            self._starts.popleft()
+        if (more := due - self._starts[0][1]) > CHATTER_STARTS and (STARTS, "both axes") not in self._told:
+            self._told.add((STARTS, "both axes"))
+            measured = f"{more} in {CHATTER_S:g} s beyond those that orders ask for"
+            self.found.append(Violation(self._now_s, STARTS, "both axes", measured))
+
     def _unordered(self, truth: AxisTruth, case: AxisCase) -> None:
         winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s)
-        if self._now_s > self.unattended_s + LEASE_S + winds_down_s and self.ends_at_once:
+        excused = self._now_s < self.excused_until_s or case.astray
+        if self._now_s > self.unattended_s + LEASE_S + winds_down_s and self.ends_at_once and not excused:
             self._accuse(AFTER_STOP, truth, f"driven {self._now_s - self.unattended_s:.2f} s after the last lease")
-        if self._orders.holds(truth.name) or self._now_s < self.excused_until_s or case.astray:
+        if self._orders.holds(truth.name) or excused:
             case.idle_s = 0.0
             return
         case.idle_s += self._past_s

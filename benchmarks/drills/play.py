@@ -74,9 +74,10 @@ class _Play:
         self._orders = build_orders(self._config, lacking=drill.commissioning)
         has_master = self._config.rotor.switched and self._config.relays.master is not None
         self._judges = Judges(self._cases, self._orders, master=has_master)
-        self._judges.ends_at_once = self._config.rotor.type not in KEEP_THEIR_ORDER
         self._silence = Silence(self._words, feels=(self._cases[0].feels, self._cases[1].feels))
         self._period_s = 1 / self._config.control.rate_hz
+        self._blind = False
+        """The reading thread hangs."""
         self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
         self._stalled_s: tuple[float, float] | None = None
         """The event loop of the links stands still, from when to when; None: it runs."""
@@ -119,11 +120,18 @@ class _Play:
                 continue
             self._sleep_until(next_s)
             self._tick()
-            self._box.cycle(blind=self._now_s < self._blind_until_s)
+            self._cycle()
             self._look()
             late_s = self._chance.uniform(0.0, self._jitter_s) if self._now_s < self._jitter_until_s else 0.0
             next_s += self._period_s
             next_s = max(next_s, self._now_s + late_s)
+
+    def _cycle(self) -> None:
+        blind = self._now_s < self._blind_until_s
+        if self._blind and not blind:
+            self._silence.end("hung")
+        self._blind = blind
+        self._box.cycle(blind=blind)
 
     def _sleep_until(self, at_s: float) -> None:
         self._clock.sleep_until(STARTED_S + at_s)
@@ -134,6 +142,7 @@ class _Play:
         self._world.look()
         self._orders.expire(now_s)
         self._judges.look(now_s, self._world.axes)
+        self._judges.count(self._world.relay_starts)
         ordered = any(map(self._orders.holds, self._orders.axes))
         self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered)
 
@@ -214,6 +223,7 @@ class _Play:
                 self._pass(seconds, dead=False)
             case "hung":
                 self._blind_until_s = self._now_s + seconds
+                self._silence.begin("hung", self._now_s)
             case "stalled":
                 self._stalled_s = self._now_s, self._now_s + seconds
             case "jitter":
@@ -240,6 +250,8 @@ class _Play:
     def _pass(self, seconds: float, *, dead: bool) -> None:
         """The world goes on, and the control thread gets no turn."""
         self._judges.unattended_s = self._now_s
+        # In a thread that stands still, the guard still ends every command; a dead program leaves chips as they are.
+        self._judges.ends_at_once = not dead or self._config.rotor.type not in KEEP_THEIR_ORDER
         for _ in range(math.ceil(seconds / STEP_S)):
             self._clock.sleep(STEP_S)
             self._troubles.look()

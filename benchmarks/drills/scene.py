@@ -114,7 +114,7 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.slack_deg += abs(event.number(2))
             case "pace" | "push" | "weld" if not case.feels:
                 case.trusted, case.astray = False, True
-            case "push" | "weld" if case.counts:
+            case "push" | "weld" | "sticks" if case.counts:
                 case.trusted = False
             case "pace" if case.counts:
                 case.patience_s /= min(1.0, max(event.number(1), 0.3))

@@ -15,7 +15,7 @@ from benchmarks.drills.world import AxisTruth
 from rotator.status import Status
 
 SILENT_S = 5.0
-AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent")
+AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent", "hung")
 ORDERED = ("board-unpowered",)
 """Only with an order in force is the part in use."""
 DRIVEN = ("motor-stalled", "pot-stuck", "stands", "jammed", "contact-stuck-open", "contact-stuck-closed")
