@@ -80,8 +80,11 @@ class AxisCase:
     tries_s: deque[float] = field(default_factory=deque)
 
     def rest(self, *, at_stop: bool) -> None:
-        """The box feeds it no more; only at its stop does it stay where it was driven."""
-        self.beyond_s = self.beyond_s if at_stop else 0.0
+        """The box feeds it no more; only at its stop does it stay where it was driven.
+
+        An axis that counts cannot tell from one short run to the next that it stands: each run counts for itself.
+        """
+        self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
         self.away_s = self.idle_s = self.standing_s = 0.0
 
 
@@ -185,7 +188,7 @@ class Judges:
             case.standing_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
-        if before_s <= START_S < case.standing_s:
+        if before_s <= START_S < case.standing_s and not case.counts:
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
                 case.tries_s.popleft()

@@ -75,7 +75,8 @@ class _Play:
         has_master = self._config.rotor.switched and self._config.relays.master is not None
         self._judges = Judges(self._cases, self._orders, master=has_master)
         self._judges.ends_at_once = self._config.rotor.type not in KEEP_THEIR_ORDER
-        self._silence = Silence(self._words, feels=(self._cases[0].feels, self._cases[1].feels))
+        feels, counts = tuple(case.feels for case in self._cases), any(case.counts for case in self._cases)
+        self._silence = Silence(self._words, feels=(feels[0], feels[1]), counts=counts)
         self._period_s = 1 / self._config.control.rate_hz
         self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
         self._stalled_s: tuple[float, float] | None = None
