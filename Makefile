@@ -72,13 +72,13 @@ fuzz: $(VENV)/.dev
 drills: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.drills --hours $(or $(HOURS),20) $(if $(SEED),--seed $(SEED))
 
-# The busy box for an hour in real time, then 24 simulated hours: memory, files and threads must stay as they are.
+# The busy box for an hour in real time, or HOURS, then 24 simulated hours: memory, files and threads must stay.
 soak: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.soak --hours $(or $(HOURS),1)
 	$(BIN)/python -m benchmarks.soak --compressed
 
 # Do the tests see a change of the source? Once a week; SAMPLE=20 tries twenty places a file, FILES some files.
-mutants: $(VENV)/.dev
+mutants: $(VENV)/.mutants
 	$(BIN)/python -m benchmarks.mutants $(if $(SAMPLE),--sample $(SAMPLE)) $(FILES)
 
 # The picture of it running, from the running box itself.
@@ -108,6 +108,10 @@ $(VENV)/.dev: $(BIN)/python pyproject.toml
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps 'moteus>=1.1,<2'
 	@touch $@ $(VENV)/.run
+
+$(VENV)/.mutants: $(VENV)/.dev
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[mutants]'
+	@touch $@
 
 clean:
 	rm -rf $(VENV) run .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache

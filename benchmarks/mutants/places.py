@@ -77,12 +77,20 @@ def mutants(source: str, sample: int | None, chance: random.Random) -> list[Muta
     for place in places:
         name, operator, occurrence = chance.choice(changes[place])
         changed = mutate_code(source, operator, occurrence)
-        if changed is None or changed == source:
+        if changed is None or changed == source or not _compiles(changed):
             continue
         new = changed.splitlines()
         at = next((at for at, (a, b) in enumerate(zip(lines, new, strict=False)) if a != b), place[0] - 1)
         found.append(Mutant(place[0], place[1], name, lines[place[0] - 1].strip(), new[at].strip(), changed))
     return found
+
+
+def _compiles(source: str) -> bool:
+    try:
+        compile(source, "mutant", "exec", dont_inherit=True)
+    except SyntaxError:
+        return False
+    return True
 
 
 def _operators() -> Iterator[tuple[str, Any]]:
@@ -102,7 +110,8 @@ def _annotations(source: str) -> Iterator[tuple[Position, Position]]:
             case ast.arg(annotation=ast.expr() as said) | ast.AnnAssign(annotation=said):
                 pass
             case ast.FunctionDef(returns=ast.expr() as said) | ast.AsyncFunctionDef(returns=ast.expr() as said):
-                pass
+                # The star of keyword arguments is no multiplication.
+                yield (node.lineno, node.col_offset), (said.lineno, said.col_offset)
             case ast.keyword(arg="strict" | "frozen" | "slots", value=said):
                 pass
             case _:

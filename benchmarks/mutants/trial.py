@@ -49,7 +49,7 @@ ROOMS = {
     "hw/safety": ("tests/hw/safety",),
 }
 """Further tests of the files in a room."""
-SLOW = ("real_time", "_process", "test_following", "test_moving", "test_bad_luck", "test_lost_and_found")
+SLOW = ("real_time", "proper_end_process", "test_following", "test_moving", "test_bad_luck", "test_lost_and_found")
 """Parts of the names of tests that run for longer than a minute, or in real time; a file's own tests are always run."""
 LOG = "run.log"
 PATIENCE = 8

@@ -5,6 +5,8 @@ The controllers are simulated, mjbots' own library is the codec, and time is sim
 
 from __future__ import annotations
 
+import threading
+
 import pytest
 
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
@@ -145,15 +147,23 @@ def test_what_the_limit_switches_forbid_is_told() -> None:
     assert bench.rotor.condition(AZ).ends == frozenset()
 
 
-def test_off_holds_and_closing_does_too() -> None:
-    for end in ("off", "close"):
-        bench = Bench()
-        bench.steer(AZ, 200.0, 1.0)
-        getattr(bench.rotor, end)()
-        bench.clock.sleep(4.0)
-        stood_deg = bench.world.antenna()[0]
-        bench.clock.sleep(2.0)
-        assert bench.world.antenna()[0] == pytest.approx(stood_deg, abs=0.01)
+@pytest.mark.parametrize("end", ["off", "close"])
+def test_off_holds_and_closing_does_too(end: str) -> None:
+    bench = Bench()
+    bench.steer(AZ, 200.0, 1.0)
+    assert bench.drive.due_s() is not None, "a command that will expire"
+    {"off": bench.rotor.off, "close": bench.rotor.close}[end]()
+    assert bench.drive.due_s() is None
+    bench.clock.sleep(4.0)
+    stood_deg = bench.world.antenna()[0]
+    bench.clock.sleep(2.0)
+    assert bench.world.antenna()[0] == pytest.approx(stood_deg, abs=0.01)
+
+
+def test_in_simulated_time_there_is_no_thread_to_start() -> None:
+    before = threading.active_count()
+    Bench().rotor.start()
+    assert threading.active_count() == before
 
 
 def test_only_let_go_takes_the_torque_away() -> None:

@@ -5,64 +5,24 @@ The drive here writes down what it is told. The real drives have tests of their 
 
 from __future__ import annotations
 
+import threading
+
 import pytest
 
 from firmware_sim.clock import SimClock
-from hw.ports import AngleSource, Axis, Direction, HardwareError
-from rotator.control.axis.calibration_table import Calibration
+from hw.ports import AngleSensor, Axis, Direction, HardwareError
+from hw.safety.guard import GUARD_THREAD
 from rotator.control.commands import HOLD, Acknowledge, Place, Run, Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.orders import LetGo
-from rotator.rotors.boxes import FollowedBox
 from rotator.rotors.common import no_switches
 from rotator.rotors.positioned import PositionedRotor
+from tests.rotors.journal import Journal
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 SHIFT = Offsets(10.0, -3.0)
-
-
-class Journal:
-    """A positioned drive with one command that may expire, in words."""
-
-    angle_source = AngleSource.MODELLED
-
-    def __init__(self) -> None:
-        self.said: list[str] = []
-        self.until_s: float | None = None
-        self.broken = False
-        self.models: dict[Axis, float] = {}
-
-    def aim(self, axis: Axis, angle_deg: float, rate_dps: float, until_s: float) -> None:
-        self.said.append(f"{axis.value} {angle_deg:g} at {rate_dps:g} until {until_s:g}")
-        self.until_s = until_s
-
-    def hold(self, axis: Axis) -> None:
-        self.said.append(f"{axis.value} hold")
-
-    def release(self) -> None:
-        self.said.append("release")
-
-    def off(self) -> None:
-        self.said.append("off")
-        if self.broken:
-            raise HardwareError("the board does not answer")
-
-    def due_s(self) -> float | None:
-        return self.until_s
-
-    def enforce(self, now_s: float) -> None:
-        if self.until_s is not None and now_s >= self.until_s:
-            self.said.append(f"expired at {now_s:g}")
-            self.until_s = None
-
-    def wait_until_due(self, patience_s: float) -> None:
-        raise AssertionError("no thread in simulated time")
-
-    def angle_deg(self, axis: Axis) -> float:
-        return self.models[axis]
-
-    def found(self, axis: Axis, angle_deg: float) -> None:
-        self.models[axis] = angle_deg
+PATIENCE_S = 20.0
+SENSORS: dict[Axis, AngleSensor] = {}
 
 
 @pytest.fixture
@@ -72,7 +32,7 @@ def drive() -> Journal:
 
 @pytest.fixture
 def rotor(drive: Journal) -> PositionedRotor:
-    return PositionedRotor(drive, {}, SHIFT, lambda axis: frozenset({Direction.PLUS} if axis is EL else ()))
+    return PositionedRotor(drive, SENSORS, SHIFT, lambda axis: frozenset({Direction.PLUS} if axis is EL else ()))
 
 
 def test_the_drive_has_the_rotor_s_own_scale(rotor: PositionedRotor, drive: Journal) -> None:
@@ -111,6 +71,10 @@ def test_what_limit_switches_forbid_is_told_of_the_right_axis(rotor: PositionedR
     assert no_switches(EL) == frozenset()
 
 
+def test_its_sensors_are_those_that_it_was_given(rotor: PositionedRotor) -> None:
+    assert rotor.sensors is SENSORS
+
+
 def test_it_has_no_supply_to_switch_and_no_contact(rotor: PositionedRotor, drive: Journal) -> None:
     assert not rotor.cut()
     rotor.restore()
@@ -133,25 +97,22 @@ def test_a_safe_state_that_fails_is_an_error(rotor: PositionedRotor, drive: Jour
         rotor.close()
 
 
-class Pot:
-    source = AngleSource.MEASURED
+class Dying(Journal):
+    """A drive whose guard cannot live."""
 
-    def __init__(self) -> None:
-        self.reading: float | None = 0.5
-
-    def read(self) -> float:
-        if self.reading is None:
-            raise HardwareError("the converter does not answer")
-        return self.reading
+    def wait_until_due(self, patience_s: float) -> None:
+        raise SystemExit
 
 
-def test_a_sensor_beside_a_model_corrects_it_and_is_what_is_read(drive: Journal) -> None:
-    pot = Pot()
-    sensor = FollowedBox(drive, EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))))  # type: ignore[arg-type]
-    assert sensor.source is AngleSource.MEASURED
-    assert sensor.read() == 0.5
-    assert drive.models == {EL: 90.0}
-    pot.reading = None
-    with pytest.raises(HardwareError, match="the converter"):
-        sensor.read()
-    assert drive.models == {EL: 90.0}
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnhandledThreadExceptionWarning")
+def test_started_in_real_time_it_says_when_its_guard_has_died() -> None:
+    rotor = PositionedRotor(Dying(), SENSORS, SHIFT)
+    rotor.check()
+    rotor.start()
+    for thread in threading.enumerate():
+        if thread.name == GUARD_THREAD:
+            thread.join(PATIENCE_S)
+    with pytest.raises(HardwareError, match="the guard, which ends expired commands, has died"):
+        rotor.check()
+    rotor.close()
+    rotor.check()

@@ -75,8 +75,11 @@ class Pointing:
         self.forget()
         self.wanted = aim
 
-    def aim(self, now_s: float, aim: Aim, azimuth_deg: float, elevation_deg: float) -> Goals:
-        """Goals for an order, with the antenna at these axis angles. Raises Unreachable; then nothing has changed."""
+    def aim(self, now_s: float, aim: Aim, azimuth_deg: float, elevation_deg: float, *, over: bool = False) -> Goals:
+        """Goals for an order, with the antenna at these axis angles. Raises Unreachable; then nothing has changed.
+
+        `over`: it is better met over the top.
+        """
         assert aim.azimuth_deg is not None, "every order that points has an azimuth"
         again = self._way is not None and (aim.azimuth_deg, aim.elevation_deg) == (
             self.wanted.azimuth_deg,
@@ -84,7 +87,9 @@ class Pointing:
         )
         # The same order again: stay on the turn chosen, wherever the antenna is now.
         near_deg = self._way.azimuth_deg if again and self._way is not None else azimuth_deg
-        axis_azimuth_deg, axis_elevation_deg = self._mount.axis_angles(aim.azimuth_deg, aim.elevation_deg, near_deg)
+        axis_azimuth_deg, axis_elevation_deg = self._mount.axis_angles(
+            aim.azimuth_deg, aim.elevation_deg, near_deg, over=over
+        )
         kept_deg = self.wanted.elevation_deg if aim.elevation_deg is None else aim.elevation_deg
         self.wanted = Aim(aim.azimuth_deg, kept_deg)
         self._planned_s = None

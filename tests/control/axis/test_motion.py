@@ -145,6 +145,13 @@ def test_a_short_tap_teaches_neither_speed_nor_coast() -> None:
     assert axis.model.motors[PLUS] == motor()
 
 
+def test_a_run_of_a_degree_and_a_half_teaches_the_speed_a_little() -> None:
+    axis = Axis(9.0, 0.1, motor(lag_s=0.1))
+    axis.run(PLUS, 0.2)
+    assert 1.0 < axis.angle_deg - 100.0 < 2.0
+    assert 6.1 < axis.model.motors[PLUS].speed_dps < 6.9, "less than a long run would"
+
+
 def test_a_coast_is_never_negative_and_at_most_three_seconds_of_full_speed() -> None:
     for misses_deg, coast_deg in ((-20.0, 0.0), (100.0, 18.0)):
         axis = Axis(6.0, 0.2, motor())
