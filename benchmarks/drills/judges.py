@@ -101,6 +101,8 @@ class Judges:
         """Since when the control thread gets no turn, or the program is dead."""
         self.ends_at_once = True
         """Whether the death of the program ends motion: not where chips keep their last order."""
+        self.goes_round = False
+        """Forbidden sectors lie in the way: it may have to move away from its target first."""
         self.excused_until_s = 0.0
         """Until then the hardware moves by itself, as after a dip of its supply."""
         self.found: list[Violation] = []
@@ -166,7 +168,7 @@ class Judges:
 
     def _away(self, truth: AxisTruth, case: AxisCase, orders: AxisOrders) -> None:
         goals, here_deg = orders.goals.values(), truth.shaft_deg + case.shift_deg
-        known = case.trusted and goals and all(goal.angles_deg for goal in goals)
+        known = not self.goes_round and case.trusted and goals and all(goal.angles_deg for goal in goals)
         if not known or any(self._nearing(goal, here_deg, truth, case) for goal in goals):
             case.away_s = 0.0
             return
