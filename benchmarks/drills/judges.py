@@ -82,8 +82,11 @@ class AxisCase:
     tries_s: deque[float] = field(default_factory=deque)
 
     def rest(self, *, at_stop: bool) -> None:
-        """The box feeds it no more; only at its stop does it stay where it was driven."""
-        self.beyond_s = self.beyond_s if at_stop else 0.0
+        """The box feeds it no more; only at its stop does it stay where it was driven.
+
+        An axis that counts cannot tell from one short run to the next that it stands: each run counts for itself.
+        """
+        self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
         self.away_s = self.idle_s = self.standing_s = 0.0
 
 
@@ -100,6 +103,8 @@ class Judges:
         """Since when the control thread gets no turn, or the program is dead."""
         self.ends_at_once = True
         """Whether the death of the program ends motion: not where chips keep their last order."""
+        self.goes_round = False
+        """Forbidden sectors lie in the way: it may have to move away from its target first."""
         self.excused_until_s = 0.0
         """Until then the hardware moves by itself, as after a dip of its supply."""
         self.found: list[Violation] = []
@@ -181,7 +186,7 @@ class Judges:
 
     def _away(self, truth: AxisTruth, case: AxisCase, orders: AxisOrders) -> None:
         goals, here_deg = orders.goals.values(), truth.shaft_deg + case.shift_deg
-        known = case.trusted and goals and all(goal.angles_deg for goal in goals)
+        known = not self.goes_round and case.trusted and goals and all(goal.angles_deg for goal in goals)
         if not known or any(self._nearing(goal, here_deg, truth, case) for goal in goals):
             case.away_s = 0.0
             return
@@ -203,7 +208,7 @@ class Judges:
             case.standing_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
-        if before_s <= START_S < case.standing_s:
+        if before_s <= START_S < case.standing_s and not case.counts:
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
                 case.tries_s.popleft()

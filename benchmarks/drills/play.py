@@ -19,6 +19,7 @@ from benchmarks.drills.box import Box, configured
 from benchmarks.drills.judges import Judges, Violation
 from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse, spoil
 from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
+from benchmarks.drills.sectors import Sectors
 from benchmarks.drills.silence import Silence, Words
 from benchmarks.drills.speech import said
 from benchmarks.drills.trouble import Troubles
@@ -74,7 +75,10 @@ class _Play:
         self._orders = build_orders(self._config, lacking=drill.commissioning)
         has_master = self._config.rotor.switched and self._config.relays.master is not None
         self._judges = Judges(self._cases, self._orders, master=has_master)
-        self._silence = Silence(self._words, feels=(self._cases[0].feels, self._cases[1].feels))
+        feels, counts = tuple(case.feels for case in self._cases), any(case.counts for case in self._cases)
+        self._silence = Silence(self._words, feels=(feels[0], feels[1]), counts=counts)
+        self._sectors = Sectors(self._config, self._cases)
+        self._judges.goes_round = bool(self._sectors)
         self._period_s = 1 / self._config.control.rate_hz
         self._blind = False
         """The reading thread hangs."""
@@ -99,7 +103,7 @@ class _Play:
             where = traceback.extract_tb(failure.__traceback__)[-1]
             text = f"{type(failure).__name__}: {failure} ({Path(where.filename).name}:{where.lineno})"
             outcome.violations.append(Violation(self._now_s, FAILS, "program", text))
-        outcome.violations += [*self._judges.found, *self._silence.found]
+        outcome.violations += self._found()
         outcome.relay_starts = self._world.relay_starts or 0
         outcome.said = [f"{at_s:9.2f} s  {line}" for at_s, line in self._words.lines]
         if self._box.alive:
@@ -109,7 +113,7 @@ class _Play:
     def _run(self) -> None:
         events = deque(sorted(lapse(self._drill), key=lambda event: event.at_s))
         next_s = 0.0
-        while self._now_s < self._drill.seconds and not (self._judges.found or self._silence.found):
+        while self._now_s < self._drill.seconds and not self._found():
             if events and events[0].at_s <= next_s:
                 event = events.popleft()
                 self._sleep_until(event.at_s)
@@ -133,6 +137,9 @@ class _Play:
         self._blind = blind
         self._box.cycle(blind=blind)
 
+    def _found(self) -> list[Violation]:
+        return [*self._judges.found, *self._sectors.found, *self._silence.found]
+
     def _sleep_until(self, at_s: float) -> None:
         self._clock.sleep_until(STARTED_S + at_s)
 
@@ -143,6 +150,7 @@ class _Play:
         self._orders.expire(now_s)
         self._judges.look(now_s, self._world.axes)
         self._judges.count(self._world.relay_starts)
+        self._sectors.look(now_s, self._world.axes)
         ordered = any(map(self._orders.holds, self._orders.axes))
         self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered)
 
@@ -257,6 +265,7 @@ class _Play:
             self._troubles.look()
             self._world.look()
             self._judges.look(self._now_s, self._world.axes)
+            self._sectors.look(self._now_s, self._world.axes)
         self._judges.unattended_s = math.inf
         if not dead:
             self._silence.pause()

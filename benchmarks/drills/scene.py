@@ -43,6 +43,8 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
         patience_s = SLOW_TRY_S
     elif sim.pot_noise_deg > NOISY_DEG:
         patience_s = NOISY_TRY_S
+    elif config.rotor.type == "moteus":
+        patience_s += truth.coasts_s  # it slows down under current
     slack_deg = 1.0 + NOISE_SIGMAS * sim.pot_noise_deg + sim.backlash_deg + abs(sim.pot_bow_deg)
     return AxisCase(
         low_deg=table.min_deg,
