@@ -37,6 +37,7 @@ STEADY_S = 1.5
 """After this time the motor runs at its full speed, and the run's last second shows it exactly."""
 UNSEEN_S = 0.3
 """An axis that was held for less than this at the end of a run seems to turn until the end."""
+DOUBTS_AFTER_S = 0.5
 BLIND_S = 1.0
 """So long, in all, an axis may have been driven by short runs that it was not seen to follow."""
 RAN_ON_S, RAN_ON_SHARE = 0.45, 0.9
@@ -48,6 +49,10 @@ MOVED_DEG = 0.5
 """An axis this far, and four times the noise, from where it stood has been moved."""
 SURE_NOISES = 3.3
 """Two places that differ by so many times the noise are not the same: each is the mean of three readings."""
+SURE_ERRORS = 4.0
+"""Two means of more readings are not the same place if they differ by so many standard errors."""
+EXACT_ERRORS = 6.0
+"""A speed is measured when it is so many times its standard error."""
 SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
 """An axis is looked at for so long before it is taken to stand: longer where the readings scatter more."""
 
@@ -63,6 +68,19 @@ class _Ended:
     """How the axis turned when the run ended; None: it was not seen to turn."""
     angle_deg: float
     """Where it was then."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Rest:
+    """Where the axis stood: the mean of so many readings."""
+
+    mean_deg: float
+    count: int
+
+    def differs(self, other: _Rest, noise_deg: float) -> bool:
+        """Whether these two are not the same place, for certain."""
+        error_deg = noise_deg * math.sqrt(1.0 / self.count + 1.0 / other.count)
+        return abs(self.mean_deg - other.mean_deg) > SURE_ERRORS * error_deg
 
 
 class OpeningWatch:
@@ -87,18 +105,22 @@ class OpeningWatch:
         self._unbroken = False
         """There has been a supply ever since the latest run."""
         self._latest: deque[float] = deque(maxlen=3)
-        self._resting: deque[float] = deque(maxlen=10)
+        self._resting: deque[float] = deque(maxlen=20)
         """The latest readings without a relay on."""
         self._rest_deg: float | None = None
         """Where the axis stands."""
+        self._rested_s: float | None = None
+        """Since when it stands."""
         self._line: Slope | None = None
         """How the present run turns the axis."""
         self._run_dps = 0.0
         """The fastest that the axis has turned in this run, for certain."""
         self._turned_s = -math.inf
         """When the axis was last seen to turn."""
-        self._from_deg: float | None = None
+        self._from: _Rest | None = None
         """Where it stood when it had last been seen to turn."""
+        self._from_here = False
+        """It stands there still."""
         self._blind_s = 0.0
         """For how long relays were closed since the axis was last seen to turn."""
         self._lagged_deg: float | None = None
@@ -157,9 +179,9 @@ class OpeningWatch:
         if direction is not Direction.OFF:
             if self._trust[direction] is Trust.OPEN:
                 self._trust[direction] = Trust.UNSEEN
-            self._from_deg = self._rest_deg if self._from_deg is None else self._from_deg
             self._resting.clear()
-            self._rest_deg = self._line = self._ended = self._lagged_deg = None
+            self._from_here = False
+            self._rest_deg = self._rested_s = self._line = self._ended = self._lagged_deg = None
             self.ran_on, self._going, self._run_dps = False, 0, 0.0
 
     def see(self, at_s: float, angle_deg: float, *, supplied: bool) -> None:
@@ -190,7 +212,7 @@ class OpeningWatch:
         self._line = self._turning(at_s, relays.since_s)
         if self._line is not None:
             self._run_dps = max(self._run_dps, abs(self._line.speed_dps) - 2.0 * self._line.rough_dps)
-            self._turned_s, self._blind_s, self._from_deg = at_s, 0.0, None
+            self._turned_s, self._blind_s, self._from = at_s, 0.0, None
             for way, held_deg in list(self._held_deg.items()):
                 if (self._place_deg - held_deg) * way > 2.0 * BEYOND_DEG:
                     del self._held_deg[way]
@@ -222,7 +244,8 @@ class OpeningWatch:
             self._blind_s += now_s - max(now_s - lasted_s, self._turned_s)
         elif lasted_s >= MEASURED_AFTER_S:
             line = self._exactly(line, now_s) if lasted_s >= STEADY_S else line
-            self._measured[direction] = abs(line.speed_dps)
+            if abs(line.speed_dps) >= EXACT_ERRORS * line.rough_dps:
+                self._measured[direction] = abs(line.speed_dps)
         self._ended = _Ended(direction, now_s, lasted_s, line, self._place_deg if self._latest else 0.0)
 
     def _exactly(self, line: Slope, now_s: float) -> Slope:
@@ -238,7 +261,7 @@ class OpeningWatch:
         if ended is not None and ended.line is not None and self._unbroken:
             self._note_slowing(at_s, ended, ended.line)
         if self._stands(at_s):
-            self._note_standing()
+            self._note_standing(at_s)
         elif self._rest_deg is not None and self._moved_from(self._rest_deg):
             self._note_moved(self._rest_deg)
 
@@ -247,7 +270,8 @@ class OpeningWatch:
         way = PLUS if line.speed_dps > 0 else MINUS
         if slope is None or self.ran_on or self._trust[ended.direction] is Trust.OPEN:
             return
-        slowed = slope.speed_dps * way + 3.0 * slope.rough_dps < SLOWED_SHARE * abs(line.speed_dps)
+        least_dps = abs(line.speed_dps) - 2.0 * line.rough_dps
+        slowed = slope.speed_dps * way + 3.0 * slope.rough_dps < SLOWED_SHARE * least_dps
         passed_s = at_s - ended.off_s
         gone_deg = (self._place_deg - ended.angle_deg) * way
         if (slowed and self._free(way, self._place_deg)) or self._still_coasts(passed_s, gone_deg, line):
@@ -278,9 +302,18 @@ class OpeningWatch:
         slope = trend.slope(at_s - window_s)
         return slope is not None and abs(slope.speed_dps) + slope.rough_dps < fed_dps
 
-    def _note_standing(self) -> None:
+    def _note_standing(self, at_s: float) -> None:
         self.looked = True
-        self._rest_deg = sum(self._resting) / len(self._resting)
+        if self._rested_s is None:
+            self._rested_s = at_s
+            while len(self._resting) > 3:
+                self._resting.popleft()  # it was coasting
+        rest = _Rest(sum(self._resting) / len(self._resting), len(self._resting))
+        self._rest_deg = rest.mean_deg
+        if self._from is None or self._from_here:
+            self._from, self._from_here = rest, True
+        elif rest.differs(self._from, self._seen.trend.noise_deg):
+            self._from, self._from_here, self._blind_s = rest, True, 0.0
         for way in (PLUS, MINUS):
             if self._trust[way] is Trust.OPEN:
                 continue
@@ -291,7 +324,7 @@ class OpeningWatch:
                 shown = shown and ended is not None and ended.line is not None
             if shown and not self.ran_on and self._free(way, self._rest_deg):
                 self._trust[way] = Trust.OPEN
-            elif self._trust[way] is Trust.UNSEEN:
+            elif self._trust[way] is Trust.UNSEEN and at_s - self._rested_s >= self._doubts_after_s:
                 self._trust[way] = Trust.DOUBTED
 
     def _followed(self, ended: _Ended) -> bool:
@@ -300,11 +333,12 @@ class OpeningWatch:
             return True
         if ended.off_s - ended.lasted_s <= self._turned_s < ended.off_s - self._unseen_s:
             return False  # in this run it turned at first, and something held it
-        if self._from_deg is None:
-            self._from_deg = self._place_deg
-        elif abs(self._place_deg - self._from_deg) > SURE_NOISES * self._seen.trend.noise_deg:
-            self._blind_s, self._from_deg = 0.0, self._place_deg
         return self._blind_s <= max(BLIND_S, 1.5 * self._unseen_s)
+
+    @property
+    def _doubts_after_s(self) -> float:
+        """So long an axis stands before a doubt is raised: more readings may still show that it has moved."""
+        return DOUBTS_AFTER_S + 2.0 * (self._unseen_s - UNSEEN_S)
 
     @property
     def _unseen_s(self) -> float:
@@ -317,7 +351,7 @@ class OpeningWatch:
     def _note_moved(self, rest_deg: float) -> None:
         """Something turns it, and no relay was closed: the one that would is not taken for open any more."""
         way = PLUS if self._place_deg > rest_deg else MINUS
-        self._rest_deg = None
+        self._rest_deg = self._rested_s = None
         if self._trust[way] is Trust.OPEN:
             self._trust[way] = Trust.UNSEEN
         against = Direction(-way)

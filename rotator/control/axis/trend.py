@@ -21,6 +21,10 @@ LEAST_READINGS = 3
 """A line needs so many."""
 
 _FIRST_NOISE_DEG = 0.1
+_FIRST_READINGS = 20
+"""The mean scatter of so many readings is where the noise begins."""
+_MEAN = 0.7979
+"""The mean of the size of what scatters by one."""
 _LEAST_NOISE_DEG, _MOST_NOISE_DEG = 0.02, 1.5
 _NOISE_STEP = 1.03
 _MEDIAN = 0.6745
@@ -39,6 +43,8 @@ class Trend:
         self.noise_deg = _FIRST_NOISE_DEG
         """Scatter of the readings, rms, as seen so far."""
         self._kept: deque[Place] = deque()
+        self._first: list[float] = []
+        """How far each of the first readings is off, in the size of the noise."""
 
     @property
     def since_s(self) -> float:
@@ -103,6 +109,11 @@ class Trend:
         share = (at_s - before_s) / (after_s - before_s)
         off_deg = abs(angle_deg - before_deg - share * (after_deg - before_deg))
         scatter = math.sqrt(1.0 + share**2 + (1.0 - share) ** 2)
+        if len(self._first) < _FIRST_READINGS:
+            self._first.append(off_deg / scatter)
+            first_deg = sum(self._first) / len(self._first) / _MEAN
+            self.noise_deg = min(max(_FIRST_NOISE_DEG, first_deg), _MOST_NOISE_DEG)
+            return
         above = off_deg > _MEDIAN * scatter * self.noise_deg
         noise_deg = self.noise_deg * _NOISE_STEP if above else self.noise_deg / _NOISE_STEP
         self.noise_deg = min(max(noise_deg, _LEAST_NOISE_DEG), _MOST_NOISE_DEG)
