@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import asyncio
 import os
+import random
 import select
 import statistics
 import subprocess
@@ -18,10 +19,18 @@ import tempfile
 import threading
 import time
 import tty
+from collections.abc import Mapping
 from pathlib import Path
 
+from hw.ports import AngleSensor, AngleSource, Axis, Direction
 from rotator.app import App
+from rotator.assembly.settings import build_controller
 from rotator.config.load import parse
+from rotator.control.axis.sensing import Condition
+from rotator.control.commands import Command, Errand
+from rotator.rotors.common import PlainRotor
+from rotator.rotors.port import AddAlarm
+from rotator.runtime.loop import ControlLoop
 
 ROUNDS = 200
 LOAD_S = 20.0
@@ -79,6 +88,7 @@ def main() -> None:
     idle_s = _reference_load()
     share, resident_mib = _load()
     print(f"20 Hz loop: {100 * share:.2f} % of a core, {share * LOAD_S / idle_s:.1f} times a thread that only sleeps")
+    print(f"20 Hz loop without the simulated chips: {100 * _load_without_chips():.2f} % of a core")
     print(f"resident: {resident_mib:.1f} MiB, {resident_mib / _bare_mib():.1f} times a bare interpreter")
 
 
@@ -159,6 +169,54 @@ def _load() -> tuple[float, float]:
         box.terminate()
         box.wait()
     return used_s / LOAD_S, resident_mib
+
+
+class _Rotor(PlainRotor):
+    """Two sensors that answer at once, and motors that stand: what the loop costs beside its hardware."""
+
+    def __init__(self) -> None:
+        self.sensors: Mapping[Axis, AngleSensor] = {axis: _Sensor() for axis in Axis}
+
+    def condition(self, _axis: Axis) -> Condition:
+        return Condition()
+
+    def obey(self, _axis: Axis, _command: Command) -> Direction:
+        return Direction.OFF
+
+    def run(self, errand: Errand) -> None: ...
+
+    def off(self) -> None: ...
+
+    def start(self) -> None: ...
+
+    def begin(self, add_alarm: AddAlarm) -> None: ...
+
+    def close(self) -> None: ...
+
+
+class _Sensor:
+    source: AngleSource = AngleSource.MEASURED
+
+    def __init__(self) -> None:
+        self._chance = random.Random(1)
+
+    def read(self) -> float:
+        return 0.5 + self._chance.gauss(0.0, 0.0002)
+
+
+def _load_without_chips() -> float:
+    """The share of a core that the control thread and the sensors' thread take at rest, by this process's CPU time."""
+    config = parse("", "benchmark")
+    loop = ControlLoop(build_controller(config), _Rotor(), time.monotonic, 1 / config.control.rate_hz)
+    thread = threading.Thread(target=loop.run, name="control")
+    thread.start()
+    time.sleep(1.0)
+    before_s = time.process_time()
+    time.sleep(LOAD_S)
+    used_s = time.process_time() - before_s
+    loop.stop()
+    thread.join()
+    return used_s / LOAD_S
 
 
 def _reference_load() -> float:

@@ -41,13 +41,14 @@ from rotator.runtime.engine import Engine, process_end
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
-from rotator.store import counts, knobs
+from rotator.store import counts, knobs, relays
 from rotator.store.compass import CompassFile
+from rotator.store.relays import RelaysFile
 from rotator.views import lcd
 
 log = logging.getLogger(__name__)
 
-RELAY_LINES = "relay-lines.json"
+RELAY_LINES = "relay-lines"
 """The unit's ExecStopPost reads this file to open the relays of a program that has died."""
 
 
@@ -55,6 +56,12 @@ def open_station(config: Config) -> Station:
     """The hardware, in real time. Where the rotor outlives the program, axes that count start with the kept counts."""
     counts_file = Path(config.state.path).with_name(counts.FILE_NAME) if config.keeps_files else None
     return Station(config, time.monotonic, time.sleep, counts=counts_file)
+
+
+def open_relays(config: Config) -> RelaysFile | None:
+    """The file in which a doubt about a relay survives the program; None where the rotor does not, or has no relays."""
+    kept = config.keeps_files and config.rotor.switched
+    return RelaysFile(Path(config.state.path).with_name(relays.FILE_NAME)) if kept else None
 
 
 class App:
@@ -67,9 +74,9 @@ class App:
         self._service_manager = ServiceManager(os.environ, time.monotonic)
         self._events = EventWatch(time.monotonic)
         mount = build_mount(config)
-        learnt = build_learnt(config)
+        learnt, relays_file = build_learnt(config), open_relays(config)
         self.loop = ControlLoop(
-            build_controller(config, learnt.load(), panel=True),
+            build_controller(config, learnt.load(), trusts=relays_file.load() if relays_file else None, panel=True),
             self.station.rotor,
             time.monotonic,
             1 / config.control.rate_hz,
@@ -92,7 +99,7 @@ class App:
         display = self.station.display
         self._display = DisplayThread(display, self.lcd_rows, time.monotonic) if display else None
         self._engine = Engine(self.loop, self.station.rotor)
-        self._autosave = Autosave(self.loop, path, build_offsets(config), learnt)
+        self._autosave = Autosave(self.loop, path, build_offsets(config), learnt, relays_file)
         self._tasks: list[asyncio.Task[Any]] = []
         """The end of one of these is the end of the box."""
         self._side_tasks: list[asyncio.Task[Any]] = []
@@ -140,8 +147,9 @@ class App:
     async def _start(self) -> asyncio.Future[Exception | None]:
         """Start everything. Returns the future that is done when the control thread ends. Raises LinkError."""
         if self.station.sentinel and self.station.lines:
-            self._service_manager.leave(RELAY_LINES, self.station.lines.to_json())
+            self._service_manager.leave(RELAY_LINES, self.station.lines.to_text())
             self._tasks.append(asyncio.create_task(process_end(self.station.sentinel.pid), name="sentinel"))
+        self._autosave.keep_relays()
         motion_ended = self._engine.start()
         for link in self.links:
             await link.open()

@@ -35,6 +35,7 @@ class FaultKind(Enum):
     LIMIT_SWITCH = "limit switch reached", "LIMIT SWITCH", EasycommError.JAM
     NOT_FOLLOWING = "axis does not follow", "NOT FOLLOWING", EasycommError.JAM
     RELAY_WELDED = "relay welded", "RELAY WELDED", EasycommError.MOTOR
+    RELAY_UNSEEN = "relay not seen to open", "RELAY OPEN?", EasycommError.MOTOR
     TURNS_BY_ITSELF = "turning with no relay on", "TURNS BY SELF", EasycommError.MOTOR
     CONTROL_LATE = "control thread late", "CONTROL LATE", EasycommError.MOTOR
     NO_PULSES = "no pulses", "NO PULSES", EasycommError.JAM

@@ -30,7 +30,7 @@ def main() -> None:
     seed = random.SystemRandom().randrange(1 << 31) if given.seed is None else given.seed
     if not given.json:
         print(f"seed {seed}", flush=True)
-    tallies, found = run(seed, given.hours, given.kind or "")
+    tallies, found = run(seed, given.hours, given.kind or "", first=given.first)
     if given.json:
         print(json.dumps(_as_dict(seed, tallies, found)))
     else:
@@ -43,6 +43,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--seed", type=int, help="of the whole campaign; left out, a new one, which is printed")
     parser.add_argument("--hours", type=float, default=20.0, help="simulated hours, over all kinds (20)")
     parser.add_argument("--kind", choices=list(KINDS), help="only this kind of rotor")
+    parser.add_argument("--first", action="store_true", help="end at the first violation, and do not make it small")
     parser.add_argument("--json", action="store_true", help="one JSON object")
     parser.add_argument(
         "--replay", metavar="FILE", help="play the script in FILE, or the drill of a seed such as 7.12/servo"

@@ -36,6 +36,7 @@ from rotator.protocols.panel_words import parse_hand
 from rotator.protocols.session import Session
 from rotator.runtime.autosave import Autosave
 from rotator.runtime.client import Client
+from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
 from rotator.store import counts, knobs
 
@@ -74,6 +75,8 @@ class Box:
         self._clock = clock
         self._folder = folder
         self.alive = True
+        if world is not None:
+            world.bus.open()
         self.station = Station(
             config,
             clock,
@@ -88,8 +91,15 @@ class Box:
         learnt = build_learnt(config)
         commissioning = Axis(drill.commissioning) if drill.commissioning else None
         controller = build_controller(config, learnt.load(), commissioning, panel=config.panel.fitted)
+        self.events = EventWatch(clock)
+        """The watch over the event loop that serves the links; the drill ticks for it."""
         self.loop = ControlLoop(
-            controller, self.station.rotor, clock, 1 / config.control.rate_hz, after_good_step=self.station.beat
+            controller,
+            self.station.rotor,
+            clock,
+            1 / config.control.rate_hz,
+            after_good_step=self.station.beat,
+            events=self.events,
         )
         self._autosave = Autosave(self.loop, None, build_offsets(config), learnt)
         self._mount = build_mount(config)

@@ -137,8 +137,28 @@ def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
                 tables[axis]["sensor"] = {"kind": "pot"}
     if rotor.kind == "servo":
         start_deg = (90.0, 90.0)
+    if chance.random() < 0.25:
+        _sector(chance, tables, start_deg, top_deg)
     commissioning = chance.choice(BOTH) if rotor.kind in ("relay-pot", "relay-pulse") and chance.random() < 0.1 else ""
     return Mast(rotor, tables, start_deg, top_deg, speed_dps, has_panel, has_switches, has_pots, commissioning)
+
+
+def _sector(
+    chance: random.Random, tables: dict[str, Any], start_deg: tuple[float, float], top_deg: tuple[float, float]
+) -> None:
+    """A chimney somewhere: neither where the rotor stands, nor where it parks."""
+    for _ in range(20):
+        spans = []
+        for top in top_deg:
+            low_deg = float(chance.randrange(round(top - 20.0)))
+            spans.append([low_deg, low_deg + chance.choice((5.0, 10.0, 20.0, 60.0))])
+        parks = [(0.0, 0.0), (180.0, 0.0), (90.0, 90.0), start_deg]
+        if not any(
+            all(low - 4.0 < at < high + 4.0 for at, (low, high) in zip(place, spans, strict=True)) for place in parks
+        ):
+            sector = {"name": "chimney", "azimuth_deg": spans[0], "elevation_deg": spans[1]}
+            tables["mount"] = {**tables.get("mount", {}), "forbidden": [sector]}
+            return
 
 
 def _angle(chance: random.Random, low_deg: float, top_deg: float) -> float:

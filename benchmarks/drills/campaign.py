@@ -10,6 +10,7 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
+from functools import partial
 from multiprocessing import get_context
 
 from benchmarks.drills.boxes import KINDS
@@ -84,15 +85,15 @@ def seeds(seed: int, hours: float, kind: str = "") -> Iterator[tuple[str, str]]:
         number += 1
 
 
-def try_one(job: tuple[str, str]) -> tuple[str, float, float, list[Found]]:
-    """Draw and play one drill: its kind, its hours, what it cost, and what was found, made small."""
+def try_one(job: tuple[str, str], *, small: bool = True) -> tuple[str, float, float, list[Found]]:
+    """Draw and play one drill: its kind, its hours, what it cost, and what was found; `small`: made small."""
     seed, kind = job
     began_s = time.process_time()
     drill = draw(seed, kind)
     found = verdict(drill)
     cpu_s = time.process_time() - began_s
-    small = [small_one(drill, violation) for violation in found[:1]]
-    return kind, drill.seconds / HOUR_S, cpu_s, small
+    kept = [small_one(drill, violation) if small else Found(violation, drill) for violation in found[:1]]
+    return kind, drill.seconds / HOUR_S, cpu_s, kept
 
 
 def small_one(drill: Drill, violation: Violation) -> Found:
@@ -102,12 +103,12 @@ def small_one(drill: Drill, violation: Violation) -> Found:
     return Found(shown, replace(least, seed=drill.seed))
 
 
-def run(seed: int, hours: float, kind: str = "") -> tuple[dict[str, Tally], list[Found]]:
-    """A whole campaign, on every core."""
+def run(seed: int, hours: float, kind: str = "", *, first: bool = False) -> tuple[dict[str, Tally], list[Found]]:
+    """A whole campaign, on every core. `first`: it ends at the first violation, which is not made small."""
     tallies: dict[str, Tally] = {}
     everything: list[Found] = []
     with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("fork")) as pool:
-        for kind_of, hours_of, cpu_s, found in pool.map(try_one, seeds(seed, hours, kind)):
+        for kind_of, hours_of, cpu_s, found in pool.map(partial(try_one, small=not first), seeds(seed, hours, kind)):
             tally = tallies.setdefault(kind_of, Tally())
             tally.drills += 1
             tally.hours += hours_of
@@ -115,4 +116,7 @@ def run(seed: int, hours: float, kind: str = "") -> tuple[dict[str, Tally], list
             for each in found:
                 tally.by_judge[each.violation.judge] += 1
             everything += found
+            if first and found:
+                pool.shutdown(wait=False, cancel_futures=True)
+                break
     return tallies, everything

@@ -9,7 +9,9 @@ import random
 
 from benchmarks.drills.boxes import BOTH, KINDS, ROTORS, Mast, draw_mast
 from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
+from benchmarks.drills.stories import stories
 
+STORIES = 0.9
 SHORTEST_S, LONGEST_S = 30.0, 900.0
 WAYS = ("cw", "ccw", "up", "down")
 BADS = ("zero", "full", "far", "near", "last")
@@ -21,6 +23,9 @@ def draw(seed: str, kind: str = "") -> Drill:
     chance = random.Random(seed)
     rotor = KINDS[kind] if kind else chance.choice(ROTORS)
     mast = draw_mast(chance, rotor)
+    if chance.random() < STORIES:
+        told, ends_s = stories(chance, mast, lambda: _trouble(chance, mast))
+        return _drill(mast, ends_s, told, seed)
     seconds = round(SHORTEST_S * (LONGEST_S / SHORTEST_S) ** chance.random(), 1)
     events: list[Event] = []
     for who in chance.sample(LINKS, chance.choice((1, 1, 1, 2, 3))):
@@ -34,9 +39,13 @@ def draw(seed: str, kind: str = "") -> Drill:
     events += _troubles(chance, mast, seconds, moments_s)
     events += _time(chance, seconds, moments_s)
     events = [event for event in events if event.at_s < seconds]
+    return _drill(mast, seconds, events, seed)
+
+
+def _drill(mast: Mast, seconds: float, events: list[Event], seed: str) -> Drill:
     return Drill(
-        kind=rotor.kind,
-        profile=rotor.profile,
+        kind=mast.rotor.kind,
+        profile=mast.rotor.profile,
         seconds=seconds,
         start_deg=mast.start_deg,
         tables=mast.tables,
@@ -222,7 +231,7 @@ def _trouble(chance: random.Random, mast: Mast) -> tuple[tuple[str, *Happening],
     rotor, axis = mast.rotor, chance.choice(BOTH)
     choices = ["fault", "fault"]
     if rotor.relays:
-        choices += ["weld", "weld", "pace", "push"]
+        choices += ["weld", "weld", "pace", "push", "sticks"]
     if mast.has_pots:
         choices += ["every", "burst", "noise", "drift", "stands"]
     if rotor.sporadic or rotor.shared_sporadic:
@@ -232,6 +241,8 @@ def _trouble(chance: random.Random, mast: Mast) -> tuple[tuple[str, *Happening],
             return ("weld", axis, float(chance.choice((-1, 1)))), ("unweld", axis)
         case "pace":
             return ("pace", axis, chance.uniform(0.3, 1.5)), ("pace", axis, 1.0)
+        case "sticks":
+            return ("sticks", axis, chance.uniform(0.02, 0.15)), ("sticks", axis, 0.0)
         case "push":
             return ("push", axis, chance.choice((-1, 1)) * chance.uniform(0.05, 0.5)), ("push", axis, 0.0)
         case "every":
@@ -259,10 +270,12 @@ def _time(chance: random.Random, seconds: float, moments_s: list[float]) -> list
     events: list[Event] = []
     for _ in range(chance.choice((0, 0, 0, 1, 2))):
         at_s = _when(chance, seconds, moments_s)
-        match chance.randrange(3):
+        match chance.randrange(4):
             case 0:
-                events.append(_event(at_s, CLOCK, "late", chance.choice((0.1, 0.3, 0.6, 1.0, 5.0))))
+                events.append(_event(at_s, CLOCK, "stalled", chance.choice((0.5, 1.5, 5.0, 20.0))))
             case 1:
+                events.append(_event(at_s, CLOCK, "late", chance.choice((0.1, 0.3, 0.6, 1.0, 5.0))))
+            case 2:
                 events.append(_event(at_s, CLOCK, "hung", chance.choice((0.1, 0.2, 0.5, 3.0))))
             case _:
                 events.append(_event(at_s, CLOCK, "jitter", chance.uniform(1.0, 60.0), chance.choice((0.02, 0.1, 0.3))))

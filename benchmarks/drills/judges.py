@@ -39,6 +39,8 @@ STREAM_LEAD_S = 5.0
 START_S = 0.5
 """So long a motor may take to get going; a shorter pulse of current is no try."""
 GOING_SHARE = 0.1
+CHATTER_S, CHATTER_STARTS, STARTS_AN_ORDER = 10.0, 20, 2
+"""An order starts each axis once; so many more in that time are no control."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,8 +82,11 @@ class AxisCase:
     tries_s: deque[float] = field(default_factory=deque)
 
     def rest(self, *, at_stop: bool) -> None:
-        """The box feeds it no more; only at its stop does it stay where it was driven."""
-        self.beyond_s = self.beyond_s if at_stop else 0.0
+        """The box feeds it no more; only at its stop does it stay where it was driven.
+
+        An axis that counts cannot tell from one short run to the next that it stands: each run counts for itself.
+        """
+        self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
         self.away_s = self.idle_s = self.standing_s = 0.0
 
 
@@ -98,10 +103,14 @@ class Judges:
         """Since when the control thread gets no turn, or the program is dead."""
         self.ends_at_once = True
         """Whether the death of the program ends motion: not where chips keep their last order."""
+        self.goes_round = False
+        """Forbidden sectors lie in the way: it may have to move away from its target first."""
         self.excused_until_s = 0.0
         """Until then the hardware moves by itself, as after a dip of its supply."""
         self.found: list[Violation] = []
         self._told: set[tuple[str, str]] = set()
+        self._starts: deque[tuple[float, int]] = deque()
+        """The relay starts so far, less those that orders ask for, at each look of the last CHATTER_S."""
 
     def look(self, now_s: float, axes: list[AxisTruth]) -> None:
         self._past_s, self._now_s = now_s - self._now_s, now_s
@@ -131,14 +140,29 @@ class Judges:
                 self._beyond(truth, case)
                 self._away(truth, case, orders)
 
+    def count(self, relay_starts: int | None) -> None:
+        """A motor that starts and stops several times a second, for no order: at once, without a twin to compare it."""
+        if relay_starts is None:
+            return
+        due = relay_starts - STARTS_AN_ORDER * self._orders.heard
+        self._starts.append((self._now_s, due))
+        while self._starts[0][0] < self._now_s - CHATTER_S:
+            self._starts.popleft()
+        if (more := due - self._starts[0][1]) > CHATTER_STARTS and (STARTS, "both axes") not in self._told:
+            self._told.add((STARTS, "both axes"))
+            measured = f"{more} in {CHATTER_S:g} s beyond those that orders ask for"
+            self.found.append(Violation(self._now_s, STARTS, "both axes", measured))
+
     def _unordered(self, truth: AxisTruth, case: AxisCase) -> None:
-        if self._now_s > self.unattended_s + LEASE_S + STOP_S + LOOK_S and self.ends_at_once:
+        winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s)
+        excused = self._now_s < self.excused_until_s or case.astray
+        if self._now_s > self.unattended_s + LEASE_S + winds_down_s and self.ends_at_once and not excused:
             self._accuse(AFTER_STOP, truth, f"driven {self._now_s - self.unattended_s:.2f} s after the last lease")
-        if self._orders.holds(truth.name) or self._now_s < self.excused_until_s or case.astray:
+        if self._orders.holds(truth.name) or excused:
             case.idle_s = 0.0
             return
         case.idle_s += self._past_s
-        if case.idle_s > STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s):
+        if case.idle_s > winds_down_s:
             last_s = self._orders.ended_s(truth.name)
             judge = AFTER_STOP if self._orders.latched or last_s else NO_ORDER
             self._accuse(judge, truth, f"driven for {case.idle_s:.2f} s; its last order ended at {last_s:.2f} s")
@@ -162,7 +186,7 @@ class Judges:
 
     def _away(self, truth: AxisTruth, case: AxisCase, orders: AxisOrders) -> None:
         goals, here_deg = orders.goals.values(), truth.shaft_deg + case.shift_deg
-        known = case.trusted and goals and all(goal.angles_deg for goal in goals)
+        known = not self.goes_round and case.trusted and goals and all(goal.angles_deg for goal in goals)
         if not known or any(self._nearing(goal, here_deg, truth, case) for goal in goals):
             case.away_s = 0.0
             return
@@ -184,7 +208,7 @@ class Judges:
             case.standing_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
-        if before_s <= START_S < case.standing_s:
+        if before_s <= START_S < case.standing_s and not case.counts:
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
                 case.tries_s.popleft()

@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass, field
 
 from benchmarks.drills.script import PANEL, PEOPLE, Event
+from benchmarks.drills.silenced import Silenced
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
@@ -84,6 +85,10 @@ class Orders:
         """When a person last let it go, or began the program anew."""
         self._switch: tuple[str, float] | None = None
         self._mode = "auto"
+        self._silenced = Silenced()
+        self.heard = 0
+        """How many orders there have been."""
+        self._storm = False
 
     def holds(self, axis: str) -> bool:
         """Whether an order for this axis is in force."""
@@ -103,14 +108,25 @@ class Orders:
         self._release(now_s)
         self._mode = "auto"
 
+    def links_lost(self, now_s: float) -> None:
+        """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
+        if not self._storm and self._mode == "auto" and PANEL not in self._senders():
+            self._forget(now_s)
+
+    def _senders(self) -> set[str]:
+        return {sender for orders in self.axes.values() for sender in orders.goals}
+
     def expire(self, now_s: float) -> None:
         for orders in self.axes.values():
             orders.expire(now_s)
         if self._switch is not None and now_s >= self._switch[1]:
-            self._mode, self._switch = self._switch[0], None
-            self._forget(now_s)
+            before, self._mode, self._switch = self._mode, self._switch[0], None
+            if self._mode != before:
+                self._forget(now_s)
+                self._silenced.forget()
 
     def note(self, event: Event) -> None:
+        self.heard += 1
         if event.who == PANEL:
             self._note_panel(event)
         elif event.who in PEOPLE:
@@ -129,6 +145,7 @@ class Orders:
             case "storm":
                 if not self._held:
                     self._forget(event.at_s)
+                    self._storm = True
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
             case "home":
@@ -155,7 +172,17 @@ class Orders:
 
     def _note_order(self, event: Event) -> None:
         match event.what:
-            case "aim" | "stream":
+            case "aim":
+                if self._silenced.aim(event):
+                    return
+            case "stop":
+                self._silenced.stop(event)
+            case "ask" | "junk" | "speed":
+                pass
+            case _:
+                self._silenced.other(event)
+        match event.what:
+            case "aim":
                 self._aim_azimuth(event, event.number(1))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
@@ -184,6 +211,7 @@ class Orders:
 
     def _release(self, now_s: float) -> None:
         self.latched = False
+        self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
 
     def _left(self, event: Event) -> None:
@@ -193,6 +221,7 @@ class Orders:
                 orders.expire(event.at_s)
 
     def _forget(self, now_s: float) -> None:
+        self._storm = False
         for axis, orders in self.axes.items():
             orders.forget(now_s)
             if self._parks_idle:

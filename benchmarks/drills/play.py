@@ -17,8 +17,9 @@ from pathlib import Path
 
 from benchmarks.drills.box import Box, configured
 from benchmarks.drills.judges import Judges, Violation
-from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, build_orders, lapse, spoil
+from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse, spoil
 from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
+from benchmarks.drills.sectors import Sectors
 from benchmarks.drills.silence import Silence, Words
 from benchmarks.drills.speech import said
 from benchmarks.drills.trouble import Troubles
@@ -29,6 +30,8 @@ STARTED_S = 1000.0
 STEP_S = 0.05
 """How often the world is looked at while no control cycle comes."""
 FAILS = "the program ends with an exception"
+STALLED_S = 1.0
+"""Links whose event loop has stood still for longer have lost their orders."""
 MOST_ACTS_S = 0.01
 """Orders that come faster than this are taken together, as by a thread that is woken."""
 
@@ -72,10 +75,18 @@ class _Play:
         self._orders = build_orders(self._config, lacking=drill.commissioning)
         has_master = self._config.rotor.switched and self._config.relays.master is not None
         self._judges = Judges(self._cases, self._orders, master=has_master)
-        self._judges.ends_at_once = self._config.rotor.type not in KEEP_THEIR_ORDER
-        self._silence = Silence(self._words, feels=(self._cases[0].feels, self._cases[1].feels))
+        feels, counts = tuple(case.feels for case in self._cases), any(case.counts for case in self._cases)
+        self._silence = Silence(self._words, feels=(feels[0], feels[1]), counts=counts)
+        self._sectors = Sectors(self._config, self._cases)
+        self._judges.goes_round = bool(self._sectors)
         self._period_s = 1 / self._config.control.rate_hz
+        self._blind = False
+        """The reading thread hangs."""
         self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
+        self._stalled_s: tuple[float, float] | None = None
+        """The event loop of the links stands still, from when to when; None: it runs."""
+        self._unheard: list[Event] = []
+        """What links and people have sent to it meanwhile."""
         self._acted_s = -1.0
         self._back_s = 0.0
         """When the program began: what was sent to it before is lost."""
@@ -92,7 +103,7 @@ class _Play:
             where = traceback.extract_tb(failure.__traceback__)[-1]
             text = f"{type(failure).__name__}: {failure} ({Path(where.filename).name}:{where.lineno})"
             outcome.violations.append(Violation(self._now_s, FAILS, "program", text))
-        outcome.violations += [*self._judges.found, *self._silence.found]
+        outcome.violations += self._found()
         outcome.relay_starts = self._world.relay_starts or 0
         outcome.said = [f"{at_s:9.2f} s  {line}" for at_s, line in self._words.lines]
         if self._box.alive:
@@ -102,7 +113,7 @@ class _Play:
     def _run(self) -> None:
         events = deque(sorted(lapse(self._drill), key=lambda event: event.at_s))
         next_s = 0.0
-        while self._now_s < self._drill.seconds and not (self._judges.found or self._silence.found):
+        while self._now_s < self._drill.seconds and not self._found():
             if events and events[0].at_s <= next_s:
                 event = events.popleft()
                 self._sleep_until(event.at_s)
@@ -112,11 +123,22 @@ class _Play:
                     next_s = self._now_s
                 continue
             self._sleep_until(next_s)
-            self._box.cycle(blind=self._now_s < self._blind_until_s)
+            self._tick()
+            self._cycle()
             self._look()
             late_s = self._chance.uniform(0.0, self._jitter_s) if self._now_s < self._jitter_until_s else 0.0
             next_s += self._period_s
             next_s = max(next_s, self._now_s + late_s)
+
+    def _cycle(self) -> None:
+        blind = self._now_s < self._blind_until_s
+        if self._blind and not blind:
+            self._silence.end("hung")
+        self._blind = blind
+        self._box.cycle(blind=blind)
+
+    def _found(self) -> list[Violation]:
+        return [*self._judges.found, *self._sectors.found, *self._silence.found]
 
     def _sleep_until(self, at_s: float) -> None:
         self._clock.sleep_until(STARTED_S + at_s)
@@ -127,6 +149,8 @@ class _Play:
         self._world.look()
         self._orders.expire(now_s)
         self._judges.look(now_s, self._world.axes)
+        self._judges.count(self._world.relay_starts)
+        self._sectors.look(now_s, self._world.axes)
         ordered = any(map(self._orders.holds, self._orders.axes))
         self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered)
 
@@ -145,8 +169,25 @@ class _Play:
             case _ if event.at_s - late_s >= self._back_s:
                 self._hear(event)
 
+    def _tick(self) -> None:
+        """The event loop ticks, or stands still; what it has missed it then hears at once."""
+        if self._stalled_s is None:
+            self._box.events.tick()
+            return
+        since_s, until_s = self._stalled_s
+        if self._now_s > since_s + STALLED_S:
+            self._orders.links_lost(self._now_s)
+        if self._now_s >= until_s:
+            self._stalled_s, unheard, self._unheard = None, self._unheard, []
+            self._box.events.tick()
+            for event in unheard:
+                self._hear(replace(event, at_s=self._now_s))
+
     def _hear(self, event: Event) -> None:
         """Bytes of a link or a person: they wake the control thread, as any order does."""
+        if self._stalled_s is not None:
+            self._unheard.append(event)
+            return
         if event.what == "leave":
             self._orders.note(event)
             self._box.leave(event.who)
@@ -190,6 +231,9 @@ class _Play:
                 self._pass(seconds, dead=False)
             case "hung":
                 self._blind_until_s = self._now_s + seconds
+                self._silence.begin("hung", self._now_s)
+            case "stalled":
+                self._stalled_s = self._now_s, self._now_s + seconds
             case "jitter":
                 self._jitter_until_s, self._jitter_s = self._now_s + seconds, event.number(1)
 
@@ -203,20 +247,25 @@ class _Play:
             kept.rename(self._folder)
         else:
             self._box.end()
+        self._stalled_s, self._unheard = None, []
         self._orders.forget_all(self._now_s)
         self._silence.pause()
         self._pass(event.number(0), dead=True)
         self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world)
         self._back_s = self._now_s
+        begins_anew(self._config, self._cases, self._world.axes)
 
     def _pass(self, seconds: float, *, dead: bool) -> None:
         """The world goes on, and the control thread gets no turn."""
         self._judges.unattended_s = self._now_s
+        # In a thread that stands still, the guard still ends every command; a dead program leaves chips as they are.
+        self._judges.ends_at_once = not dead or self._config.rotor.type not in KEEP_THEIR_ORDER
         for _ in range(math.ceil(seconds / STEP_S)):
             self._clock.sleep(STEP_S)
             self._troubles.look()
             self._world.look()
             self._judges.look(self._now_s, self._world.axes)
+            self._sectors.look(self._now_s, self._world.axes)
         self._judges.unattended_s = math.inf
         if not dead:
             self._silence.pause()

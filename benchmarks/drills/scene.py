@@ -43,6 +43,8 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
         patience_s = SLOW_TRY_S
     elif sim.pot_noise_deg > NOISY_DEG:
         patience_s = NOISY_TRY_S
+    elif config.rotor.type == "moteus":
+        patience_s += truth.coasts_s  # it slows down under current
     slack_deg = 1.0 + NOISE_SIGMAS * sim.pot_noise_deg + sim.backlash_deg + abs(sim.pot_bow_deg)
     return AxisCase(
         low_deg=table.min_deg,
@@ -114,7 +116,7 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.slack_deg += abs(event.number(2))
             case "pace" | "push" | "weld" if not case.feels:
                 case.trusted, case.astray = False, True
-            case "push" | "weld" if case.counts:
+            case "push" | "weld" | "sticks" if case.counts:
                 case.trusted = False
             case "pace" if case.counts:
                 case.patience_s /= min(1.0, max(event.number(1), 0.3))
@@ -122,3 +124,13 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.trusted, case.astray = False, True
             case "fault" if case.counts:
                 case.trusted = False
+
+
+def begins_anew(config: Config, cases: tuple[AxisCase, AxisCase], truths: list[AxisTruth]) -> None:
+    """The program has begun again: a control box without feedback is taken to stand where the file says."""
+    if config.rotor.type != "digipot":
+        return
+    for axis, case, truth in zip(Axis, cases, truths, strict=True):
+        table = config.digipot.of(axis)
+        if not case.feels and abs(truth.shaft_deg - table.start_deg) > table.dead_band_deg:
+            case.trusted, case.astray = False, True

@@ -15,7 +15,7 @@ from benchmarks.drills.world import AxisTruth
 from rotator.status import Status
 
 SILENT_S = 5.0
-AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent")
+AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent", "hung")
 ORDERED = ("board-unpowered",)
 """Only with an order in force is the part in use."""
 DRIVEN = ("motor-stalled", "pot-stuck", "stands", "jammed", "contact-stuck-open", "contact-stuck-closed")
@@ -51,9 +51,10 @@ class _Lasting:
 class Silence:
     """Tell it when a fault begins and ends; `look` after every cycle."""
 
-    def __init__(self, words: Words, *, feels: tuple[bool, bool]) -> None:
+    def __init__(self, words: Words, *, feels: tuple[bool, bool], counts: bool) -> None:
         self._words = words
         self._feels = dict(zip(("azimuth", "elevation"), feels, strict=True))
+        self._counts = counts
         self._lasting: list[_Lasting] = []
         self._looked_s = 0.0
         self.found: list[Violation] = []
@@ -62,7 +63,8 @@ class Silence:
         axis = "elevation" if name.startswith("elevation") else "azimuth"
         plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
         seen = plain in (*AT_ONCE, *ORDERED) or (plain in DRIVEN and self._feels[axis])
-        if seen or plain.startswith(("relay-welded", "hand-turns")):
+        # A count that is lost already cannot be lost once more by a hand.
+        if seen or plain.startswith("relay-welded") or (plain == "hand-turns" and not self._counts):
             self._lasting.append(_Lasting(plain, axis, now_s))
 
     def end(self, name: str) -> None:

@@ -101,7 +101,7 @@ class Troubles:
                 self._waiting[axis, int(float(args[1]))] = None
             case "unweld":
                 self._unweld(axis)
-            case "pace" | "push":
+            case "pace" | "push" | "sticks":
                 self._turn(what, axis, float(args[1]))
             case _ if axis in self.wipers:
                 self._spoil(self.wipers[axis], what, args[1:])
@@ -132,10 +132,7 @@ class Troubles:
         if (motor := self.motor(axis)) is None:
             return
         motor.advance(self._clock())
-        if what == "pace":
-            motor.pace = share
-        else:
-            motor.pushed = share
+        setattr(motor, {"pace": "pace", "push": "pushed", "sticks": "sticks_s"}[what], share)
 
     def _spoil(self, wiper: Wiper, what: str, args: tuple[float | str, ...]) -> None:
         match what:

@@ -76,9 +76,9 @@ class World:
             self.axes.append(truth)
             self._looks.append(look)
         self._looked_s = clock()
-        for truth, look in zip(self.axes, self._looks, strict=True):
+        for truth, look, boom_deg in zip(self.axes, self._looks, rotor.antenna(), strict=True):
             look(truth)
-            truth.speed_dps = 0.0
+            truth.boom_deg = boom_deg
 
     @property
     def relay_starts(self) -> int | None:

@@ -105,6 +105,10 @@ class SimI2CBus:
     def __exit__(self, *error: object) -> None:
         self.close()
 
+    def open(self) -> None:
+        """The next run of the program opens the adapter again."""
+        self._closed = False
+
     def close(self) -> None:
         """Later transfers raise OSError(EBADF). (smbus2 0.6 raises TypeError there, by passing None as the fd.)"""
         self._closed = True

@@ -6,16 +6,13 @@ know when to do that: the sentinel, the service manager or the operator does.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from hw.buses.gpio import GpioOutputs, LinesBusyError
 from hw.ports import HardwareError
-
-RETRY_S = 0.002
-"""The pause, in seconds, before the next try: a dead process holds its lines until the kernel has cleaned up."""
+from hw.safety.off_at_once import RETRY_S, described, understood
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,18 +23,16 @@ class RelayLines:
     offsets: dict[str, int]
     active_low: bool
 
-    def to_json(self) -> str:
-        return json.dumps(asdict(self))
+    def to_text(self) -> str:
+        return described(self.chip, self.offsets, active_low=self.active_low)
 
     @classmethod
-    def from_json(cls, text: str) -> RelayLines:
-        """Raises HardwareError for a text that `to_json` did not write."""
+    def from_text(cls, text: str) -> RelayLines:
+        """Raises HardwareError for a text that `to_text` did not write."""
         try:
-            table = json.loads(text)
-            offsets = {str(name): int(offset) for name, offset in table["offsets"].items()}
-            return cls(str(table["chip"]), offsets, bool(table["active_low"]))
-        except (ValueError, KeyError, TypeError, AttributeError) as fault:
-            raise HardwareError(f"not a description of relay lines: {text[:60]!r}") from fault
+            return cls(*understood(text))
+        except ValueError as fault:
+            raise HardwareError(str(fault)) from fault
 
 
 def switch_off(

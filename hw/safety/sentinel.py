@@ -34,7 +34,7 @@ class Sentinel:
 
     def __init__(self, lines: RelayLines) -> None:
         self._process = subprocess.Popen(
-            [sys.executable, "-P", "-m", "hw.safety.sentinel_process", "watch", lines.to_json()],
+            [sys.executable, "-P", "-m", "hw.safety.sentinel_process", lines.to_text()],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             bufsize=0,

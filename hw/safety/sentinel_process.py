@@ -6,8 +6,7 @@ are off, and `.` that the program ends properly. The end of the pipe without `.`
 It uses no bus, disk or network that could make it hang, and it is loaded and locked in memory before the first relay
 may close. It is needed because a Raspberry Pi's kernel keeps the outputs of a dead program as they were.
 
-    python -m hw.safety.sentinel_process watch JSON     started by the program; commands come on standard input
-    python -m hw.safety.sentinel_process now FILE       for the service manager, after the program has ended
+    python -m hw.safety.sentinel_process LINES     started by the program; commands come on standard input
 """
 
 from __future__ import annotations
@@ -20,7 +19,6 @@ import sys
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from pathlib import Path
 
 from hw.buses.gpio import real_gpiod
 from hw.drives.relays import LONGEST_LEASE_S
@@ -71,14 +69,10 @@ def _read_until_end(commands: int, program: int) -> bool:
 
 
 def main(arguments: list[str]) -> int:
-    match arguments:
-        case ["watch", text]:
-            return _watch(RelayLines.from_json(text))
-        case ["now", file]:
-            return _now(Path(file))
-        case _:
-            print("usage: python -m hw.safety.sentinel_process watch JSON | now FILE", file=sys.stderr)  # noqa: T201
-            return 2
+    if len(arguments) != 1:
+        print("usage: python -m hw.safety.sentinel_process LINES", file=sys.stderr)  # noqa: T201
+        return 2
+    return _watch(RelayLines.from_text(arguments[0]))
 
 
 def _watch(lines: RelayLines) -> int:
@@ -93,15 +87,6 @@ def _watch(lines: RelayLines) -> int:
     ctypes.CDLL(None).mlockall(_MCL_CURRENT_AND_FUTURE)
     os.write(sys.stdout.fileno(), READY)
     watch(sys.stdin.fileno(), program, lambda: switch_off(api, lines, time.monotonic, time.sleep, PATIENCE_S))
-    return 0
-
-
-def _now(file: Path) -> int:
-    try:
-        lines = RelayLines.from_json(file.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        return 0  # the program did not take its lines before it ended, or it ran a simulation
-    switch_off(real_gpiod(), lines, time.monotonic, time.sleep, PATIENCE_S)
     return 0
 
 

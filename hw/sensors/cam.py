@@ -21,6 +21,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from hw.ports import Direction
+
 BEYOND = 2.0
 """A shaft is at most so many closures beyond the end of its range."""
 
@@ -68,3 +70,9 @@ class Cam:
         """The zone of this angle. The contact is closed in even zones, open in odd ones."""
         zone = 2 * math.floor((angle_deg - self.closes_at_deg) / self.spacing_deg)
         return zone + (angle_deg >= self.begins_deg(zone + 1))
+
+    def ahead(self, zone: int) -> frozenset[Direction]:
+        """The directions in which a shaft in this zone crosses an edge before its stop."""
+        below = self.begins_deg(zone) - self.play_deg > self.low_deg
+        above = self.begins_deg(zone + 1) <= self.high_deg
+        return frozenset(way for way, edge in ((Direction.MINUS, below), (Direction.PLUS, above)) if edge)

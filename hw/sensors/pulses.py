@@ -135,6 +135,11 @@ class PulseCounter:
         return self._count.zone % 2 == 0
 
     @property
+    def ahead(self) -> frozenset[Direction]:
+        """The directions in which the contact would change again before the stop."""
+        return self._count.cam.ahead(self._count.zone)
+
+    @property
     def at_rest(self) -> bool:
         """No relay is on, and the motor has stopped coasting."""
         return self._count.at_rest and not self._waiting

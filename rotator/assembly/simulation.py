@@ -11,19 +11,15 @@ from pathlib import Path
 from typing import Any
 
 from firmware_sim import world_file
-from firmware_sim.arduino.station import ArduinoStation
 from firmware_sim.panel import PanelSpec
-from firmware_sim.parts.pot import PotSpec
 from firmware_sim.rotors.rotor import LcdSpec, SimRotor
 from firmware_sim.world_file import WorldState
 from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS
 from hw.ports import Axis, HardwareError
 from rotator.assembly.adc import simulate_adc
-from rotator.assembly.kinds import KINDS
-from rotator.assembly.simulated_axes import SimulatedAxes, motor_spec
-from rotator.config.axes import AxisTable
+from rotator.assembly.kinds import builder
+from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.config.model import Config
-from rotator.config.sim import SimAxisTable
 
 LIMIT_BEYOND_DEG = 1.0
 """A limit switch opens between the end of the range and the stop; a low one of an axis that counts above `home_deg`."""
@@ -48,7 +44,7 @@ class SimulatedStation:
 
     def build(self) -> SimRotor:
         config = self._config
-        rotor = KINDS[config.rotor.type].simulate(self._axes)
+        rotor = builder(config.rotor.type).simulate(self._axes)
         if self._kept:
             rotor.put_back(self._kept.parts)
         if (lcd := _lcd(config)) is not None:
@@ -130,27 +126,6 @@ def simulated_rotor(
 ) -> SimRotor:
     """The rotor that the file describes. `start_deg`: the start angles where the file has none."""
     return SimulatedStation(config, clock, bus_sleep, start_deg).build()
-
-
-def arduino_station(
-    config: Config, clock: Callable[[], float], sleep: Callable[[float], None], start_deg: tuple[float, float]
-) -> ArduinoStation:
-    """The Arduino that the box replaces, with motors and ranges from the same file; its pots have no end resistors."""
-
-    def pot(table: AxisTable, sim: SimAxisTable) -> PotSpec:
-        return PotSpec(table.min_deg, table.max_deg, 0.0, 1.0, noise_deg=sim.pot_noise_deg, bow_deg=sim.pot_bow_deg)
-
-    azimuth, elevation, sim = config.azimuth, config.elevation, config.sim
-    return ArduinoStation(
-        clock,
-        sleep,
-        motor_spec(azimuth, sim.azimuth),
-        motor_spec(elevation, sim.elevation),
-        azimuth_pot=pot(azimuth, sim.azimuth),
-        elevation_pot=pot(elevation, sim.elevation),
-        azimuth_start_deg=start_deg[0],
-        elevation_start_deg=start_deg[1],
-    )
 
 
 def _mounted(forward: str, up: str) -> Callable[[float, float], tuple[float, float, float]]:

@@ -19,7 +19,7 @@ from hw.safety.heartbeat import Heartbeat
 from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel import Sentinel
 from rotator.assembly.board import Board
-from rotator.assembly.kinds import KINDS
+from rotator.assembly.kinds import builder
 from rotator.assembly.panel import panel_parts
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulation import SimulatedStation
@@ -93,7 +93,7 @@ class Station:
                 counts=counts,
                 in_step=add_alarm is not None,
             )
-            self.rotor = KINDS[config.rotor.type].build(parts, outputs)
+            self.rotor = builder(config.rotor.type).build(parts, outputs)
             self.panel = panel_parts(config, self.board) if config.panel.fitted else None
             self.display = self._open_display()
             opened.callback(self._end_motion)

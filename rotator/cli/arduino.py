@@ -16,7 +16,7 @@ from typing import Protocol
 
 from rich.console import RenderableType
 
-from rotator.assembly.simulation import arduino_station
+from rotator.assembly.arduino import arduino_station
 from rotator.cli.output import LINES, PICTURES, Output
 from rotator.cli.screen import LogRows, draw, log_to, print_lines, stop_on_signals, terminal_console
 from rotator.config.load import load

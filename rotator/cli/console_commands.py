@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import click
@@ -16,21 +15,6 @@ CONFIG = click.option(
 )
 YES = click.option("--yes", is_flag=True, help="Do not ask.")
 AXIS = click.argument("axis", type=click.Choice([axis.value for axis in Axis]))
-
-
-class Number(click.ParamType):  # type: ignore[type-arg]  # older clicks know no argument
-    """A number with a decimal point or a decimal comma."""
-
-    name = "number"
-
-    def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        if isinstance(value, float):
-            return value
-        if not re.fullmatch(r"[-+]?[0-9]{1,4}(?:[.,][0-9]{0,4})?", text := str(value)):
-            self.fail(f"{text!r} is no number; write it like 438.5 or 438,5", param, ctx)
-        return float(text.replace(",", "."))
-
-
 MINUS_IS_A_NUMBER = {"ignore_unknown_options": True}
 
 
@@ -85,12 +69,27 @@ def home(path: Path | None, yes: bool, axis: str) -> None:
 @click.command(context_settings=MINUS_IS_A_NUMBER)
 @CONFIG
 @AXIS
-@click.argument("degrees", type=Number())
-def confirm(path: Path | None, axis: str, degrees: float) -> None:
+@click.argument("degrees")
+def confirm(path: Path | None, axis: str, degrees: str) -> None:
     """Confirm the angle of an axis, in DEGREES. A moteus behind a gear needs it after power-on."""
     from rotator.cli import console
+    from rotator.protocols import aiming
 
-    console.confirm(path, Axis(axis), degrees)
+    angle_deg = aiming.degrees(degrees)
+    if angle_deg is None:
+        raise click.BadParameter(f"{degrees!r} is no number of degrees; write it like 438.5 or 438,5")
+    console.confirm(path, Axis(axis), angle_deg)
+
+
+@click.command(name="relays-checked")
+@CONFIG
+@YES
+@AXIS
+def relays_checked(path: Path | None, yes: bool, axis: str) -> None:
+    """Say that you have looked at an axis's relays, and both are open."""
+    from rotator.cli import console
+
+    console.relays_checked(path, Axis(axis), yes=yes)
 
 
 @click.command(name="let-go")
@@ -125,4 +124,4 @@ def panel(path: Path | None, words: tuple[str, ...]) -> None:
     console.hand(path, hand)
 
 
-CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, let_go, panel)
+CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, relays_checked, let_go, panel)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from hw.ports import AngleSource, Axis
 from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount, Unreachable
-from rotator.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, Refusal
+from rotator.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, Refusal, RelaysChecked
 from rotator.status import Status
 
 SENT_DEG = {Axis.AZIMUTH: (-180.0, 540.0), Axis.ELEVATION: (-90.0, 180.0)}
@@ -32,6 +32,8 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return Refusal(f"{axis.value} knows where it stands: there is no end stop to be found")
         case Confirm(axis) if not status.axis(axis).confirmable:
             return Refusal(f"{axis.value} measures where it stands: there is nothing to confirm")
+        case RelaysChecked(axis) if status.axis(axis).moving:
+            return Refusal(f"{axis.value} moves: look at its relays while they are off")
         case _:
             return None
 

@@ -19,6 +19,7 @@ from rotator.control.axis.sensing import Reading
 from rotator.control.axis.settings import PositionedSettings, SwitchedSettings
 from rotator.control.axis.switched import SwitchedAxis
 from rotator.control.commands import Acknowledge, Command, Errand, Place
+from rotator.control.fence import Fence
 from rotator.control.homing_queue import HomingQueue
 from rotator.control.jogs import Jogs
 from rotator.control.rights import deed_of
@@ -43,6 +44,7 @@ from rotator.orders import (
     Nudge,
     Order,
     Park,
+    RelaysChecked,
     Release,
     Remark,
     RunTimed,
@@ -71,6 +73,7 @@ class Controller:
         self._authority = Authority(settings.mode, max(tolerances_deg))
         self._aiming = Aiming(settings.mount, axes, Pointing(settings.mount, *tolerances_deg, on_sky=settings.on_sky))
         self._homing = HomingQueue({name: axis for name, axis in switched.items() if axis.settings.homing is not None})
+        self._fence = Fence(settings.mount, axes, period_s=settings.period_s, attended=settings.attended)
         self._timed = TimedList()
         self._jogs = Jogs(axes)
         self._speed_level = 4
@@ -108,7 +111,7 @@ class Controller:
             commands[axis] = decision.command
             if decision.homed_deg is not None:
                 self.errands.append(Place(axis, decision.homed_deg))
-        return commands
+        return self._fence.passed(now_s, commands)
 
     def links_lost(self) -> None:
         """No order arrives from links and consoles, a stop neither: what they ordered ends.
@@ -124,6 +127,7 @@ class Controller:
         """After the cycle: the direction in which each axis's relays are really closed (OFF where it has none)."""
         for axis, control in self._axes.items():
             control.note_driven(now_s, driven[axis])
+        self._jogs.note_driven(now_s)
 
     def status(self, now_s: float, late_s: float = 0.0) -> Status:
         """The state of the box at this moment. `late_s`: how late the last cycle was."""
@@ -148,7 +152,8 @@ class Controller:
 
     def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
         status = self._axes[axis].status(now_s)
-        return replace(status, notices=status.notices + self._remarks[axis]) if self._remarks[axis] else status
+        more = self._remarks[axis] + self._aiming.notices(axis) + self._fence.notices(axis, now_s)
+        return replace(status, notices=status.notices + more) if more else status
 
     def _note_lateness(self, now_s: float) -> None:
         """A motor ran for longer than a cycle unwatched: the guard has opened its relay, and a person should know."""
@@ -190,6 +195,8 @@ class Controller:
                 self._nudge(axis, offset_deg, now_s)
             case Confirm(axis, angle_deg):
                 self._confirm(axis, angle_deg)
+            case RelaysChecked(axis) if axis in self._switched:
+                self._switched[axis].checked()
             case LetGo():
                 self._stop(source, BOTH, latch=True, now_s=now_s)
                 self.errands.append(LetGo())

@@ -13,8 +13,8 @@ from typing import Protocol
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
+from rotator.assembly.arduino import arduino_station
 from rotator.assembly.settings import build_controller, build_mount, build_offsets
-from rotator.assembly.simulation import arduino_station
 from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.control.sky.angles import great_circle_deg

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, AngleSource, Axis, Direction
 from hw.sensors.pulses import PulseCounter
-from rotator.control.axis.run_watch import unstoppable
+from rotator.control.axis.relay_trust import unstoppable
 from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand, Place, Run
 from rotator.control.sky.offsets import Offsets
@@ -80,8 +80,8 @@ class CountedAxis:
             self._keep(angle_deg)
             return angle_deg
 
-    def condition(self, ends: frozenset[Direction]) -> Condition:
-        """`ends`: the directions that a limit switch blocks now."""
+    def condition(self, ends: frozenset[Direction], *, supplied: bool = True) -> Condition:
+        """`ends`: the directions that a limit switch blocks now. `supplied`: the motors have their supply."""
         with self._lock:
             why = self._doubt or self._counter.trouble
             return Condition(
@@ -91,6 +91,8 @@ class CountedAxis:
                 changes=self._counter.changes,
                 closed=self._counter.in_closure,
                 ends=ends,
+                ahead=self._counter.ahead,
+                supplied=supplied,
             )
 
     @property
@@ -163,11 +165,11 @@ class CountedRotor(RelayRotor):
     def condition(self, axis: Axis) -> Condition:
         if axis not in self._axes:
             return super().condition(axis)
-        return self._axes[axis].condition(self._ends(axis))
+        return self._axes[axis].condition(self._ends(axis), supplied=self.bank.supplied)
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        assert isinstance(command, Run), "relays take directions only"
-        starts = command.direction is not Direction.OFF and self.bank.driven()[axis] is Direction.OFF
+        runs = isinstance(command, Run) and command.direction is not Direction.OFF
+        starts = runs and self.bank.driven()[axis] is Direction.OFF
         if starts and axis in self._axes and not self._axes[axis].may_start():
             return Direction.OFF
         return super().obey(axis, command)

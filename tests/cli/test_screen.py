@@ -106,6 +106,13 @@ def test_plain_lines_on_demand(start_in_terminal: Start, config: Path) -> None:
     assert box.ends() == 0
 
 
+def test_plain_lines_where_nothing_can_be_drawn(start_in_terminal: Start, config: Path) -> None:
+    box = start_in_terminal("run", "--config", config, term="dumb")
+    assert "╭" not in box.until("azimuth 0°  elevation 0°")
+    box.press("\x03")
+    assert box.ends() == 0
+
+
 def test_the_arduino_s_picture(start_in_terminal: Start, config: Path) -> None:
     box = start_in_terminal("arduino", "--config", config, "--pty", "uno")
     picture_with(box, "F1EFW sketch", "SIMULATED", "SAT A:000 E:000", "ANT A:000 E:000", "q quit")

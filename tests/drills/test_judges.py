@@ -158,3 +158,13 @@ def test_a_person_may_try_again() -> None:
         assert mast.run(1.0, coil=1, dps=0.0) == []
         mast.run(60.0)
         mast.order("console", "resume")
+
+
+def test_what_links_ordered_ends_when_no_stop_could_arrive_but_not_a_storm_park() -> None:
+    mast = Mast()
+    mast.order("rotctld", "aim", 200.0, 0.0)
+    mast.orders.links_lost(mast.now_s)
+    assert not mast.orders.holds("azimuth")
+    mast.order("console", "storm")
+    mast.orders.links_lost(mast.now_s)
+    assert mast.orders.holds("azimuth")

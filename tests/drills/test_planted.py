@@ -8,7 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.drills.planted.patch import Bug, Misfit, bugs, parse, plant, take_back
+from benchmarks.drills.judges import TABLE
+from benchmarks.drills.planted.patch import FOLDER, Bug, Misfit, bugs, parse, plant, take_back
+from benchmarks.drills.script import Drill
 
 ROOT = Path(__file__).parents[2]
 BUGS = bugs()
@@ -68,6 +70,12 @@ def test_no_planted_bug_changes_the_simulated_world_or_its_judges() -> None:
     assert not [
         path for bug in BUGS.values() for path in bug.paths if path.startswith(("firmware_sim/", "benchmarks/"))
     ]
+
+
+@pytest.mark.parametrize("bug", BUGS.values(), ids=BUGS.keys())
+def test_a_planted_bug_has_its_judges_and_a_script_that_shows_it(bug: Bug) -> None:
+    assert set(bug.judges) <= set(TABLE)
+    assert Drill.from_json((FOLDER / f"{bug.name}.json").read_text()).events
 
 
 def test_a_patch_names_what_is_wrong_and_who_should_see_it() -> None:

@@ -72,7 +72,7 @@ def test_every_kind_of_event_is_drawn_before_long() -> None:
     assert persons >= {"stop", "resume", "storm", "home", "confirm", "let-go", "aim", "jog", "leave"}
     others = {what for link, person, what in drawn if not link and not person}
     assert others >= {"mode", "knob", "fault", "clear", "weld", "unweld", "pace", "push", "every", "burst", "noise"}
-    assert others >= {"drift", "stands", "late", "hung", "jitter", "restart", "kill"}
+    assert others >= {"drift", "stands", "stalled", "late", "hung", "jitter", "restart", "kill"}
 
 
 def test_a_campaign_fills_its_hours_with_all_kinds() -> None:

@@ -15,8 +15,9 @@ class Remedy(Enum):
     NOTHING = "the next order is enough"
     ACKNOWLEDGE = "a stop, and the next order"
     LATER = "a stop after a second of good readings, and the next order"
-    AGAIN = "one run in the direction of the relay that had welded"
-    HOME = "homing: the count is lost"
+    AGAIN = "one run in the direction of the relay that was not seen to open"
+    CHECK = "saying that both relays have been looked at"
+    HOME = "the same, and homing: the count is lost"
     CONFIRM = "saying where it points"
 
 
@@ -57,7 +58,7 @@ RELAYS_AND_POTS = {
     "pot-shorted": Outcome("pot open or shorted", 0.3),
     "pot-loose": Outcome("pot jumps", 0.3, Remedy.LATER, by_chance="pot open or shorted"),
     "pot-reversed": Outcome("pot moves the wrong way", 2.5),
-    "pot-stuck": Outcome(STANDS_STILL, 2.0),
+    "pot-stuck": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN),
     "pot-jumps": goes_on(),  # one reading that is far off moves nothing
     # Each tenth reading is ridden out, and is too many all the same.
     "pot-crackles": Outcome(BAD, 5.0, Remedy.LATER),
@@ -67,7 +68,7 @@ RELAYS_AND_POTS = {
     "adc-gaps": Outcome("sensor silent", 3.0),
     "adc-frozen": Outcome(STANDS_STILL, 2.0),
     "pot-drifts": goes_on(),  # 0.4°/s, of a motor of 6
-    "motor-stalled": Outcome(STANDS_STILL, 2.0),
+    "motor-stalled": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN),
     "motor-reversed": Outcome("pot moves the wrong way", 1.0),
     "motor-slow": goes_on(),
     "hand-turns": TURNED,
@@ -75,8 +76,8 @@ RELAYS_AND_POTS = {
     "stop-early": goes_on(),
     "relay-welded-cw": TURNED,
     "relay-welded-up": TURNED,
-    "relay-welded-ccw": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN, turns_on=True),
-    "relay-welded-down": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN, turns_on=True),
+    "relay-welded-ccw": Outcome(STANDS_STILL, 2.0, Remedy.CHECK, turns_on=True),
+    "relay-welded-down": Outcome(STANDS_STILL, 2.0, Remedy.CHECK, turns_on=True),
 }
 COUNTED = {
     # Three periods of 5° at 6°/s are 2.5 s.

@@ -11,7 +11,7 @@ from collections.abc import Callable
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Confirm, Home, Jog, Stop
+from rotator.orders import Aim, Confirm, Home, Jog, RelaysChecked, Stop
 from tests.rotors.outcomes import OUTCOMES, REAL_TIME, Outcome, Remedy, plain
 from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box, Kind
 
@@ -135,8 +135,14 @@ def put_right(box: Box, axis: Axis, remedy: Remedy) -> None:
             box.run(3.0)
             box.order(Stop(), Jog(axis, Direction.PLUS, 1.0))
             box.run(6.0)
+        case Remedy.CHECK:
+            box.until_it_stands()
+            box.order(RelaysChecked(axis), by=PERSON)
+            box.order(Stop())
+            box.run(0.5)
         case Remedy.HOME:
             box.until_it_stands()
+            box.order(RelaysChecked(axis), by=PERSON)
             box.order(Stop(), Home(axis), by=PERSON)
             box.run(1.0)
             box.until(lambda: not box.axis(axis).homing)

@@ -1,7 +1,8 @@
 """Whether the campaign finds each planted bug: run `python -m benchmarks.drills.planted [NAME ...]`.
 
 Plants one bug at a time in a copy of the source, and runs the campaign there until it finds it or its hours are used
-up. Prints a table; the exit code is 1 where a bug was not found. `--apply NAME` and `--take-back NAME` change the
+up. Prints a table; the exit code is 1 where a bug was not found. `--scripts` plays a short script for each bug instead,
+which tells in a minute whether the judges can see it. `--apply NAME` and `--take-back NAME` change the
 checkout itself, for a person who wants to look.
 """
 
@@ -12,7 +13,7 @@ import json
 import sys
 from dataclasses import asdict
 
-from benchmarks.drills.planted.hunt import ROOT, CampaignError, Hunt, copied, hunt
+from benchmarks.drills.planted.hunt import ROOT, CampaignError, Hunt, copied, hunt, scripted
 from benchmarks.drills.planted.patch import Bug, Misfit, bugs, plant, take_back
 
 HOURS = 10.0
@@ -33,6 +34,8 @@ def main(arguments: list[str] | None = None) -> int:
             return 0
         if options.apply or options.take_back:
             return _change(known, options.apply, options.take_back)
+        if options.scripts:
+            return _play_scripts(chosen)
         return _hunt_all(chosen, hours=options.hours, seed=options.seed, kind=options.kind, as_json=options.json)
     except (CampaignError, Misfit) as fault:
         print(fault, file=sys.stderr)
@@ -47,6 +50,9 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--kind", default="", help="one kind of rotor alone")
     parser.add_argument("--json", action="store_true", help="the result as JSON")
     parser.add_argument("--list", action="store_true", help="say what each bug is, and run nothing")
+    parser.add_argument(
+        "--scripts", action="store_true", help="play each bug's own script: can its judge see it at all?"
+    )
     parser.add_argument("--apply", metavar="NAME", help="plant this bug in the checkout itself")
     parser.add_argument("--take-back", metavar="NAME", help="take it out again")
     return parser
@@ -60,6 +66,17 @@ def _change(known: dict[str, Bug], planted: str | None, taken_back: str | None) 
         take_back(known[taken_back], ROOT)
         print(f"taken back from {', '.join(known[taken_back].paths)}")
     return 0
+
+
+def _play_scripts(chosen: list[Bug]) -> int:
+    unseen = 0
+    with copied() as sound:
+        for bug in chosen:
+            judge = scripted(bug, sound)
+            unseen += judge not in bug.judges
+            print(f"{bug.name:36} {judge or 'NOT SEEN'}", flush=True)
+    print(f"{len(chosen) - unseen} of {len(chosen)} planted bugs seen by their judges")
+    return 1 if unseen else 0
 
 
 def _hunt_all(chosen: list[Bug], *, hours: float, seed: int, kind: str, as_json: bool) -> int:

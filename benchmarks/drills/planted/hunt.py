@@ -18,7 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from benchmarks.drills.planted.patch import Bug, plant
+from benchmarks.drills.judges import TABLE
+from benchmarks.drills.planted.patch import FOLDER, Bug, plant
 
 ROOT = Path(__file__).parents[3]
 PACKAGES = ("rotator", "hw", "firmware_sim", "benchmarks")
@@ -33,6 +34,8 @@ class Find:
     after_h: float
     """Simulated hours played until then."""
     measured: str
+    drawn_from: str
+    """SEED.NUMBER/KIND of the drill."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,14 +68,24 @@ def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> H
         plant(bug, tree)
         while played_h < hours:
             result = _campaign(tree, ["--seed", str(seed), "--hours", f"{hours - played_h:g}", "--first"], kind)
+            played_h += sum(float(tally["hours"]) for tally in result["kinds"].values())
             for found in result["found"]:
-                find = Find(found["judge"], found["kind"], played_h + found["at_h"], found["measured"])
-                if not _shows(sound, found["script"]):
-                    return Hunt(bug, find.after_h, find, also_without)
+                if not _replay(sound, found["script"]):
+                    drawn_from = str(found["drawn_from"])
+                    find = Find(found["judge"], drawn_from.partition("/")[2], played_h, found["measured"], drawn_from)
+                    return Hunt(bug, played_h, find, also_without)
                 also_without += 1
-            played_h += result["hours"]
             seed += 1
     return Hunt(bug, played_h, None, also_without)
+
+
+def scripted(bug: Bug, sound: Path) -> str:
+    """What the bug's own script shows with it, and does not show without it; empty: nothing. Raises CampaignError."""
+    script = (FOLDER / f"{bug.name}.json").read_text(encoding="utf-8")
+    with copied(sound) as tree:
+        plant(bug, tree)
+        shown = _replay(tree, script)
+    return "" if _replay(sound, script) else shown
 
 
 def _campaign(tree: Path, arguments: list[str], kind: str) -> dict[str, Any]:
@@ -85,14 +98,17 @@ def _campaign(tree: Path, arguments: list[str], kind: str) -> dict[str, Any]:
     return content
 
 
-def _shows(tree: Path, script: str) -> bool:
-    """Whether this script violates anything on that source."""
+def _replay(tree: Path, script: str) -> str:
+    """The judge that this script calls on that source; empty: none."""
     path = tree / "script.json"
     path.write_text(script, encoding="utf-8")
     result = _run(tree, ["--replay", str(path)])
     if result.returncode not in (NOTHING, FOUND):
         raise CampaignError(result.stdout + result.stderr)
-    return result.returncode == FOUND
+    if result.returncode == NOTHING:
+        return ""
+    lines = result.stdout.splitlines()
+    return next((judge for line in reversed(lines) for judge in TABLE if line.startswith(judge)), lines[-1])
 
 
 def _run(tree: Path, arguments: list[str]) -> subprocess.CompletedProcess[str]:

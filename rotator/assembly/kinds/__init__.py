@@ -1,17 +1,17 @@
 """The builders of the kinds of rotor, one file each: the real drivers, and the simulated rotor for them.
 
-Part of the composition root. This table names the files. The tables and properties of each kind are in
+Part of the composition root. One function here names the files. The tables and properties of each kind are in
 `rotator.config.kinds`.
 """
 
+# ruff: noqa: PLC0415 - a box loads the kind that it has
+
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Protocol
 
 from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import OutputLines
-from rotator.assembly.kinds import digipot, moteus, relay_pot, relay_pulse, servo
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.config.kinds import KindName
@@ -31,10 +31,26 @@ class Builder(Protocol):
         """The simulated rotor, with neither display nor sensors yet."""
 
 
-KINDS: Mapping[KindName, Builder] = {
-    "relay-pot": relay_pot,
-    "relay-pulse": relay_pulse,
-    "moteus": moteus,
-    "servo": servo,
-    "digipot": digipot,
-}
+def builder(kind: KindName) -> Builder:
+    """The file of that kind. Loaded only now: the drivers of all the others would double the time of a start."""
+    match kind:
+        case "relay-pot":
+            from rotator.assembly.kinds import relay_pot
+
+            return relay_pot
+        case "relay-pulse":
+            from rotator.assembly.kinds import relay_pulse
+
+            return relay_pulse
+        case "moteus":
+            from rotator.assembly.kinds import moteus
+
+            return moteus
+        case "servo":
+            from rotator.assembly.kinds import servo
+
+            return servo
+        case "digipot":
+            from rotator.assembly.kinds import digipot
+
+            return digipot

@@ -11,14 +11,18 @@ import math
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import JogGoal, jog, limit_reached
+from rotator.control.axis.pace import Pace
+from rotator.control.axis.reach import UNSEEN_S, lost
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import COMING_DEG, StrayWatch
 from rotator.control.axis.trend import Trend
-from rotator.control.commands import HOLD, Decision, Hold, Steer
+from rotator.control.commands import HOLD, Command, Decision, Hold, Steer
+from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
-from rotator.faults import Fault
+from rotator.control.sky.sectors import UNKNOWN
+from rotator.faults import Fault, Missing
 from rotator.status import AxisStatus
 
 RATE_OVER_S = 0.25
@@ -43,6 +47,7 @@ class PositionedAxis:
         self._seen_s = 0.0
         """The moment of the present cycle."""
         self._readings = Trend()
+        self._pace = Pace(settings)
         self._steered: tuple[Steer, float] | None = None
         """Where the drive was sent last, and when; None: it holds."""
 
@@ -85,6 +90,10 @@ class PositionedAxis:
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
 
+    @property
+    def missing(self) -> tuple[Missing, ...]:
+        return self.settings.missing
+
     def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
         self._goal = jog(direction, seconds, now_s, commissioned=not self.settings.missing)
 
@@ -101,6 +110,7 @@ class PositionedAxis:
         unbelievable = self._sensing.take(reading, now_s, self._readings.noise_deg)
         for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
             self._readings.see(at_s, angle_deg, self.settings.speed_dps)
+            self._pace.see(at_s, angle_deg)
         # The rotor's own report says more than what can be seen of it from here.
         reported = reading.condition.fault
         cause = unbelievable if reading.condition.latched else reported or unbelievable
@@ -125,7 +135,35 @@ class PositionedAxis:
             self.fail(limit_reached(self.settings.axis, blocked))
             self._goal, command = None, HOLD
         self._steered = (command, now_s) if isinstance(command, Steer) else None
+        match command:
+            case Steer(place_deg, 0.0, _):
+                self._pace.sent(now_s, place_deg)
+            case Steer():
+                self._pace.moves_on()
         return Decision(command)
+
+    def sweep(self, now_s: float, command: Command | None) -> Range:
+        if self.settings.missing or now_s - self._sensing.believed_s > UNSEEN_S or lost(self.fault):
+            return UNKNOWN
+        span = self._pace.span(now_s)
+        if not isinstance(command, Steer):
+            return span
+        # It comes to rest at the place of its last command, moving on for as long as that holds.
+        on_deg = abs(command.rate_dps) * (command.until_s - now_s) + self._pace.braking_deg(command.rate_dps)
+        end_deg = command.angle_deg + math.copysign(on_deg, command.rate_dps)
+        near_deg = self.settings.near_deg
+        return span.spanning(min(command.angle_deg, end_deg) - near_deg).spanning(
+            max(command.angle_deg, end_deg) + near_deg
+        )
+
+    @property
+    def room_deg(self) -> float:
+        return 2.0 * self.settings.near_deg
+
+    def hold_back(self, now_s: float, why: str) -> None:
+        self._steered = None
+        if isinstance(self._goal, JogGoal):
+            self._goal = None
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """There are no relays to be noted."""
@@ -193,8 +231,7 @@ class PositionedAxis:
     @property
     def _braking_deg(self) -> float:
         """How far it takes to come to rest from its full speed."""
-        accel_dps2 = self.settings.accel_dps2
-        return self.speed_dps**2 / (2.0 * accel_dps2) if accel_dps2 else 0.0
+        return self._pace.braking_deg(self.speed_dps)
 
     def _within(self, angle_deg: float, rate_dps: float, until_s: float) -> Steer:
         """No further than the limits; at a limit the target moves on alone."""

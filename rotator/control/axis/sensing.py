@@ -56,6 +56,14 @@ class Condition:
     """Its contact is closed since the last of these changes."""
     ends: frozenset[Direction] = frozenset()
     """The directions that a limit switch forbids."""
+    ahead: frozenset[Direction] = frozenset()
+    """The directions in which its contact would change again before the stop."""
+    supplied: bool = True
+    """The motors have their supply, as far as the box knows: no master is open."""
+
+
+NORMAL = Condition()
+"""The rotor has nothing to say."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +73,7 @@ class Reading:
     at_s: float
     raw: float | None
     problem: str = ""
-    condition: Condition = Condition()
+    condition: Condition = NORMAL
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,8 +121,8 @@ class Sensing:
         """The latest reading is a spark."""
         self._loose: Fault | None = None
         """There is a spark among the bad readings since the last good one."""
-        self._good_s = -math.inf
-        """When the last good reading was taken."""
+        self.believed_s = -math.inf
+        """When the latest good reading was taken."""
         self._bad_since_s: float | None = None
         self._last: Place | None = None
         self._jumped: Fault | None = None
@@ -129,7 +137,7 @@ class Sensing:
     @property
     def ridden_until_s(self) -> float:
         """Until when a motor that runs may go on with the last good reading."""
-        return math.inf if self.believable else self._good_s + RIDDEN_S
+        return math.inf if self.believable else self.believed_s + RIDDEN_S
 
     def begin_anew(self, calibration: Calibration | None) -> None:
         """From now on the same reading means another place."""
@@ -151,7 +159,7 @@ class Sensing:
         problem = self._problem(reading, now_s) or self._spark(reading, noise_deg, new=new)
         self.believable = problem is None
         if problem is None:
-            self._good_s, self._bad_since_s, self._loose = reading.at_s, None, None
+            self.believed_s, self._bad_since_s, self._loose = reading.at_s, None, None
         elif self._bad_since_s is None:
             self._bad_since_s = now_s
         lasts = self._bad_since_s is not None and now_s - self._bad_since_s >= BAD_FOR_S

@@ -10,7 +10,7 @@ import math
 from collections import deque
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.run_watch import WAYS
+from rotator.control.axis.relay_trust import WAYS
 from rotator.control.axis.sparks import Place
 from rotator.faults import Fault, FaultKind
 
@@ -84,6 +84,8 @@ class ShortRuns:
             self._ended, self._run = (way, now_s - since_s, now_s), None
         if direction is not Direction.OFF:
             self._count()
+            if self._moved:
+                self._stands_deg = self._smoothed_deg
             self._run, self._from_deg, self._moved = (direction, now_s, speed_dps), self._smoothed_deg, False
 
     def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:

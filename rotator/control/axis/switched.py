@@ -7,7 +7,7 @@ who gave the order.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
 
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.attempts import Attempts
@@ -16,30 +16,26 @@ from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
+from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
+from rotator.control.axis.reach import Reach, Runs, lost
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
-from rotator.control.axis.switched_law import SwitchedLaw, Timing
-from rotator.control.commands import Decision, Run
+from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
+from rotator.control.commands import Command, Decision, Feed, Run
+from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
+from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.status import AxisStatus, LearntMotor
+from rotator.status import AxisStatus, LearntMotor, Trusts
 
 JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""
 BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
-
-
-@dataclass(frozen=True, slots=True)
-class _Relays:
-    """What the relays of this axis do, and when one was last seen closed."""
-
-    direction: Direction = Direction.OFF
-    driven_s: float | None = None
 
 
 class SwitchedAxis:
@@ -49,19 +45,20 @@ class SwitchedAxis:
         self.settings = settings
         self._goal: AimGoal | JogGoal | HomeGoal | None = None
         self._attempts = Attempts(settings.axis, settings.limits)
-        self._ends = EndCalibration(settings.limits, settings.missing)
+        self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
         self._condition: Condition | None = None
         # A count does not scatter, and it is corrected by as much as a pulse at once.
         fastest_dps = math.inf if settings.source is AngleSource.COUNTED else settings.motor.speed_dps
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
         self._timing = Timing(lease_s=lease_s, period_s=period_s)
         motors = settings.learnt or (settings.motor, settings.motor)
-        self._law = SwitchedLaw(dict(zip((Direction.PLUS, Direction.MINUS), motors, strict=True)), self._timing)
-        self._watch = self._new_watch()
+        self._law = self._new_law(dict(zip((Direction.PLUS, Direction.MINUS), motors, strict=True)))
+        self._watch = self._new_watch(settings.trusts, look=settings.look)
         self._astray: Fault | None = None
         """What the watch made of the latest reading."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
-        self._relays = _Relays()
+        self._runs = Runs()
+        self._reach = Reach(settings)
 
     @property
     def angle_deg(self) -> float | None:
@@ -94,7 +91,7 @@ class SwitchedAxis:
 
     @property
     def driven(self) -> bool:
-        return self._relays.direction is not Direction.OFF
+        return self._runs.direction is not Direction.OFF
 
     @property
     def confirmable(self) -> bool:
@@ -107,8 +104,7 @@ class SwitchedAxis:
         return (*self._ends.missing, Missing.HOMING) if lost else self._ends.missing
 
     def moving(self, now_s: float) -> bool:
-        driven_s = self._relays.driven_s
-        return driven_s is not None and now_s - driven_s < SETTLED_AFTER_S
+        return self._runs.off_s(now_s) < SETTLED_AFTER_S
 
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
@@ -132,9 +128,13 @@ class SwitchedAxis:
     def see(self, reading: Reading, now_s: float) -> None:
         lost = self._note_condition(reading.condition)
         unbelievable = self._sensing.take(reading, now_s, self._watch.noise_deg)
-        for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
+        for at_s, angle_deg in self._sensing.places:
+            if self._sensing.calibration is None:
+                # Without a calibration there is no angle, but a relay that does not open is seen all the same.
+                self._astray = self._watch.see(at_s, angle_deg, reading.condition)
+                continue
             self._law.see(at_s, angle_deg)
-            found = self._watch.see(at_s, angle_deg, reading.condition.changes)
+            found = self._watch.see(at_s, angle_deg, reading.condition)
             if self.settings.homing is None:
                 found = found or self._attempts.see(at_s, angle_deg, self._watch.noise_deg)
             self._astray = None if self.homing else found
@@ -165,7 +165,13 @@ class SwitchedAxis:
             self._watch.acknowledge()
         return acknowledged
 
+    def checked(self) -> None:
+        """A person has looked at both relays, and they are open: no doubt is left."""
+        self._watch.checked()
+
     def decide(self, now_s: float) -> Decision:
+        if isinstance(self._watch, RunWatch):
+            self._watch.homes(homing=isinstance(self._goal, HomeGoal) and self._goal.homing.begun)
         run = self._safe(self._wish(now_s), now_s)
         if isinstance(self._goal, HomeGoal) and self._goal.homing.homed:
             homed_deg = self._goal.homing.home_deg
@@ -173,7 +179,7 @@ class SwitchedAxis:
             return Decision(run, homed_deg)
         return Decision(run)
 
-    def _safe(self, run: Run, now_s: float) -> Run:
+    def _safe(self, run: Run, now_s: float) -> Run | Feed:
         """The run, unless a relay, a limit or the motor's heat forbids it."""
         if run.direction is Direction.OFF:
             return run
@@ -183,7 +189,27 @@ class SwitchedAxis:
             self.fail(limit_reached(self.settings.axis, run.direction))
         if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
             return self._law.rest(now_s)
-        return Run(Direction.OFF, now_s) if self._watch.forbids(run.direction) else run
+        if not self._watch.forbids(run.direction):
+            return run
+        # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
+        return Feed(now_s + self._timing.lease_s) if self.settings.master else Run(Direction.OFF, now_s)
+
+    def sweep(self, now_s: float, command: Command | None) -> Range:
+        if self.missing or lost(self.fault):
+            return UNKNOWN
+        run = command if isinstance(command, Run) else None
+        return self._reach.swept(now_s, self._sensing, self._law.motion, self._runs, run)
+
+    @property
+    def room_deg(self) -> float:
+        return self._reach.room_deg(self._law.motion)
+
+    def hold_back(self, now_s: float, why: str) -> None:
+        self._law.rest(now_s)
+        if self.homing:
+            self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, why))
+        if not isinstance(self._goal, AimGoal):
+            self._goal = None
 
     def _beyond(self, direction: Direction) -> bool:
         """Whether the axis stands at its limit in that direction, or past it."""
@@ -202,7 +228,7 @@ class SwitchedAxis:
         if self._sensing.believable:
             return run
         # A bad reading starts nothing, and what runs may go on for a moment, until the next good one.
-        if run.direction is not self._relays.direction:
+        if run.direction is not self._runs.direction:
             return self._law.rest(now_s)
         return Run(run.direction, min(run.until_s, self._sensing.ridden_until_s))
 
@@ -229,8 +255,8 @@ class SwitchedAxis:
             longest_s = min(longest_s, until_s)
         if self.missing or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
-        limits = self._attempts.limits
-        limit_deg = limits.max_deg if direction > 0 else limits.min_deg
+        limits, rests_deg = self._attempts.limits, self._rests_deg
+        limit_deg = min(limits.max_deg, rests_deg[1]) if direction > 0 else max(limits.min_deg, rests_deg[0])
         if (limit_deg - self._sensing.angle_deg) * direction <= JOG_TOLERANCE_DEG:
             self._goal = None
             return self._law.rest(now_s)
@@ -240,7 +266,7 @@ class SwitchedAxis:
 
     def _home(self, now_s: float, homing: Homing) -> Run:
         assert self._condition is not None, "an axis homes only after its first reading"
-        direction = homing.step(now_s, self._relays.direction, self._condition)
+        direction = homing.step(now_s, self._runs.direction, self._condition)
         if homing.failure:
             self._goal = None
             self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, homing.failure))
@@ -260,15 +286,15 @@ class SwitchedAxis:
         self._attempts.forget()
         keeps = self.settings.homing is not None
         motors = self._law.motion.motors if keeps else dict.fromkeys(self._law.motion.motors, self.settings.motor)
-        self._law = SwitchedLaw(motors, self._timing)
-        self._watch = self._new_watch()
+        self._law = self._new_law(motors)
+        self._watch = self._new_watch(self._watch.trusts, look=self._watch.looks)
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         self._law.driven(now_s, driven)
         self._watch.driven(now_s, driven)
         self._attempts.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
-        self._relays = _Relays(driven, now_s if driven is not Direction.OFF else self._relays.driven_s)
+        self._runs.note(now_s, driven)
 
     def status(self, now_s: float) -> AxisStatus:
         calibration = self._sensing.calibration
@@ -279,7 +305,7 @@ class SwitchedAxis:
             raw=self._sensing.raw,
             source=self.settings.source,
             target_deg=self.aiming.target_deg if self.aiming else None,
-            drive=self._relays.direction,
+            drive=self._runs.direction,
             moving=self.moving(now_s),
             missing=self.missing,
             lost=self._condition.lost if self._condition else "",
@@ -290,6 +316,7 @@ class SwitchedAxis:
             noise_deg=self._watch.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
+            trusts=self._watch.trusts,
         )
 
     def _notices(self) -> tuple[Notice, ...]:
@@ -299,12 +326,27 @@ class SwitchedAxis:
         found = (notice for notice in single if notice is not None)
         return (*self._watch.notices, *self._attempts.notices, *found)
 
-    def _new_watch(self) -> MotionWatch | RunWatch:
+    @property
+    def _rests_deg(self) -> tuple[float, float]:
+        """Between these angles the axis may be brought to rest."""
+        limits, homing = self.settings.limits, self.settings.homing
+        if homing is None:
+            return limits.min_deg, limits.max_deg
+        return max(limits.min_deg, homing.rest_deg[0]), min(limits.max_deg, homing.rest_deg[1])
+
+    def _new_law(self, motors: Mapping[Direction, Motor]) -> SwitchedLaw:
+        homing = self.settings.homing
+        return SwitchedLaw(motors, self._timing, homing.rest_deg if homing else ANYWHERE)
+
+    def _new_watch(self, trusts: Trusts, *, look: bool) -> MotionWatch | RunWatch:
         settings, motors = self.settings, self._law.motion.motors
-        if settings.homing is not None:
-            quiet_s = settings.homing.coast_s + settings.homing.period_s
-            return RunWatch(settings.axis, settings.limits, motors, quiet_s)
-        return MotionWatch(settings.axis, settings.limits, motors, master=settings.master)
+        axis, limits, master, homing = settings.axis, settings.limits, settings.master, settings.homing
+        if homing is not None:
+            return RunWatch(
+                axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look
+            )
+        placed = self._sensing.calibration is not None and Missing.LIMITS not in self.missing
+        return MotionWatch(axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look)
 
     def _learnt(self) -> tuple[LearntMotor, LearntMotor]:
         plus, minus = (self._law.motion.motors[way] for way in (Direction.PLUS, Direction.MINUS))

@@ -14,7 +14,7 @@ EVERYTHING = (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK)
 
 
 def uncalibrated() -> EndCalibration:
-    return EndCalibration(RANGE, EVERYTHING)
+    return EndCalibration(RANGE, EVERYTHING, None)
 
 
 def test_low_end_then_high_end() -> None:
@@ -55,8 +55,8 @@ def test_two_readings_of_one_place_are_no_two_ends() -> None:
 
 
 def test_a_calibrated_axis_keeps_its_curve_and_moves_one_end() -> None:
-    ends = EndCalibration(RANGE, ())
     before = Calibration(((0.1, -10.0), (0.3, 200.0), (0.9, 440.0)))
+    ends = EndCalibration(RANGE, (), before)
     found = ends.take(0.5, before, high_end=True)
     assert found is not None
     assert found.points == (

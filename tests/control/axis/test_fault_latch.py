@@ -1,9 +1,9 @@
-"""Which fault an axis keeps: the first one, unless a later one asks for the supply to be cut; and who may end it."""
+"""Which fault an axis keeps, and who may end it: after some tries in vain a link may not."""
 
 from __future__ import annotations
 
 from hw.ports import Axis
-from rotator.control.axis.fault_latch import FaultLatch
+from rotator.control.axis.fault_latch import TRIES, TRIES_WITHIN_S, FaultLatch
 from rotator.faults import Fault, FaultKind
 
 STANDS = Fault(FaultKind.STANDS_STILL, Axis.AZIMUTH, "0.0° in 1 s")
@@ -22,84 +22,108 @@ def test_nothing_wrong_is_no_fault() -> None:
 
 def test_the_first_fault_stays_when_its_cause_is_gone() -> None:
     latch = FaultLatch()
-    assert latch.note(STANDS, 0.0, cause=None, tries=1), "new"
-    assert not latch.note(STANDS, 0.0, cause=None, tries=1), "known"
-    assert not latch.note(JUMPS, 0.0, cause=JUMPS, tries=1)
+    assert latch.note(STANDS, 0.0, cause=None, tries=0), "new"
+    assert not latch.note(STANDS, 0.0, cause=None, tries=0), "known"
+    assert not latch.note(JUMPS, 0.0, cause=JUMPS, tries=0)
     assert not latch.note(None, 0.0, cause=None, tries=0)
     assert latch.fault is STANDS
 
 
 def test_a_fault_that_needs_the_supply_cut_replaces_another() -> None:
     latch = FaultLatch()
-    latch.fail(STANDS, 0.0, tries=1)
-    assert latch.fail(WELDED, 0.0, tries=1)
+    latch.fail(STANDS, 0.0, tries=0)
+    assert latch.fail(WELDED, 0.0, tries=0)
     assert latch.fault is WELDED
-    assert not latch.fail(ALSO_WELDED, 0.0, tries=1), "the first of these stays"
-    assert not latch.fail(STANDS, 0.0, tries=1)
+    assert not latch.fail(ALSO_WELDED, 0.0, tries=0), "the first of these stays"
+    assert not latch.fail(STANDS, 0.0, tries=0)
     assert latch.fault is WELDED
 
 
 def test_acknowledged_it_ends_unless_its_cause_is_still_there() -> None:
     latch = FaultLatch()
-    latch.note(JUMPS, 0.0, cause=JUMPS, tries=1)
-    latch.acknowledge(1.0, by_person=False)
+    latch.note(JUMPS, 0.0, cause=JUMPS, tries=0)
+    latch.acknowledge(0.0, by_person=False)
     assert latch.fault is JUMPS
     latch.note(None, 0.0, cause=None, tries=0)
-    latch.acknowledge(1.0, by_person=False)
-    assert latch.fault is None
-
-
-def test_acknowledged_before_anything_was_seen_there_is_no_fault() -> None:
-    latch = FaultLatch()
-    latch.fail(STANDS, 0.0, tries=1)
-    latch.acknowledge(1.0, by_person=False)
+    latch.acknowledge(0.0, by_person=False)
     assert latch.fault is None
 
 
 def test_what_is_there_now_takes_the_place_of_what_is_acknowledged() -> None:
     latch = FaultLatch()
-    latch.note(STANDS, 0.0, cause=None, tries=1)
-    latch.note(JUMPS, 0.0, cause=JUMPS, tries=1)
+    latch.note(STANDS, 0.0, cause=None, tries=0)
+    latch.note(JUMPS, 0.0, cause=JUMPS, tries=0)
     assert latch.fault is STANDS
-    latch.acknowledge(1.0, by_person=False)
+    latch.acknowledge(0.0, by_person=False)
     assert latch.fault is JUMPS
 
 
 def test_a_passing_fault_ends_with_its_cause() -> None:
     latch = FaultLatch()
-    assert latch.note(SILENT, 0.0, cause=SILENT, tries=1)
+    assert latch.note(SILENT, 0.0, cause=SILENT, tries=0)
     assert not latch.note(None, 0.0, cause=None, tries=0)
     assert latch.fault is None
-    latch.note(SILENT, 0.0, cause=SILENT, tries=1)
-    latch.note(STANDS, 0.0, cause=None, tries=1)
+    latch.note(SILENT, 0.0, cause=SILENT, tries=0)
+    latch.note(STANDS, 0.0, cause=None, tries=0)
     assert latch.fault is STANDS, "another one takes its place"
     latch.note(None, 0.0, cause=None, tries=0)
     assert latch.fault is STANDS
 
 
-def test_a_program_may_acknowledge_two_tries_in_ten_minutes_and_not_the_third() -> None:
+# --- tried again and again
+
+
+def tried(latch: FaultLatch, now_s: float, tries: int = 1) -> bool:
+    """Once more in vain, and acknowledged by a link. Returns whether it counts."""
+    latch.note(STANDS, now_s, cause=None, tries=tries)
+    latch.note(None, now_s, cause=None, tries=0)
+    return latch.acknowledge(now_s, by_person=False)
+
+
+def test_a_link_acknowledges_two_tries_and_not_the_third() -> None:
     latch = FaultLatch()
-    for at_s in (0.0, 100.0):
-        latch.note(STANDS, at_s, cause=None, tries=1)
-        assert latch.acknowledge(at_s, by_person=False)
-    latch.note(STANDS, 200.0, cause=None, tries=1)
-    assert not latch.acknowledge(599.9, by_person=False)
+    assert [tried(latch, 10.0 * count) for count in range(TRIES)] == [True, True, False]
     assert latch.fault is not None
-    assert "tried 3 times in 10 minutes" in latch.fault.measured
-    assert latch.acknowledge(600.0, by_person=False)
+    assert "only `resume`" in latch.fault.measured
 
 
-def test_a_person_acknowledges_at_any_time_and_the_tries_count_anew() -> None:
+def test_the_first_of_them_may_be_ten_minutes_ago() -> None:
     latch = FaultLatch()
-    latch.note(STANDS, 0.0, cause=None, tries=3)
-    assert latch.acknowledge(1.0, by_person=True)
-    latch.note(STANDS, 2.0, cause=None, tries=2)
-    assert latch.acknowledge(3.0, by_person=False)
+    tried(latch, 0.0)
+    tried(latch, 300.0)
+    assert tried(latch, TRIES_WITHIN_S)
 
 
-def test_a_fault_that_passes_by_itself_is_no_try() -> None:
+def test_time_lets_a_link_acknowledge_it_again() -> None:
     latch = FaultLatch()
-    for at_s in range(10):
-        latch.note(SILENT, at_s, cause=SILENT, tries=1)
-        latch.note(None, at_s, cause=None, tries=1)
-    assert not latch.needs_person(10.0)
+    for count in range(TRIES):
+        tried(latch, 10.0 * count)
+    assert not latch.acknowledge(TRIES_WITHIN_S - 1.0, by_person=False)
+    assert latch.acknowledge(TRIES_WITHIN_S, by_person=False)
+    assert latch.fault is None
+
+
+def test_a_person_acknowledges_it_and_the_tries_begin_anew() -> None:
+    latch = FaultLatch()
+    for count in range(TRIES):
+        tried(latch, 10.0 * count)
+    assert latch.acknowledge(40.0, by_person=True)
+    assert latch.fault is None
+    assert tried(latch, 50.0)
+
+
+def test_short_runs_in_vain_count_each() -> None:
+    assert not tried(FaultLatch(), 5.0, tries=TRIES)
+
+
+def test_a_fault_that_struck_at_rest_is_no_try() -> None:
+    latch = FaultLatch()
+    assert all(tried(latch, 10.0 * count, tries=0) for count in range(2 * TRIES))
+
+
+def test_what_passes_by_itself_is_no_try() -> None:
+    latch = FaultLatch()
+    for count in range(2 * TRIES):
+        latch.note(SILENT, 10.0 * count, cause=SILENT, tries=1)
+        latch.note(None, 10.0 * count + 1.0, cause=None, tries=0)
+    assert tried(latch, 100.0)

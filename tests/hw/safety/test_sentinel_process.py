@@ -11,7 +11,6 @@ import subprocess
 import threading
 import time
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
@@ -189,20 +188,17 @@ def test_lines_that_are_never_let_go_are_told_of() -> None:
 
 
 def test_lines_survive_the_way_as_text() -> None:
-    assert RelayLines.from_json(LINES.to_json()) == LINES
+    assert RelayLines.from_text(LINES.to_text()) == LINES
 
 
-@pytest.mark.parametrize("text", ["", "[]", "{}", '{"chip": "x", "offsets": [1], "active_low": false}', "nonsense"])
+@pytest.mark.parametrize(
+    "text", ["", "/dev/gpiochip0", "/dev/gpiochip0 low a=1", "x active-low a", "x active-low a=b", "x active-low a=1=2"]
+)
 def test_any_other_text_is_refused(text: str) -> None:
     with pytest.raises(HardwareError, match="not a description of relay lines"):
-        RelayLines.from_json(text)
-
-
-def test_without_a_file_there_is_nothing_to_switch_off(tmp_path: Path) -> None:
-    # The program never came so far, or it ran a simulation.
-    assert main(["now", str(tmp_path / "relay-lines.json")]) == 0
+        RelayLines.from_text(text)
 
 
 def test_used_wrongly_it_says_how(capsys: pytest.CaptureFixture[str]) -> None:
     assert main([]) == 2
-    assert "watch JSON | now FILE" in capsys.readouterr().err
+    assert "sentinel_process LINES" in capsys.readouterr().err

@@ -25,6 +25,7 @@ UNITS = Path("/run/systemd/system")
 SYSTEMD = "/lib/systemd/systemd"
 START_S = 120.0
 BIN = Path(sys.executable).parent
+SAFETY = UNIT.parents[1] / "hw" / "safety"
 DROP_IN = """
 [Unit]
 DefaultDependencies=no
@@ -38,7 +39,7 @@ PrivateTmp=no
 ExecStart=
 ExecStart={bin}/rotator run --plain --config {site.config}
 ExecStopPost=
-ExecStopPost=-{bin}/python -P -m hw.safety.sentinel_process now /run/rotator/relay-lines.json
+ExecStopPost=-/bin/sh -c 'exec {bin}/python -I -S {safety}/off_at_once.py /run/rotator/relay-lines'
 ExecStopPost={bin}/rotator off --config {site.config}
 WorkingDirectory=/
 ReadWritePaths={site.folder}
@@ -55,7 +56,7 @@ class Service:
         self.site = site
         (UNITS / "rotator.service.d").mkdir(parents=True)
         (UNITS / "rotator.service").write_text(UNIT.read_text())
-        (UNITS / "rotator.service.d/here.conf").write_text(DROP_IN.format(bin=BIN, site=site))
+        (UNITS / "rotator.service.d/here.conf").write_text(DROP_IN.format(bin=BIN, safety=SAFETY, site=site))
         (UNITS / "here.target").write_text(TARGET)
         container = ["unshare", "--fork", "--pid", "--mount", "--mount-proc", "--cgroup", "--kill-child"]
         systemd = [SYSTEMD, "--system", "--unit=here.target", "--log-target=null", "--show-status=no"]
