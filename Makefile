@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests test-hamlib test-kernel test-install test-gpredict test-clients test-rotors test-machines bench fuzz picture picture-gpredict drawings clean
+.PHONY: run test check tests drills test-hamlib test-kernel test-install test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -68,6 +68,19 @@ bench: $(VENV)/.dev
 fuzz: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.fuzz --minutes $(or $(MINUTES),10)
 
+# Twenty simulated hours of drills at random, a new seed each time: what may never happen, on every kind of rotor.
+drills: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.drills --hours $(or $(HOURS),20) $(if $(SEED),--seed $(SEED))
+
+# The busy box for an hour in real time, or HOURS, then 24 simulated hours: memory, files and threads must stay.
+soak: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.soak --hours $(or $(HOURS),1)
+	$(BIN)/python -m benchmarks.soak --compressed
+
+# Do the tests see a change of the source? Once a week; SAMPLE=20 tries twenty places a file, FILES some files.
+mutants: $(VENV)/.mutants
+	$(BIN)/python -m benchmarks.mutants $(if $(SAMPLE),--sample $(SAMPLE)) $(FILES)
+
 # The picture of it running, from the running box itself.
 picture: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.screenshot docs/img/run.svg
@@ -95,6 +108,10 @@ $(VENV)/.dev: $(BIN)/python pyproject.toml
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps 'moteus>=1.1,<2'
 	@touch $@ $(VENV)/.run
+
+$(VENV)/.mutants: $(VENV)/.dev
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[mutants]'
+	@touch $@
 
 clean:
 	rm -rf $(VENV) run .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache

@@ -123,6 +123,7 @@ DRILLS = (
     Drill("pot open or shorted", "the wiper comes off", "running", "pot-open", 0.3),
     Drill("pot open or shorted", "the wiper touches the supply", "running", "pot-shorted", 0.3),
     Drill("pot jumps", "a loose wire: every reading is somewhere else", "running", "pot-loose", 0.3),
+    Drill("bad readings", "the wiper lifts at each tenth reading", "running", "pot-crackles", 5.0),
     Drill("sensor silent", "the converter is gone from the bus", "running", "adc-gone", 0.3),
     Drill("sensor late", "the bus hangs", "hung", "bus-hung", 0.3),
     Drill("control thread late", "the control thread gets no turn for 1 s", "held", "", 0.3),

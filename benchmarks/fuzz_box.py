@@ -57,11 +57,11 @@ class Box:
         text += f'[state]\npath = "{self.folder}/state.json"\n'
         right = f"read_only = {str(self.read_only).lower()}\n"
         for protocol in (*SPOKEN, "gs232-f1efw"):
-            self.ports[protocol] = _free_port()
+            self.ports[protocol] = free_port()
             text += f'[[link]]\nprotocol = "{protocol}"\ntcp = "127.0.0.1:{self.ports[protocol]}"\n{right}'
         for protocol in DATAGRAMS:
             if not (self.read_only and protocol == "macdoppler"):
-                self.udp_ports[protocol] = _free_port(socket.SOCK_DGRAM)
+                self.udp_ports[protocol] = free_port(socket.SOCK_DGRAM)
                 text += f'[[link]]\nprotocol = "{protocol}"\nudp = "127.0.0.1:{self.udp_ports[protocol]}"\n{right}'
         text += f'[[link]]\nname = "pty"\nprotocol = "gs232b"\npty = "{self.pty}"\n{right}'
         config = self.folder / "rotator.toml"
@@ -112,7 +112,7 @@ class Box:
         return self.process.wait(PATIENCE_S)
 
 
-def _free_port(kind: socket.SocketKind = socket.SOCK_STREAM) -> int:
+def free_port(kind: socket.SocketKind = socket.SOCK_STREAM) -> int:
     with socket.socket(type=kind) as probe:
         probe.bind(("127.0.0.1", 0))
         return int(probe.getsockname()[1])

@@ -11,6 +11,8 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from firmware_sim.sporadic import Sporadic
+
 
 @dataclass(frozen=True, slots=True)
 class SimFault:
@@ -18,6 +20,8 @@ class SimFault:
 
     inject: Callable[[], None]
     clear: Callable[[], None]
+    each: Callable[[int], None] | None = None
+    """Injects a fault that strikes now and then, each n-th time; None: the fault does not take a number."""
 
 
 class Fallible:
@@ -30,12 +34,22 @@ class Fallible:
     _lock: threading.RLock
 
     def inject(self, name: str) -> None:
-        """Begin the fault `name`. Raises ValueError, with the names of all faults, for an unknown name."""
-        self._fault(name).inject()
+        """Begin the fault `name`, or `name:7` where it strikes each seventh time.
+
+        Raises ValueError for an unknown name, with the names of all faults, and for a number that is not taken.
+        """
+        name, colon, number = name.partition(":")
+        fault = self._fault(name)
+        if not colon:
+            fault.inject()
+        elif fault.each is None or not number.isdecimal() or int(number) < 1:
+            raise ValueError(f"the fault {name} does not strike each {number!r}th time")
+        else:
+            fault.each(int(number))
 
     def clear(self, name: str) -> None:
         """Repair the fault `name`. Raises ValueError, with the names of all faults, for an unknown name."""
-        self._fault(name).clear()
+        self._fault(name.partition(":")[0]).clear()
 
     def _advance(self) -> None:
         """Bring every part up to the present moment."""
@@ -57,6 +71,14 @@ class Fallible:
     def _fault_by(self, break_part: Callable[[], None], repair_part: Callable[[], None]) -> SimFault:
         """A fault that calls one of these two functions, under the lock and after `_advance`."""
         return SimFault(lambda: self._change(break_part), lambda: self._change(repair_part))
+
+    def _sporadic_fault(self, sporadic: Sporadic, each: int) -> SimFault:
+        """A fault that strikes now and then: each `each`-th time, unless another number is asked for."""
+
+        def begin(every: int) -> None:
+            self._change(lambda: setattr(sporadic, "every", every))
+
+        return SimFault(lambda: begin(each), lambda: begin(0), begin)
 
     def _change(self, change_part: Callable[[], None]) -> None:
         with self._lock:

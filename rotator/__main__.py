@@ -4,8 +4,18 @@ from __future__ import annotations
 
 import sys
 
+INTERRUPTED = 130
+"""The exit code of a program that Ctrl-C ended."""
+
 
 def main() -> None:
+    try:
+        _run()
+    except KeyboardInterrupt:  # while the program still loads: later each command handles it itself
+        sys.exit(INTERRUPTED)
+
+
+def _run() -> None:
     if sys.argv[1:2] == ["stop"]:
         from rotator.cli.stop import STOPPED, stop_at_once  # noqa: PLC0415 - a command loads what it needs and no more
 

@@ -41,8 +41,9 @@ from rotator.runtime.engine import Engine, process_end
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
-from rotator.store import counts, knobs
+from rotator.store import counts, knobs, relays
 from rotator.store.compass import CompassFile
+from rotator.store.relays import RelaysFile
 from rotator.views import lcd
 
 log = logging.getLogger(__name__)
@@ -57,6 +58,12 @@ def open_station(config: Config) -> Station:
     return Station(config, time.monotonic, time.sleep, counts=counts_file)
 
 
+def open_relays(config: Config) -> RelaysFile | None:
+    """The file in which a doubt about a relay survives the program; None where the rotor does not, or has no relays."""
+    kept = config.keeps_files and config.rotor.switched
+    return RelaysFile(Path(config.state.path).with_name(relays.FILE_NAME)) if kept else None
+
+
 class App:
     """The whole box, in real time. Build it, then `await run(stop)` once. Every relay is off when that returns."""
 
@@ -67,9 +74,9 @@ class App:
         self._service_manager = ServiceManager(os.environ, time.monotonic)
         self._events = EventWatch(time.monotonic)
         mount = build_mount(config)
-        learnt = build_learnt(config)
+        learnt, relays_file = build_learnt(config), open_relays(config)
         self.loop = ControlLoop(
-            build_controller(config, learnt.load(), panel=True),
+            build_controller(config, learnt.load(), trusts=relays_file.load() if relays_file else None, panel=True),
             self.station.rotor,
             time.monotonic,
             1 / config.control.rate_hz,
@@ -92,7 +99,7 @@ class App:
         display = self.station.display
         self._display = DisplayThread(display, self.lcd_rows, time.monotonic) if display else None
         self._engine = Engine(self.loop, self.station.rotor)
-        self._autosave = Autosave(self.loop, path, build_offsets(config), learnt)
+        self._autosave = Autosave(self.loop, path, build_offsets(config), learnt, relays_file)
         self._tasks: list[asyncio.Task[Any]] = []
         """The end of one of these is the end of the box."""
         self._side_tasks: list[asyncio.Task[Any]] = []
@@ -142,6 +149,7 @@ class App:
         if self.station.sentinel and self.station.lines:
             self._service_manager.leave(RELAY_LINES, self.station.lines.to_text())
             self._tasks.append(asyncio.create_task(process_end(self.station.sentinel.pid), name="sentinel"))
+        self._autosave.keep_relays()
         motion_ended = self._engine.start()
         for link in self.links:
             await link.open()

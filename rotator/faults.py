@@ -27,6 +27,7 @@ class FaultKind(Enum):
     SENSOR_SILENT = "sensor silent", "SENSOR SILENT", EasycommError.SENSOR
     SENSOR_LATE = "sensor late", "SENSOR LATE", EasycommError.SENSOR
     POT_JUMPS = "pot jumps", "POT JUMPS", EasycommError.SENSOR
+    BAD_READINGS = "bad readings", "BAD READINGS", EasycommError.SENSOR
     WRONG_WAY = "pot moves the wrong way", "WRONG WAY", EasycommError.SENSOR
     STANDS_STILL = "motor runs and pot stands still", "STANDS STILL", EasycommError.JAM
     RUN_TOO_LONG = "motor on longer than the travel takes", "RUN TOO LONG", EasycommError.JAM
@@ -34,6 +35,7 @@ class FaultKind(Enum):
     LIMIT_SWITCH = "limit switch reached", "LIMIT SWITCH", EasycommError.JAM
     NOT_FOLLOWING = "axis does not follow", "NOT FOLLOWING", EasycommError.JAM
     RELAY_WELDED = "relay welded", "RELAY WELDED", EasycommError.MOTOR
+    RELAY_UNSEEN = "relay not seen to open", "RELAY OPEN?", EasycommError.MOTOR
     TURNS_BY_ITSELF = "turning with no relay on", "TURNS BY SELF", EasycommError.MOTOR
     CONTROL_LATE = "control thread late", "CONTROL LATE", EasycommError.MOTOR
     NO_PULSES = "no pulses", "NO PULSES", EasycommError.JAM

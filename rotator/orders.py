@@ -140,6 +140,13 @@ class Confirm:
 
 
 @dataclass(frozen=True, slots=True)
+class RelaysChecked:
+    """A person has looked at both relays of this axis, and they are open: what the box could not see itself."""
+
+    axis: Axis
+
+
+@dataclass(frozen=True, slots=True)
 class LetGo:
     """Motors without torque. A person orders it, for an antenna that is out of balance turns."""
 
@@ -159,10 +166,14 @@ class Leave:
     """The sender's connection has ended: its jog without a time and its stream end with it."""
 
 
-Personal = SetMode | Nudge | Home | Confirm | LetGo | Remark
+Personal = SetMode | Nudge | Home | Confirm | RelaysChecked | LetGo | Remark
 """Orders that only a person at the panel or on the console may give."""
 
 Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal
+
+
+PERSONS = ("console", "panel", "calibrate")
+"""What a person uses at the box, as the link of a source. No link of the configuration has such a name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,6 +182,11 @@ class Source:
 
     link: str
     connection: int = 0
+
+    @property
+    def is_person(self) -> bool:
+        """A person gives these orders at the box: at the console, at the panel, in a calibration."""
+        return self.link in PERSONS
 
     def __str__(self) -> str:
         return f"{self.link}#{self.connection}" if self.connection else self.link

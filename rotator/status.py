@@ -6,6 +6,7 @@ Knows only values. Its readers never ask the hardware.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 
 from hw.ports import AngleSource, Axis, Direction
 from rotator.faults import Fault, Missing, Notice
@@ -20,6 +21,23 @@ class LearntMotor:
     coast_deg: float
     """How far it goes on when switched off at full speed."""
 
+
+class Trust(Enum):
+    """What is known of a motor relay that was switched off. Each but OPEN keeps the opposite relay open."""
+
+    OPEN = "open"
+    """The axis has been seen to stop when this relay opened, and the relay has not been closed since."""
+    UNSEEN = "not seen yet"
+    """It has been closed, or may have been. A window of readings will tell."""
+    DOUBTED = "doubted"
+    """The window is over and has shown nothing: the axis stands where a motor with current might stand as well."""
+    WELDED = "found closed"
+    """The axis ran on after this relay was switched off, or turned by itself."""
+
+
+Trusts = tuple[Trust, Trust]
+"""Of the relays clockwise or up, and of the other way."""
+ALL_OPEN: Trusts = (Trust.OPEN, Trust.OPEN)
 
 AT_END_NOISES, AT_END_MOST_DEG = 5.0, 1.0
 """A reading beyond an end of the range by up to so many times the noise, and by so much at most, is that end. Five
@@ -57,6 +75,8 @@ class AxisStatus:
     """Scatter of the readings, rms, as seen so far."""
     learnt: tuple[LearntMotor, LearntMotor] | None = None
     """Its motor as learnt, clockwise or up first, then the other way; None: the drive has nothing to learn."""
+    trusts: Trusts = ALL_OPEN
+    """What is known of its two relays."""
 
     @property
     def shown_deg(self) -> float | None:

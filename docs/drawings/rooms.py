@@ -41,6 +41,7 @@ CAPTIONS = {
     "hw.safety": "guard, sentinel",
     "hw.moteus": "CAN-FD motors",
     "firmware_sim.clock": "simulated time",
+    "firmware_sim.sporadic": "each n-th time",
     "firmware_sim.buses": "wires, lines",
     "firmware_sim.chips": "by register",
     "firmware_sim.parts": "motors, pots",

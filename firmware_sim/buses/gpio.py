@@ -27,7 +27,7 @@ from firmware_sim.buses.gpio_request import (
 
 __all__ = ["ChipInfo", "Edge", "LineInfo", "RequestReleasedError", "SimChip", "SimGpio", "SimLineRequest"]
 
-EDGES_KEPT = 10_000
+EDGES_KEPT = 2_000
 """How many changes of the header's pins `edges` holds; older ones are dropped."""
 DEFAULT_CHIPS = {"/dev/gpiochip0": "pinctrl-bcm2711"}
 
@@ -137,6 +137,16 @@ class SimGpio:
         """Put a level on a pin of the header from outside, now or from the earlier moment `at_s`; None: open."""
         with self._header.instant([offset], at_s):
             self._header.lines[offset].outside = level
+
+    def bury_process(self) -> None:
+        """The process that held the header's lines has died: the kernel gives them back, and watches no edge for it."""
+        lines = self._header.lines
+        with self._header.instant([offset for offset, line in enumerate(lines) if line.consumer is not None]):
+            for line in lines:
+                if line.consumer is not None and self.strict:
+                    line.driven = None
+                line.consumer = None
+            self._header.detectors.clear()
 
     def _record(self, at_s: float, changes: Mapping[int, bool]) -> None:
         self.edges.extend(Edge(at_s, offset, level) for offset, level in changes.items())

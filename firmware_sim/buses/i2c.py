@@ -14,6 +14,8 @@ import threading
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple, Protocol, Self
 
+from firmware_sim.sporadic import Sporadic
+
 READ_FLAG = 0x0001  # I2C_M_RD, linux/i2c.h
 MESSAGES_MAX = 42  # I2C_RDWR_IOCTL_MAX_MSGS, linux/i2c-dev.h
 BLOCK_MAX = 32  # I2C_SMBUS_BLOCK_MAX, linux/i2c.h
@@ -50,6 +52,8 @@ class SimI2CBus:
     def __init__(self, sleep: Callable[[float], None] | None = None, byte_s: float = 90e-6) -> None:
         self.gone: set[int] = set()
         """Fault: addresses that do not answer although a chip is attached there."""
+        self.lapses: dict[int, tuple[Sporadic, ...]] = {}
+        """Fault: by address, transfers that a chip does not answer, now and then."""
         self._sleep = sleep
         self._byte_s = byte_s
         self._chips: dict[int, I2CChip] = {}
@@ -100,6 +104,10 @@ class SimI2CBus:
 
     def __exit__(self, *error: object) -> None:
         self.close()
+
+    def open(self) -> None:
+        """The next run of the program opens the adapter again."""
+        self._closed = False
 
     def close(self) -> None:
         """Later transfers raise OSError(EBADF). (smbus2 0.6 raises TypeError there, by passing None as the fd.)"""
@@ -157,7 +165,7 @@ class SimI2CBus:
             wire_bytes = 0
             for address, length, _ in messages:
                 wire_bytes += 1
-                if address not in self._chips or address in self.gone:
+                if address not in self._chips or address in self.gone or (not heard and self._lapses(address)):
                     break  # the first address without an ACK ends the transfer
                 heard += 1
                 wire_bytes += length
@@ -171,6 +179,9 @@ class SimI2CBus:
             finally:
                 self._undelivered_bytes = 0
             return replies
+
+    def _lapses(self, address: int) -> bool:
+        return any(lapse.strikes() for lapse in self.lapses.get(address, ()))
 
     def _spend(self, wire_bytes: int) -> None:
         duration_s = wire_bytes * self._byte_s

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from firmware_sim.moteus.controller import SimController
+from firmware_sim.sporadic import Sporadic
 
 WANTS_REPLY = 0x8000
 EVERYBODY = 0x7F
@@ -35,6 +36,8 @@ class SimCan:
     def __init__(self, controllers: Mapping[int, SimController]) -> None:
         self.controllers = controllers
         self.muted: set[int] = set()
+        self.lapses: dict[int, tuple[Sporadic, ...]] = dict.fromkeys(controllers, ())
+        """Fault: by CAN id, replies that are lost now and then."""
 
     def send(self, frame: Frame) -> list[Frame]:
         """Put a frame on the bus. Returns the replies."""
@@ -45,7 +48,8 @@ class SimCan:
             if destination not in (can_id, EVERYBODY) or can_id in self.muted:
                 continue
             answer = controller.handle(frame.data)
-            if answer is not None and frame.arbitration_id & WANTS_REPLY:
+            lost = any(lapse.strikes() for lapse in self.lapses[can_id])
+            if answer is not None and frame.arbitration_id & WANTS_REPLY and not lost:
                 replies.append(Frame(prefix << 16 | can_id << 8 | source, answer))
         return replies
 

@@ -41,12 +41,12 @@ class ContactFault(Enum):
     NONE = "none"
     STUCK_OPEN = "stuck open"
     STUCK_CLOSED = "stuck closed"
-    MISSES = "misses every fifth closure"
-    DOUBLES = "closes twice every fifth time"
+    MISSES = "misses a closure now and then"
+    DOUBLES = "closes twice now and then"
 
 
 FAULTY_EACH = 5
-"""Every fifth closure is missed, or doubled."""
+"""Every fifth closure is missed, or doubled, unless another number is asked for."""
 
 
 class SimContact:
@@ -55,6 +55,8 @@ class SimContact:
     def __init__(self, spec: ContactSpec, shaft_deg: float, seed: int = 0) -> None:
         self.spec = spec
         self.fault = ContactFault.NONE
+        self.faulty_each = FAULTY_EACH
+        """Each so manyth closure is missed, or doubled."""
         self._random = random.Random(seed)
         self._cam_deg = shaft_deg
         self.zone = 2 * math.floor((shaft_deg - spec.closes_at_deg) / spec.spacing_deg)
@@ -123,7 +125,7 @@ class SimContact:
         closed = self.zone % 2 == 0
         if closed:
             self._closures += 1
-        odd = self._closures % FAULTY_EACH == 0
+        odd = self._closures % self.faulty_each == 0
         if self.fault is ContactFault.MISSES and odd:
             return
         self._change(at_s, self._shown(closed))

@@ -52,6 +52,8 @@ class SimMotor:
         """Fault: the two wires of the motor are swapped."""
         self.pace = 1.0
         """Fault: its speed as a share of the normal speed, as with cold grease or a weak supply."""
+        self.sticks_s = 0.0
+        """Fault: a contact opens so much later than it should, as one that is burnt or held by an arc."""
         self.pushed = 0.0
         """Fault: a hand or the wind turns it while it has no current, at this share of its normal speed."""
         self.stop_low_deg, self.stop_high_deg = spec.stop_low_deg, spec.stop_high_deg
@@ -77,7 +79,14 @@ class SimMotor:
     def coils(self, plus: bool, minus: bool, now_s: float) -> None:
         """Switch the coils at `now_s`. The contacts follow after the relay's delay."""
         self.advance(now_s)
-        self._moving_contacts.append((now_s + self.spec.relay_delay_s, (plus, minus)))
+        at_s = now_s + self.spec.relay_delay_s
+        if self.sticks_s:
+            while self._moving_contacts and self._moving_contacts[-1][0] > at_s:
+                self._moving_contacts.pop()
+            before = self._moving_contacts[-1][1] if self._moving_contacts else self._contacts
+            self._moving_contacts.append((at_s, (plus or before[0], minus or before[1])))
+            at_s += self.sticks_s
+        self._moving_contacts.append((at_s, (plus, minus)))
         self.advance(now_s)
 
     def advance(self, now_s: float) -> None:

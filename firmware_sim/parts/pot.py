@@ -11,6 +11,13 @@ import random
 from dataclasses import dataclass, field
 from enum import Enum
 
+from firmware_sim.sporadic import Sporadic
+
+SPIKE_DEG = 90.0
+"""How far off a reading with a spike is, to either side."""
+BURST = 4
+"""How many readings in a row a burst takes."""
+
 
 class PotFault(Enum):
     """How a pot fails."""
@@ -53,7 +60,16 @@ class SimPot:
     """Fault: error of the next reading only, as from a spark on the wire."""
     loose_deg: float = 0.0
     """Fault: largest error of each reading, random and to both sides, as from a loose wire."""
+    crackles: Sporadic = field(default_factory=Sporadic)
+    """Fault: the wiper lifts for one reading, which is as of a broken wire."""
+    spikes: Sporadic = field(default_factory=Sporadic)
+    """Fault: one reading is far off, but plausible."""
+    bursts: Sporadic = field(default_factory=lambda: Sporadic(BURST))
+    """Fault: the wiper lifts for some readings."""
+    drift_deg: float = 0.0
+    """Fault: with each reading the error grows by as much."""
     chance: random.Random = field(default_factory=lambda: random.Random(1))
+    _drifted_deg: float = 0.0
     _stuck_ratio: float = 0.0
 
     def volts(self, shaft_deg: float) -> float:
@@ -62,6 +78,8 @@ class SimPot:
 
     def ratio(self, shaft_deg: float) -> float:
         """The wiper as a share of the supply, 0 to 1."""
+        if self.crackles.strikes() or self.bursts.strikes():
+            return 0.0
         fault = self.fault
         if fault is PotFault.NONE:
             return self._healthy(shaft_deg)
@@ -91,6 +109,10 @@ class SimPot:
         travel = (shaft_deg - spec.low_deg) / span_deg
         seen_deg = shaft_deg + spec.bow_deg * 4 * travel * (1 - travel) + self.jump_deg
         self.jump_deg = 0.0
+        self._drifted_deg = self._drifted_deg + self.drift_deg if self.drift_deg else 0.0
+        seen_deg += self._drifted_deg
+        if self.spikes.strikes():
+            seen_deg += self.chance.choice((-SPIKE_DEG, SPIKE_DEG))
         if self.loose_deg:
             seen_deg += self.chance.uniform(-self.loose_deg, self.loose_deg)
         if spec.noise_deg:

@@ -17,7 +17,8 @@ from firmware_sim.moteus.controller import SimController
 from firmware_sim.moteus.lines import LineServer
 from firmware_sim.moteus.motor import Home, Mode, MoteusSettings, SimMoteusMotor
 from firmware_sim.moteus.terminal import SimAdapter
-from firmware_sim.rotors.rotor import SimRotor
+from firmware_sim.rotors.rotor import EACH_BURST, EACH_READING, SimRotor
+from firmware_sim.sporadic import Sporadic
 
 FAULT_CODES = {
     "calibration": 32,
@@ -44,6 +45,8 @@ FAULT_CODES = {
 
 FACTORY_BOUND_REV = 0.01
 """Fault `factory-bounds`: the position bounds of a controller that was never configured."""
+GAP_REPLIES = 8
+"""Fault `replies-gaps`: so many replies in a row are lost."""
 LATE_S = 0.3
 """Fault `lines-late`: the delay of each reply."""
 
@@ -104,6 +107,10 @@ class SimMoteusRotor(SimRotor):
         """The controller of `azimuth` or `elevation`, for tests."""
         return self._controllers[axis]
 
+    def sense(self, axis: str) -> int:
+        """1: the controller's scale rises as the axis's does; -1: it falls."""
+        return 1 if self._specs[axis].rev_per_turn > 0 else -1
+
     def antenna(self) -> tuple[float, float]:
         azimuth_deg, elevation_deg = (self._antenna_deg(name) for name in self._specs)
         return azimuth_deg, elevation_deg
@@ -144,10 +151,13 @@ class SimMoteusRotor(SimRotor):
         }
         for axis, spec in self._specs.items():
             motor, can_id = self._controllers[axis].motor, spec.can_id
+            lost, gaps = self.can.lapses[can_id] = Sporadic(), Sporadic(GAP_REPLIES)
             table |= {
                 f"{axis}-silent": SimFault(
                     partial(self.can.muted.add, can_id), partial(self.can.muted.discard, can_id)
                 ),
+                f"{axis}-replies-lost": self._sporadic_fault(lost, EACH_READING),
+                f"{axis}-replies-gaps": self._sporadic_fault(gaps, EACH_BURST),
                 f"{axis}-jammed": self._fault_of(motor, "jammed", True, False),
                 f"{axis}-power-cycled": self._single_fault(motor.power_cycle),
                 f"{axis}-factory-bounds": self._bounds(motor),

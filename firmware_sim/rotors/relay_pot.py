@@ -98,6 +98,7 @@ class SimRelayPotRotor(RelayedRotor):
                 f"{name}-wind-turns": self._fault_of(axis.motor, "pushed", WIND_SHARE, 0.0),
                 f"{name}-stop-early": self._fault_of(axis.motor, "stop_high_deg", early_deg, stop_deg),
             }
+            table |= self._pot_sampling(name, axis.pot)
         return table | self._motor_faults()
 
     def _pot_fault(self, axis: RelayPotAxis, fault: PotFault) -> SimFault:

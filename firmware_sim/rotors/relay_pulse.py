@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from firmware_sim.faults import SimFault
-from firmware_sim.parts.contact import ContactFault, ContactSpec, SimContact
+from firmware_sim.parts.contact import FAULTY_EACH, ContactFault, ContactSpec, SimContact
 from firmware_sim.parts.motor import MotorSpec, SimMotor
 from firmware_sim.parts.relays import RelayPins
 from firmware_sim.rotors.geared import RelayedRotor
@@ -93,8 +93,8 @@ class SimRelayPulseRotor(RelayedRotor):
             table |= {
                 f"{name}-contact-stuck-open": self._contact_fault(axis, ContactFault.STUCK_OPEN),
                 f"{name}-contact-stuck-closed": self._contact_fault(axis, ContactFault.STUCK_CLOSED),
-                f"{name}-pulses-missed": self._contact_fault(axis, ContactFault.MISSES),
-                f"{name}-pulses-doubled": self._contact_fault(axis, ContactFault.DOUBLES),
+                f"{name}-pulses-missed": self._pulse_fault(axis, ContactFault.MISSES),
+                f"{name}-pulses-doubled": self._pulse_fault(axis, ContactFault.DOUBLES),
             }
         return table | self._motor_faults()
 
@@ -103,3 +103,13 @@ class SimRelayPulseRotor(RelayedRotor):
             axis.contact.break_down(wanted, self._clock())
 
         return self._fault_by(lambda: become(fault), lambda: become(ContactFault.NONE))
+
+    def _pulse_fault(self, axis: RelayPulseAxis, fault: ContactFault) -> SimFault:
+        """A fault of each n-th closure."""
+        plain = self._contact_fault(axis, fault)
+
+        def begin(each: int) -> None:
+            axis.contact.faulty_each = each
+            plain.inject()
+
+        return SimFault(lambda: begin(FAULTY_EACH), plain.clear, begin)

@@ -8,6 +8,7 @@ kind adds its motors and their faults.
 from __future__ import annotations
 
 import math
+import random
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -24,11 +25,22 @@ from firmware_sim.chips.pcf8574 import Backpack
 from firmware_sim.faults import Fallible, SimFault
 from firmware_sim.panel import PanelSpec, SimPanel
 from firmware_sim.parts.pot import PotFault, PotSpec, SimPot
+from firmware_sim.sporadic import Sporadic
 
 AXES = ("azimuth", "elevation")
 """Names of the axes, in the order of `antenna` and `shafts`."""
 SHAKEN_G = 0.5
 """Fault `elevation-shaken`: the shaking of the sensor's board, rms."""
+EACH_READING = 10
+"""Faults of single readings and answers strike each so many times, unless another number is asked for."""
+EACH_TRANSFER = 20
+"""Faults of single transfers on the I2C bus do so: a reading takes some of them."""
+EACH_BURST = 60
+"""Faults of several readings in a row begin each so many readings."""
+LAPSE = 8
+"""Fault `-gaps` of a chip on the I2C bus: so many transfers in a row are not answered."""
+DRIFT_DEG = 0.02
+"""Fault `pot-drifts`: how far a pot's error grows with each reading."""
 HARD_IRON_DEG = 40.0
 """Fault `steel-near`: the largest error of the compass."""
 
@@ -122,12 +134,26 @@ class SimRotor(Fallible):
 
         self.wipers[name] = wiper_v
         self.faults[f"{name}-pot-open"] = self._fault_of(pot, "fault", PotFault.OPEN, PotFault.NONE)
+        self.faults |= self._pot_sampling(name, pot)
+
+    def _pot_sampling(self, name: str, pot: SimPot) -> dict[str, SimFault]:
+        """Faults of single readings of a pot, and of its wear. They can be combined."""
+        return {
+            f"{name}-pot-crackles": self._sporadic_fault(pot.crackles, EACH_READING),
+            f"{name}-pot-spikes": self._sporadic_fault(pot.spikes, EACH_READING),
+            f"{name}-pot-bursts": self._sporadic_fault(pot.bursts, EACH_BURST),
+            f"{name}-pot-drifts": self._fault_of(pot, "drift_deg", DRIFT_DEG, 0.0),
+        }
 
     def wire_i2c(self, name: str, address: int, chip: I2CChip) -> None:
-        """Attach a chip to the bus. Fault `NAME-gone`: it does not answer."""
+        """Attach a chip to the bus. Fault `NAME-gone`: it does not answer; `NAME-noisy`, `NAME-gaps`: now and then."""
         self.bus.attach(address, chip)
         gone = self.bus.gone
         self.faults[f"{name}-gone"] = SimFault(lambda: gone.add(address), lambda: gone.discard(address))
+        noise, gaps = Sporadic(chance=random.Random(address)), Sporadic(LAPSE)
+        self.bus.lapses[address] = noise, gaps
+        self.faults[f"{name}-noisy"] = self._sporadic_fault(noise, EACH_TRANSFER)
+        self.faults[f"{name}-gaps"] = self._sporadic_fault(gaps, LAPSE * EACH_READING)
 
     def wire_as5600(self, name: str, address: int) -> None:
         """Put a magnet on the shaft of axis `name`, over an AS5600 at that address."""

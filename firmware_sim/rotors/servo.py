@@ -48,7 +48,7 @@ class SimServoRotor(SimRotor):
         self._enable_pin = enable_pin
         self._enabled = enable_pin is None
         self.board = Pca9685(clock, osc_hz=osc_hz)
-        self.bus.attach(address, self.board)
+        self.wire_i2c("board", address, self.board)
         self.azimuth, self.elevation = (
             SimServo(spec.servo, spec.start_deg, clock, lambda spec=spec: self._pulse_us(spec.channel))  # type: ignore[misc]
             for spec in (azimuth, elevation)
@@ -57,7 +57,7 @@ class SimServoRotor(SimRotor):
         if enable_pin is not None:
             self.gpio.drive_input(enable_pin, True)
             self.gpio.on_edges.append(self._lines_changed)
-        self.faults = self._fault_table()
+        self.faults |= self._fault_table()
 
     def antenna(self) -> tuple[float, float]:
         with self._lock:

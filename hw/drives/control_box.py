@@ -56,6 +56,10 @@ class ControlBox:
         self._range_deg = spec.range_deg or ends_deg
         self._way = 0
         """The direction in which the wiper leads: that of the last move, -1 or 1; 0 before the first one."""
+        self._held = False
+        """It was held, and has not been ordered since."""
+        self._measured = False
+        """It was measured since its last order: no later measurement corrects a hold."""
         self._step: int | None = None
         """The last step sent to the chip; None: the chip may be at any step."""
         self._now_s = now_s
@@ -84,6 +88,8 @@ class ControlBox:
 
     def found(self, angle_deg: float, now_s: float) -> None:
         """The rotor was measured at `angle_deg`: the model goes on from there, and the lead is learnt at rest."""
+        if not self._measured:
+            self._measured, self._held = True, False
         self.model.found(angle_deg)
         self.lead.seen(angle_deg, now_s)
 
@@ -93,6 +99,7 @@ class ControlBox:
         Raises HardwareError: outside the table, or the bus fails.
         """
         self.scale.check(angle_deg)
+        self._held = self._measured = False
         self._way = self.model.way(angle_deg, self._way, max(self.resolution_deg, LEAST_TURN_BACK_DEG))
         low_deg, high_deg = self._range_deg
         lead_deg = angle_deg + self._way * self.lead.of(self._way)
@@ -107,9 +114,14 @@ class ControlBox:
         self._stay()
 
     def hold(self) -> None:
-        """Send the model's own angle: the error is then within the dead band, and the box stops."""
-        if self._step is not None:
+        """Send the model's own angle: the error is then within the dead band, and the box stops.
+
+        A box that is held already keeps its step. Where a measured angle and the box's own pot disagree it would else
+        turn on with every hold, by as much as they disagree.
+        """
+        if self._step is not None and not self._held:
             self._stay()
+            self._held = True
         self.end()
 
     def end(self) -> None:

@@ -62,6 +62,8 @@ class RelayBank:
         self._master_wired = master
         self._one_at_a_time = one_at_a_time
         self._master_until_s: float | None = None
+        self._feeding = False
+        """The motors have their supply so that a relay that did not open shows itself."""
         self._motors = {axis: _Motor() for axis in Axis}
         self._cut = False
         self._lock = threading.Condition()
@@ -80,6 +82,28 @@ class RelayBank:
             finally:
                 self._plan()
             return motor.on
+
+    def feed(self, axis: Axis, until_s: float) -> None:
+        """Open the relays of `axis`, and keep the motors' supply on until `until_s`: what turns then has a relay that
+        did not open. Does no more than the former where no master is wired. Raises HardwareError.
+        """
+        with self._lock:
+            now_s = self._clock()
+            try:
+                self._open(axis, now_s)
+                if self._master_wired and not self._cut and until_s > now_s:
+                    self._feeding = True
+                    self._renew()
+                    self._lines.set({MASTER: True})
+                    self._master_until_s = max(self._master_until_s or 0.0, min(until_s, now_s + LONGEST_LEASE_S))
+            finally:
+                self._plan()
+
+    @property
+    def supplied(self) -> bool:
+        """Whether the motors have their supply, as far as this box switches it."""
+        with self._lock:
+            return not self._master_wired or self._master_until_s is not None
 
     def cut(self) -> bool:
         with self._lock:
@@ -100,7 +124,7 @@ class RelayBank:
             if self._master_wired:
                 everything[MASTER] = False
             self._lines.set(everything)
-            self._master_until_s = None
+            self._master_until_s, self._feeding = None, False
             for motor in self._motors.values():
                 self._note_stop(motor, now_s)
             self._plan()
@@ -128,7 +152,7 @@ class RelayBank:
             if self._master_wired and (failures or lingered):
                 try:
                     self._lines.set({MASTER: False})
-                    self._master_until_s = None
+                    self._master_until_s, self._feeding = None, False
                 except HardwareError as failure:
                     failures.append(failure)
             self._plan()
@@ -172,7 +196,7 @@ class RelayBank:
         levels = {RELAYS[axis, Direction(-direction)]: False, RELAYS[axis, direction]: True}
         if self._master_wired:
             levels[MASTER] = True
-            self._master_until_s = now_s + MASTER_LINGER_S
+            self._master_until_s, self._feeding = now_s + MASTER_LINGER_S, False
         self._lines.set(levels)
         motor = self._motors[axis]
         motor.on = motor.last = direction
@@ -202,7 +226,7 @@ class RelayBank:
     def _plan(self) -> None:
         """Set the next moment for `enforce`. Wake the guard if that moment is sooner than before, or there is none."""
         moments = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
-        if self._watch and self._renewed and not moments:
+        if self._watch and self._renewed and not moments and not self._feeding:
             self._watch.rest()
             self._renewed = False
         if self._master_until_s is not None and not moments:

@@ -58,6 +58,8 @@ class MoteusAxis:
         self.wish = Wish.NOTHING
         self.gap_s = 0.0
         """How long it had been silent before the latest answer."""
+        self.misses = 0
+        """How many orders were not answered so far."""
         self.came_back = False
         """The order before the latest answer was not answered."""
         self._name = f"{axis.value}: moteus {spec.can_id}"
@@ -210,6 +212,7 @@ class MoteusAxis:
     def missed(self) -> None:
         """The latest order was not answered."""
         self._missed = True
+        self.misses += 1
 
     def heard(self, order: Order, answer: Answer, now_s: float) -> None:
         """The answer to `order`."""

@@ -114,6 +114,11 @@ class MoteusDrive:
         with self._lock:
             return {name: axis.limited_by for name, axis in self._axes.items() if axis.limited_by}
 
+    def misses(self, axis: Axis) -> int:
+        """How many orders its controller has not answered so far."""
+        with self._lock:
+            return self._axes[axis].misses
+
     def answer(self, axis: Axis) -> Answer | None:
         """The controller's latest answer: volts, temperature, mode; None: it has not answered yet."""
         with self._lock:

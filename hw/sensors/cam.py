@@ -21,6 +21,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from hw.ports import Direction
+
+BEYOND = 2.0
+"""A shaft is at most so many closures beyond the end of its range."""
+
 
 @dataclass(frozen=True, slots=True)
 class Cam:
@@ -52,6 +57,10 @@ class Cam:
         """The shortest time between two changes while the rotor runs; a debounce must be much shorter."""
         return min(self.closed_deg, self.spacing_deg - self.closed_deg) / self.speed_dps
 
+    def reaches(self, angle_deg: float) -> bool:
+        """Whether the shaft may stand there. A stop may lie somewhat beyond its angle in the configuration."""
+        return self.low_deg - BEYOND * self.spacing_deg <= angle_deg <= self.high_deg + BEYOND * self.spacing_deg
+
     def begins_deg(self, zone: int) -> float:
         """The zone's lower edge."""
         turns, gap = divmod(zone, 2)
@@ -61,3 +70,9 @@ class Cam:
         """The zone of this angle. The contact is closed in even zones, open in odd ones."""
         zone = 2 * math.floor((angle_deg - self.closes_at_deg) / self.spacing_deg)
         return zone + (angle_deg >= self.begins_deg(zone + 1))
+
+    def ahead(self, zone: int) -> frozenset[Direction]:
+        """The directions in which a shaft in this zone crosses an edge before its stop."""
+        below = self.begins_deg(zone) - self.play_deg > self.low_deg
+        above = self.begins_deg(zone + 1) <= self.high_deg
+        return frozenset(way for way, edge in ((Direction.MINUS, below), (Direction.PLUS, above)) if edge)

@@ -120,6 +120,10 @@ class PulseCounter:
         closed = self._contact.closed()
         return self._count.place(self._clock() - self._debounce_s, angle_deg, closed=closed, within_deg=within_deg)
 
+    def reaches(self, angle_deg: float) -> bool:
+        """Whether the shaft may stand at that angle of the rotor's own scale."""
+        return self._count.cam.reaches(angle_deg)
+
     @property
     def changes(self) -> int:
         """How many changes of the contact there were so far; two of them make one pulse."""
@@ -129,6 +133,11 @@ class PulseCounter:
     def in_closure(self) -> bool:
         """The contact is closed since the last counted change, or the last `place`."""
         return self._count.zone % 2 == 0
+
+    @property
+    def ahead(self) -> frozenset[Direction]:
+        """The directions in which the contact would change again before the stop."""
+        return self._count.cam.ahead(self._count.zone)
 
     @property
     def at_rest(self) -> bool:

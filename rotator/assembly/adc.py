@@ -80,14 +80,24 @@ def simulate_adc(config: Config, rotor: SimRotor, clock: Callable[[], float]) ->
             chip = _wire_mcp3208(table, rotor)
     for axis in Axis:
         if config.has_pot(axis):
-            chip.inputs[table.channel(axis)] = rotor.wipers[axis.value]
+            chip.inputs[table.channel(axis)] = _wiper(rotor, axis)
     if table.reference_channel is not None:
         chip.inputs[table.reference_channel] = lambda: table.supply_v
+
+
+def _wiper(rotor: SimRotor, axis: Axis) -> Callable[[], float]:
+    """The wiper is looked up at each conversion: a bench may put a bad contact into its wire later."""
+
+    def volts() -> float:
+        return rotor.wipers[axis.value]()
+
+    return volts
 
 
 def _wire_ads1115(table: Adc, rotor: SimRotor, clock: Callable[[], float]) -> SimAds1115:
     chip = SimAds1115(clock, vdd_v=max(3.3, table.supply_v))
     rotor.wire_i2c("adc", table.address, chip)
+    rotor.faults["adc-frozen"] = SimFault(lambda: setattr(chip, "frozen", True), lambda: setattr(chip, "frozen", False))
     return chip
 
 

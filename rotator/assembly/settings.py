@@ -11,6 +11,7 @@ from pathlib import Path
 from hw.ports import AngleSource, Axis
 from rotator.assembly.simulated_axes import SIM_CALIBRATION_RAW
 from rotator.config.axes import AxisTable
+from rotator.config.forbidden import ForbiddenTable
 from rotator.config.model import Config
 from rotator.config.sim import SimAxisTable
 from rotator.control.axis.calibration_table import Calibration
@@ -20,11 +21,11 @@ from rotator.control.axis.sensing import ANYTHING, Window
 from rotator.control.axis.settings import NEAR_DEG, AxisSettings, PositionedSettings, SwitchedSettings
 from rotator.control.controller import Controller
 from rotator.control.settings import Settings
-from rotator.control.sky.mount import Mount, Range
+from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.faults import Missing
 from rotator.orders import Mode
-from rotator.status import LearntMotor
+from rotator.status import ALL_OPEN, LearntMotor, Trusts
 from rotator.store.learnt import LearntFile, Motors
 
 
@@ -42,6 +43,17 @@ def build_mount(config: Config) -> Mount:
         park_elevation_deg=config.mount.park_elevation_deg + shift.elevation_deg,
         flip=config.mount.flip == "over-top",
         horizon=tuple(config.mount.horizon),
+        sectors=tuple(build_sector(table, shift) for table in config.mount.forbidden),
+    )
+
+
+def build_sector(table: ForbiddenTable, shift: Offsets) -> Sector:
+    (west_deg, east_deg), (low_deg, high_deg) = table.azimuth_deg, table.elevation_deg
+    return Sector(
+        name=table.name,
+        azimuth=Range(west_deg + shift.azimuth_deg, east_deg + shift.azimuth_deg),
+        elevation=Range(low_deg + shift.elevation_deg, high_deg + shift.elevation_deg),
+        margin_deg=table.margin_deg,
     )
 
 
@@ -69,15 +81,25 @@ def build_controller(
     learnt: Mapping[Axis, Motors] | None = None,
     commissioning: Axis | None = None,
     *,
+    trusts: Mapping[Axis, Trusts] | None = None,
     panel: bool = False,
 ) -> Controller:
-    """`learnt`: the motors as earlier runs learnt them. `commissioning`: an axis to be treated as never set up.
+    """`learnt`: the motors as earlier runs learnt them; `trusts`: what an earlier run knew of the relays.
+
+    `commissioning`: an axis to be treated as never set up.
 
     `panel`: a panel runs as well, and reports its mode switch. A rehearsal and a calibration have none, and no mode.
     """
     mount, known = build_mount(config), learnt or {}
     azimuth, elevation = (
-        axis_settings(config, axis, limits, known.get(axis), commissioning=axis is commissioning)
+        axis_settings(
+            config,
+            axis,
+            limits,
+            known.get(axis),
+            (trusts or {}).get(axis, ALL_OPEN),
+            commissioning=axis is commissioning,
+        )
         for axis, limits in ((Axis.AZIMUTH, mount.azimuth), (Axis.ELEVATION, mount.elevation))
     )
     return Controller(
@@ -90,12 +112,19 @@ def build_controller(
             park_after_s=config.mount.park_after_s,
             on_sky=config.mount.tolerance == "sky",
             mode=Mode.PARK if panel and config.panel.has_mode_switch else Mode.AUTO,
+            attended=commissioning is not None,
         )
     )
 
 
 def axis_settings(
-    config: Config, axis: Axis, limits: Range, learnt: Motors | None, *, commissioning: bool
+    config: Config,
+    axis: Axis,
+    limits: Range,
+    learnt: Motors | None,
+    trusts: Trusts = ALL_OPEN,
+    *,
+    commissioning: bool,
 ) -> AxisSettings:
     """`limits` on the axis's own scale, shifted by its offset. `commissioning`: as if it had never been set up."""
     table, shift = config.axis(axis), build_offsets(config)
@@ -132,6 +161,8 @@ def axis_settings(
         master=config.relays.master is not None,
         learnt=learnt and (_motor(learnt[0]), _motor(learnt[1])),
         homing=homing(config, axis, shift),
+        trusts=trusts,
+        look=True,
     )
 
 
@@ -180,4 +211,5 @@ def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | None:
         home_deg=stop.home_deg + shift.of(axis),
         mostly_closed=stop.mostly_closed,
         switch=f"{axis.value}_low" in config.limits.switches,
+        rest_deg=(stop.rest_deg[0] + shift.of(axis), stop.rest_deg[1] + shift.of(axis)),
     )

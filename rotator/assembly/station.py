@@ -45,6 +45,7 @@ class Station:
 
     `add_alarm`: that of the simulated clock, where time is simulated; the rotor has begun then. In real time the
     caller starts the rotor. `counts`: the file that keeps counted axes; None: they begin where the simulated rotor is.
+    `world`: a simulated rotor that has outlived an earlier station, and goes on; None: it is made from the file.
     """
 
     rotor: Rotor
@@ -66,12 +67,13 @@ class Station:
         *,
         add_alarm: AddAlarm | None = None,
         counts: Path | None = None,
+        world: SimRotor | None = None,
     ) -> None:
         self._config = config
         self._sleep = sleep
-        self.world: SimRotor | None = None
+        self.world = world
         simulated = SimulatedStation(config, clock, sleep if config.sim.bus_takes_time else None, start_deg)
-        if config.rotor.hardware == "sim":
+        if config.rotor.hardware == "sim" and world is None:
             self.world = simulated.build()
         self.sentinel = None
         # If a later part is missing, the parts opened so far are closed again, in the opposite order.

@@ -15,6 +15,7 @@ from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 TAP_S = 0.7
 """How long one key press turns. A keyboard repeats a held key sooner than this, so a held key is one turn."""
 NUMBER_FORM = "Type one number of degrees, for example 438.5 or -2, and press Enter."
+IN_NUMBER = "Finish the number with Enter, or take it back with Backspace."
 PRESS_FORM = "Write a press as r, or with its seconds as r 1.5."
 
 
@@ -58,6 +59,11 @@ class Finish:
 
 
 @dataclass(frozen=True, slots=True)
+class Back:
+    """Take the last point back."""
+
+
+@dataclass(frozen=True, slots=True)
 class Quit:
     """Leave; nothing is saved."""
 
@@ -70,7 +76,7 @@ class Unknown:
     form: str = ""
 
 
-Entry = Press | StopNow | Yes | No | Enter | Number | Finish | Quit | Unknown
+Entry = Press | StopNow | Yes | No | Enter | Number | Finish | Back | Quit | Unknown
 
 TURN_KEYS = {
     "r": (Axis.AZIMUTH, Direction.PLUS),
@@ -87,6 +93,8 @@ PLAIN_WORDS: dict[str, Entry] = {
     "": Enter(),
     "f": Finish(),
     "finish": Finish(),
+    "b": Back(),
+    "back": Back(),
     "q": Quit(),
     "quit": Quit(),
 }
@@ -129,8 +137,8 @@ def _number(text: str) -> float:
 class Keyboard:
     """Single keys, as a terminal sends them: an arrow is three characters, a number lasts until Enter.
 
-    Once a number has begun, every character is part of the text until Enter, so that the whole text is judged. Space
-    and `s` stop the motor at once all the same.
+    Once a number has begun, every character is part of the text until Enter, so that the whole text is judged; a text
+    that is refused stays, for Backspace. Space and `s` stop the motor at once all the same.
     """
 
     def __init__(self) -> None:
@@ -149,8 +157,11 @@ class Keyboard:
             self.typed = self.typed[:-1]
             return None
         if pressed in ("\r", "\n"):
-            typed, self.typed = self.typed, ""
-            return from_line(typed)
+            entry = from_line(self.typed)
+            if isinstance(entry, Unknown):
+                return Unknown(entry.text, f"{entry.form} Backspace takes back what was typed.".lstrip())
+            self.typed = ""
+            return entry
         if self.typed or (pressed and pressed in NUMBER_STARTS):
             self.typed += pressed
             return StopNow() if pressed in STOP_KEYS else None
@@ -172,5 +183,6 @@ class Keyboard:
             return StopNow()
         if pressed not in ARROW_KEYS:
             return None
-        self.typed = ""
+        if self.typed:
+            return Unknown("an arrow", IN_NUMBER)
         return Press(*TURN_KEYS[ARROW_KEYS[pressed]], TAP_S)

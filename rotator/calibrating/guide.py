@@ -171,6 +171,7 @@ class Guide:
         while True:
             match (yield from self._ask(shown, may_turn=False)):
                 case Number(value) if self._is_angle(value):
+                    self._say(f"  Understood: {value:g}°.")
                     return value
                 case Number(_):
                     pass

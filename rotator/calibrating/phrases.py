@@ -28,8 +28,8 @@ class Phrases:
     @property
     def keys(self) -> str:
         return (
-            f"{self.plus_key} turns it {self.plus}, {self.minus_key} {self.minus}; s stops it; y, n, f, numbers and "
-            "Enter answer; q leaves."
+            f"{self.plus_key} turns it {self.plus}, {self.minus_key} {self.minus}; s stops it; y, n, f, b, numbers "
+            "and Enter answer; q leaves."
         )
 
     @property

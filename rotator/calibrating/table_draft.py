@@ -80,6 +80,11 @@ class TableDraft:
         line = PiecewiseLinear(((low.angle_deg, low.raw), (high.angle_deg, high.raw)))
         return point.angle_deg - line.inverse(point.raw)
 
+    def off_others_deg(self, point: TablePoint) -> float:
+        """How far a point lies off the line through its neighbours in the table, which does not have it yet."""
+        line = PiecewiseLinear(tuple((at.angle_deg, at.raw) for at in self.points))
+        return point.angle_deg - line.inverse(point.raw)
+
     def lines(self, supply_v: float | None, lowest: float, highest: float) -> list[str]:
         """The table as text, with the distance of its ends from the readings that count as a fault.
 

@@ -10,12 +10,15 @@ from collections.abc import Generator
 
 from hw.ports import Direction
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
-from rotator.calibrating.entries import Enter, Finish, No
+from rotator.calibrating.entries import Back, Enter, Finish, No
 from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Steps
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import READINGS, NotTrusted
 from rotator.calibrating.results import AxisCalibrated
 from rotator.calibrating.table_draft import TableDraft, TablePoint
+
+SURPRISING_DEG = 30.0
+"""An angle this far from where it should be is asked about. The pots of common rotors bend by 10° at most."""
 
 
 class TableGuide(AxisGuide):
@@ -34,10 +37,7 @@ class TableGuide(AxisGuide):
         self._say(*phrases.introduction)
         rising = yield from self._check_plus()
         yield from self._check_minus(rising=rising)
-        table = TableDraft(rising=rising)
-        table = yield from self._end(table, phrases.low_end, facts.min_deg)
-        table = yield from self._end(table, phrases.high_end, facts.max_deg)
-        table = yield from self._between(table)
+        table = yield from self._points(rising=rising)
         self._say("", *table.lines(self._supply_v, facts.lowest_reading, facts.highest_reading))
         limits = yield from self._limits(table)
         self._say(*phrases.summary(*limits))
@@ -61,37 +61,79 @@ class TableGuide(AxisGuide):
         change = yield from self._turn(Direction.MINUS, self._phrases.turn_minus, -1 if rising else 1)
         self._say(f"The reading {'rises' if change > 0 else 'falls'} on the way back: the directions are right.")
 
-    def _end(self, table: TableDraft, where: str, proposed_deg: float) -> Generator[None, None, TableDraft]:
+    def _points(self, *, rising: bool) -> Generator[None, None, TableDraft]:
+        """Both ends, then points between, until the operator has no more. The last one can be taken back."""
+        phrases, facts = self._phrases, self.facts
+        ends = ((phrases.low_end, facts.min_deg), (phrases.high_end, facts.max_deg))
+        drafts = [TableDraft(rising=rising)]
+        while True:
+            taken = len(drafts) - 1
+            if taken < len(ends):
+                draft = yield from self._end(drafts[-1], *ends[taken])
+            else:
+                draft = yield from self._between(drafts[-1], first=taken == len(ends))
+            if draft is drafts[-1]:
+                return draft
+            if draft is not None:
+                drafts.append(draft)
+            elif taken:
+                (point,) = set(drafts.pop().points) - set(drafts[-1].points)
+                self._say(f"Taken back: {point.angle_deg:g}°.")
+            else:
+                self._say("There is no point to take back.")
+
+    def _end(self, table: TableDraft, where: str, proposed_deg: float) -> Generator[None, None, TableDraft | None]:
+        """The table with this end; None: the last point is to be taken back."""
         self._say("", *self._phrases.drive_to(where))
         while True:
             event = yield from self._ask(f"At the {where}? Enter reads.")
-            if isinstance(event, Enter):
-                point = yield from self._read(proposed_deg)
-                try:
-                    if point is not None:
-                        return table.with_end(point)
-                except NotTrusted as reason:
-                    self._say(f"Refused: {reason}.")
-            elif not isinstance(event, AxisMoved):
-                self._say("Drive there, then Enter.")
+            match event:
+                case Enter():
+                    point = yield from self._read(proposed_deg)
+                    try:
+                        if point is not None:
+                            longer = table.with_end(point)
+                            off_deg = point.angle_deg - proposed_deg
+                            what = f"the file has {proposed_deg:g}° for this end"
+                            if (yield from self._is_meant(point, off_deg, what)):
+                                return longer
+                    except NotTrusted as reason:
+                        self._say(f"Refused: {reason}.")
+                case Back():
+                    return None
+                case _ if not isinstance(event, AxisMoved):
+                    self._say("Drive there, then Enter.")
 
-    def _between(self, table: TableDraft) -> Generator[None, None, TableDraft]:
-        self._say("", *self._phrases.between)
+    def _between(self, table: TableDraft, *, first: bool) -> Generator[None, None, TableDraft | None]:
+        """The table with one more point, or as it is where there are no more; None: take the last point back."""
+        if first:
+            self._say("", *self._phrases.between)
         while True:
-            event = yield from self._ask("Another point? Enter reads; f when there are no more.")
+            event = yield from self._ask("Another point? Enter reads; f when there are no more; b takes the last back.")
             match event:
                 case Finish() | No():
                     return table
+                case Back():
+                    return None
                 case Enter():
                     point = yield from self._read(None)
                     try:
                         if point is not None:
-                            table = table.with_point(point)
-                            self._say(f"Taken: {table.off_line_deg(point):+.1f}° off the straight line.")
+                            longer, off_deg = table.with_point(point), table.off_others_deg(point)
+                            if (yield from self._is_meant(point, off_deg, "the other points lie on another line")):
+                                self._say(f"Taken: {longer.off_line_deg(point):+.1f}° off the straight line.")
+                                return longer
                     except NotTrusted as reason:
                         self._say(f"Refused: {reason}.")
                 case _ if not isinstance(event, AxisMoved):
                     self._say("Drive to a known angle, then Enter; or f.")
+
+    def _is_meant(self, point: TablePoint, off_deg: float, what: str) -> Generator[None, None, bool]:
+        """Ask about an angle that is far from what was to be expected: a digit may be missing."""
+        if abs(off_deg) < SURPRISING_DEG:
+            return True
+        self._say(f"{point.angle_deg:g}° is {abs(off_deg):.0f}° off: {what}.")
+        return (yield from self._agrees(f"Is {point.angle_deg:g}° right? y or n:"))
 
     def _read(self, proposed_deg: float | None) -> Generator[None, None, TablePoint | None]:
         """Read the axis at rest, and ask for its angle. None: not trusted, or the operator wants to read again."""

@@ -20,7 +20,7 @@ from rotator.cli.reach import monitors, reach
 from rotator.cli.stop import STOPPED
 from rotator.config.places import console_path
 from rotator.links.wire import LinkError
-from rotator.orders import Confirm, Home, LetGo, Release, Stop
+from rotator.orders import Confirm, Home, LetGo, RelaysChecked, Release, Stop
 from rotator.protocols.console import Ask, ConsoleCommand, encode
 from rotator.protocols.console_session import ERROR, OK
 from rotator.protocols.panel_words import Hand
@@ -120,6 +120,16 @@ def confirm(path: Path | None, axis: Axis, angle_deg: float) -> None:
     with ConsoleClient(path) as box:
         box.send(Confirm(axis, angle_deg))
     click.echo(f"{axis.value} stands at {angle_deg:g}°.")
+
+
+def relays_checked(path: Path | None, axis: Axis, *, yes: bool) -> None:
+    with ConsoleClient(path) as box:
+        question = (
+            f"With both relays of {axis.value} switched off: does its motor have no current, from either of them?"
+        )
+        _ask(question, yes=yes)
+        box.send(RelaysChecked(axis))
+    click.echo(f"The relays of {axis.value} count as open. Acknowledge the fault with `rotator resume`.")
 
 
 def hand(path: Path | None, move: Hand) -> None:

@@ -69,12 +69,27 @@ def home(path: Path | None, yes: bool, axis: str) -> None:
 @click.command(context_settings=MINUS_IS_A_NUMBER)
 @CONFIG
 @AXIS
-@click.argument("degrees", type=float)
-def confirm(path: Path | None, axis: str, degrees: float) -> None:
+@click.argument("degrees")
+def confirm(path: Path | None, axis: str, degrees: str) -> None:
     """Confirm the angle of an axis, in DEGREES. A moteus behind a gear needs it after power-on."""
     from rotator.cli import console
+    from rotator.protocols import aiming
 
-    console.confirm(path, Axis(axis), degrees)
+    angle_deg = aiming.degrees(degrees)
+    if angle_deg is None:
+        raise click.BadParameter(f"{degrees!r} is no number of degrees; write it like 438.5 or 438,5")
+    console.confirm(path, Axis(axis), angle_deg)
+
+
+@click.command(name="relays-checked")
+@CONFIG
+@YES
+@AXIS
+def relays_checked(path: Path | None, yes: bool, axis: str) -> None:
+    """Say that you have looked at an axis's relays, and both are open."""
+    from rotator.cli import console
+
+    console.relays_checked(path, Axis(axis), yes=yes)
 
 
 @click.command(name="let-go")
@@ -109,4 +124,4 @@ def panel(path: Path | None, words: tuple[str, ...]) -> None:
     console.hand(path, hand)
 
 
-CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, let_go, panel)
+CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, relays_checked, let_go, panel)

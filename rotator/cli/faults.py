@@ -38,7 +38,7 @@ def parse_faults(texts: tuple[str, ...], world: FaultInjector | None) -> list[tu
         if name not in world.faults:
             raise click.UsageError(f"no fault called {name}; --fault list shows them")
         try:
-            plan.append((float(moment or 0), name))
+            plan.append((float(moment.replace(",", ".") or 0), name))
         except ValueError:
             raise click.UsageError(f"{text}: the moment after @ is a number of seconds") from None
     return plan

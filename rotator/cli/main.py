@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 
@@ -41,7 +42,7 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
     """Run the box. Without a file: a simulated G-5500."""
     from rotator.cli.run import run_box
 
-    run_box(path, faults, plain=plain or not sys.stdout.isatty())
+    run_box(path, faults, plain=plain or not _draws())
 
 
 @cli.command()
@@ -75,7 +76,7 @@ def arduino(pty: Path, path: Path | None, plain: bool) -> None:
     """Run an emulation of the Arduino, to compare it with the box."""
     from rotator.cli.arduino import run_arduino
 
-    run_arduino(pty, path, plain=plain or not sys.stdout.isatty())
+    run_arduino(pty, path, plain=plain or not _draws())
 
 
 @cli.command()
@@ -87,7 +88,7 @@ def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, what: str
     """Set up one axis or both, or find north, with questions. Saves the result in the file."""
     from rotator.cli.calibrate import calibrate_axes
 
-    plain = plain or not (sys.stdin.isatty() and sys.stdout.isatty())
+    plain = plain or not (sys.stdin.isatty() and _draws())
     sys.exit(calibrate_axes(path, faults, what, plain=plain))
 
 
@@ -192,6 +193,11 @@ def pins(undo: bool, yes: bool, root: Path, path: Path | None) -> None:
     from rotator.cli.setup import relay_pins
 
     relay_pins(root, path, undo=undo, yes=yes)
+
+
+def _draws() -> bool:
+    """Whether the output is a terminal that a picture can be drawn on."""
+    return sys.stdout.isatty() and os.environ.get("TERM") not in ("dumb", "unknown")
 
 
 def main() -> None:

@@ -1,6 +1,7 @@
 """`rotator run`: the box in the foreground, with a live picture in a terminal, or plain lines elsewhere.
 
-Knows the keys, and starts the faults of --fault. `rotator.views` draws the picture; `rotator.app` is the box.
+Starts the faults of --fault. `rotator.cli.run_keys` knows the keys, `rotator.views` draws the picture; `rotator.app` is
+the box.
 """
 
 from __future__ import annotations
@@ -20,9 +21,9 @@ from rotator import __version__
 from rotator.app import App
 from rotator.cli.faults import parse_faults
 from rotator.cli.output import LINES, PICTURES, Output
+from rotator.cli.run_keys import RunKeys
 from rotator.cli.screen import LogRows, draw, log_to, print_lines, terminal_console
 from rotator.config.load import load
-from rotator.orders import Park, Release, Stop
 from rotator.runtime.signals import SignalThread
 from rotator.views import terminal
 
@@ -76,6 +77,7 @@ async def _plain(app: App, screen: Output) -> None:
 
 async def _picture(app: App, stop: asyncio.Event, screen: Output, recent: LogRows) -> None:
     wires = [link.wire for link in app.links]
+    keys = RunKeys(app.console)
 
     def glass() -> tuple[str, ...]:
         """The rows of the display: read from a simulated one. A real one cannot be read, so the rows sent to it."""
@@ -83,17 +85,10 @@ async def _picture(app: App, stop: asyncio.Event, screen: Output, recent: LogRow
         return world.lcd.text() if world and world.lcd else app.lcd_rows(time.monotonic())
 
     def render() -> RenderableType:
-        return terminal.picture(__version__, app.loop.status, glass(), wires, list(recent.rows))
+        return terminal.picture(__version__, app.loop.status, glass(), wires, list(recent.rows), typed=keys.line)
 
     def key(pressed: str) -> None:
-        match pressed:
-            case " ":
-                app.console.order(Stop(latch=True))
-            case "p":
-                app.console.order(Park(storm=True))
-            case "r":
-                app.console.order(Release())
-            case "q":
-                stop.set()
+        if keys.key(pressed):
+            stop.set()
 
     await draw(render, key, terminal_console(screen))

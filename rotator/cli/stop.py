@@ -30,7 +30,7 @@ def stop_at_once(arguments: Sequence[str]) -> bool:
             text = (files("rotator.config") / "simulated.toml").read_text(encoding="utf-8")
         case ["--config", name]:
             try:
-                text = Path(name).read_text(encoding="utf-8")
+                text = Path(name).read_text(encoding="utf-8-sig")
             except (OSError, ValueError):
                 return False
         case _:

@@ -12,6 +12,7 @@ from typing import Final, Literal
 from pydantic import Field, field_validator, model_validator
 
 from rotator.config.table import Table
+from rotator.orders import PERSONS
 
 ProtocolName = Literal[
     "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow",
@@ -112,6 +113,13 @@ class Link(Table):
         if self.protocol == "pstrotator" and self.udp and address(self.udp)[1] == LAST_PORT:
             raise ValueError(f"pstrotator answers one port higher: {LAST_PORT} leaves none")
         return self
+
+    @field_validator("name")
+    @classmethod
+    def _no_link_is_a_person(cls, name: str | None) -> str | None:
+        if name in PERSONS:
+            raise ValueError(f"{name} is the name of what a person uses at the box: {', '.join(PERSONS)}; take another")
+        return name
 
     @model_validator(mode="after")
     def _status_has_a_name_and_a_way(self) -> Link:

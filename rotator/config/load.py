@@ -7,7 +7,6 @@ the model.
 from __future__ import annotations
 
 import difflib
-import tomllib
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
@@ -16,6 +15,7 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from rotator.config import toml_text
 from rotator.config.model import Config
 
 _KINDS = {
@@ -51,7 +51,7 @@ def load(path: Path | None) -> Config:
     if path is None:
         return parse(shipped(), "the shipped configuration")
     try:
-        text = path.read_text(encoding="utf-8")
+        text = toml_text.read(path)
     except (OSError, UnicodeDecodeError) as fault:
         raise ConfigError(str(path), [f"cannot be read: {fault}"]) from fault
     return parse(text, str(path))
@@ -76,9 +76,9 @@ def profiles() -> list[str]:
 def parse(text: str, name: str) -> Config:
     """The checked configuration in a TOML text. `name` stands in the errors. Raises ConfigError."""
     try:
-        values = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as fault:
-        raise ConfigError(name, [f"is not TOML: {fault}"]) from fault
+        values = toml_text.values(text)
+    except ValueError as fault:
+        raise ConfigError(name, [str(fault)]) from fault
     faults: list[str] = []
     while True:
         try:
@@ -108,6 +108,9 @@ def _mend(values: dict[str, Any], place: list[int | str]) -> None:
             return
         parent = parent[part]
     match parent, last:
+        case _ if place[:2] == ["mount", "forbidden"] and len(place) > 2:
+            # All keys of a sector but one must be given. A faulty one is left out, and the others with it.
+            values["mount"].pop("forbidden")
         case dict(), "protocol":
             places = {"connect": "rotctld-follow", "udp": "pstrotator", "file": "wsjtx"}
             parent[last] = next((protocol for key, protocol in places.items() if key in parent), "rotctld")

@@ -15,6 +15,7 @@ from rotator.config.adc import Adc
 from rotator.config.angle import Angle
 from rotator.config.axes import AxisTable, Azimuth, Elevation
 from rotator.config.devices import Lcd, Relays
+from rotator.config.forbidden import ForbiddenTable, Place, forbidden_faults
 from rotator.config.i2c import I2CChip
 from rotator.config.kinds.digipot import Digipot, DigipotKind
 from rotator.config.kinds.kind import EndStop, Kind
@@ -55,6 +56,8 @@ class MountTable(Table):
     """Park after this time without an order; 0: never."""
     horizon: list[Point] = Field(default_factory=list)
     """Points [azimuth, lowest elevation] of trees and roofs; azimuths rise from 0 to below 360."""
+    forbidden: list[ForbiddenTable] = Field(default_factory=list, max_length=16)
+    """A box of azimuth and elevation in which the antenna would touch something: no path crosses it. 16 at most."""
 
     @model_validator(mode="after")
     def _knows_north(self) -> MountTable:
@@ -145,6 +148,7 @@ class Config(Table):
         faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})
         faults += self._compass_faults()
         faults += self._switches_in_the_way()
+        faults += forbidden_faults(self.mount.forbidden, {axis: self.axis(axis) for axis in Axis}, self._stands_at())
         if self.azimuth.sensor.kind == "mpu6050":
             faults.append('azimuth.sensor.kind = "mpu6050": gravity tells no azimuth; it is for the elevation')
         if self.mount.tolerance == "axis" and not self.rotor.switched:
@@ -194,7 +198,7 @@ class Config(Table):
 
     def end_stop(self, axis: Axis) -> EndStop | None:
         """The end stop at which homing ends; None for an axis that does not count pulses, and has no homing."""
-        return self.kind.end_stop(axis) if self.counts(axis) else None
+        return self.kind.end_stop(axis, self.axis(axis).max_deg) if self.counts(axis) else None
 
     def reach_deg(self, axis: Axis) -> tuple[float | None, float | None]:
         """The lowest and highest possible limit, on the rotor's own scale; None: the tables set no end."""
@@ -242,6 +246,13 @@ class Config(Table):
             for axis, stop in stops.items()
             if f"{axis.value}_low" in self.limits.switches and self.axis(axis).min_deg < stop.home_deg + SWITCH_ROOM_DEG
         ]
+
+    def _stands_at(self) -> dict[str, Place]:
+        """By key: where the antenna has to be able to stand."""
+        places = {"the park position": (self.mount.park_azimuth_deg, self.mount.park_elevation_deg)}
+        if self.rotor.type == "digipot":
+            places["digipot's start_deg"] = (self.digipot.azimuth.start_deg, self.digipot.elevation.start_deg)
+        return places
 
     def _pins_twice(self) -> list[str]:
         users: dict[int, list[str]] = {}

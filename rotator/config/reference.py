@@ -25,6 +25,7 @@ _KINDS = {
     float: "number",
     list[tuple[float, float]]: "pairs",
     list[str]: "texts",
+    tuple[float, float]: "[number, number]",
 }
 _EDGES = {"ge": "from {}", "gt": "above {}", "le": "to {}", "lt": "below {}"}
 _LENGTHS = {"min_length": "{} or more", "max_length": "up to {}"}

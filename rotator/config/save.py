@@ -13,6 +13,7 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import Array
 
+from rotator.config import toml_text
 from rotator.config.load import ConfigError, parse
 from rotator.store.whole import write_whole
 
@@ -27,7 +28,7 @@ def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **val
     The old file stays beside it as `.bak`. Raises OSError or ConfigError, and then the file is unchanged.
     """
     try:
-        before = path.read_text(encoding="utf-8")
+        before = toml_text.read(path)
         text = changed(before, axis, calibration=calibration, **values)
     except (TOMLKitError, UnicodeDecodeError) as fault:
         raise ConfigError(str(path), [f"is not TOML any more: {fault}"]) from fault

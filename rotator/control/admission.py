@@ -9,7 +9,7 @@ from __future__ import annotations
 from hw.ports import AngleSource, Axis
 from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount, Unreachable
-from rotator.orders import Aim, Calibrate, Confirm, Home, LoadTimed, Order, Park, Refusal
+from rotator.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, Refusal, RelaysChecked
 from rotator.status import Status
 
 SENT_DEG = {Axis.AZIMUTH: (-180.0, 540.0), Axis.ELEVATION: (-90.0, 180.0)}
@@ -32,6 +32,8 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return Refusal(f"{axis.value} knows where it stands: there is no end stop to be found")
         case Confirm(axis) if not status.axis(axis).confirmable:
             return Refusal(f"{axis.value} measures where it stands: there is nothing to confirm")
+        case RelaysChecked(axis) if status.axis(axis).moving:
+            return Refusal(f"{axis.value} moves: look at its relays while they are off")
         case _:
             return None
 
@@ -46,19 +48,34 @@ def _places(status: Status) -> tuple[float | None, float | None]:
 
 def _uncalibrated(order: Order, status: Status) -> Refusal | None:
     """An order is refused when every axis that it moves is uncalibrated. One calibrated axis is enough to admit it."""
-    match order:
-        case Aim(_, None):
-            axes: tuple[Axis, ...] = (Axis.AZIMUTH,)
-        case Aim(None, _):
-            axes = (Axis.ELEVATION,)
-        case LoadTimed(_, points) if all(elevation_deg is None for _, elevation_deg in points):
-            axes = (Axis.AZIMUTH,)
-        case _:
-            axes = (Axis.AZIMUTH, Axis.ELEVATION)
+    axes = _axes_of(order)
     missing = [
         f"{axis.value} needs {status.axis(axis).uncalibrated}" for axis in axes if status.axis(axis).uncalibrated
     ]
     return Refusal("UNCALIBRATED: " + "; ".join(missing)) if len(missing) == len(axes) else None
+
+
+def only_faulted(order: Order, status: Status) -> bool:
+    """Whether the order moves axes, and a fault holds every one of them. One axis that can move is enough."""
+    axes = _axes_of(order)
+    return bool(axes) and all(status.axis(axis).fault for axis in axes)
+
+
+def _axes_of(order: Order) -> tuple[Axis, ...]:
+    """The axes that the order moves."""
+    match order:
+        case Aim(_, None):
+            return (Axis.AZIMUTH,)
+        case Aim(None, _):
+            return (Axis.ELEVATION,)
+        case LoadTimed(_, points) if all(elevation_deg is None for _, elevation_deg in points):
+            return (Axis.AZIMUTH,)
+        case Aim() | LoadTimed() | Park():
+            return (Axis.AZIMUTH, Axis.ELEVATION)
+        case Jog(axis):
+            return (axis,)
+        case _:
+            return ()
 
 
 def _unreachable(points: tuple[tuple[float | None, float | None], ...], mount: Mount) -> Refusal | None:

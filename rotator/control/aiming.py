@@ -10,11 +10,13 @@ from collections.abc import Mapping
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
+from rotator.control.going_round import GoingRound
 from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.nudges import Nudges
 from rotator.control.sky.pointing import Goals, Pointing
 from rotator.control.sky.route import Speeds
+from rotator.faults import Notice
 from rotator.orders import BOTH, Aim
 
 
@@ -25,6 +27,7 @@ class Aiming:
         self._azimuth, self._elevation = axes[Axis.AZIMUTH], axes[Axis.ELEVATION]
         self._pointing = pointing
         self._nudges = Nudges()
+        self._round = GoingRound(mount, axes)
         self._asked: Aim | None = None
         """The order in force, without the nudges; None: there is none."""
 
@@ -46,11 +49,12 @@ class Aiming:
         elif aim.azimuth_deg is not None:
             stands_deg = self._azimuth.angle_deg
             from_deg = self._mount.azimuth.min_deg if stands_deg is None else stands_deg
-            self._set_goals(self._pointing.aim(now_s, aim, from_deg, self._elevation.angle_deg or 0.0))
+            near_deg, over = self._round.turn(now_s, aim, from_deg)
+            self._set_goals(self._pointing.aim(now_s, aim, near_deg, self._elevation.angle_deg or 0.0, over=over))
             self._asked = asked
         elif aim.elevation_deg is not None:
             self.forget((Axis.ELEVATION,))
-            self._elevation.aim(self._pointing.raise_to(aim.elevation_deg, self._azimuth.angle_deg or 0.0))
+            self._round.aim(Axis.ELEVATION, self._pointing.raise_to(aim.elevation_deg, self._azimuth.angle_deg or 0.0))
             self._asked = asked
 
     def park(self, now_s: float) -> None:
@@ -91,27 +95,34 @@ class Aiming:
         """Nothing is asked of these axes any more. A path needs both, so the other axis stays where it is."""
         self._asked = None
         self._pointing.forget(azimuth=Axis.AZIMUTH in axes, elevation=Axis.ELEVATION in axes)
-        for axis in self._axes.values():
-            axis.forget_path()
+        self._round.forget_paths()
 
     def look_ahead(self, now_s: float) -> None:
-        """Keep the goals up with a target that moves, on the axes that still aim at it."""
-        aims = [axis.aiming for axis in self._axes.values() if axis.aiming is not None]
-        if not aims:
-            return
-        speeds = Speeds(self._azimuth.speed_dps, self._elevation.speed_dps)
-        goals = self._pointing.look_ahead(now_s, speeds, had_path=any(aim.path is not None for aim in aims))
-        for axis, goal in zip((self._azimuth, self._elevation), goals or (None, None), strict=True):
-            if goal is not None and axis.aiming is not None:
-                axis.aim(goal)
+        """Keep the goals up with a target that moves, on the axes that still aim at it, and round the sectors."""
+        aims = {axis: wish for axis in self._axes if (wish := self._round.wish(axis)) is not None}
+        if aims:
+            speeds = Speeds(self._azimuth.speed_dps, self._elevation.speed_dps)
+            had_path = any(aim.path is not None for aim in aims.values())
+            goals = self._pointing.look_ahead(now_s, speeds, had_path=had_path) or (None, None)
+            for axis, goal in zip(Axis, goals, strict=True):
+                if goal is not None and axis in aims:
+                    self._round.aim(axis, goal)
+        self._round.lead(now_s)
+
+    def notices(self, axis: Axis) -> tuple[Notice, ...]:
+        """What a forbidden sector keeps this axis from."""
+        return self._round.notices(axis)
 
     def _places(self) -> tuple[float | None, float | None]:
         """Where each axis goes, or stands where it has no target."""
-        places = [axis.aiming.target_deg if axis.aiming else axis.angle_deg for axis in self._axes.values()]
+        places = []
+        for name, axis in self._axes.items():
+            wish = self._round.wish(name)
+            places.append(wish.target_deg if wish else axis.angle_deg)
         return places[0], places[1]
 
     def _set_goals(self, goals: Goals) -> None:
         azimuth_goal, elevation_goal = goals
-        self._azimuth.aim(azimuth_goal)
+        self._round.aim(Axis.AZIMUTH, azimuth_goal)
         if elevation_goal is not None:
-            self._elevation.aim(elevation_goal)
+            self._round.aim(Axis.ELEVATION, elevation_goal)

@@ -20,6 +20,13 @@ class Run:
 
 
 @dataclass(frozen=True, slots=True)
+class Feed:
+    """Drive nothing, but keep the motors' supply on until the moment `until_s`: a welded relay then shows itself."""
+
+    until_s: float
+
+
+@dataclass(frozen=True, slots=True)
 class Steer:
     """Be at `angle_deg` now, moving on at `rate_dps`, until the moment `until_s` at the latest."""
 
@@ -35,7 +42,7 @@ class Hold:
 
 HOLD = Hold()
 
-Command = Run | Steer | Hold
+Command = Run | Feed | Steer | Hold
 
 
 @dataclass(frozen=True, slots=True)

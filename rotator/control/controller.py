@@ -19,6 +19,7 @@ from rotator.control.axis.sensing import Reading
 from rotator.control.axis.settings import PositionedSettings, SwitchedSettings
 from rotator.control.axis.switched import SwitchedAxis
 from rotator.control.commands import Acknowledge, Command, Errand, Place
+from rotator.control.fence import Fence
 from rotator.control.homing_queue import HomingQueue
 from rotator.control.jogs import Jogs
 from rotator.control.rights import deed_of
@@ -43,6 +44,7 @@ from rotator.orders import (
     Nudge,
     Order,
     Park,
+    RelaysChecked,
     Release,
     Remark,
     RunTimed,
@@ -71,6 +73,7 @@ class Controller:
         self._authority = Authority(settings.mode, max(tolerances_deg))
         self._aiming = Aiming(settings.mount, axes, Pointing(settings.mount, *tolerances_deg, on_sky=settings.on_sky))
         self._homing = HomingQueue({name: axis for name, axis in switched.items() if axis.settings.homing is not None})
+        self._fence = Fence(settings.mount, axes, period_s=settings.period_s, attended=settings.attended)
         self._timed = TimedList()
         self._jogs = Jogs(axes)
         self._speed_level = 4
@@ -94,6 +97,9 @@ class Controller:
                 control.see(readings[axis], now_s)
         for source, order in orders:
             self._take(source, order, now_s)
+        if any(control.fault for control in self._axes.values()):
+            # A list that went on when the fault is acknowledged would start a motor without an order.
+            self._timed.halt()
         if (point := self._timed.due(now_s)) is not None:
             self._point_at(Aim(*point), now_s)
         self._home_next(now_s)
@@ -105,7 +111,7 @@ class Controller:
             commands[axis] = decision.command
             if decision.homed_deg is not None:
                 self.errands.append(Place(axis, decision.homed_deg))
-        return commands
+        return self._fence.passed(now_s, commands)
 
     def links_lost(self) -> None:
         """No order arrives from links and consoles, a stop neither: what they ordered ends.
@@ -121,6 +127,7 @@ class Controller:
         """After the cycle: the direction in which each axis's relays are really closed (OFF where it has none)."""
         for axis, control in self._axes.items():
             control.note_driven(now_s, driven[axis])
+        self._jogs.note_driven(now_s)
 
     def status(self, now_s: float, late_s: float = 0.0) -> Status:
         """The state of the box at this moment. `late_s`: how late the last cycle was."""
@@ -145,7 +152,8 @@ class Controller:
 
     def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
         status = self._axes[axis].status(now_s)
-        return replace(status, notices=status.notices + self._remarks[axis]) if self._remarks[axis] else status
+        more = self._remarks[axis] + self._aiming.notices(axis) + self._fence.notices(axis, now_s)
+        return replace(status, notices=status.notices + more) if more else status
 
     def _note_lateness(self, now_s: float) -> None:
         """A motor ran for longer than a cycle unwatched: the guard has opened its relay, and a person should know."""
@@ -162,7 +170,7 @@ class Controller:
                 self._stop(source, axes, latch=latch, now_s=now_s)
             case Release():
                 self._authority.released()
-                self._acknowledge()
+                self._acknowledge(now_s, by_person=True)
             case ClearTimed():
                 self._timed.clear()
             case Speed(level):
@@ -187,6 +195,8 @@ class Controller:
                 self._nudge(axis, offset_deg, now_s)
             case Confirm(axis, angle_deg):
                 self._confirm(axis, angle_deg)
+            case RelaysChecked(axis) if axis in self._switched:
+                self._switched[axis].checked()
             case LetGo():
                 self._stop(source, BOTH, latch=True, now_s=now_s)
                 self.errands.append(LetGo())
@@ -283,19 +293,19 @@ class Controller:
         if len(axes) == len(self._axes):
             self._authority.stopped(source, now_s, latch=latch)
             if not latch and not self._authority.latched:
-                self._acknowledge()
+                self._acknowledge(now_s, by_person=False)
 
     def _halt(self, axes: tuple[Axis, ...]) -> None:
         self._timed.halt()
         self._aiming.halt(axes)
 
-    def _acknowledge(self) -> None:
+    def _acknowledge(self, now_s: float, *, by_person: bool) -> None:
         if any(control.fault for control in self._axes.values()):
             # The order that was in force when the fault came is not taken up again.
             self._aiming.drop()
         for axis, control in self._axes.items():
-            control.acknowledge()
-            self.errands.append(Acknowledge(axis))
+            if control.acknowledge(now_s, by_person=by_person):
+                self.errands.append(Acknowledge(axis))
 
     def _calibrate(self, axis: Axis, now_s: float, *, high_end: bool) -> None:
         if any(control.moving(now_s) for control in self._axes.values()):

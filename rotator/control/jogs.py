@@ -1,15 +1,23 @@
-"""Who jogs which axis, so that a jog without a time ends with the connection that ordered it.
+"""Who jogs which axis, and for how long: a jog without a time ends with the connection that ordered it.
 
-Knows both axes, and the source of the last jog of each. Knows no other order.
+An axis that is not commissioned has no limits that could stop it, and a program may press a thousand times. So the
+presses of a link make one turn of two seconds at most, and then the axis rests for 0.4 of that time, whatever comes. A
+person at the console, at the panel or in a calibration may press as it suits.
+
+Knows both axes, the source of the last jog of each, and how long each has been driven. Knows no other order.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from hw.ports import Axis
+from hw.ports import Axis, Direction
+from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 from rotator.control.axis.port import ControlledAxis
 from rotator.orders import Jog, Source
+
+REST_SHARE = 0.4
+"""A turn of one second is followed by a rest of so many."""
 
 
 class Jogs:
@@ -17,10 +25,28 @@ class Jogs:
         self._axes = axes
         self._by: dict[Axis, Source] = {}
         """The source of the last jog."""
+        self._turned_s = dict.fromkeys(axes, 0.0)
+        """How long each axis has turned, less what it has rested since."""
+        self._noted_s: float | None = None
 
     def begin(self, jog: Jog, source: Source, now_s: float) -> None:
-        self._axes[jog.axis].jog(jog.direction, jog.seconds, now_s)
+        axis, seconds = self._axes[jog.axis], jog.seconds
+        if jog.direction is not Direction.OFF and axis.missing and not source.is_person:
+            turned_s = self._turned_s[jog.axis]
+            left_s = UNCALIBRATED_JOG_S - turned_s if axis.driven or turned_s == 0.0 else 0.0
+            if left_s <= 0.0:
+                return
+            seconds = left_s if seconds is None else min(seconds, left_s)
+        axis.jog(jog.direction, seconds, now_s)
         self._by[jog.axis] = source
+
+    def note_driven(self, now_s: float) -> None:
+        """After the cycle: how long each axis has turned and rested since the last one."""
+        passed_s = 0.0 if self._noted_s is None else now_s - self._noted_s
+        self._noted_s = now_s
+        for name, axis in self._axes.items():
+            gone_s = passed_s if axis.driven else -passed_s / REST_SHARE
+            self._turned_s[name] = min(max(self._turned_s[name] + gone_s, 0.0), UNCALIBRATED_JOG_S)
 
     def end(self, source: Source) -> None:
         """The connection of `source` has ended: halt what it still jogs. A jog with a time ends by itself."""

@@ -24,3 +24,5 @@ class Settings:
     """Whether the tolerance is on the sky; False: in degrees of each axis."""
     mode: Mode = Mode.AUTO
     """The mode until a front panel reports its switch. With a mode switch it is PARK: nothing moves before that."""
+    attended: bool = False
+    """A person stands by, as for a calibration: axes of which no angle is known yet are jogged near a sector too."""

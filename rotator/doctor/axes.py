@@ -1,4 +1,4 @@
-"""The checks of the configuration: whether it loads, and whether each axis is set up.
+"""The checks of the configuration: whether it loads, whether each axis is set up, and its forbidden sectors.
 
 An axis of real hardware needs limits, a direction check, and a calibration unless its readings are degrees. Reads the
 file and no hardware.
@@ -12,9 +12,10 @@ from pathlib import Path
 
 from hw.ports import Axis
 from rotator.assembly.settings import missing, own_points
+from rotator.config.forbidden import seen_again
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
-from rotator.doctor.finding import Finding, fine, wrong
+from rotator.doctor.finding import Finding, fine, warn, wrong
 
 NO_FILE = "Give --config an existing file that you may read; rotator config NAME prints one to start from."
 
@@ -36,6 +37,18 @@ def axes(config: Config) -> Iterator[Finding]:
         yield fine("a simulated rotor needs no calibration")
         return
     yield from (_set_up(config, axis) for axis in Axis)
+
+
+def has_sectors(config: Config) -> bool:
+    return bool(config.mount.forbidden)
+
+
+def sectors(config: Config) -> Iterator[Finding]:
+    again = seen_again(config.mount.forbidden, {axis: config.axis(axis) for axis in Axis})
+    for what, keys in again:
+        yield warn(what, f"If the antenna touches it there, add a [[mount.forbidden]] with {keys}.")
+    if not again:
+        yield fine(", ".join(table.name for table in config.mount.forbidden))
 
 
 def _set_up(config: Config, axis: Axis) -> Finding:

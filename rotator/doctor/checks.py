@@ -53,6 +53,10 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
         lambda _machine, config: axes.axes(config),
     ),
     Check(
+        "sectors", "what stands in a forbidden sector is not met on another turn, or over the top",
+        lambda _machine, config: axes.sectors(config), concerns=axes.has_sectors,
+    ),
+    Check(
         "counts", "the saved counts are valid; each axis is homed and has not lost its count",
         counts.counts, concerns=counts.keeps_counts,
     ),

@@ -12,7 +12,7 @@ from enum import Enum
 
 from hw.ports import Axis
 from rotator.control.admission import SENT_DEG
-from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Release, Stop
+from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
 from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.panel_words import (
     OPERANDS,
@@ -58,6 +58,7 @@ VERBS = (
     Verb("resume", "", "Let it move again, and acknowledge faults"),
     Verb("home", "azimuth|elevation", "Find the low end stop of an axis that counts pulses: watch the antenna"),
     Verb("confirm", "azimuth|elevation DEGREES", "Give the angle of an axis that cannot know it"),
+    Verb("relays-checked", "azimuth|elevation", "You have seen that both relays of an axis are open"),
     Verb("let-go", "", "Motors without torque: an antenna out of balance turns; nothing moves until `resume`"),
     Verb("park", "", "Go to the park position, even while a program tracks, and stay there until `resume`"),
     Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
@@ -85,6 +86,8 @@ def parse(line: bytes) -> ConsoleCommand:
             return Home(Axis(axis))
         case ["confirm", "azimuth" | "elevation" as axis, angle]:
             return Confirm(Axis(axis), _degrees(Axis(axis), angle))
+        case ["relays-checked", "azimuth" | "elevation" as axis]:
+            return RelaysChecked(Axis(axis))
         case ["let-go"]:
             return LetGo()
         case ["park"]:
@@ -114,6 +117,8 @@ def encode(command: ConsoleCommand) -> bytes:
             text = f"home {axis.value}"
         case Confirm(axis, angle_deg):
             text = f"confirm {axis.value} {_number(angle_deg)}"
+        case RelaysChecked(axis):
+            text = f"relays-checked {axis.value}"
         case LetGo():
             text = "let-go"
         case Park(storm=True):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from hw.ports import Axis, Direction
 from rotator import __version__
+from rotator.control.admission import only_faulted
 from rotator.orders import Jog, Order, Park, Speed, Stop
 from rotator.protocols import rotctld_caps, rotctld_earth
 from rotator.protocols.aiming import aim
@@ -189,10 +190,12 @@ class RotctldSession:
         return self._order(Speed(level))
 
     def _order(self, *orders: Order) -> Answer:
+        status = self._box.status()
         refusals = [refusal for order in orders if (refusal := self._box.order(order))]
-        if not refusals:
-            return Answer()
-        return Answer(REJECTED if refusals[0].forbidden else INVALID_PARAMETER)
+        if refusals:
+            return Answer(REJECTED if refusals[0].forbidden else INVALID_PARAMETER)
+        # A program that is told of success would believe that the antenna follows.
+        return Answer(REJECTED) if all(only_faulted(order, status) for order in orders) else Answer()
 
     def _position(self) -> Answer:
         status = self._box.status()

@@ -6,13 +6,14 @@ Does not know how pulses are counted: `hw.sensors.pulses` does.
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Callable, Mapping
 
 from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, AngleSource, Axis, Direction
 from hw.sensors.pulses import PulseCounter
-from rotator.control.axis.run_watch import unstoppable
+from rotator.control.axis.relay_trust import unstoppable
 from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand, Place, Run
 from rotator.control.sky.offsets import Offsets
@@ -21,6 +22,8 @@ from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.counts_writer import CountsWriter
 from rotator.rotors.relays import RelayRotor
 from rotator.store import counts
+
+log = logging.getLogger(__name__)
 
 KEEP_EVERY_S = 0.5
 """Seconds between two reports of a resting axis to the counts file, which decides when to write."""
@@ -61,6 +64,9 @@ class CountedAxis:
     def begin(self, kept: counts.Place) -> None:
         """Start from the count that the last run stored."""
         match kept.standing:
+            case counts.Standing.KNOWN if not self._counter.reaches(kept.angle_deg):
+                self._doubt = f"its kept count of {kept.angle_deg:g}° is beyond its ends"
+                log.warning("%s must be homed: %s", self._axis.value, self._doubt)
             case counts.Standing.KNOWN:
                 self._place(kept.angle_deg)
             case counts.Standing.NEVER:
@@ -74,8 +80,8 @@ class CountedAxis:
             self._keep(angle_deg)
             return angle_deg
 
-    def condition(self, ends: frozenset[Direction]) -> Condition:
-        """`ends`: the directions that a limit switch blocks now."""
+    def condition(self, ends: frozenset[Direction], *, supplied: bool = True) -> Condition:
+        """`ends`: the directions that a limit switch blocks now. `supplied`: the motors have their supply."""
         with self._lock:
             why = self._doubt or self._counter.trouble
             return Condition(
@@ -85,6 +91,8 @@ class CountedAxis:
                 changes=self._counter.changes,
                 closed=self._counter.in_closure,
                 ends=ends,
+                ahead=self._counter.ahead,
+                supplied=supplied,
             )
 
     @property
@@ -157,11 +165,11 @@ class CountedRotor(RelayRotor):
     def condition(self, axis: Axis) -> Condition:
         if axis not in self._axes:
             return super().condition(axis)
-        return self._axes[axis].condition(self._ends(axis))
+        return self._axes[axis].condition(self._ends(axis), supplied=self.bank.supplied)
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        assert isinstance(command, Run), "relays take directions only"
-        starts = command.direction is not Direction.OFF and self.bank.driven()[axis] is Direction.OFF
+        runs = isinstance(command, Run) and command.direction is not Direction.OFF
+        starts = runs and self.bank.driven()[axis] is Direction.OFF
         if starts and axis in self._axes and not self._axes[axis].may_start():
             return Direction.OFF
         return super().obey(axis, command)

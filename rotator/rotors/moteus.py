@@ -45,6 +45,7 @@ class MoteusRotor(PlainRotor):
             fault=self._fault(axis),
             latched=axis in self._drive.faults(),
             notice=Notice(limit.name, limit.short) if limit else None,
+            missed=self._drive.misses(axis),
             ends=self._ends(axis),
         )
 

@@ -6,10 +6,12 @@ Knows that relays take a direction, not an angle. Does not know when a relay may
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, Axis, Direction
-from rotator.control.commands import Command, Run
+from rotator.control.axis.sensing import Condition
+from rotator.control.commands import Command, Feed, Run
 from rotator.rotors.common import BlockedDirections, GuardedRotor, no_switches
 
 
@@ -23,8 +25,17 @@ class RelayRotor(GuardedRotor):
         self.bank = bank
 
     def obey(self, axis: Axis, command: Command) -> Direction:
-        assert isinstance(command, Run), "relays take directions only"
-        return self.bank.drive(axis, command.direction, command.until_s)
+        match command:
+            case Run(direction, until_s):
+                return self.bank.drive(axis, direction, until_s)
+            case Feed(until_s):
+                self.bank.feed(axis, until_s)
+                return Direction.OFF
+            case _:
+                raise AssertionError("relays take directions only")
+
+    def condition(self, axis: Axis) -> Condition:
+        return replace(super().condition(axis), supplied=self.bank.supplied)
 
     def cut(self) -> bool:
         return self.bank.cut()

@@ -1,4 +1,4 @@
-"""Saves calibrations taken over a link, and the learnt speeds and coasts of the motors, while the box runs.
+"""Saves calibrations taken over a link, what the motors taught, and what is known of their relays, while the box runs.
 
 Knows when to save, and in which file. Other files do the writing. A failed write is logged, and never stops the box.
 """
@@ -15,6 +15,7 @@ from rotator.config.load import ConfigError
 from rotator.control.sky.offsets import Offsets
 from rotator.runtime.loop import ControlLoop
 from rotator.store.learnt import LearntFile, Motors
+from rotator.store.relays import RelaysFile
 
 log = logging.getLogger(__name__)
 
@@ -28,11 +29,20 @@ class Autosave:
     Raises nothing: a file that cannot be written is in the log.
     """
 
-    def __init__(self, loop: ControlLoop, path: Path | None, offsets: Offsets, learnt: LearntFile) -> None:
+    def __init__(
+        self,
+        loop: ControlLoop,
+        path: Path | None,
+        offsets: Offsets,
+        learnt: LearntFile,
+        relays: RelaysFile | None = None,
+    ) -> None:
+        """`relays`: the file of the relays; None: the rotor does not outlive the program, or has none."""
         self._loop = loop
         self._path = path
         self._offsets = offsets
         self._learnt = learnt
+        self._relays = relays
         self._saving = threading.Lock()
         """`close` may come while another thread still saves."""
         self._points = {axis: loop.status.axis(axis).calibration for axis in Axis}
@@ -44,6 +54,7 @@ class Autosave:
         while True:
             await asyncio.sleep(CALIBRATIONS_EVERY_S)
             await asyncio.to_thread(self.keep_calibrations)
+            await asyncio.to_thread(self.keep_relays)
             rounds += 1
             if rounds * CALIBRATIONS_EVERY_S % LEARNT_EVERY_S == 0:
                 await asyncio.to_thread(self._keep_learnt, ending=False)
@@ -51,12 +62,19 @@ class Autosave:
     def close(self) -> None:
         """Save the last changes. May be called twice."""
         self.keep_calibrations()
+        self.keep_relays(ending=True)
         self._keep_learnt(ending=True)
 
     def keep_calibrations(self) -> None:
         """Save each calibration that was taken over a link (O, F) since the last call."""
         with self._saving:
             self._keep_calibrations()
+
+    def keep_relays(self, *, ending: bool = False) -> None:
+        """Save what is known of the relays: before the first of them closes, at each suspicion, and at the end."""
+        with self._saving:
+            if self._relays:
+                self._relays.save({axis: self._loop.status.axis(axis).trusts for axis in Axis}, ending=ending)
 
     def _keep_learnt(self, *, ending: bool) -> None:
         with self._saving:

@@ -21,7 +21,7 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.store import json_file
-from rotator.store.json_file import JsonFile
+from rotator.store.json_file import JsonFile, number
 
 FILE_NAME = "counts.json"
 """Beside the state file."""
@@ -29,6 +29,8 @@ FORMAT = "rotator counts 1"
 REST_S = 2.0
 """An angle is written this long after the axis stopped, if the last write is older than REST_EVERY_S; else after
 LONG_REST_S."""
+WIDEST_DEG = 1000.0
+"""No rotor turns further. Its own range, which is narrower, is checked where the count is taken over."""
 LONG_REST_S = 20.0
 REST_EVERY_S = 60.0
 
@@ -84,10 +86,7 @@ def _parse(content: dict[str, Any], cams: Mapping[Axis, CamSettings]) -> dict[Ax
 def _place(table: Mapping[str, Any], cam: CamSettings) -> Place:
     if Standing(table["standing"]) is not Standing.KNOWN or table["cam"] != dict(cam):
         return LOST
-    angle_deg = table["angle_deg"]
-    if isinstance(angle_deg, bool) or not isinstance(angle_deg, (int, float)) or not math.isfinite(angle_deg):
-        raise ValueError(f"an angle is {angle_deg!r}, which is not a number")
-    return Place(Standing.KNOWN, float(angle_deg))
+    return Place(Standing.KNOWN, number(table["angle_deg"], "an angle", -WIDEST_DEG, WIDEST_DEG))
 
 
 class CountsFile:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import logging
+import reprlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
@@ -20,6 +21,8 @@ T = TypeVar("T")
 
 Parse = Callable[[dict[str, Any]], T]
 """From the file's content to a value. Raises ValueError, KeyError, TypeError or AttributeError for damaged content."""
+LONGEST_BYTES = 100_000
+"""A hundred times what any of these files holds: a larger one is another's."""
 
 
 def encode(form: str, content: Mapping[str, object]) -> str:
@@ -34,10 +37,23 @@ def decode(form: str, text: str, parse: Parse[T]) -> T:
         if not isinstance(content, dict) or content.get("format") != form:
             raise ValueError(f"its format is not {form!r}")
         return parse(content)
-    except KeyError as fault:
-        raise ValueError(f"the key {fault.args[0]} is missing") from fault
-    except (ValueError, TypeError, AttributeError, RecursionError) as fault:
-        raise ValueError(str(fault) or type(fault).__name__) from fault
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as fault:
+        raise ValueError(damage(fault)) from fault
+
+
+def damage(fault: Exception) -> str:
+    """What is wrong with the content of a file, in words."""
+    if isinstance(fault, KeyError):
+        return f"the key {fault.args[0]} is missing"
+    return str(fault) or type(fault).__name__
+
+
+def number(value: object, what: str, least: float, most: float) -> float:
+    """A number within bounds, from a file. Raises ValueError, with the value in a few characters."""
+    # It is compared before it becomes a float: a whole number of 400 digits has no float. NaN is not within any bounds.
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
+        raise ValueError(f"{what} is {reprlib.repr(value)}; it must be a number from {least:g} to {most:g}")
+    return float(value)
 
 
 class JsonFile:
@@ -59,12 +75,22 @@ class JsonFile:
         `consequence`: what a damaged file means for the box, for the log.
         """
         try:
-            return decode(self._form, self.path.read_text(encoding="utf-8"), parse)
+            return decode(self._form, self._text(), parse)
         except FileNotFoundError:
             return absent
         except (OSError, ValueError) as fault:
             log.warning("%s: %s: %s", self.path, consequence, fault)
             return damaged
+
+    def _text(self) -> str:
+        """Raises OSError; ValueError where this is no text file of a sensible size."""
+        if self.path.exists() and not self.path.is_file():
+            raise ValueError("it is no file")  # a pipe would keep the start waiting
+        with self.path.open("rb") as file:
+            content = file.read(LONGEST_BYTES + 1)
+        if len(content) > LONGEST_BYTES:
+            raise ValueError(f"it is longer than {LONGEST_BYTES} bytes")
+        return content.decode("utf-8")
 
     def save(self, content: Mapping[str, object]) -> bool:
         """Replace the file as a whole. False: the write failed. The log has each new reason once."""

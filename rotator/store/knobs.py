@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
-from rotator.store.json_file import JsonFile
+from rotator.store.json_file import JsonFile, number
 
 FILE_NAME = "knobs.json"
 """Beside the state file."""
@@ -26,12 +26,7 @@ FullScales = dict[Axis, float]
 
 def _parse(content: dict[str, Any]) -> FullScales:
     shares = {Axis(name): share for name, share in content["full_scales"].items()}
-    for axis, share in shares.items():
-        if isinstance(share, bool) or not isinstance(share, (int, float)) or not LEAST <= share <= MOST:
-            raise ValueError(
-                f"the {axis.value} knob's full scale is {share!r}; it must be a number from {LEAST} to {MOST}"
-            )
-    return {axis: float(share) for axis, share in shares.items()}
+    return {axis: number(share, f"the {axis.value} knob's full scale", LEAST, MOST) for axis, share in shares.items()}
 
 
 class KnobsFile:

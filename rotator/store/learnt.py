@@ -14,7 +14,7 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.status import LearntMotor
-from rotator.store.json_file import JsonFile
+from rotator.store.json_file import JsonFile, damage, number
 
 log = logging.getLogger(__name__)
 
@@ -23,13 +23,14 @@ WORTH_WRITING = 0.05
 """Memory cards wear: a change smaller than this share waits for the end of the program."""
 LEAST_COAST_DEG = 0.2
 """A shorter coast is compared as if it were this long: 5 % of a very short coast is only noise."""
-FASTEST_DPS = 1000.0
+SLOWEST, FASTEST = 0.1, 4.0
+"""What a motor's speed may be, as a multiple of the configured one. Other figures are of another motor, or damaged."""
 LONGEST_COAST_S = 5.0
 
 Motors = tuple[LearntMotor, LearntMotor]
 """The two directions of one motor: clockwise or up, then counter-clockwise or down."""
 MotorSettings = Mapping[str, object]
-"""The settings of a motor in the configuration. Figures measured with other settings are not used."""
+"""The settings of a motor in the configuration, `speed_dps` among them. Figures of other settings are not used."""
 
 
 class LearntFile:
@@ -45,14 +46,21 @@ class LearntFile:
 
     def load(self) -> dict[Axis, Motors]:
         """The figures of earlier runs; none without a file, or with a damaged one."""
-        nothing: dict[Axis, tuple[object, Motors]] = {}
-        known = self._file.load(
-            _parse, absent=nothing, damaged=nothing, consequence="ignored, the motors are learnt anew"
+        nothing: dict[Axis, Mapping[str, Any]] = {}
+        tables = self._file.load(
+            _tables, absent=nothing, damaged=nothing, consequence="ignored, the motors are learnt anew"
         )
-        for axis, (begun, _) in known.items():
-            if begun != dict(self._begun[axis]):
-                log.info("%s: %s has been set up anew since; its motor is learnt anew", self._file.path, axis.value)
-        return {axis: motors for axis, (begun, motors) in known.items() if begun == dict(self._begun[axis])}
+        known: dict[Axis, Motors] = {}
+        for axis, table in tables.items():
+            settings = dict(self._begun[axis])
+            try:
+                if table["begun"] == settings:
+                    known[axis] = _motors(table, self._begun[axis])
+                else:
+                    log.info("%s: %s has been set up anew since; its motor is learnt anew", self._file.path, axis.value)
+            except (ValueError, KeyError, TypeError) as fault:
+                log.warning("%s: %s: ignored, its motor is learnt anew: %s", self._file.path, axis.value, damage(fault))
+        return known
 
     def note(self, learnt: Mapping[Axis, Motors]) -> None:
         """The figures with which the box starts. They are written only after a change."""
@@ -73,22 +81,21 @@ class LearntFile:
             self._kept = dict(learnt)
 
 
-def _parse(content: dict[str, Any]) -> dict[Axis, tuple[object, Motors]]:
-    """The settings under which each axis was learnt, and its figures."""
-    tables = {axis: content["axes"][axis.value] for axis in Axis if axis.value in content["axes"]}
-    return {axis: (table["begun"], _motors(table)) for axis, table in tables.items()}
+def _tables(content: dict[str, Any]) -> dict[Axis, Mapping[str, Any]]:
+    """What the file has of each axis, not yet looked at."""
+    return {axis: dict(content["axes"][axis.value]) for axis in Axis if axis.value in content["axes"]}
 
 
-def _motors(table: Mapping[str, Any]) -> Motors:
+def _motors(table: Mapping[str, Any], settings: MotorSettings) -> Motors:
     """The figures of one motor. Raises ValueError, KeyError or TypeError for wrong ones."""
-    plus, minus = (LearntMotor(**table[direction]) for direction in ("plus", "minus"))
-    for motor in (plus, minus):
-        numbers = (motor.speed_dps, motor.coast_deg)
-        if not all(isinstance(number, (int, float)) and math.isfinite(number) for number in numbers):
-            raise ValueError(f"speed and coast must be numbers, not {motor.speed_dps!r} and {motor.coast_deg!r}")
-        if not 0 < motor.speed_dps <= FASTEST_DPS or not 0 <= motor.coast_deg <= LONGEST_COAST_S * motor.speed_dps:
-            raise ValueError(f"no motor runs at {motor.speed_dps:g}°/s and coasts {motor.coast_deg:g}°")
+    configured_dps = number(settings["speed_dps"], "the configured speed", 0.0, math.inf)
+    plus, minus = (_motor(table[direction], configured_dps) for direction in ("plus", "minus"))
     return plus, minus
+
+
+def _motor(figures: Mapping[str, Any], configured_dps: float) -> LearntMotor:
+    speed_dps = number(figures["speed_dps"], "a speed in °/s", SLOWEST * configured_dps, FASTEST * configured_dps)
+    return LearntMotor(speed_dps, number(figures["coast_deg"], "a coast in °", 0.0, LONGEST_COAST_S * speed_dps))
 
 
 def _differs(old: Motors, new: Motors, *, ending: bool) -> bool:

@@ -7,6 +7,7 @@ something that `rich` can print.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Protocol
 
 from rich.console import RenderableType
@@ -26,10 +27,11 @@ _WORDS = {
 _BAR_CELLS = 14
 _GLASS = "bold #e8f4ff on #1040c0"
 _BEZEL = Style.parse("#708090")
-_TROUBLE, _ANGLE, _LINK, _NOTE, _FRAME, _HEAD, _RULE, _SPACE, _LOG = range(9)
+_KEYS, _TROUBLE, _ANGLE, _MORE, _LINK, _NOTE, _FRAME, _HEAD, _RULE, _SPACE, _LOG = range(11)
 """Ranks of rows: on a low terminal the rows with the highest rank are left out first. The newest log line has the rank
 _LOG, and each older one the next higher rank.
 """
+KEYS = "space STOP   q quit   park, resume: type the word and Enter"
 _BLANK = Row(Text(), _SPACE)
 
 
@@ -63,9 +65,18 @@ def line(status: Status) -> str:
 
 
 def picture(
-    version: str, status: Status, glass: Sequence[str], wires: Sequence[WireView], log_rows: Sequence[str]
+    version: str,
+    status: Status,
+    glass: Sequence[str],
+    wires: Sequence[WireView],
+    log_rows: Sequence[str],
+    *,
+    typed: str = "",
 ) -> RenderableType:
-    """The whole picture. On a low terminal log lines are left out first; faults, keys and angles stay longest."""
+    """The whole picture. On a low terminal log lines are left out first; keys, faults and angles stay longest.
+
+    `typed`: what the person at the keys has typed, and what came of it.
+    """
 
     def rows(width: int) -> Iterator[Row]:
         yield from _top(glass, _relays(status))
@@ -73,16 +84,17 @@ def picture(
         yield from _links(wires, width)
         yield _BLANK
         for fault in status.faults:
-            yield from wrapped(str(fault), width, "bold white on red", _TROUBLE)
+            yield from _trouble(str(fault), width)
         if status.latched:
-            held = f"held by {status.latched}: no order moves it until released (r)"
-            yield from wrapped(held, width, "bold white on red", _TROUBLE)
+            yield from _trouble(f"held by {status.latched}: nothing moves until resume", width)
         uncalibrated = {axis: status.axis(axis).uncalibrated for axis in Axis}
         notes = [f"{axis.value} UNCALIBRATED: {missing}" for axis, missing in uncalibrated.items() if missing]
         for note in (*status.notices, *notes, *_notes(status)):
             yield from wrapped(note, width, "bold yellow", _NOTE)
         yield from (Row(Text(line, style="dim"), _LOG + age) for age, line in _newest_last(log_rows))
-        yield Row(Text("space STOP   p storm park   r release   q quit", style="bold"), _TROUBLE)
+        if typed:
+            yield Row(Text(typed, style="bold reverse"), _KEYS)
+        yield from wrapped(KEYS, width, "bold", _KEYS)
 
     return Framed(f"rotator {version}" + ("  SIMULATED" if status.simulated else ""), rows)
 
@@ -95,9 +107,15 @@ def sketch_picture(glass: Sequence[str], drives: tuple[int, int], wires: Sequenc
         yield from _top(glass, relays)
         yield from _links(wires, width)
         yield _BLANK
-        yield Row(Text("q quit", style="bold"), _TROUBLE)
+        yield Row(Text("q quit", style="bold"), _KEYS)
 
     return Framed("F1EFW sketch on an emulated UNO  SIMULATED", rows)
+
+
+def _trouble(text: str, width: int) -> list[Row]:
+    """Its first row says where and what. On a low terminal the others make way for the keys and the angles."""
+    first, *more = wrapped(text, width, "bold white on red", _MORE)
+    return [replace(first, rank=_TROUBLE), *more]
 
 
 def _newest_last(lines: Sequence[str]) -> Iterator[tuple[int, str]]:

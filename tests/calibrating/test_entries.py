@@ -79,6 +79,24 @@ def test_the_right_form_is_shown() -> None:
     assert "438.5" in NUMBER_FORM
 
 
+def test_a_refused_text_stays_for_backspace() -> None:
+    keyboard = Keyboard()
+    for character in "438,x":
+        assert keyboard.key(character) is None
+    refused = keyboard.key("\r")
+    assert isinstance(refused, Unknown)
+    assert "Backspace" in refused.form
+    assert keyboard.typed == "438,x"
+    keyboard.key("\x7f")
+    keyboard.key("5")
+    assert keyboard.key("\r") == Number(438.5)
+
+
+def test_an_arrow_within_a_number_turns_nothing_and_drops_nothing() -> None:
+    assert [type(entry) for entry in keys("43\x1b[C8")] == [Unknown, Number]
+    assert keys("43\x1b[C8")[1] == Number(438.0)
+
+
 @pytest.mark.parametrize("key", [" ", "s", "S"])
 def test_a_stop_within_a_number_stops_at_once(key: str) -> None:
     keyboard = Keyboard()

@@ -89,6 +89,48 @@ def test_a_narrow_margin_is_said(calibration: Any) -> None:
     assert "That is little" in run.say("f")
 
 
+# --- slips
+
+
+def test_what_was_understood_is_said(calibration: Any) -> None:
+    run = calibration()
+    directions(run)
+    run.drive("l", TO_LOW)
+    assert "Understood: -2.5°." in run.say("", "-2,5")
+
+
+def test_a_missing_digit_is_asked_about(calibration: Any) -> None:
+    run = calibration()
+    directions(run)
+    run.drive("l", TO_LOW)
+    run.say("", "-2")
+    run.drive("r", TO_HIGH)
+    assert "45° is 405° off: the file has 450° for this end." in run.say("", "45")
+    assert run.guide.prompt == "Is 45° right? y or n:"
+    run.say("n", "", "452")
+    run.drive("l", 9)
+    assert "off: the other points lie on another line." in run.say("", f"{run.shaft_deg() - 100:.0f}")
+    run.say("n", "f", "", "", "y")
+    assert [angle_deg for _, angle_deg in run.guide.result.points] == [-2.0, 452.0]
+
+
+def test_a_point_is_taken_back_and_then_the_ends(calibration: Any) -> None:
+    run = calibration()
+    both_ends(run)
+    run.drive("l", 9)
+    run.say("", f"{run.shaft_deg():.1f}")
+    assert "Taken back" in run.say("b")
+    assert "Taken back: 452°." in run.say("b")
+    assert run.guide.prompt.startswith("At the high end")
+    assert "Taken back: -2°." in run.say("b")
+    assert "There is no point to take back." in run.say("b")
+    run.drive("l", TO_HIGH)
+    run.say("", "-1")
+    run.drive("r", TO_HIGH)
+    run.say("", "451", "f", "", "", "y")
+    assert [angle_deg for _, angle_deg in run.guide.result.points] == [-1.0, 451.0]
+
+
 # --- moving
 
 

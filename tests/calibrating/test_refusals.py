@@ -68,7 +68,7 @@ def test_ends_too_close(calibration: Any) -> None:
 
 def test_ends_swapped(calibration: Any) -> None:
     run = at_the_low_end(calibration())
-    run.say("", "450")
+    assert "the file has 0° for this end" in run.say("", "450", "y")
     run.drive("r", 6)
     assert "too close, or swapped" in run.say("", "0")
 

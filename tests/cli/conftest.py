@@ -147,7 +147,7 @@ def start_in_terminal(tmp_path: Path) -> Iterator[Callable[..., InTerminal]]:
     """Start a command in a terminal."""
     started: list[tuple[InTerminal, int, int]] = []
 
-    def begin(*words: object) -> InTerminal:
+    def begin(*words: object, term: str = "xterm-256color") -> InTerminal:
         master, slave = os.openpty()
         termios.tcsetwinsize(slave, (40, 120))
         process = subprocess.Popen(
@@ -158,8 +158,7 @@ def start_in_terminal(tmp_path: Path) -> Iterator[Callable[..., InTerminal]]:
             stderr=slave,
             start_new_session=True,
             # The size is the terminal's own, whatever the environment says of another one.
-            env={key: value for key, value in os.environ.items() if key not in ("COLUMNS", "LINES")}
-            | {"TERM": "xterm-256color"},
+            env={key: value for key, value in os.environ.items() if key not in ("COLUMNS", "LINES")} | {"TERM": term},
         )
         started.append((InTerminal(process, master, slave), master, slave))
         return started[-1][0]

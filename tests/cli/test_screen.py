@@ -10,7 +10,7 @@ import pytest
 
 Start = Callable[..., Any]
 Send = Callable[[bytes], None]
-HELD = "no order moves it until released (r)"
+HELD = "nothing moves until resume"
 FRAMES = 100
 """How many pictures to look at: five come every second."""
 
@@ -38,7 +38,7 @@ def test_the_picture_shows_the_display_the_axes_and_the_links(box: Any, send: Se
     assert box.ends() == 0
 
 
-def test_space_stops_and_latches_and_r_releases(box: Any, send: Send) -> None:
+def test_space_stops_and_latches_and_resume_releases(box: Any, send: Send) -> None:
     picture_with(box, "SIM A:000")
     send(b"R\r")
     picture_with(box, "● CW")
@@ -47,19 +47,23 @@ def test_space_stops_and_latches_and_r_releases(box: Any, send: Send) -> None:
     send(b"L\r")
     # The order has been heard, and nothing comes of it.
     picture_with(box, r"L\r", HELD, without=("●",))
-    box.press("r")
-    picture_with(box, "space STOP", without=("held by",))
+    box.press("resume")
+    picture_with(box, "> resume_", HELD, without=("●",))
+    box.press("\r")
+    picture_with(box, "resume: done", without=("held by",))
     send(b"L\r")
     picture_with(box, "● CCW")
     box.press("q")
     assert box.ends() == 0
 
 
-def test_p_parks_and_latches(box: Any, send: Send) -> None:
+def test_park_and_enter_parks_and_latches(box: Any, send: Send) -> None:
     picture_with(box, "SIM A:000")
     send(b"W060 030\r")
     picture_with(box, "SIM A:06", without=("●",))
     box.press("p")
+    picture_with(box, "> p_", "SIM A:06", without=("held by", "●"))
+    box.press("ark\r")
     picture_with(box, "SIM A:00", "storm park", HELD, without=("●",))
     send(b"W120 030\r")
     picture_with(box, "W120 030", "SIM A:00", "storm park", HELD, without=("●",))
@@ -88,7 +92,7 @@ def test_any_other_key_does_nothing(box: Any, send: Send) -> None:
     box.frame()
     send(b"R\r")
     picture_with(box, "● CW")
-    for key in ("x", "\r", "\x1b[A", "ä"):
+    for key in ("x", "\r", "\x1b[A", "ä", "r", "\r", "\x1b", "p", "\x7f", "\r"):
         box.press(key)
     picture_with(box, "● CW", without=("held by",))
     box.press("q")
@@ -97,6 +101,13 @@ def test_any_other_key_does_nothing(box: Any, send: Send) -> None:
 
 def test_plain_lines_on_demand(start_in_terminal: Start, config: Path) -> None:
     box = start_in_terminal("run", "--config", config, "--plain")
+    assert "╭" not in box.until("azimuth 0°  elevation 0°")
+    box.press("\x03")
+    assert box.ends() == 0
+
+
+def test_plain_lines_where_nothing_can_be_drawn(start_in_terminal: Start, config: Path) -> None:
+    box = start_in_terminal("run", "--config", config, term="dumb")
     assert "╭" not in box.until("azimuth 0°  elevation 0°")
     box.press("\x03")
     assert box.ends() == 0

@@ -97,6 +97,7 @@ def test_an_angle_that_is_none(box: Any, rotator: Rotator, config: Path) -> None
     assert why(done) == "rotator: '-100' is no elevation: degrees from -90 to 180\n"
     assert rotator("confirm", "polarisation", "10", "--config", config).returncode == 2
     assert rotator("confirm", "azimuth", "north", "--config", config).returncode == 2
+    assert rotator("confirm", "azimuth", "43,8,5", "--config", config).returncode == 2
 
 
 def test_a_pot_rotor_has_no_end_stop_to_find(box: Any, rotator: Rotator, config: Path) -> None:
@@ -189,8 +190,8 @@ def test_letting_go_is_asked_about_first(
 def test_where_an_axis_stands_is_said_to_the_box(scripted: Any, rotator: Rotator, config: Path) -> None:
     console = scripted(STANDS.format(0))
     assert said(rotator("confirm", "azimuth", "123.4", "--config", config)) == "azimuth stands at 123.4°.\n"
-    assert said(rotator("confirm", "elevation", "-3", "--config", config)) == "elevation stands at -3°.\n"
-    assert console.heard == ["confirm azimuth 123.4", "confirm elevation -3"]
+    assert said(rotator("confirm", "elevation", "-3,5", "--config", config)) == "elevation stands at -3.5°.\n"
+    assert console.heard == ["confirm azimuth 123.4", "confirm elevation -3.5"]
 
 
 def test_homing_is_shown_until_the_axis_stands(scripted: Any, rotator: Rotator, config: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
+from typing import get_args, get_origin
 
 import pytest
 from pydantic import BaseModel
@@ -29,6 +30,8 @@ def test_page_holds_the_key_table() -> None:
 
 
 def is_table(kind: object) -> bool:
+    """A table, or a list of tables."""
+    (kind,) = get_args(kind) if get_origin(kind) is list else (kind,)
     return isinstance(kind, type) and issubclass(kind, BaseModel)
 
 

@@ -17,7 +17,7 @@ from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
 from rotator.control.controller import Controller
 from rotator.control.settings import Settings
-from rotator.control.sky.mount import Mount, Range
+from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.faults import Missing
 from rotator.orders import Order, Source
 from rotator.status import Status
@@ -49,6 +49,7 @@ class Desk:
         counted: bool = False,
         park_after_s: float = 0.0,
         on_sky: bool = True,
+        sectors: tuple[Sector, ...] = (),
     ) -> None:
         self.range = {AZ: Range(*azimuth), EL: Range(*elevation)}
         self.angle_deg = dict(zip(Axis, at, strict=True))
@@ -70,7 +71,7 @@ class Desk:
             Settings(
                 azimuth=self._settings(AZ, missing.get(AZ, ())),
                 elevation=self._settings(EL, missing.get(EL, ())),
-                mount=Mount(self.range[AZ], self.range[EL], *park),
+                mount=Mount(self.range[AZ], self.range[EL], *park, sectors=sectors),
                 park_after_s=park_after_s,
                 on_sky=on_sky,
             )

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from hw.ports import Axis, Direction
+from hw.ports import AngleSource, Axis, Direction
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount, Range
 from rotator.faults import Missing
@@ -15,6 +15,7 @@ from rotator.orders import (
     Calibrate,
     ClearTimed,
     Confirm,
+    Home,
     Jog,
     LoadTimed,
     Order,
@@ -117,6 +118,63 @@ def test_where_the_antenna_cannot_point_it_may_still_be_told_to_rest() -> None:
     # elevation below the horizon rests at its minimum, above 90° it is a direction: neither is out of reach
     assert not refused(Aim(100, -5))
     assert not refused(Aim(100, 150))
+
+
+@pytest.mark.parametrize(
+    ("order", "reason"),
+    [
+        (Aim(541, 10), "azimuth 541 is outside -180 to 540 degrees"),
+        (Aim(-181, None), "azimuth -181 is outside -180 to 540 degrees"),
+        (Aim(100, 181), "elevation 181 is outside -90 to 180 degrees"),
+        (Aim(100, -91), "elevation -91 is outside -90 to 180 degrees"),
+        (Aim(None, 181), "elevation 181 is outside -90 to 180 degrees"),
+        (LoadTimed(1, ((10, 20), (20, 200))), "elevation 200 is outside -90 to 180 degrees"),
+    ],
+    ids=str,
+)
+def test_no_program_may_send_an_angle_that_no_rotor_has(order: Order, reason: str) -> None:
+    answer = refusal(order, status(), MOUNT)
+    assert answer is not None
+    assert (answer.reason, answer.out_of_range) == (reason, True)
+
+
+def test_the_last_angles_that_may_be_sent_are_no_mistake_of_the_sender() -> None:
+    wide = Mount(Range(-180, 540), Range(-90, 180))
+    for order in (Aim(540, 180), Aim(-180, -90)):
+        assert refusal(order, status(), wide) is None
+
+
+def test_one_coordinate_over_the_top_is_looked_at_with_the_other_one_as_it_goes() -> None:
+    """Elevation goes to 150 at azimuth 200: that is azimuth 20 at 30. Azimuth alone then keeps the 30."""
+    narrow = Mount(Range(0, 350), Range(0, 180), flip=True)
+    over = status()
+    over = replace(
+        over,
+        azimuth=replace(over.azimuth, target_deg=200.0),
+        elevation=replace(over.elevation, target_deg=150.0),
+    )
+    assert refusal(Aim(None, 40), over, narrow) is None
+    # Azimuth 175 is reached over the top alone on this rotor, and only with an elevation to turn round.
+    half = Mount(Range(180, 360), Range(0, 180), flip=True)
+    assert refusal(Aim(10, None), over, half) is None
+    # On a rotor that may not go over the top azimuth 20 is out of reach, wherever azimuth would be at 150.
+    answer = refusal(Aim(None, 40), over, replace(half, azimuth=Range(180, 350), flip=False))
+    assert answer is not None
+    assert answer.reason.startswith("azimuth 20 is outside")
+    level = replace(over, elevation=replace(over.elevation, target_deg=None, angle_deg=None))
+    answer = refusal(Aim(10, None), level, half)
+    assert answer is not None, "where elevation is not known, there is none to turn round"
+    assert answer.out_of_range
+
+
+def test_what_needs_a_person_at_the_rotor_says_so() -> None:
+    assert refused(Home(Axis.ELEVATION)) == "elevation knows where it stands: there is no end stop to be found"
+    counted = status()
+    counted = replace(counted, elevation=replace(counted.elevation, source=AngleSource.COUNTED))
+    assert refusal(Home(Axis.ELEVATION), counted, MOUNT) is None
+    answer = refusal(Calibrate(Axis.AZIMUTH, high_end=True), status(moving=True), MOUNT)
+    assert answer is not None
+    assert not answer.out_of_range
 
 
 # --- calibrating

@@ -305,3 +305,48 @@ def test_a_script_that_connects_for_every_order_may_stop_and_go_on(stops_on: str
     authority.stopped(stopping, 8.0, latch=False)
     authority.left(stopping, 8.0)
     assert authority.may_move(Source("rotctld", 101), 9.0, (20.0, 30.0)) is goes_on
+
+
+# --- who may move in which position of the panel's switch, and after a storm park
+
+
+PANEL = Source("panel")
+
+
+@pytest.mark.parametrize(
+    ("mode", "panel_may", "link_may"),
+    [(Mode.AUTO, True, True), (Mode.MANUAL, True, False), (Mode.JOG, True, False), (Mode.PARK, False, False)],
+)
+def test_at_manual_and_jog_the_panel_alone_moves_the_antenna(mode: Mode, panel_may: bool, link_may: bool) -> None:
+    authority = Authority()
+    authority.switch(PANEL, mode)
+    assert authority.may_move(PANEL, 0.0) is panel_may
+    for other in (PST, CONSOLE):
+        assert authority.may_move(other, 0.0) is link_may
+
+
+def test_a_stop_ends_a_storm_park_and_what_it_latched_stays(authority: Authority) -> None:
+    authority.begin_storm(CONSOLE)
+    assert (authority.latched, authority.storm) == ("console: storm park", True)
+    authority.stopped(PST, 1.0, latch=False)
+    assert (authority.latched, authority.storm) == ("gs232b#1, in a storm park", False)
+    authority.end_storm(GPREDICT)
+    assert authority.latched == "gs232b#1, in a storm park", "there is no storm park any more"
+    assert not authority.may_move(PST, 2.0)
+
+
+def test_released_it_no_longer_names_those_who_were_ignored(authority: Authority) -> None:
+    authority.stopped(CONSOLE, 0.0, latch=True)
+    authority.may_move(PST, 1.0)
+    assert authority.ignored(1.0) == ("orders from gs232b#1 are ignored: stopped by console until released",)
+    authority.released()
+    assert authority.ignored(1.0) == ()
+
+
+def test_who_was_ignored_is_named_for_a_while_the_latest_first(authority: Authority) -> None:
+    authority.stopped(CONSOLE, 0.0, latch=True)
+    authority.may_move(PST, 1.0)
+    authority.may_move(GPREDICT, 2.0)
+    assert [line.split()[2] for line in authority.ignored(1.0 + PAUSE_S - 0.1)] == ["rotctld#1", "gs232b#1"]
+    assert [line.split()[2] for line in authority.ignored(1.0 + PAUSE_S)] == ["rotctld#1"]
+    assert authority.ignored(2.0 + PAUSE_S) == ()

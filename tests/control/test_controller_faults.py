@@ -21,10 +21,20 @@ MOVES: list[Order] = [Aim(235, 60), Jog(AZ, PLUS), Jog(AZ, PLUS, 1.0), Park(), L
 
 
 @pytest.mark.parametrize("raw", BROKEN)
-def test_the_first_bad_reading_stops_the_axis_and_only_that(desk: Any, raw: float | None) -> None:
+def test_the_third_bad_reading_in_a_row_stops_the_axis_and_only_that(desk: Any, raw: float | None) -> None:
     desk.step(Aim(235, 60))
     desk.instead[AZ] = raw
+    desk.step()
+    assert desk.step() == {AZ: PLUS, EL: PLUS}, "the second one too is ridden out"
     assert desk.step() == {AZ: OFF, EL: PLUS}
+
+
+@pytest.mark.parametrize("raw", BROKEN)
+def test_a_bad_reading_starts_nothing(desk: Any, raw: float | None) -> None:
+    desk.instead[AZ] = raw
+    assert desk.step(Aim(235, 60)) == {AZ: OFF, EL: PLUS}
+    desk.instead.clear()
+    assert desk.step() == {AZ: PLUS, EL: PLUS}
 
 
 def test_a_spark_costs_a_moment_and_no_more(desk: Any) -> None:
@@ -184,6 +194,24 @@ def test_the_link_that_said_s_moves_the_antenna_again(desk: Any) -> None:
     assert desk.step(Aim(30, 60), by=desk.LINK) == {AZ: MINUS, EL: PLUS}
     assert desk.status.controlled_by == "gs232b#1"
     assert desk.step(Aim(235, 60), by=desk.OTHER) == {AZ: MINUS, EL: PLUS}
+
+
+@pytest.mark.parametrize("by", [Release(), Stop()], ids=["resume", "S"])
+@pytest.mark.parametrize("axis", list(Axis), ids=lambda axis: axis.value)
+def test_a_timed_list_does_not_go_on_after_a_fault_is_acknowledged(desk: Any, axis: Axis, by: Order) -> None:
+    desk.step(LoadTimed(5.0, ((110, 20), (200, 30), (300, 40))), RunTimed())
+    desk.run(2.0)
+    desk.instead[axis] = None
+    desk.run(2.0)
+    assert desk.status.faults
+    desk.instead.clear()
+    desk.run(1.0)
+    desk.step(by)
+    assert desk.status.faults == ()
+    other = EL if axis is AZ else AZ
+    assert {moved for moved, _ in desk.run(20.0)} <= {other}, "it goes on to the point that it had been given"
+    assert desk.run(20.0) == set()
+    assert desk.step(RunTimed()) != RESTING, "the next point comes with T, and only then"
 
 
 def test_a_timed_list_does_not_run_on_after_a_stop_from_elsewhere(desk: Any) -> None:

@@ -84,6 +84,11 @@ class BenchBox:
         self._raw[Axis.ELEVATION] = self._pot(Axis.ELEVATION, elevation_deg)
         self.wait(0.5)
 
+    def breaks(self, axis: Axis) -> None:
+        """The wiper of this axis's pot comes off, and the box has noticed."""
+        self._raw[axis] = 0.0
+        self.wait(0.5)
+
     def wait(self, seconds: float) -> None:
         """Let time pass, a cycle of the controller at a time; the antenna stays where it is put."""
         for _ in range(round(seconds / PERIOD_S)):

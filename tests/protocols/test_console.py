@@ -10,7 +10,21 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.faults import Missing
-from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Mode, Order, Park, Refusal, Release, Source, Stop
+from rotator.orders import (
+    Aim,
+    Confirm,
+    Home,
+    Jog,
+    LetGo,
+    Mode,
+    Order,
+    Park,
+    Refusal,
+    RelaysChecked,
+    Release,
+    Source,
+    Stop,
+)
 from rotator.protocols.console import VERBS, Ask, ConsoleCommand, encode, parse
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
 from rotator.protocols.gs232 import Dialect
@@ -32,6 +46,7 @@ CANONICAL: list[tuple[bytes, ConsoleCommand]] = [
     (b"home elevation", Home(Axis.ELEVATION)),
     (b"confirm azimuth 123.4", Confirm(Axis.AZIMUTH, 123.4)),
     (b"confirm elevation -3", Confirm(Axis.ELEVATION, -3.0)),
+    (b"relays-checked elevation", RelaysChecked(Axis.ELEVATION)),
     (b"let-go", LetGo()),
     (b"park", Park(storm=True)),
     (b"jog cw 0.5", Jog(Axis.AZIMUTH, Direction.PLUS, 0.5)),
@@ -55,7 +70,7 @@ ALSO: list[tuple[bytes, ConsoleCommand]] = [
     (b"confirm azimuth -90", Confirm(Axis.AZIMUTH, -90.0)),
     (b"jog cw 1,5", Jog(Axis.AZIMUTH, Direction.PLUS, 1.5)),
 ]
-COMMANDS = "status, stop, resume, home, confirm, let-go, park, jog, point, panel, help"
+COMMANDS = "status, stop, resume, home, confirm, relays-checked, let-go, park, jog, point, panel, help"
 MISTAKES = [
     (b"parc", f"there is no command 'parc'; did you mean park? There are: {COMMANDS}"),
     (b"letgo", f"there is no command 'letgo'; did you mean let-go? There are: {COMMANDS}"),

@@ -15,14 +15,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, Release, Stop
+from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
 from rotator.protocols.console_session import ConsoleSession
 from rotator.status import AxisStatus, Status
 
 WELL_FORMED = re.compile(rb"(?:(?!ok\n|error: )[^\r\n]+\n)*ok\n|error: [^\r\n]+\n")
 
 WORDS = st.sampled_from(
-    b"status stop resume home confirm let-go park jog point help azimuth elevation cw ccw up down Stop stops".split()
+    b"status stop resume home confirm relays-checked let-go park jog point help".split()
+    + b"azimuth elevation cw ccw up down Stop stops".split()
 )
 NUMBERS = st.one_of(
     st.integers(-200, 600).map(lambda n: b"%d" % n),
@@ -42,6 +43,7 @@ ANGLE = rb"[+-]?\d{1,3}(?:[.,]\d{0,9})?"
 READINGS: dict[re.Pattern[bytes], Callable[..., Order | None]] = {
     re.compile(rb"stop(?: .*)?", re.DOTALL): lambda: Stop(latch=True),
     re.compile(rb"resume"): Release,
+    re.compile(rb"relays-checked (azimuth|elevation)"): RelaysChecked,
     re.compile(rb"let-go"): LetGo,
     re.compile(rb"park"): lambda: Park(storm=True),
     re.compile(rb"home (azimuth|elevation)"): lambda axis: Home(Axis(axis.decode())),

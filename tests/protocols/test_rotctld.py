@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from hw.ports import Axis
 from rotator import __version__
 from rotator.faults import Missing
 from rotator.orders import Aim, Order, Park, Stop
@@ -250,3 +251,25 @@ def test_refusals_and_a_blind_sensor_have_numbers(new_box: type[BenchBox]) -> No
     assert session.receive(b"P 10 20\nK\nS\n") == [INVALID, INVALID, OK]
     blind = RotctldSession(new_box(blind=True))
     assert blind.receive(b"p\n") == [IO_ERROR]
+
+
+# --- faults
+
+
+@pytest.mark.parametrize("line", [b"P 100 20", b"K", b"M CW -1", b"M UP_LEFT -1"])
+def test_an_order_that_no_axis_can_carry_out_is_rejected(new_box: type[BenchBox], line: bytes) -> None:
+    box = new_box(blind=True)
+    box.wait(1.0)
+    assert len(box.status().faults) == 2
+    session = RotctldSession(box)
+    assert session.receive(line + b"\n") == [b"RPRT -9\n"]
+    assert session.receive(b"S\n") == [OK], "a stop is always carried out"
+
+
+def test_one_axis_that_can_move_is_enough_for_an_order(new_box: type[BenchBox]) -> None:
+    box = new_box()
+    box.stands_at(235, 25)
+    box.breaks(Axis.ELEVATION)
+    assert [fault.axis for fault in box.status().faults] == [Axis.ELEVATION]
+    session = RotctldSession(box)
+    assert session.receive(b"P 100 20\nM UP -1\nM UP_LEFT -1\n") == [OK, b"RPRT -9\n", OK]

@@ -14,8 +14,10 @@ class Remedy(Enum):
 
     NOTHING = "the next order is enough"
     ACKNOWLEDGE = "a stop, and the next order"
-    AGAIN = "one run in the direction of the relay that had welded"
-    HOME = "homing: the count is lost"
+    LATER = "a stop after a second of good readings, and the next order"
+    AGAIN = "one run in the direction of the relay that was not seen to open"
+    CHECK = "saying that both relays have been looked at"
+    HOME = "the same, and homing: the count is lost"
     CONFIRM = "saying where it points"
 
 
@@ -32,6 +34,8 @@ class Outcome:
     """What it begins to say though it goes on."""
     astray: bool = False
     """Without a word the box takes it for somewhere else: nothing tells it."""
+    by_chance: str = ""
+    """What the box may call it as well; empty: it always has one name."""
     before: bool = False
     """It strikes before the order, because it would not matter in mid-move."""
 
@@ -42,6 +46,7 @@ def goes_on(
     return Outcome(remedy=remedy, notice=notice, astray=astray, before=before)
 
 
+BAD = "bad readings"
 STANDS_STILL = "motor runs and pot stands still"
 LOST = Remedy.HOME
 # Arriving after at most 15 s, and then turned by somebody else for a second or two.
@@ -51,11 +56,19 @@ RELAYS_AND_POTS = {
     "adc-gone": Outcome("sensor silent", 0.3),
     "pot-open": Outcome("pot open or shorted", 0.3),
     "pot-shorted": Outcome("pot open or shorted", 0.3),
-    "pot-loose": Outcome("pot jumps", 0.3),
+    "pot-loose": Outcome("pot jumps", 0.3, Remedy.LATER, by_chance="pot open or shorted"),
     "pot-reversed": Outcome("pot moves the wrong way", 2.5),
-    "pot-stuck": Outcome(STANDS_STILL, 2.0),
+    "pot-stuck": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN),
     "pot-jumps": goes_on(),  # one reading that is far off moves nothing
-    "motor-stalled": Outcome(STANDS_STILL, 2.0),
+    # Each tenth reading is ridden out, and is too many all the same.
+    "pot-crackles": Outcome(BAD, 5.0, Remedy.LATER),
+    "pot-spikes": Outcome(BAD, 5.0, Remedy.LATER),
+    "adc-noisy": Outcome(BAD, 6.0, Remedy.LATER),
+    "pot-bursts": Outcome("pot open or shorted", 3.5),  # four in a row
+    "adc-gaps": Outcome("sensor silent", 3.0),
+    "adc-frozen": Outcome(STANDS_STILL, 2.0),
+    "pot-drifts": goes_on(),  # 0.4°/s, of a motor of 6
+    "motor-stalled": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN),
     "motor-reversed": Outcome("pot moves the wrong way", 1.0),
     "motor-slow": goes_on(),
     "hand-turns": TURNED,
@@ -63,8 +76,8 @@ RELAYS_AND_POTS = {
     "stop-early": goes_on(),
     "relay-welded-cw": TURNED,
     "relay-welded-up": TURNED,
-    "relay-welded-ccw": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN, turns_on=True),
-    "relay-welded-down": Outcome(STANDS_STILL, 2.0, Remedy.AGAIN, turns_on=True),
+    "relay-welded-ccw": Outcome(STANDS_STILL, 2.0, Remedy.CHECK, turns_on=True),
+    "relay-welded-down": Outcome(STANDS_STILL, 2.0, Remedy.CHECK, turns_on=True),
 }
 COUNTED = {
     # Three periods of 5° at 6°/s are 2.5 s.
@@ -93,6 +106,8 @@ FIRMWARE = dict.fromkeys(
 )
 MOTEUS = FIRMWARE | {
     "silent": Outcome("controller silent", 0.5),
+    "replies-lost": Outcome(BAD, 5.0, Remedy.LATER),
+    "replies-gaps": Outcome(BAD, 5.0, Remedy.LATER),
     "jammed": Outcome("axis does not follow", 3.5),
     "factory-bounds": Outcome("axis does not follow", 3.5, notice="its position bounds"),  # as sold
     "power-cycled": Outcome("position unknown", 0.1, Remedy.CONFIRM),
@@ -101,6 +116,9 @@ SERVOS = {
     # The board is asked once a second, and noticed at once where it has to be written to.
     "board-unpowered": Outcome("servo board", 1.1),
     "board-dips": Outcome("servo board", 1.1),
+    "board-gone": Outcome("servo board", 1.1),
+    "board-noisy": Outcome("servo board", 1.1),
+    "board-gaps": goes_on(),  # over before it moves on
     "wind-turns": goes_on(),  # it holds against the wind
     # Nothing comes back from a servo.
     "servo-stalled": goes_on(astray=True),

@@ -18,7 +18,7 @@ import tomlkit
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import AngleSource, Axis
-from rotator.assembly.settings import build_controller, build_mount, build_offsets
+from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped
@@ -85,7 +85,10 @@ def configured(profile: str, **tables: Any) -> Config:
 
 
 class Box:
-    """`start_deg` on the rotor's own scale. `counts`: the file in which counted axes are kept."""
+    """`start_deg` on the rotor's own scale. `counts`: the file in which counted axes are kept.
+
+    `learns`: the motors start as the state file of the configuration has them.
+    """
 
     def __init__(
         self,
@@ -93,6 +96,7 @@ class Box:
         start_deg: tuple[float, float] | None = None,
         *,
         counts: Path | None = None,
+        learns: bool = False,
         **tables: Any,
     ) -> None:
         self.kind = kind
@@ -110,7 +114,8 @@ class Box:
         self.world: SimRotor = self.station.world
         self.rotor = self.station.rotor
         self.period_s = 1 / self.config.control.rate_hz
-        self.loop = ControlLoop(build_controller(self.config), self.rotor, self.clock, self.period_s)
+        learnt = build_learnt(self.config).load() if learns else None
+        self.loop = ControlLoop(build_controller(self.config, learnt), self.rotor, self.clock, self.period_s)
         self._shift = build_offsets(self.config)
         self._next_s = self.clock()
         self._closed = False

@@ -25,20 +25,6 @@ from tests.rotors.rig import KINDS, Kind, configured
 PATIENCE_S = 60.0
 LOOK_S = 0.02
 TARGET_DEG = 180.0
-KEEPS_COUNTS = """
-import asyncio, sys, time
-from pathlib import Path
-from rotator.app import App
-from rotator.assembly.station import Station
-from rotator.cli.output import Output
-from rotator.cli.run import run_app
-from rotator.config.load import load
-path = Path(sys.argv[1])
-config = load(path)
-station = Station(config, time.monotonic, time.sleep, counts=Path(sys.argv[2]))
-asyncio.run(run_app(App(config, path, station), [], Output(sys.stdout), None))
-"""
-"""`rotator run`, but with a file of counts: without `[sim] world` a simulated rotor keeps none."""
 
 
 class Box:
@@ -114,11 +100,15 @@ class Box:
         self.process.wait()
 
 
-def written(kind: Kind, folder: Path) -> tuple[Path, Config]:
-    """A configuration file of this kind, its motors faster than it says: there is something to learn."""
-    tables: dict[str, dict[str, object]] = {"state": {"path": f"{folder}/state.json"}}
+def written(kind: Kind, folder: Path, **sim: object) -> tuple[Path, Config]:
+    """A configuration file of this kind, its motors faster than it says: there is something to learn.
+
+    `sim`: more keys of that table.
+    """
+    tables: dict[str, dict[str, object]] = {"state": {"path": f"{folder}/state.json"}, "sim": sim}
     if kind.profile in ("g5500", "u100"):
-        tables |= {"azimuth": {"speed_dps": 25.0}, "sim": {"azimuth": {"speed_dps": 30.0, "start_deg": 90.0}}}
+        tables["azimuth"] = {"speed_dps": 25.0}
+        tables["sim"] = sim | {"azimuth": {"speed_dps": 30.0, "start_deg": 90.0}}
     if kind.source is AngleSource.COUNTED:
         tables |= {"pulses": {"debounce_s": 0.005}}
     config = configured(kind.profile, **tables)
@@ -148,13 +138,13 @@ def test_terminated_in_mid_move_every_kind_ends_well(kind: Kind, tmp_path: Path,
 
 def test_what_motors_taught_and_contacts_counted_is_kept(tmp_path: Path, boxes: list[Box]) -> None:
     (kind,) = (kind for kind in KINDS if kind.source is AngleSource.COUNTED)
-    path, config = written(kind, tmp_path)
+    path, config = written(kind, tmp_path, world=str(tmp_path / "world.json"))
     counts = tmp_path / FILE_NAME
     cams = {axis: getattr(config.pulses, axis.value).model_dump(exclude={"contact"}) for axis in Axis}
     file = CountsFile(counts, cams)
     file.home(Axis.AZIMUTH, 90.0)
     file.home(Axis.ELEVATION, 0.0)
-    boxes.append(box := Box(tmp_path, "-c", KEEPS_COUNTS, path, counts))
+    boxes.append(box := Box(tmp_path, "-m", "rotator", "run", "--config", path))
     box.wait_until_there(tmp_path / "gs232")
     box.wait_until_azimuth(90, 90)
     box.order(b"M%03d\r" % TARGET_DEG)

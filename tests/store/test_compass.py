@@ -62,11 +62,23 @@ def test_what_is_there_is_not_written_again(path: Path) -> None:
     assert CompassFile(path).load() == OFFSETS[::-1]
 
 
+def test_what_was_just_written_is_not_written_again(path: Path) -> None:
+    file = CompassFile(path)
+    assert file.path == path
+    file.save(OFFSETS)
+    path.unlink()
+    file.save(OFFSETS)
+    assert not path.exists()
+
+
 def test_where_it_cannot_be_written_it_is_logged_and_tried_again(path: Path, caplog: pytest.LogCaptureFixture) -> None:
     path.parent.write_text("")  # a file where its folder should be: not even root writes there
     file = CompassFile(path)
+    assert file.trouble == ""
     file.save(OFFSETS)
     assert "cannot be kept" in caplog.text
+    assert file.trouble.startswith(f"{path}: what the compass learnt cannot be kept: ")
     path.parent.unlink()
     file.save(OFFSETS)
+    assert file.trouble == ""
     assert CompassFile(path).load() == OFFSETS

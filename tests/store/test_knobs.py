@@ -98,3 +98,20 @@ def test_the_log_has_the_reason(path: Path, text: str, reason: str, caplog: pyte
     path.write_text(text)
     KnobsFile(path).load()
     assert reason in caplog.text
+
+
+def test_what_was_just_written_is_not_written_again(path: Path) -> None:
+    file = KnobsFile(path)
+    file.save(FULL_SCALES)
+    path.unlink()
+    file.save(FULL_SCALES)
+    assert not path.exists()
+
+
+@pytest.mark.parametrize(("share", "possible"), [(0.0999, False), (0.1, True), (1.1, True), (1.1001, False)])
+def test_a_full_scale_is_a_tenth_of_the_supply_to_a_little_more_than_all_of_it(
+    path: Path, share: float, possible: bool
+) -> None:
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(shares(share))
+    assert KnobsFile(path).load() == ({AZ: share} if possible else {})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import os
 from pathlib import Path
 
 import pytest
@@ -74,21 +75,48 @@ def test_a_damaged_or_foreign_file_is_ignored_and_said(path: Path, text: str, ca
 
 @pytest.mark.parametrize(
     ("key", "value"),
-    [("speed_dps", 0), ("speed_dps", -6.0), ("speed_dps", 1e9), ("speed_dps", "6"), ("coast_deg", -1), ("x", 1)],
+    [
+        ("speed_dps", 0),
+        ("speed_dps", -6.0),
+        ("speed_dps", 1e9),
+        ("speed_dps", 24.1),
+        ("speed_dps", 0.5),
+        ("speed_dps", 10**400),
+        ("speed_dps", "6"),
+        ("speed_dps", True),
+        ("coast_deg", -1),
+        ("coast_deg", 29.0),
+    ],
 )
 def test_figures_of_no_motor_are_ignored(path: Path, key: str, value: object, caplog: pytest.LogCaptureFixture) -> None:
     kept(path)
     whole = json.loads(path.read_text())
     whole["axes"]["azimuth"]["minus"][key] = value
     path.write_text(json.dumps(whole))
+    assert LearntFile(path, BEGUN).load() == {EL: BOTH[EL]}
+    assert "azimuth: ignored, its motor is learnt anew" in caplog.text
+    assert len(caplog.text) < 500, "a number of 400 digits is said in a few"
+
+
+def test_a_motor_is_at_most_four_times_as_fast_as_configured(path: Path) -> None:
+    fast = BOTH | {AZ: motors(23.8)}
+    LearntFile(path, BEGUN).save(fast, ending=True)
+    assert LearntFile(path, BEGUN).load() == fast
+
+
+def test_a_pipe_in_place_of_the_file_does_not_keep_the_start_waiting(
+    path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    path.parent.mkdir()
+    os.mkfifo(path)
     assert LearntFile(path, BEGUN).load() == {}
-    assert "learnt anew" in caplog.text
+    assert "it is no file" in caplog.text
 
 
 def test_not_a_number_is_no_motor(path: Path) -> None:
     kept(path)
-    path.write_text(path.read_text().replace("5.6", "NaN"))
-    assert LearntFile(path, BEGUN).load() == {}
+    path.write_text(path.read_text().replace("5.6,", "NaN,"))
+    assert LearntFile(path, BEGUN).load() == {EL: BOTH[EL]}
 
 
 def test_another_description_of_the_motor_makes_it_another_motor(path: Path, caplog: pytest.LogCaptureFixture) -> None:

@@ -32,12 +32,30 @@ def test_power_lost_in_the_middle_of_writing(tmp_path: Path) -> None:
     assert not half.exists()
 
 
-def test_mode_stays(tmp_path: Path) -> None:
+@pytest.mark.parametrize("mode", [0o640, 0o600, 0o777])
+def test_mode_stays(tmp_path: Path, mode: int) -> None:
     path = tmp_path / "a"
     path.write_text("old")
-    path.chmod(0o640)
+    path.chmod(mode)
     write_whole(path, "new")
-    assert path.stat().st_mode & 0o777 == 0o640
+    assert path.stat().st_mode & 0o777 == mode
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root gives a file away")
+def test_the_owner_stays(tmp_path: Path) -> None:
+    path = tmp_path / "a"
+    path.write_text("old")
+    os.chown(path, 1000, 1001)
+    write_whole(path, "new")
+    assert (path.stat().st_uid, path.stat().st_gid) == (1000, 1001)
+
+
+def test_it_leaves_no_file_open(tmp_path: Path) -> None:
+    write_whole(tmp_path / "a", "text")
+    before = os.listdir("/proc/self/fd")
+    for _ in range(10):
+        write_whole(tmp_path / "a", "text")
+    assert os.listdir("/proc/self/fd") == before
 
 
 def test_a_symbolic_link_stays_one(tmp_path: Path) -> None:

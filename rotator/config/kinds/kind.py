@@ -47,6 +47,8 @@ class EndStop:
     home_deg: float
     mostly_closed: bool
     """The contact is closed for more of the spacing than it is open."""
+    rest_deg: tuple[float, float]
+    """Between these angles the axis is brought to rest: an edge of its contact lies between it and either stop."""
 
 
 class Kind:
@@ -100,8 +102,8 @@ class Kind:
         """The acceleration limit sent to the drive; None: the drive has no such limit."""
         return None
 
-    def end_stop(self, axis: Axis) -> EndStop | None:
-        """The end stop for homing; None: the axis does not count pulses."""
+    def end_stop(self, axis: Axis, max_deg: float) -> EndStop | None:
+        """The end stop for homing; None: the axis does not count pulses. `max_deg`: the upper end of its range."""
         return None
 
     def first_move(self, axis: Axis) -> str:

@@ -6,6 +6,7 @@ driver.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
@@ -19,6 +20,9 @@ from rotator.config.devices import Relays
 from rotator.config.kinds.kind import EndStop, Kind, OffLine, Usual
 from rotator.config.kinds.relay_pot import relay_lines
 from rotator.config.table import Gpio, PerAxis, Table
+
+CLEAR_DEG = 1.0
+"""An axis that counts is brought to rest no nearer to the last edge of its contact before a stop."""
 
 
 class PulseAxisTable(Table):
@@ -36,6 +40,12 @@ class PulseAxisTable(Table):
     """The play of the gear: after a reversal the contact changes this much later."""
     home_deg: float = Field(0.0, ge=-360, le=720)
     """Where homing ends: the angle of the low end stop, or where the axis rests after its low limit switch opened."""
+
+    def edges_deg(self, near_deg: float) -> list[float]:
+        """Angles at which the contact changes, a few on both sides of `near_deg`."""
+        turn = math.floor((near_deg - self.closes_at_deg) / self.spacing_deg)
+        closures_deg = [self.closes_at_deg + each * self.spacing_deg for each in range(turn - 2, turn + 5)]
+        return [closes_deg + part_deg for closes_deg in closures_deg for part_deg in (0.0, self.closed_deg)]
 
     @model_validator(mode="after")
     def _opens(self) -> PulseAxisTable:
@@ -96,7 +106,10 @@ class RelayPulse(Kind):
             f"({longest_coast_s:g}): a motor that still coasts would be counted the wrong way"
         ]
 
-    def end_stop(self, axis: Axis) -> EndStop | None:
+    def end_stop(self, axis: Axis, max_deg: float) -> EndStop | None:
         cam = self.pulses.of(axis)
         mostly_closed = cam.closed_deg > cam.spacing_deg / 2
-        return EndStop(cam.spacing_deg, cam.coast_s + self.pulses.debounce_s, cam.home_deg, mostly_closed)
+        lowest_deg = min(edge for edge in cam.edges_deg(cam.home_deg) if edge - cam.play_deg > cam.home_deg)
+        highest_deg = max(edge for edge in cam.edges_deg(max_deg) if edge <= max_deg)
+        rest_deg = (lowest_deg + CLEAR_DEG, highest_deg - CLEAR_DEG)
+        return EndStop(cam.spacing_deg, cam.coast_s + self.pulses.debounce_s, cam.home_deg, mostly_closed, rest_deg)

@@ -1,6 +1,7 @@
 """Calibration by the two ends of the range: a person turns the axis to each end and says so (GS-232 O, F, O2, F2).
 
-Knows the limits, and the end that came first. Knows no sensor.
+Knows the limits, the calibration that a person gave the axis, and the end that came first. Knows no sensor. An end is
+taken further in, for a narrower range, and never further out: what a link sends widens no limit.
 """
 
 from __future__ import annotations
@@ -9,12 +10,18 @@ from rotator.control.axis.calibration_table import Calibration, between_ends
 from rotator.control.sky.mount import Range
 from rotator.faults import Missing
 
+BEYOND_DEG = 1.0
+"""So far beyond the calibrated ends an axis may stand by its coast and the noise of its sensor."""
+
 
 class EndCalibration:
-    def __init__(self, limits: Range, missing: tuple[Missing, ...]) -> None:
+    """`given`: the calibration in the configuration; None: the axis has none yet."""
+
+    def __init__(self, limits: Range, missing: tuple[Missing, ...], given: Calibration | None) -> None:
         self.missing = missing
         """What the axis lacks before it may be aimed."""
         self._limits = limits
+        self._given = given
         self._first: tuple[bool, float] | None = None
         """The end that came first: whether it is the high one, and its reading."""
 
@@ -23,6 +30,8 @@ class EndCalibration:
 
         Raises ValueError where the readings are no two ends.
         """
+        if self._given is not None:
+            self._refuse_beyond(self._given, raw)
         if calibration is not None:
             return calibration.with_end(raw, high_end=high_end)
         if self._first is None or self._first[0] == high_end:
@@ -32,3 +41,13 @@ class EndCalibration:
         found = between_ends(low_raw, self._limits.min_deg, high_raw, self._limits.max_deg)
         self.missing = tuple(each for each in self.missing if each is not Missing.CALIBRATION)
         return found
+
+    @staticmethod
+    def _refuse_beyond(given: Calibration, raw: float) -> None:
+        (_, low_deg), (_, high_deg) = given.points[0], given.points[-1]
+        angle_deg = given.degrees(raw)
+        if not low_deg - BEYOND_DEG <= angle_deg <= high_deg + BEYOND_DEG:
+            raise ValueError(
+                f"it stands at {angle_deg:.1f}°, outside of its calibrated {low_deg:g} to {high_deg:g}; "
+                "only `rotator calibrate` takes an end further out"
+            )

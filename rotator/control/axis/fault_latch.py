@@ -1,11 +1,19 @@
-"""The fault that stops one axis: which one is kept, and when it ends.
+"""The fault that stops one axis: which one is kept, when it ends, and who may end it.
 
-Knows what is wrong now and what was wrong first. Does not know how a fault is found, nor how a motor is stopped.
+Knows what is wrong now, what was wrong first, and how often lately a motor was stopped by a fault. Does not know how a
+fault is found, nor how a motor is stopped.
 """
 
 from __future__ import annotations
 
+from collections import deque
+from dataclasses import replace
+
 from rotator.faults import Fault
+
+TRIES = 3
+TRIES_WITHIN_S = 600.0
+"""A motor that so many faults have stopped within this time is not tried again because a program says so."""
 
 
 class FaultLatch:
@@ -15,21 +23,42 @@ class FaultLatch:
         self.fault: Fault | None = None
         self._cause: Fault | None = None
         """What acknowledging does not end, because it is there now."""
+        self._tries_s: deque[float] = deque(maxlen=TRIES)
+        """When faults last stopped the motor."""
 
-    def note(self, found: Fault | None, *, cause: Fault | None) -> bool:
-        """What is wrong at this moment, and as much of it as acknowledging would not end. Returns whether it is new."""
+    def note(self, found: Fault | None, now_s: float, *, cause: Fault | None, tries: int) -> bool:
+        """What is wrong at this moment, and as much of it as acknowledging would not end. Returns whether it is new.
+
+        `tries`: how often the motor was on in vain before; 0: it was not.
+        """
         self._cause = cause
         if self.fault and self.fault.passing:
             self.fault = found
-        return self.fail(found)
+        return self.fail(found, now_s, tries=tries)
 
-    def fail(self, fault: Fault | None) -> bool:
+    def fail(self, fault: Fault | None, now_s: float, *, tries: int) -> bool:
         """Keep this fault, if there is none yet or only this one asks for the supply to be cut. Returns whether."""
         if fault is None or (self.fault is not None and (self.fault.cut or not fault.cut)):
             return False
+        if not fault.passing:
+            self._tries_s.extend([now_s] * tries)
+        if self.needs_person(now_s):
+            often = (
+                f"tried {TRIES} times in {TRIES_WITHIN_S / 60:g} minutes: only `resume` or that time acknowledges it"
+            )
+            fault = replace(fault, measured=f"{fault.measured}; {often}")
         self.fault = fault
         return True
 
-    def acknowledge(self) -> None:
-        """End the fault. While its cause is there, it comes back at once."""
+    def needs_person(self, now_s: float) -> bool:
+        """Whether the motor was tried too often lately for a link to acknowledge its fault."""
+        return len(self._tries_s) == TRIES and now_s - self._tries_s[0] < TRIES_WITHIN_S
+
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
+        """End the fault. While its cause is there, it comes back at once. Returns whether it has been acknowledged."""
+        if by_person:
+            self._tries_s.clear()
+        elif self.needs_person(now_s):
+            return False
         self.fault = self._cause
+        return True

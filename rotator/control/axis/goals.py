@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.homing import Homing
-from rotator.control.axis.run_watch import WAYS
+from rotator.control.axis.relay_trust import WAYS
 from rotator.faults import Fault, FaultKind
 
 UNCALIBRATED_JOG_S = 2.0

@@ -9,6 +9,7 @@ not know an angle, and cannot tell a stop from a branch that holds the antenna: 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
@@ -44,6 +45,9 @@ class HomingSettings:
     """The contact is closed for more of a period than it is open."""
     switch: bool = False
     """A limit switch is at the low end."""
+    rest_deg: tuple[float, float] = (-math.inf, math.inf)
+    """Beyond these angles a motor could turn to its stop without a change of the contact: it is not brought to rest
+    there, for nothing would show that its relay has opened."""
 
 
 class _Phase(Enum):
@@ -78,12 +82,18 @@ class Homing:
         self._still_s = 0.0
         """Since when neither the contact nor the relays have changed."""
         self._driven = Direction.OFF
+        self._driven_once = False
         self._changes = 0
         self._base = 0
         """The changes of the contact at the latest rest."""
         self._up: int | None = None
         """How many changes came on the way up; None: it has not been up yet."""
         self._tries = 0
+
+    @property
+    def begun(self) -> bool:
+        """The motor has been driven for it."""
+        return self._driven_once
 
     def step(self, now_s: float, driven: Direction, condition: Condition) -> Direction:
         """The direction to drive now. `driven`: what the relays really do, for a reversal takes its dead time."""
@@ -92,6 +102,7 @@ class Homing:
             self._since_s, self._still_s, self._changes = now_s, now_s, changes
         if driven is not self._driven or changes != self._changes:
             self._driven, self._changes, self._still_s = driven, changes, now_s
+        self._driven_once = self._driven_once or driven is not Direction.OFF
         if self.homed or self.failure:
             return Direction.OFF
         if now_s - self._since_s > self._longest_s:

@@ -113,13 +113,15 @@ class Motion:
         self.angle_deg += (GAIN_RESTING if self.resting else GAIN_RUNNING) * stray_deg
         self._land(at_s, angle_deg)
 
-    def rest_deg(self, now_s: float) -> float:
-        """Where the axis would stand if the motor were switched off now; 0 before the first reading."""
+    def angle_at(self, now_s: float) -> float:
+        """Where the axis is at this moment; 0 before the first reading."""
         if self.angle_deg is None:
             return 0.0
-        speed_dps = self._speed_at(now_s)
-        travelled_deg = (self._speed_dps + speed_dps) / 2 * (now_s - self._at_s)
-        return self.angle_deg + travelled_deg + speed_dps * self._lag_s()
+        return self.angle_deg + (self._speed_dps + self._speed_at(now_s)) / 2 * (now_s - self._at_s)
+
+    def rest_deg(self, now_s: float) -> float:
+        """Where the axis would stand if the motor were switched off now; 0 before the first reading."""
+        return self.angle_at(now_s) + self._speed_at(now_s) * self._lag_s()
 
     def _lag_s(self) -> float:
         run = self._run or (self._landing.run if self._landing else None)

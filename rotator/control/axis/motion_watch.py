@@ -12,9 +12,12 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.driven_watch import DrivenWatch
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.observed_motion import ObservedMotion
+from rotator.control.axis.opening_watch import OpeningWatch
+from rotator.control.axis.sensing import NORMAL, Condition
 from rotator.control.axis.weld_watch import WeldWatch
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, FaultKind, Notice
+from rotator.status import ALL_OPEN, Trusts
 
 LATE_S = 0.5
 """A cycle this much late while a motor runs: the guard has opened its relay meanwhile."""
@@ -26,39 +29,72 @@ def late(axis: Axis, gap_s: float, period_s: float) -> Fault:
 
 
 class MotionWatch:
-    """One axis. Give it every good reading (`see`) and every change of the relays (`driven`), in order of time."""
+    """One axis. Give it every good reading (`see`) and every change of the relays (`driven`), in order of time.
 
-    def __init__(self, axis: Axis, limits: Range, motors: Mapping[Direction, Motor], *, master: bool) -> None:
+    `placed`: the angles are calibrated, and the limits known. Without that only the relays are watched. `look`: nothing
+    has been seen of the axis in this run of the program.
+    """
+
+    def __init__(
+        self,
+        axis: Axis,
+        limits: Range,
+        motors: Mapping[Direction, Motor],
+        *,
+        master: bool,
+        trusts: Trusts = ALL_OPEN,
+        placed: bool = True,
+        look: bool = False,
+    ) -> None:
+        self._placed = placed
         self._seen = ObservedMotion(axis, limits, motors)
         self._driven = DrivenWatch(self._seen)
-        self._weld = WeldWatch(self._seen, master=master)
+        self._opening = OpeningWatch(self._seen, trusts, placed=placed, look=look)
+        self._weld = WeldWatch(self._seen, self._opening, master=master)
+
+    @property
+    def trusts(self) -> Trusts:
+        """What is known of the two relays."""
+        return self._opening.trusts
+
+    @property
+    def looks(self) -> bool:
+        """Nothing has been seen of the axis yet."""
+        return not self._opening.looked
 
     def driven(self, now_s: float, direction: Direction) -> None:
         """What the relays do from now on."""
         was = self._seen.relays
         if direction is was.direction:
             return
+        self._opening.driven(now_s, direction, was.direction, was.since_s)
         self._seen.driven(now_s, direction)
-        self._weld.driven(now_s, direction, was)
+        self._weld.driven(direction, was)
 
-    def see(self, at_s: float, angle_deg: float, _changes: int = 0) -> Fault | None:
-        """A good reading. Returns the fault that it shows, if any. Contacts are not counted here."""
+    def see(self, at_s: float, angle_deg: float, condition: Condition = NORMAL) -> Fault | None:
+        """A good reading. Returns the fault that it shows, if any."""
         on_line = self._seen.see(at_s, angle_deg)
+        if on_line:
+            self._opening.see(at_s, angle_deg, supplied=condition.supplied)
         if self._seen.relays.direction is not Direction.OFF:
-            return self._driven.judge(at_s, angle_deg, on_line=on_line)
+            return self._driven.judge(at_s, angle_deg, on_line=on_line) if self._placed else None
         return self._weld.judge(at_s) if on_line else None
 
     def forbids(self, direction: Direction) -> bool:
         """Whether closing that relay now might work against the opposite one, where that has not let go."""
-        return self._weld.forbids(direction)
+        return self._seen.relays.direction is not direction and self._opening.waits(direction)
 
     def accuse(self, direction: Direction) -> Fault | None:
-        """The fault that an order in this direction meets, for as long as the opposite relay may be welded."""
+        """The fault that an order in this direction meets, for as long as the opposite relay may be closed."""
         return self._weld.accuse(direction)
 
     def acknowledge(self) -> None:
         """A person knows; the supply comes back with the next order."""
         self._weld.acknowledge()
+
+    def checked(self) -> None:
+        """A person has looked at both relays: they are open."""
+        self._opening.checked()
 
     @property
     def noise_deg(self) -> float:

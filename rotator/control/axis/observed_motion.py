@@ -1,6 +1,6 @@
 """What has been seen of one axis: its readings as a line, what its relays do, and how fast it has turned for certain.
 
-Knows facts alone. `driven_watch` and `weld_watch` judge them. Time is an argument.
+Knows facts alone. `driven_watch`, `opening_watch` and `weld_watch` judge them. Time is an argument.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.run_watch import WAYS
+from rotator.control.axis.relay_trust import WAYS
 from rotator.control.axis.trend import Slope, Trend
 from rotator.control.sky.mount import Range
 

@@ -10,9 +10,10 @@ from typing import Protocol
 
 from hw.ports import Direction
 from rotator.control.axis.sensing import Reading
-from rotator.control.commands import Decision
+from rotator.control.commands import Command, Decision
+from rotator.control.sky.mount import Range
 from rotator.control.sky.pointing import AimGoal
-from rotator.faults import Fault
+from rotator.faults import Fault, Missing
 from rotator.status import AxisStatus
 
 
@@ -42,6 +43,10 @@ class ControlledAxis(Protocol):
         """Whether the motor was on after the last cycle."""
 
     @property
+    def missing(self) -> tuple[Missing, ...]:
+        """What the axis lacks before it may be aimed; empty: nothing."""
+
+    @property
     def confirmable(self) -> bool:
         """Whether a person may say at which angle the axis stands."""
 
@@ -66,8 +71,10 @@ class ControlledAxis(Protocol):
     def fail(self, fault: Fault) -> None:
         """Stop until the fault is acknowledged."""
 
-    def acknowledge(self) -> None:
-        """A person or a stop has acknowledged the fault. While its cause is there, the fault stays."""
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
+        """A person, or a stop on a link, acknowledges the fault. While its cause is there, the fault stays; and a
+        link alone does not let a motor be tried for ever. Returns whether it counts.
+        """
 
     @property
     def fault(self) -> Fault | None:
@@ -75,6 +82,19 @@ class ControlledAxis(Protocol):
 
     def decide(self, now_s: float) -> Decision:
         """What the drive is to do from now on: what the goal asks for, as far as it is safe."""
+
+    def sweep(self, now_s: float, command: Command | None) -> Range:
+        """The angles that the axis may pass from now until it has come to rest, if this command is the last one.
+
+        None: if it is to stop now. `UNKNOWN` where its angle cannot be told.
+        """
+
+    @property
+    def room_deg(self) -> float:
+        """How far it may go on, at its first start too, before a command can end that."""
+
+    def hold_back(self, now_s: float, why: str) -> None:
+        """Its latest command is not carried out, for this reason. A jog and the way to an end stop end with that."""
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """After the cycle: the direction in which its relays are really closed (OFF where there are none)."""

@@ -6,17 +6,23 @@ who gave the order. It does not know how the drive gets to an angle; it sees whe
 
 from __future__ import annotations
 
-from hw.ports import Direction
+import math
+
+from hw.ports import AngleSource, Direction
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import JogGoal, jog, limit_reached
+from rotator.control.axis.pace import Pace
+from rotator.control.axis.reach import UNSEEN_S, lost
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import COMING_DEG, StrayWatch
 from rotator.control.axis.trend import Trend
-from rotator.control.commands import HOLD, Decision, Hold, Steer
+from rotator.control.commands import HOLD, Command, Decision, Hold, Steer
+from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
-from rotator.faults import Fault
+from rotator.control.sky.sectors import UNKNOWN
+from rotator.faults import Fault, Missing
 from rotator.status import AxisStatus
 
 RATE_OVER_S = 0.25
@@ -34,9 +40,14 @@ class PositionedAxis:
         self._faults = FaultLatch()
         self._condition = Condition()
         self._lease_s = lease_s
-        self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
-        self._stray = StrayWatch(settings.axis)
+        # A model jumps where it is corrected, and it does not scatter.
+        fastest_dps = settings.speed_dps if settings.source is AngleSource.MEASURED else math.inf
+        self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
+        self._stray = StrayWatch(settings.axis, settings.speed_dps)
+        self._seen_s = 0.0
+        """The moment of the present cycle."""
         self._readings = Trend()
+        self._pace = Pace(settings)
         self._steered: tuple[Steer, float] | None = None
         """Where the drive was sent last, and when; None: it holds."""
 
@@ -79,6 +90,10 @@ class PositionedAxis:
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
 
+    @property
+    def missing(self) -> tuple[Missing, ...]:
+        return self.settings.missing
+
     def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
         self._goal = jog(direction, seconds, now_s, commissioned=not self.settings.missing)
 
@@ -91,24 +106,28 @@ class PositionedAxis:
 
     def see(self, reading: Reading, now_s: float) -> None:
         self._condition = reading.condition
-        unbelievable = self._sensing.take(reading, now_s)
-        if self._sensing.fresh and self._sensing.angle_deg is not None:
-            self._readings.see(reading.at_s, self._sensing.angle_deg, self.settings.speed_dps)
+        self._seen_s = now_s
+        unbelievable = self._sensing.take(reading, now_s, self._readings.noise_deg)
+        for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
+            self._readings.see(at_s, angle_deg, self.settings.speed_dps)
+            self._pace.see(at_s, angle_deg)
         # The rotor's own report says more than what can be seen of it from here.
         reported = reading.condition.fault
         cause = unbelievable if reading.condition.latched else reported or unbelievable
-        self._faults.note(reported or unbelievable or self._straying(now_s), cause=cause)
+        found = reported or unbelievable or self._straying(now_s)
+        self._faults.note(found, now_s, cause=cause, tries=int(self.driven))
 
     def _straying(self, now_s: float) -> Fault | None:
         steered = self._steered[0] if self._steered else None
-        return self._stray.see(now_s, steered, self._sensing.angle_deg, settling=self._condition.settling)
+        noise_deg = self._readings.noise_deg if self.settings.source is AngleSource.MEASURED else 0.0
+        return self._stray.see(now_s, steered, self._sensing.angle_deg, noise_deg, settling=self._condition.settling)
 
     def fail(self, fault: Fault) -> None:
-        self._faults.fail(fault)
+        self._faults.fail(fault, self._seen_s, tries=int(self.driven))
 
-    def acknowledge(self) -> None:
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
         self._stray.clear()
-        self._faults.acknowledge()
+        return self._faults.acknowledge(now_s, by_person=by_person)
 
     def decide(self, now_s: float) -> Decision:
         command = self._wish(now_s)
@@ -116,9 +135,35 @@ class PositionedAxis:
             self.fail(limit_reached(self.settings.axis, blocked))
             self._goal, command = None, HOLD
         self._steered = (command, now_s) if isinstance(command, Steer) else None
-        if self._steered is None:
-            self._stray.clear()
+        match command:
+            case Steer(place_deg, 0.0, _):
+                self._pace.sent(now_s, place_deg)
+            case Steer():
+                self._pace.moves_on()
         return Decision(command)
+
+    def sweep(self, now_s: float, command: Command | None) -> Range:
+        if self.settings.missing or now_s - self._sensing.believed_s > UNSEEN_S or lost(self.fault):
+            return UNKNOWN
+        span = self._pace.span(now_s)
+        if not isinstance(command, Steer):
+            return span
+        # It comes to rest at the place of its last command, moving on for as long as that holds.
+        on_deg = abs(command.rate_dps) * (command.until_s - now_s) + self._pace.braking_deg(command.rate_dps)
+        end_deg = command.angle_deg + math.copysign(on_deg, command.rate_dps)
+        near_deg = self.settings.near_deg
+        return span.spanning(min(command.angle_deg, end_deg) - near_deg).spanning(
+            max(command.angle_deg, end_deg) + near_deg
+        )
+
+    @property
+    def room_deg(self) -> float:
+        return 2.0 * self.settings.near_deg
+
+    def hold_back(self, now_s: float, why: str) -> None:
+        self._steered = None
+        if isinstance(self._goal, JogGoal):
+            self._goal = None
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """There are no relays to be noted."""
@@ -138,16 +183,20 @@ class PositionedAxis:
             confirmable=self.confirmable,
             fault=self.fault,
             noise_deg=self._readings.noise_deg,
-            notices=(self._condition.notice,) if self._condition.notice else (),
+            notices=tuple(each for each in (self._condition.notice, self._sensing.notice) if each),
         )
 
     def _wish(self, now_s: float) -> Steer | Hold:
         """What the goal asks for. A fault ends the goal."""
         if self.fault is not None:
             self._goal = None
-        if self._goal is None or not self._sensing.believable or self._sensing.angle_deg is None:
+        # A bad reading starts nothing, and what moves may go on for a moment, until the next good one.
+        trusted = self._sensing.believable or self._steered is not None
+        if self._goal is None or not trusted or self._sensing.angle_deg is None:
             return HOLD
-        until_s = now_s + self._lease_s
+        until_s = min(now_s + self._lease_s, self._sensing.ridden_until_s)
+        if until_s <= now_s:
+            return HOLD
         match self._goal:
             case AimGoal() if self.settings.missing:
                 return HOLD
@@ -182,8 +231,7 @@ class PositionedAxis:
     @property
     def _braking_deg(self) -> float:
         """How far it takes to come to rest from its full speed."""
-        accel_dps2 = self.settings.accel_dps2
-        return self.speed_dps**2 / (2.0 * accel_dps2) if accel_dps2 else 0.0
+        return self._pace.braking_deg(self.speed_dps)
 
     def _within(self, angle_deg: float, rate_dps: float, until_s: float) -> Steer:
         """No further than the limits; at a limit the target moves on alone."""

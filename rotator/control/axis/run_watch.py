@@ -1,29 +1,25 @@
 """The watch over an axis that counts: how long its motor may run in one go, and when its opposite relay may close.
 
-Knows what the relays do, how long the travel takes, and how often the contact has changed. A count cannot run the wrong
-way, for the counter takes the direction from the relays. The counter itself sees missing pulses, and pulses at rest.
+Knows what the relays do and how long the travel takes; `contact_watch` says what its contact shows. A count cannot run
+the wrong way, for the counter takes the direction from the relays. The counter itself sees missing pulses, and pulses
+at rest.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 from hw.ports import Axis, Direction
+from rotator.control.axis.contact_watch import ContactWatch
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.relay_trust import WAYS, accusation
+from rotator.control.axis.sensing import NORMAL, Condition
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, FaultKind, Notice
+from rotator.status import ALL_OPEN, Trusts
 
 TRAVEL_SHARE, TRAVEL_MORE_S = 1.3, 5.0
 """A motor may run this much longer in one go than the travel from end to end takes."""
-
-CUT_BY_HAND = "CUT MOTOR POWER!"
-WAYS = {
-    (Axis.AZIMUTH, Direction.PLUS): "clockwise",
-    (Axis.AZIMUTH, Direction.MINUS): "counter-clockwise",
-    (Axis.ELEVATION, Direction.PLUS): "up",
-    (Axis.ELEVATION, Direction.MINUS): "down",
-}
 
 
 def endless(axis: Axis, direction: Direction, run_s: float, limits: Range, speed_dps: float) -> Fault | None:
@@ -35,60 +31,79 @@ def endless(axis: Axis, direction: Direction, run_s: float, limits: Range, speed
     return Fault(FaultKind.RUN_TOO_LONG, axis, measured, f"{longest_s:.0f} s")
 
 
-def unstoppable(kind: FaultKind, axis: Axis, measured: str, limit: str, *, master: bool) -> Fault:
-    """A fault that no relay of this axis ends: only the supply does. `master`: an output switches the supply."""
-    if master:
-        return Fault(kind, axis, f"{measured}; the master is opened", limit, cut=True)
-    measured += "; no master is wired, so switch the motors' supply off by hand NOW"
-    return Fault(kind, axis, measured, limit, cut=True, act_now=CUT_BY_HAND)
-
-
 class RunWatch:
     """One axis, in the shape of `MotionWatch`: give it every reading and every change of the relays, in order of time.
 
-    `quiet_s`: the axis stands when its contact has not changed for so long after its relay opened.
+    `period_s`: from pulse to pulse at full speed. `coast_s`: how long the motor coasts at most. `look`: nothing has
+    been seen of the axis in this run of the program.
     """
 
     notices: tuple[Notice, ...] = ()
     noise_deg = 0.0
     """A count does not scatter."""
 
-    def __init__(self, axis: Axis, limits: Range, motors: Mapping[Direction, Motor], quiet_s: float) -> None:
+    def __init__(
+        self,
+        axis: Axis,
+        limits: Range,
+        motors: Mapping[Direction, Motor],
+        period_s: float,
+        coast_s: float,
+        *,
+        master: bool = False,
+        trusts: Trusts = ALL_OPEN,
+        look: bool = False,
+    ) -> None:
         self._axis = axis
         self._limits = limits
         self._motors = motors
-        self._quiet_s = quiet_s
+        self._master = master
+        self._contact = ContactWatch(trusts, period_s, coast_s, look=look)
         self._direction = Direction.OFF
-        self._last = Direction.OFF
         self._since_s = 0.0
-        self._changes = 0
-        self._changed_s = self._seen_s = -math.inf
+        self._angle_deg: float | None = None
+
+    @property
+    def trusts(self) -> Trusts:
+        """What is known of the two relays."""
+        return self._contact.trusts
+
+    @property
+    def looks(self) -> bool:
+        """Nothing has been seen of the axis yet."""
+        return not self._contact.looked
 
     def driven(self, now_s: float, direction: Direction) -> None:
-        if direction is self._direction:
-            return
-        if self._direction is not Direction.OFF:
-            self._last = self._direction
-        self._direction, self._since_s = direction, now_s
+        self._contact.driven(now_s, direction)
+        if direction is not self._direction:
+            self._direction, self._since_s = direction, now_s
 
-    def see(self, at_s: float, _angle_deg: float, changes: int = 0) -> Fault | None:
-        """A reading, and how often the contact has changed."""
-        if changes != self._changes:
-            self._changes, self._changed_s = changes, at_s
-        self._seen_s = at_s
+    def see(self, at_s: float, angle_deg: float, condition: Condition = NORMAL) -> Fault | None:
+        """A reading, and what the rotor says of its contact."""
+        self._angle_deg = angle_deg
+        self._contact.see(at_s, condition)
         if self._direction is Direction.OFF:
             return None
         speed_dps = self._motors[self._direction].speed_dps
         return endless(self._axis, self._direction, at_s - self._since_s, self._limits, speed_dps)
 
+    def homes(self, *, homing: bool) -> None:
+        """Whether it looks for its stop, and a person watches."""
+        self._contact.homing = homing
+
     def forbids(self, direction: Direction) -> bool:
         """Whether closing that relay now might work against the opposite one, where that has not let go."""
-        if self._direction is not Direction.OFF or direction is not Direction(-self._last):
-            return False
-        return self._seen_s - max(self._since_s, self._changed_s) < self._quiet_s
+        return self._contact.waits(direction)
 
-    def accuse(self, _direction: Direction) -> Fault | None:
-        return None
+    def accuse(self, direction: Direction) -> Fault | None:
+        """The fault that an order in this direction meets, for as long as the opposite relay may be closed."""
+        against = Direction(-direction)
+        place = "" if self._angle_deg is None else f" stands at {self._angle_deg:.1f}°"
+        return accusation(self._axis, against, self._contact.trust(against), place, master=self._master)
 
     def acknowledge(self) -> None:
         pass
+
+    def checked(self) -> None:
+        """A person has looked at both relays: they are open."""
+        self._contact.checked()

@@ -1,7 +1,7 @@
 """Whether a sensor can be believed: one axis's readings in, an angle or a fault out.
 
-Knows the window of plausible readings, how long a bad one may last and how often a reading may jump. Knows no device,
-and stops nothing.
+Knows what a bad reading is (no answer, too old, outside of the window, too far from the one before), how long bad ones
+may last, how many there may be and how often a reading may jump. Knows no device, and stops nothing.
 """
 
 from __future__ import annotations
@@ -11,17 +11,23 @@ from collections import deque
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
+from rotator.control.axis.bad_readings import LOOKED_AT, TOO_MANY, BadReadings
 from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.sparks import Place, Sparks
 from rotator.faults import Fault, FaultKind, Notice
 
-BAD_FOR_S = 0.1
-"""Bad readings are a fault after this time (three readings at 20 Hz). The first one stops the motor."""
+BAD_FOR_S = 0.09
+"""Bad readings are a fault after this time (the third one in a row at 20 Hz)."""
+RIDDEN_S = 0.16
+"""A motor that runs may go on for so long after the last good reading."""
 STALE_S = 0.2
 """A reading older than this does not show where the antenna is now."""
 JUMP_DEG = 5.0
 JUMPS = 3
 JUMPS_WITHIN_S = 0.3
 """A spark is two jumps, out and back. One more jump within this time means a loose wire."""
+MOVES, MOVES_WITHIN_S = 3, 120.0
+"""A reading that jumps to another place and stays there so many times does not show where the axis is."""
 UNCALIBRATED_SPAN_DEG = 360.0
 """A pot's whole range counts as so many degrees until it is calibrated."""
 
@@ -44,10 +50,20 @@ class Condition:
     """The axis does not follow yet, for a reason that passes by itself."""
     changes: int = 0
     """How often its contact has changed."""
+    missed: int = 0
+    """How many orders its controller has not answered so far."""
     closed: bool = False
     """Its contact is closed since the last of these changes."""
     ends: frozenset[Direction] = frozenset()
     """The directions that a limit switch forbids."""
+    ahead: frozenset[Direction] = frozenset()
+    """The directions in which its contact would change again before the stop."""
+    supplied: bool = True
+    """The motors have their supply, as far as the box knows: no master is open."""
+
+
+NORMAL = Condition()
+"""The rotor has nothing to say."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +73,7 @@ class Reading:
     at_s: float
     raw: float | None
     problem: str = ""
-    condition: Condition = Condition()
+    condition: Condition = NORMAL
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,9 +96,11 @@ ANYTHING = Window(-math.inf, math.inf, pot=False)
 
 
 class Sensing:
-    """One axis's sensor over time."""
+    """One axis's sensor over time. `fastest_dps`: the speed of its motor; infinite: the readings never jump."""
 
-    def __init__(self, axis: Axis, window: Window, calibration: Calibration | None) -> None:
+    def __init__(
+        self, axis: Axis, window: Window, calibration: Calibration | None, fastest_dps: float = math.inf
+    ) -> None:
         self._axis = axis
         self._window = window
         self.calibration = calibration
@@ -91,30 +109,64 @@ class Sensing:
         """The last believable angle; None before the first and without a calibration."""
         self.believable = False
         """Whether the latest reading is a good one."""
-        self.fresh = False
-        """Whether the latest reading is a good one that had not been taken before."""
-        self._believed_s: float | None = None
+        self.places: tuple[Place, ...] = ()
+        """The angles that the latest reading shows for the first time, each with its moment: one, or none; or some at
+        once where the axis turns out to be somewhere else. Without a calibration, in degrees of the sensor's span."""
+        self._sparks = Sparks(fastest_dps)
+        self._rate = BadReadings()
+        self._seen_s = -math.inf
+        """When the latest reading was taken, a bad one too."""
+        self._missed = 0
+        self._off_line: Fault | None = None
+        """The latest reading is a spark."""
+        self._loose: Fault | None = None
+        """There is a spark among the bad readings since the last good one."""
+        self.believed_s = -math.inf
+        """When the latest good reading was taken."""
         self._bad_since_s: float | None = None
-        self._last: tuple[float, float] | None = None
+        self._last: Place | None = None
         self._jumped: Fault | None = None
-        self._jumps: deque[tuple[float, float]] = deque(maxlen=JUMPS)
+        self._jumps: deque[Place] = deque(maxlen=JUMPS)
+        self._moved_s: deque[float] = deque(maxlen=MOVES)
 
-    def take(self, reading: Reading, now_s: float) -> Fault | None:
-        """Take a reading, or the same one again where no new one came. Returns the fault that it shows, if any."""
-        problem = self._problem(reading, now_s)
-        jumping = self._jumping(reading)
+    @property
+    def notice(self) -> Notice | None:
+        """What a person should know of the sensor though it stops nothing."""
+        return self._rate.notice
+
+    @property
+    def ridden_until_s(self) -> float:
+        """Until when a motor that runs may go on with the last good reading."""
+        return math.inf if self.believable else self.believed_s + RIDDEN_S
+
+    def begin_anew(self, calibration: Calibration | None) -> None:
+        """From now on the same reading means another place."""
+        self.calibration = calibration
+        self._sparks.begin_anew()
+        self._last = None
+        self._jumps.clear()
+
+    def take(self, reading: Reading, now_s: float, noise_deg: float = 0.0) -> Fault | None:
+        """Take a reading, or the same one again where no new one came. Returns the fault that it shows, if any.
+
+        `noise_deg`: the scatter of the readings, rms.
+        """
+        new = reading.at_s > self._seen_s
+        missed, self._missed = reading.condition.missed > self._missed, reading.condition.missed
+        self._seen_s = max(self._seen_s, reading.at_s)
+        self.places = ()
+        jumping = self._jumping(reading, new=new)
+        problem = self._problem(reading, now_s) or self._spark(reading, noise_deg, new=new)
         self.believable = problem is None
-        self.fresh = problem is None and reading.at_s != self._believed_s
         if problem is None:
-            self._believed_s = reading.at_s
-            self._bad_since_s = None
-            self.raw = reading.raw
-            if self.calibration is not None and reading.raw is not None:
-                self.angle_deg = self.calibration.degrees(reading.raw)
-            return jumping
-        if self._bad_since_s is None:
+            self.believed_s, self._bad_since_s, self._loose = reading.at_s, None, None
+        elif self._bad_since_s is None:
             self._bad_since_s = now_s
-        return problem if now_s - self._bad_since_s >= BAD_FOR_S else jumping
+        lasts = self._bad_since_s is not None and now_s - self._bad_since_s >= BAD_FOR_S
+        # What lasts is a fault of its own, and so is what the rotor reports: neither spoils the rate.
+        if new and not lasts and reading.condition.fault is None:
+            self._rate.note(reading.at_s, bad=problem is not None or missed)
+        return jumping or ((self._loose or problem) if lasts else self._too_many(now_s, problem))
 
     def _problem(self, reading: Reading, now_s: float) -> Fault | None:
         low, high = self._window.low_raw, self._window.high_raw
@@ -125,18 +177,53 @@ class Sensing:
         if now_s - reading.at_s > STALE_S:
             age = f"last reading {now_s - reading.at_s:.1f} s old"
             return Fault(FaultKind.SENSOR_LATE, self._axis, age, f"{STALE_S:g} s")
-        if not low <= reading.raw <= high:
+        if not (low <= reading.raw <= high and math.isfinite(reading.raw)):
             self.raw = reading.raw
             return Fault(FaultKind.POT_OPEN, self._axis, f"reads {reading.raw:.3f}", f"{low:g} to {high:g}")
         return None
 
-    def _jumping(self, reading: Reading) -> Fault | None:
+    def _spark(self, reading: Reading, noise_deg: float, *, new: bool) -> Fault | None:
+        """A plausible reading: is it the place of the axis? If so, it counts from now on."""
+        if not new or reading.raw is None:
+            return self._off_line
+        angle_deg = self._degrees(reading.raw)
+        places = self._sparks.believe(reading.at_s, angle_deg, noise_deg)
+        if not places:
+            measured = f"{angle_deg:.0f}°, a moment after {self._degrees(self.raw or 0.0):.0f}°"
+            self._off_line = Fault(FaultKind.POT_JUMPS, self._axis, measured, f"{JUMP_DEG:g}° beyond what it can turn")
+            self._loose = self._loose or self._off_line
+            return self._off_line
+        self._off_line = None
+        self.raw = reading.raw
+        self.places = places
+        if self.calibration is not None:
+            self.angle_deg = angle_deg
+        if len(places) > 1:
+            self._moved_s.append(reading.at_s)
+        return None
+
+    def _too_many(self, now_s: float, latest: Fault | None) -> Fault | None:
+        """The fault of being bad too often, or of having moved too often at once."""
+        if len(self._moved_s) == MOVES and now_s - self._moved_s[0] < MOVES_WITHIN_S:
+            self._moved_s.clear()
+            measured = f"to another place, {MOVES} times in {MOVES_WITHIN_S:g} s"
+            return Fault(FaultKind.POT_JUMPS, self._axis, measured, f"{JUMP_DEG:g}° beyond what it can turn")
+        count = self._rate.count
+        if not self._rate.too_many(now_s):
+            return None
+        last = f", now {latest.name}" if latest else ""
+        return Fault(
+            FaultKind.BAD_READINGS, self._axis, f"{count} of the last {LOOKED_AT}{last}", f"{TOO_MANY} of {LOOKED_AT}"
+        )
+
+    def _degrees(self, raw: float) -> float:
+        return self.calibration.degrees(raw) if self.calibration else raw * UNCALIBRATED_SPAN_DEG
+
+    def _jumping(self, reading: Reading, *, new: bool) -> Fault | None:
         """Out, back, and out again: no motor does that, even where each reading is plausible."""
-        # No answer counts as a place too, far from any other.
-        raw = reading.raw if reading.raw is not None and math.isfinite(reading.raw) else -1.0
-        angle_deg = self.calibration.degrees(raw) if self.calibration else raw * UNCALIBRATED_SPAN_DEG
-        if self._last is not None and reading.at_s <= self._last[0]:
+        if not new or reading.raw is None:
             return self._jumped
+        angle_deg = self._degrees(reading.raw if math.isfinite(reading.raw) else -1.0)
         if self._last is not None and reading.at_s - self._last[0] <= JUMPS_WITHIN_S:
             jump_deg = angle_deg - self._last[1]
             if abs(jump_deg) > JUMP_DEG:

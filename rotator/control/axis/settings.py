@@ -14,6 +14,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.sensing import Window
 from rotator.control.sky.mount import Range
 from rotator.faults import Missing
+from rotator.status import ALL_OPEN, Trusts
 
 NEAR_DEG = 0.5
 """How far from its place a positioned axis may come to rest, where its drive leaves no dead band."""
@@ -40,6 +41,10 @@ class SwitchedSettings:
     """Whether an output switches the motors' supply."""
     homing: HomingSettings | None = None
     """How to find its end stop, where it counts; None: its sensor needs no homing."""
+    trusts: Trusts = ALL_OPEN
+    """What an earlier run of the program knew of its two relays."""
+    look: bool = False
+    """The axis is to be seen standing before its first relay closes."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,7 @@
 """Whether a positioned axis follows: it stands where it was sent, or it comes nearer.
 
-Knows where the drive was sent and where the axis is. A modelled angle always agrees with its model.
+Knows where the drive was sent and where the axis is. A modelled angle always agrees with its model. What was seen lasts
+while the drive holds in between, and until the axis comes nearer.
 """
 
 from __future__ import annotations
@@ -12,33 +13,54 @@ from rotator.control.commands import Steer
 from rotator.faults import Fault, FaultKind
 
 STRAY_DEG = 5.0
-STRAY_S = 3.0
+STRAY_S = 1.9
 """An axis this far from where it was sent, and not coming nearer for so long, does not follow. One that has to turn
-back first, at 20°/s² from 30°/s, takes half of that time."""
-COMING_DEG = 0.5
-"""An axis that has moved this far towards its place is coming nearer."""
+back first, at 20°/s² from 30°/s, takes 1.5 s."""
+COMING_DEG, COMING_NOISES = 0.5, 6.0
+"""An axis that has moved further than both towards its place is coming nearer."""
+SLOW_SHARE = 0.25
+"""A motor at this share of its speed still comes nearer in time."""
 
 
 class StrayWatch:
-    def __init__(self, axis: Axis) -> None:
+    """`speed_dps`: of the motor."""
+
+    def __init__(self, axis: Axis, speed_dps: float) -> None:
         self._axis = axis
-        self._coming: tuple[float, float] | None = None
-        """Where the axis was when it was last seen to come nearer, and when."""
+        self._speed_dps = speed_dps
+        self._coming_deg: float | None = None
+        """Where the axis was when it was last seen to come nearer, or how far it has gone astray since."""
+        self._strayed_s = 0.0
+        """For how long it was sent since then."""
+        self._sent_s: float | None = None
+        """The moment of the last look at it while it was sent somewhere."""
 
     def clear(self) -> None:
-        """It is not sent anywhere, or a person has acknowledged the fault."""
-        self._coming = None
+        """The fault is acknowledged."""
+        self._coming_deg = self._sent_s = None
+        self._strayed_s = 0.0
 
-    def see(self, now_s: float, steered: Steer | None, angle_deg: float | None, *, settling: bool) -> Fault | None:
-        """`settling`: the axis does not follow yet, for a reason that passes by itself."""
+    def see(
+        self, now_s: float, steered: Steer | None, angle_deg: float | None, noise_deg: float = 0.0, *, settling: bool
+    ) -> Fault | None:
+        """`noise_deg`: the scatter of the readings. `settling`: the axis does not follow yet, for a reason that passes
+        by itself.
+        """
         if steered is None or angle_deg is None:
+            self._sent_s = None
             return None
+        passed_s, self._sent_s = now_s - (now_s if self._sent_s is None else self._sent_s), now_s
         ahead_deg = steered.angle_deg - angle_deg
-        near = abs(ahead_deg) < STRAY_DEG or settling
-        if near or self._coming is None or (angle_deg - self._coming[0]) * math.copysign(1, ahead_deg) >= COMING_DEG:
-            self._coming = (angle_deg, now_s)
+        nearer_deg = 0.0 if self._coming_deg is None else (angle_deg - self._coming_deg) * math.copysign(1.0, ahead_deg)
+        coming_deg = max(COMING_DEG, COMING_NOISES * noise_deg)
+        if abs(ahead_deg) < STRAY_DEG or settling or self._coming_deg is None or nearer_deg >= coming_deg:
+            self._coming_deg, self._strayed_s = angle_deg, 0.0
             return None
-        if now_s - self._coming[1] < STRAY_S:
+        if nearer_deg < 0.0:
+            self._coming_deg = angle_deg
+        self._strayed_s += passed_s
+        patience_s = max(STRAY_S, coming_deg / (SLOW_SHARE * self._speed_dps))
+        if self._strayed_s < patience_s:
             return None
         measured = f"stands at {angle_deg:.1f}°, {abs(ahead_deg):.1f}° from where it was told to be"
-        return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{STRAY_DEG:g}° for {STRAY_S:g} s")
+        return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{STRAY_DEG:g}° for {patience_s:.2g} s")

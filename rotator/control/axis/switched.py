@@ -6,24 +6,30 @@ who gave the order.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping
 
 from hw.ports import AngleSource, Direction
+from rotator.control.axis.attempts import Attempts
+from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.axis.endurance import Endurance
-from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
+from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
+from rotator.control.axis.reach import Reach, Runs, lost
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
-from rotator.control.axis.switched_law import SwitchedLaw, Timing
-from rotator.control.commands import Decision, Run
+from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
+from rotator.control.commands import Command, Decision, Feed, Run
+from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
+from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.status import AxisStatus, LearntMotor
+from rotator.status import AxisStatus, LearntMotor, Trusts
 
 JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
@@ -32,32 +38,27 @@ SETTLED_AFTER_S = 1.0
 BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
 
 
-@dataclass(frozen=True, slots=True)
-class _Relays:
-    """What the relays of this axis do, and when one was last seen closed."""
-
-    direction: Direction = Direction.OFF
-    driven_s: float | None = None
-
-
 class SwitchedAxis:
     """The kind of `ControlledAxis` that relays drive. It can be homed where `settings.homing` says how."""
 
     def __init__(self, settings: SwitchedSettings, *, lease_s: float, period_s: float) -> None:
         self.settings = settings
         self._goal: AimGoal | JogGoal | HomeGoal | None = None
-        self._faults = FaultLatch()
-        self._ends = EndCalibration(settings.limits, settings.missing)
+        self._attempts = Attempts(settings.axis, settings.limits)
+        self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
         self._condition: Condition | None = None
-        self._sensing = Sensing(settings.axis, settings.window, settings.calibration)
+        # A count does not scatter, and it is corrected by as much as a pulse at once.
+        fastest_dps = math.inf if settings.source is AngleSource.COUNTED else settings.motor.speed_dps
+        self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
         self._timing = Timing(lease_s=lease_s, period_s=period_s)
         motors = settings.learnt or (settings.motor, settings.motor)
-        self._law = SwitchedLaw(dict(zip((Direction.PLUS, Direction.MINUS), motors, strict=True)), self._timing)
-        self._watch = self._new_watch()
+        self._law = self._new_law(dict(zip((Direction.PLUS, Direction.MINUS), motors, strict=True)))
+        self._watch = self._new_watch(settings.trusts, look=settings.look)
         self._astray: Fault | None = None
         """What the watch made of the latest reading."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
-        self._relays = _Relays()
+        self._runs = Runs()
+        self._reach = Reach(settings)
 
     @property
     def angle_deg(self) -> float | None:
@@ -86,11 +87,11 @@ class SwitchedAxis:
 
     @property
     def fault(self) -> Fault | None:
-        return self._faults.fault
+        return self._attempts.fault
 
     @property
     def driven(self) -> bool:
-        return self._relays.direction is not Direction.OFF
+        return self._runs.direction is not Direction.OFF
 
     @property
     def confirmable(self) -> bool:
@@ -103,8 +104,7 @@ class SwitchedAxis:
         return (*self._ends.missing, Missing.HOMING) if lost else self._ends.missing
 
     def moving(self, now_s: float) -> bool:
-        driven_s = self._relays.driven_s
-        return driven_s is not None and now_s - driven_s < SETTLED_AFTER_S
+        return self._runs.off_s(now_s) < SETTLED_AFTER_S
 
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
@@ -127,15 +127,21 @@ class SwitchedAxis:
 
     def see(self, reading: Reading, now_s: float) -> None:
         lost = self._note_condition(reading.condition)
-        unbelievable = self._sensing.take(reading, now_s)
-        if self._sensing.fresh and self._sensing.angle_deg is not None:
-            self._law.see(reading.at_s, self._sensing.angle_deg)
-            found = self._watch.see(reading.at_s, self._sensing.angle_deg, reading.condition.changes)
+        unbelievable = self._sensing.take(reading, now_s, self._watch.noise_deg)
+        for at_s, angle_deg in self._sensing.places:
+            if self._sensing.calibration is None:
+                # Without a calibration there is no angle, but a relay that does not open is seen all the same.
+                self._astray = self._watch.see(at_s, angle_deg, reading.condition)
+                continue
+            self._law.see(at_s, angle_deg)
+            found = self._watch.see(at_s, angle_deg, reading.condition)
+            if self.settings.homing is None:
+                found = found or self._attempts.see(at_s, angle_deg, self._watch.noise_deg)
             self._astray = None if self.homing else found
         # The rotor's own report says more than what can be seen of it from here.
         reported, present = reading.condition.fault, unbelievable or self._astray
         cause = present if reading.condition.latched else reported or present
-        if self._faults.note((None if self.homing else reported) or present or lost, cause=cause):
+        if self._attempts.note((None if self.homing else reported) or present or lost, now_s, cause=cause):
             self._law.forget_run()
 
     def _note_condition(self, condition: Condition) -> Fault | None:
@@ -144,20 +150,28 @@ class SwitchedAxis:
         if before is None:
             return None
         if condition.scale != before.scale:
-            self._begin_anew()
+            self._begin_anew(self._sensing.calibration)
         if condition.lost and not before.lost and not self.homing:
             return Fault(FaultKind.COUNT_LOST, self.settings.axis, f"homing ({condition.lost})")
         return None
 
     def fail(self, fault: Fault) -> None:
-        if self._faults.fail(fault):
+        if self._attempts.fail(fault):
             self._law.forget_run()
 
-    def acknowledge(self) -> None:
-        self._faults.acknowledge()
-        self._watch.acknowledge()
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
+        acknowledged = self._attempts.acknowledge(now_s, by_person=by_person)
+        if acknowledged:
+            self._watch.acknowledge()
+        return acknowledged
+
+    def checked(self) -> None:
+        """A person has looked at both relays, and they are open: no doubt is left."""
+        self._watch.checked()
 
     def decide(self, now_s: float) -> Decision:
+        if isinstance(self._watch, RunWatch):
+            self._watch.homes(homing=isinstance(self._goal, HomeGoal) and self._goal.homing.begun)
         run = self._safe(self._wish(now_s), now_s)
         if isinstance(self._goal, HomeGoal) and self._goal.homing.homed:
             homed_deg = self._goal.homing.home_deg
@@ -165,7 +179,7 @@ class SwitchedAxis:
             return Decision(run, homed_deg)
         return Decision(run)
 
-    def _safe(self, run: Run, now_s: float) -> Run:
+    def _safe(self, run: Run, now_s: float) -> Run | Feed:
         """The run, unless a relay, a limit or the motor's heat forbids it."""
         if run.direction is Direction.OFF:
             return run
@@ -175,30 +189,60 @@ class SwitchedAxis:
             self.fail(limit_reached(self.settings.axis, run.direction))
         if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
             return self._law.rest(now_s)
-        return Run(Direction.OFF, now_s) if self._watch.forbids(run.direction) else run
+        if not self._watch.forbids(run.direction):
+            return run
+        # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
+        return Feed(now_s + self._timing.lease_s) if self.settings.master else Run(Direction.OFF, now_s)
+
+    def sweep(self, now_s: float, command: Command | None) -> Range:
+        if self.missing or lost(self.fault):
+            return UNKNOWN
+        run = command if isinstance(command, Run) else None
+        return self._reach.swept(now_s, self._sensing, self._law.motion, self._runs, run)
+
+    @property
+    def room_deg(self) -> float:
+        return self._reach.room_deg(self._law.motion)
+
+    def hold_back(self, now_s: float, why: str) -> None:
+        self._law.rest(now_s)
+        if self.homing:
+            self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, why))
+        if not isinstance(self._goal, AimGoal):
+            self._goal = None
 
     def _beyond(self, direction: Direction) -> bool:
         """Whether the axis stands at its limit in that direction, or past it."""
         if self.missing or self._sensing.angle_deg is None or self.homing:
             return False
-        limits, angle_deg = self.settings.limits, self._sensing.angle_deg
+        limits, angle_deg = self._attempts.limits, self._sensing.angle_deg
         return angle_deg >= limits.max_deg if direction > 0 else angle_deg <= limits.min_deg
 
     def _wish(self, now_s: float) -> Run:
         """What the goal asks for. A fault ends the goal."""
         if self.fault is not None:
             self._goal = None
-        if self._goal is None or not self._sensing.believable:
+        if self._goal is None or now_s >= self._sensing.ridden_until_s:
             return self._law.rest(now_s)
-        match self._goal:
+        run = self._towards(now_s, self._goal)
+        if self._sensing.believable:
+            return run
+        # A bad reading starts nothing, and what runs may go on for a moment, until the next good one.
+        if run.direction is not self._runs.direction:
+            return self._law.rest(now_s)
+        return Run(run.direction, min(run.until_s, self._sensing.ridden_until_s))
+
+    def _towards(self, now_s: float, goal: AimGoal | JogGoal | HomeGoal) -> Run:
+        match goal:
             case HomeGoal(homing):
                 return self._home(now_s, homing)
             case AimGoal() if self.missing or self._sensing.angle_deg is None:
                 return self._law.rest(now_s)
-            case AimGoal(_, tolerance_deg, Path() as path):
+            case AimGoal(_, tolerance_deg, Path() as path) if self._attempts.limits.holds(path.angle_deg(now_s)):
                 return self._law.follow(now_s, path, tolerance_deg)
-            case AimGoal(target_deg, tolerance_deg, _):
-                return self._law.approach(now_s, target_deg, tolerance_deg)
+            case AimGoal(target_deg, tolerance_deg, path):
+                wanted_deg = path.angle_deg(now_s) if path else target_deg
+                return self._law.approach(now_s, self._attempts.limits.nearest(wanted_deg), tolerance_deg)
             case JogGoal(_, until_s) if until_s is not None and now_s >= until_s:
                 self._goal = None
                 return self._law.rest(now_s)
@@ -211,8 +255,8 @@ class SwitchedAxis:
             longest_s = min(longest_s, until_s)
         if self.missing or self._sensing.angle_deg is None:
             return Run(direction, longest_s)
-        limits = self.settings.limits
-        limit_deg = limits.max_deg if direction > 0 else limits.min_deg
+        limits, rests_deg = self._attempts.limits, self._rests_deg
+        limit_deg = min(limits.max_deg, rests_deg[1]) if direction > 0 else max(limits.min_deg, rests_deg[0])
         if (limit_deg - self._sensing.angle_deg) * direction <= JOG_TOLERANCE_DEG:
             self._goal = None
             return self._law.rest(now_s)
@@ -222,7 +266,7 @@ class SwitchedAxis:
 
     def _home(self, now_s: float, homing: Homing) -> Run:
         assert self._condition is not None, "an axis homes only after its first reading"
-        direction = homing.step(now_s, self._relays.direction, self._condition)
+        direction = homing.step(now_s, self._runs.direction, self._condition)
         if homing.failure:
             self._goal = None
             self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, homing.failure))
@@ -234,21 +278,23 @@ class SwitchedAxis:
             raise ValueError("the sensor has no believable reading")
         calibration = self._ends.take(self._sensing.raw, self._sensing.calibration, high_end=high_end)
         if calibration is not None:
-            self._sensing.calibration = calibration
-            self._begin_anew()
+            self._begin_anew(calibration)
 
-    def _begin_anew(self) -> None:
+    def _begin_anew(self, calibration: Calibration | None) -> None:
         """The readings mean other places than before. Only a motor that counts keeps what it has learnt."""
+        self._sensing.begin_anew(calibration)
+        self._attempts.forget()
         keeps = self.settings.homing is not None
         motors = self._law.motion.motors if keeps else dict.fromkeys(self._law.motion.motors, self.settings.motor)
-        self._law = SwitchedLaw(motors, self._timing)
-        self._watch = self._new_watch()
+        self._law = self._new_law(motors)
+        self._watch = self._new_watch(self._watch.trusts, look=self._watch.looks)
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         self._law.driven(now_s, driven)
         self._watch.driven(now_s, driven)
+        self._attempts.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
-        self._relays = _Relays(driven, now_s if driven is not Direction.OFF else self._relays.driven_s)
+        self._runs.note(now_s, driven)
 
     def status(self, now_s: float) -> AxisStatus:
         calibration = self._sensing.calibration
@@ -259,7 +305,7 @@ class SwitchedAxis:
             raw=self._sensing.raw,
             source=self.settings.source,
             target_deg=self.aiming.target_deg if self.aiming else None,
-            drive=self._relays.direction,
+            drive=self._runs.direction,
             moving=self.moving(now_s),
             missing=self.missing,
             lost=self._condition.lost if self._condition else "",
@@ -270,19 +316,37 @@ class SwitchedAxis:
             noise_deg=self._watch.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
+            trusts=self._watch.trusts,
         )
 
     def _notices(self) -> tuple[Notice, ...]:
         reported = self._condition.notice if self._condition else None
-        single = (reported, self._endurance.notice, BLIND if self.settings.window.blind else None)
-        return (*self._watch.notices, *(notice for notice in single if notice is not None))
+        blind = BLIND if self.settings.window.blind else None
+        single = (reported, self._sensing.notice, self._endurance.notice, blind)
+        found = (notice for notice in single if notice is not None)
+        return (*self._watch.notices, *self._attempts.notices, *found)
 
-    def _new_watch(self) -> MotionWatch | RunWatch:
+    @property
+    def _rests_deg(self) -> tuple[float, float]:
+        """Between these angles the axis may be brought to rest."""
+        limits, homing = self.settings.limits, self.settings.homing
+        if homing is None:
+            return limits.min_deg, limits.max_deg
+        return max(limits.min_deg, homing.rest_deg[0]), min(limits.max_deg, homing.rest_deg[1])
+
+    def _new_law(self, motors: Mapping[Direction, Motor]) -> SwitchedLaw:
+        homing = self.settings.homing
+        return SwitchedLaw(motors, self._timing, homing.rest_deg if homing else ANYWHERE)
+
+    def _new_watch(self, trusts: Trusts, *, look: bool) -> MotionWatch | RunWatch:
         settings, motors = self.settings, self._law.motion.motors
-        if settings.homing is not None:
-            quiet_s = settings.homing.coast_s + settings.homing.period_s
-            return RunWatch(settings.axis, settings.limits, motors, quiet_s)
-        return MotionWatch(settings.axis, settings.limits, motors, master=settings.master)
+        axis, limits, master, homing = settings.axis, settings.limits, settings.master, settings.homing
+        if homing is not None:
+            return RunWatch(
+                axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look
+            )
+        placed = self._sensing.calibration is not None and Missing.LIMITS not in self.missing
+        return MotionWatch(axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look)
 
     def _learnt(self) -> tuple[LearntMotor, LearntMotor]:
         plus, minus = (self._law.motion.motors[way] for way in (Direction.PLUS, Direction.MINUS))

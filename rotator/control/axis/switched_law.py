@@ -22,6 +22,9 @@ FLOOR = 0.55
 LEAST_MOVE_DEG = 0.3
 
 
+ANYWHERE = (-math.inf, math.inf)
+
+
 @dataclass(frozen=True, slots=True)
 class Timing:
     lease_s: float
@@ -31,11 +34,14 @@ class Timing:
 
 
 class SwitchedLaw:
-    """`motors`: what is known of each direction's motor."""
+    """`motors`: what is known of each direction's motor. `reach`: between these angles the axis is brought to rest."""
 
-    def __init__(self, motors: Mapping[Direction, Motor], timing: Timing) -> None:
+    def __init__(
+        self, motors: Mapping[Direction, Motor], timing: Timing, reach: tuple[float, float] = ANYWHERE
+    ) -> None:
         self.motion = Motion(motors)
         self._timing = timing
+        self._reach = reach
         self._taught = dict(motors)
         """What was known of the motors before the present or latest run."""
         self._relay = Direction.OFF
@@ -102,6 +108,7 @@ class SwitchedLaw:
 
     def _go(self, now_s: float, goal_deg: float) -> Run:
         """Start, or go on, towards the goal; stop where the motor would coast onto it."""
+        goal_deg = min(max(goal_deg, self._reach[0]), self._reach[1])
         if self._stop_s is not None:
             if now_s < self._stop_s and goal_deg == self._goal_deg:
                 return Run(self._running, self._stop_s)

@@ -1,6 +1,7 @@
 """How fast an axis really turns: a straight line through its latest readings, and how exact that line is.
 
-Knows readings, when they were taken and how much they scatter. Knows no motor, no relay and no rule.
+Knows readings, when they were taken and how much they scatter. Knows no motor, no relay and no rule. Readings may be
+missing: the line lies through the others.
 """
 
 from __future__ import annotations
@@ -9,20 +10,21 @@ import math
 from collections import deque
 from dataclasses import dataclass
 
+from rotator.control.axis.sparks import Place, spark_deg
+
 KEPT_S = 5.0
 LEAST_GAP_S = 0.035
 """A reading that comes sooner after the last one is left out: a fast loop would only make the sums longer."""
 LONGEST_GAP_S = 0.3
 """After a longer gap the line begins anew: the motion in between is not known."""
-JUMP_DEG = 3.0
-JUMP_READINGS = 3
-"""A reading further off than this, and than the axis can have turned, is a spark, unless so many in a row agree."""
+LEAST_READINGS = 3
+"""A line needs so many."""
 
 _FIRST_NOISE_DEG = 0.1
 _LEAST_NOISE_DEG, _MOST_NOISE_DEG = 0.02, 1.5
 _NOISE_STEP = 1.03
-_BEND_MEDIAN = 0.6745 * math.sqrt(6.0)
-"""The median of |a - 2b + c| for readings with a scatter of one: what a steady motion cannot hide."""
+_MEDIAN = 0.6745
+"""The median of the size of what scatters by one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +38,7 @@ class Trend:
     def __init__(self) -> None:
         self.noise_deg = _FIRST_NOISE_DEG
         """Scatter of the readings, rms, as seen so far."""
-        self._kept: deque[tuple[float, float]] = deque()
-        self._strays: list[tuple[float, float]] = []
+        self._kept: deque[Place] = deque()
 
     @property
     def since_s(self) -> float:
@@ -49,31 +50,23 @@ class Trend:
         return self._kept[-1][0] if self._kept else -math.inf
 
     def see(self, at_s: float, angle_deg: float, fastest_dps: float) -> bool:
-        """A good reading of an axis that turns at most that fast. Returns whether it lies on the line."""
+        """A good reading of an axis that turns at most that fast. Returns whether the line was continued, or begun.
+
+        Where the axis is elsewhere than it can have turned to, the line begins anew.
+        """
         passed_s = at_s - self.last_s
         if passed_s < LEAST_GAP_S:
             return False
-        if passed_s > LONGEST_GAP_S:
-            self._begin([(at_s, angle_deg)])
-            return True
-        if abs(angle_deg - self._kept[-1][1]) > self.jump_deg(passed_s, fastest_dps):
-            near_deg = self.jump_deg(LONGEST_GAP_S, fastest_dps)
-            self._strays = [stray for stray in self._strays if abs(stray[1] - angle_deg) <= near_deg]
-            self._strays.append((at_s, angle_deg))
-            if len(self._strays) == JUMP_READINGS:
-                # It stays there: the axis is elsewhere than the line says. The line begins anew.
-                self._begin(self._strays)
-            return False
-        self._strays.clear()
+        elsewhere = passed_s > LONGEST_GAP_S or abs(angle_deg - self._kept[-1][1]) > spark_deg(
+            passed_s, fastest_dps, self.noise_deg
+        )
+        if elsewhere:
+            self._kept.clear()
         self._kept.append((at_s, angle_deg))
         self._note_noise()
         while at_s - self._kept[0][0] > KEPT_S:
             self._kept.popleft()
         return True
-
-    def jump_deg(self, passed_s: float, fastest_dps: float) -> float:
-        """Two readings further apart than this cannot be the motor's doing."""
-        return max(JUMP_DEG, 6.0 * self.noise_deg) + 2.0 * fastest_dps * passed_s
 
     def slope(self, from_s: float) -> Slope | None:
         """The line through the readings from that moment on; None where there are too few."""
@@ -89,7 +82,7 @@ class Trend:
             sum_x += x
             sum_tt += t * t
             sum_tx += t * x
-        if count < JUMP_READINGS:
+        if count < LEAST_READINGS:
             return None
         spread = sum_tt - sum_t * sum_t / count
         return Slope((sum_tx - sum_t * sum_x / count) / spread, self.noise_deg / math.sqrt(spread))
@@ -101,15 +94,15 @@ class Trend:
             gap_s = (self.last_s - self.since_s) / (len(self._kept) - 1)
         return float((self.noise_deg * math.sqrt(12.0 * gap_s) / rough_dps) ** (2.0 / 3.0))
 
-    def _begin(self, readings: list[tuple[float, float]]) -> None:
-        self._kept = deque(readings)
-        self._strays = []
-
     def _note_noise(self) -> None:
-        """Follow the median of the bend of three readings in a row: sparks and starting motors hardly change it."""
-        if len(self._kept) < 3:
+        """Follow the median of how far a reading is off the line through its neighbours: starting motors hardly change
+        it."""
+        if len(self._kept) < LEAST_READINGS:
             return
-        bend_deg = abs(self._kept[-1][1] - 2.0 * self._kept[-2][1] + self._kept[-3][1])
-        above = bend_deg > _BEND_MEDIAN * self.noise_deg
+        (before_s, before_deg), (at_s, angle_deg), (after_s, after_deg) = (self._kept[place] for place in (-3, -2, -1))
+        share = (at_s - before_s) / (after_s - before_s)
+        off_deg = abs(angle_deg - before_deg - share * (after_deg - before_deg))
+        scatter = math.sqrt(1.0 + share**2 + (1.0 - share) ** 2)
+        above = off_deg > _MEDIAN * scatter * self.noise_deg
         noise_deg = self.noise_deg * _NOISE_STEP if above else self.noise_deg / _NOISE_STEP
         self.noise_deg = min(max(noise_deg, _LEAST_NOISE_DEG), _MOST_NOISE_DEG)

@@ -34,6 +34,32 @@ class Range:
     def holds(self, angle_deg: float) -> bool:
         return self.min_deg <= angle_deg <= self.max_deg
 
+    def meets(self, other: Range) -> bool:
+        """Whether the two have more than an end in common."""
+        return self.min_deg < other.max_deg and other.min_deg < self.max_deg
+
+    def spanning(self, angle_deg: float) -> Range:
+        """The same, stretched to hold this angle."""
+        return Range(min(self.min_deg, angle_deg), max(self.max_deg, angle_deg))
+
+    def widened(self, by_deg: float) -> Range:
+        return Range(self.min_deg - by_deg, self.max_deg + by_deg)
+
+    @property
+    def middle_deg(self) -> float:
+        return (self.min_deg + self.max_deg) / 2
+
+
+@dataclass(frozen=True, slots=True)
+class Sector:
+    """Where the antenna would touch something: a chimney, a guy wire, the tower."""
+
+    name: str
+    azimuth: Range
+    elevation: Range
+    margin_deg: float
+    """What is kept free around it, on each side."""
+
 
 @dataclass(frozen=True, slots=True)
 class Mount:
@@ -45,21 +71,23 @@ class Mount:
     """A person has said that the antenna clears everything on its way over the top."""
     horizon: tuple[tuple[float, float], ...] = ()
     """Points (azimuth, least elevation), azimuth rising from 0 to below 360: trees, the neighbour's roof."""
+    sectors: tuple[Sector, ...] = ()
+    """Where the antenna must not be, nor pass, on the axes' own scales."""
 
     def axis_angles(
-        self, azimuth_deg: float, elevation_deg: float | None, near_azimuth_deg: float
+        self, azimuth_deg: float, elevation_deg: float | None, near_azimuth_deg: float, *, over: bool = False
     ) -> tuple[float, float | None]:
         """Axis angles for an order, on the turn of azimuth nearest to `near_azimuth_deg`. Raises Unreachable.
 
         Below the horizon azimuth follows and elevation rests at its minimum. Past the zenith an order is axis angles
         where the range allows, else the direction that it means. A direction that azimuth does not reach is looked at
-        over the top, where the antenna may go there.
+        over the top, where the antenna may go there; any direction is, if it is to go `over`.
         """
         if elevation_deg is None:
             return self._turn(azimuth_deg, near_azimuth_deg), None
         if elevation_deg > ZENITH_DEG and not self.elevation.holds(elevation_deg):
             azimuth_deg, elevation_deg = (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
-        if self.flip and not self._turns(azimuth_deg) and self._turns(azimuth_deg + 180.0):
+        if over or (self.flip and not self._turns(azimuth_deg) and self._turns(azimuth_deg + 180.0)):
             azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
         axis_azimuth_deg = self._turn(azimuth_deg, near_azimuth_deg)
         return axis_azimuth_deg, self.clear_deg(axis_azimuth_deg, elevation_deg)
@@ -72,6 +100,31 @@ class Mount:
         if flipped:
             azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
         return from_azimuth_deg + turn_deg(from_azimuth_deg, azimuth_deg), elevation_deg
+
+    def places(self, azimuth_deg: float, elevation_deg: float) -> list[tuple[float, float, bool]]:
+        """Every place at which the axes point in that direction, and whether it is over the top."""
+        ways = [(azimuth_deg, elevation_deg, False)]
+        if self.flip and elevation_deg <= ZENITH_DEG:
+            ways.append((azimuth_deg + 180.0, 180.0 - elevation_deg, True))
+        return [
+            (turn_deg, self.clear_deg(turn_deg, axis_elevation_deg), over)
+            for way_deg, axis_elevation_deg, over in ways
+            for turn_deg in self._turns(way_deg)
+        ]
+
+    def inside_deg(self, axis_azimuth_deg: float, axis_elevation_deg: float) -> float:
+        """How far inside a sector, or its margin, this place is; 0 where it is free."""
+        depths_deg = (
+            sector.margin_deg
+            + min(
+                axis_azimuth_deg - sector.azimuth.min_deg,
+                sector.azimuth.max_deg - axis_azimuth_deg,
+                axis_elevation_deg - sector.elevation.min_deg,
+                sector.elevation.max_deg - axis_elevation_deg,
+            )
+            for sector in self.sectors
+        )
+        return max(0.0, *depths_deg, 0.0)
 
     def clear_deg(self, axis_azimuth_deg: float, elevation_deg: float) -> float:
         """The elevation nearest to the one asked for that is within limits and above the horizon there."""

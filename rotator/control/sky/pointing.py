@@ -14,14 +14,18 @@ from rotator.control.sky.mount import ZENITH_DEG, Mount
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way
 from rotator.control.sky.track import Track
+from rotator.control.sky.turns import Swings
 from rotator.orders import Aim
 
 PLAN_EVERY_S = 0.5
 ROUTE_EVERY_S = 3.0
 SURE_AFTER_S = 45.0
 """A track this long predicts the end of the pass well enough. Until then the antenna stays on its turn."""
+FULL_TURN_DEG, HALF_TURN_DEG = 360.0, 180.0
 LEAST_WEIGHT = 0.1
 """Near the zenith azimuth hardly matters, but an antenna that a person sends there shall turn all the same."""
+WAVERS_DEG = 90.0
+"""An order this near to the one before may be the same target, which wavers."""
 EVEN = (1.0,) * len(OFFSETS_S)
 
 
@@ -53,6 +57,7 @@ class Pointing:
         self._azimuth_tolerance_deg = azimuth_tolerance_deg
         self._elevation_tolerance_deg = elevation_tolerance_deg
         self._track = Track()
+        self._swings = Swings()
         self._way: Way | None = None
         self._planned_s: float | None = None
         self._routed_s: float | None = None
@@ -75,8 +80,11 @@ class Pointing:
         self.forget()
         self.wanted = aim
 
-    def aim(self, now_s: float, aim: Aim, azimuth_deg: float, elevation_deg: float) -> Goals:
-        """Goals for an order, with the antenna at these axis angles. Raises Unreachable; then nothing has changed."""
+    def aim(self, now_s: float, aim: Aim, azimuth_deg: float, elevation_deg: float, *, over: bool = False) -> Goals:
+        """Goals for an order, with the antenna at these axis angles. Raises Unreachable; then nothing has changed.
+
+        `over`: it is better met over the top.
+        """
         assert aim.azimuth_deg is not None, "every order that points has an azimuth"
         again = self._way is not None and (aim.azimuth_deg, aim.elevation_deg) == (
             self.wanted.azimuth_deg,
@@ -84,14 +92,17 @@ class Pointing:
         )
         # The same order again: stay on the turn chosen, wherever the antenna is now.
         near_deg = self._way.azimuth_deg if again and self._way is not None else azimuth_deg
-        axis_azimuth_deg, axis_elevation_deg = self._mount.axis_angles(aim.azimuth_deg, aim.elevation_deg, near_deg)
+        axis_azimuth_deg, axis_elevation_deg = self._mount.axis_angles(
+            aim.azimuth_deg, aim.elevation_deg, near_deg, over=over
+        )
         kept_deg = self.wanted.elevation_deg if aim.elevation_deg is None else aim.elevation_deg
         self.wanted = Aim(aim.azimuth_deg, kept_deg)
         self._planned_s = None
         if aim.elevation_deg is None or axis_elevation_deg is None:
             self._track.clear()
-            self._way = Way(axis_azimuth_deg, flipped=False)
-            return AimGoal(axis_azimuth_deg, self._standing_tolerance_deg(elevation_deg)), None
+            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped=False))
+            nearest_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
+            return AimGoal(nearest_deg, self._standing_tolerance_deg(elevation_deg)), None
         if aim.place:
             self._track.clear()
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
@@ -102,9 +113,10 @@ class Pointing:
                 *direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
             )
             self._way = Way(flown_deg, self._way.flipped)
+            self._swings.forgo()
         elif not again:
-            self._way = Way(axis_azimuth_deg, axis_elevation_deg > ZENITH_DEG)
-        return self._standing(settled=not moving)
+            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, axis_elevation_deg > ZENITH_DEG))
+        return self._standing(now_s, settled=not moving)
 
     def raise_to(self, elevation_deg: float, azimuth_deg: float) -> AimGoal:
         """The goal for an order of elevation alone, with azimuth where it is."""
@@ -118,13 +130,13 @@ class Pointing:
         if not self._track.moving(now_s):
             ended = had_path or (not self._on_sky and self._planned_s is not None)
             self._planned_s = None
-            return self._standing(settled=True) if ended else None
+            return self._standing(now_s, settled=True) if ended or self._swings.due(now_s) else None
         if self._planned_s is not None and now_s - self._planned_s < PLAN_EVERY_S:
             return None
         self._planned_s = now_s
         self._choose_way(now_s, speeds)
         if not self._on_sky:
-            return self._standing(settled=False)
+            return self._standing(now_s, settled=False)
         directions = [self._track.direction(now_s + offset_s) for offset_s in OFFSETS_S]
         azimuths_deg, elevations_deg = [], []
         azimuth_deg = self._way.azimuth_deg
@@ -158,14 +170,27 @@ class Pointing:
         may_flip = (self.wanted.elevation_deg or 0.0) <= ZENITH_DEG
         self._way = best_way(self._mount, directions, self._way, speeds, may_flip=may_flip)
 
-    def _standing(self, *, settled: bool) -> Goals:
+    def _calm_way(self, now_s: float, aim: Aim, way: Way) -> Way:
+        """The way to a new order; where only a swing right round leads there, and swings must wait, the present one."""
+        assert aim.azimuth_deg is not None
+        if self._way is None or aim.azimuth_deg > FULL_TURN_DEG:  # the sender names the overlap
+            return way
+        azimuth_deg, _ = direction(aim.azimuth_deg, aim.elevation_deg or 0.0)
+        kept_deg, _ = self._mount.on_the_way(azimuth_deg, 0.0, self._way.azimuth_deg, flipped=self._way.flipped)
+        swings = way.flipped is not self._way.flipped or abs(way.azimuth_deg - kept_deg) > HALF_TURN_DEG
+        if not swings:
+            self._swings.forgo()
+        wavers = abs(kept_deg - self._way.azimuth_deg) <= WAVERS_DEG
+        return Way(kept_deg, self._way.flipped) if swings and wavers and not self._swings.may_begin(now_s) else way
+
+    def _standing(self, now_s: float, *, settled: bool) -> Goals:
         """Goals for the last order, on the way chosen. For a target that has settled beyond the end of its turn the
         antenna turns round."""
         wanted = self.wanted
         assert self._way is not None
         assert wanted.azimuth_deg is not None
-        if settled and self._mount.azimuth.nearest(self._way.azimuth_deg) != self._way.azimuth_deg:
-            near_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
+        near_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
+        if settled and near_deg != self._way.azimuth_deg and self._swings.may_begin(now_s):
             axis_deg, raised_deg = self._mount.axis_angles(wanted.azimuth_deg, wanted.elevation_deg, near_deg)
             flipped = self._way.flipped if raised_deg is None else raised_deg > ZENITH_DEG
             self._way = Way(axis_deg, flipped)

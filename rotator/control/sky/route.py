@@ -82,6 +82,8 @@ class _Flown:
                 min(abs(azimuth_deg - kept_az_deg), 90.0) * math.cos(math.radians(elevation_deg)),
                 max(0.0, abs(axis_el_deg - kept_el_deg) - max(0.0, -elevation_deg)),
             )
+            if mount.sectors:
+                off_deg += mount.inside_deg(kept_az_deg, kept_el_deg)
             losses_s.append(min(1.0, off_deg / LOST_DEG) ** 2 * STEP_S)
             self.azimuths_deg.append(kept_az_deg)
             self.elevations_deg.append(kept_el_deg)

@@ -144,7 +144,10 @@ def test_given_up_it_drives_nothing() -> None:
     rig, homing = PulseRig(180.0), ordered()
     rig.rotor.inject("azimuth-motor-stalled")
     fly(rig, homing)
-    assert homing.step(rig.clock() + 1.0, Direction.OFF, Condition()) is Direction.OFF
+    why = homing.failure
+    for later_s in (1.0, 1000.0):
+        assert homing.step(rig.clock() + later_s, Direction.OFF, Condition()) is Direction.OFF
+    assert homing.failure == why, "the reason stays the first one"
 
 
 def test_a_stop_by_somebody_else_is_waited_out_not_taken_for_quiet() -> None:
@@ -205,3 +208,85 @@ def test_a_switch_that_opened_once_on_the_way_is_passed() -> None:
     rig.switch_deg = 3.0
     fly(rig, homing)
     assert (homing.homed, rig.shaft_deg) == (True, pytest.approx(2.2, abs=0.3))
+
+
+# --- step by step, with the contact in hand
+
+
+class ByHand:
+    """A homing whose relays obey at once, and whose contact is what the test says."""
+
+    def __init__(self, *, mostly_closed: bool = False) -> None:
+        self.homing = Homing(HomingSettings(PERIOD_S, TRAVEL_S, COAST_S, 0.0, mostly_closed))
+        self.now_s, self.changes, self.closed = 10.0, 0, mostly_closed
+        self.driven = Direction.OFF
+
+    def step(self, seconds: float, changes: int = 0, *, closed: bool | None = None) -> Direction:
+        """After this time, with so many more changes of the contact."""
+        self.now_s += seconds
+        self.changes += changes
+        self.closed = self.closed if closed is None else closed
+        condition = Condition(changes=self.changes, closed=self.closed)
+        self.driven = self.homing.step(self.now_s, self.driven, condition)
+        return self.driven
+
+    def rest(self) -> Direction:
+        """The motor was switched off: wait until it stands for certain."""
+        self.step(CYCLE_S)
+        return self.step(COAST_S + 0.3)
+
+    def to_the_end(self) -> Direction:
+        """Down, where no pulse comes for three periods."""
+        assert self.step(CYCLE_S) is Direction.MINUS
+        assert self.step(CYCLE_S) is Direction.MINUS
+        assert self.step(3.2 * PERIOD_S) is Direction.OFF
+        return self.rest()
+
+
+@pytest.mark.parametrize("mostly_closed", [False, True])
+def test_the_way_up_ends_when_the_contact_has_entered_the_wider_part_of_its_period(mostly_closed: bool) -> None:
+    """So the rest above is far from an edge, where a shaft that trembles would change the contact."""
+    hand = ByHand(mostly_closed=mostly_closed)
+    assert hand.to_the_end() is Direction.PLUS
+    assert hand.step(0.5, 1, closed=not mostly_closed) is Direction.PLUS, "one change proves nothing"
+    assert hand.step(0.1, 0, closed=mostly_closed) is Direction.PLUS
+    assert hand.step(0.1, 1, closed=not mostly_closed) is Direction.PLUS, "the narrow part"
+    assert hand.step(0.1, 1, closed=mostly_closed) is Direction.OFF
+
+
+@pytest.mark.parametrize(("back", "homed"), [(1, False), (2, True), (3, True), (4, True), (5, False)])
+def test_home_is_where_as_many_changes_came_back_as_on_the_way_up_or_one_more_or_less(back: int, homed: bool) -> None:
+    hand = ByHand()
+    hand.to_the_end()
+    hand.step(0.5, 2)
+    hand.step(CYCLE_S, 1)  # while it coasts
+    assert hand.rest() is Direction.MINUS
+    hand.step(1.0, back)
+    assert hand.to_the_end() is (Direction.OFF if homed else Direction.PLUS)
+    assert hand.homing.homed is homed
+    assert hand.homing.failure == ""
+
+
+def test_after_three_ways_up_that_do_not_agree_it_gives_up() -> None:
+    hand = ByHand()
+    hand.to_the_end()
+    for _ in range(3):
+        assert hand.driven is Direction.PLUS
+        hand.step(0.5, 2)
+        assert hand.rest() is Direction.MINUS
+        hand.step(1.0, 7)
+        hand.to_the_end()
+    assert hand.driven is Direction.OFF
+    assert hand.homing.failure == "2 edges came on the way up and 7 on the way back, in the last of 3 tries"
+
+
+def test_while_it_still_coasts_nothing_is_judged() -> None:
+    hand = ByHand()
+    hand.step(CYCLE_S)
+    hand.step(CYCLE_S)
+    assert hand.step(3.2 * PERIOD_S) is Direction.OFF
+    hand.step(CYCLE_S)
+    assert hand.step(COAST_S + 0.19) is Direction.OFF
+    assert hand.step(0.1, 1) is Direction.OFF, "the contact has changed: it still moves"
+    assert hand.step(COAST_S + 0.19) is Direction.OFF
+    assert hand.step(0.1) is Direction.PLUS

@@ -7,14 +7,14 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.positioned import PositionedAxis
-from rotator.control.axis.sensing import Reading, Window
+from rotator.control.axis.sensing import RIDDEN_S, Condition, Reading, Window
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import STRAY_S
 from rotator.control.commands import HOLD, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import AimGoal
-from rotator.faults import Missing
+from rotator.faults import FaultKind, Missing
 
 LEASE_S = 0.25
 STEP_S = 0.02
@@ -160,7 +160,7 @@ def test_acknowledged_it_obeys_again(motor: Motor) -> None:
     motor.axis.aim(AimGoal(235.0, 1.0))
     motor.step(STRAY_S + 0.1)
     motor.stuck = False
-    motor.axis.acknowledge()
+    motor.axis.acknowledge(motor.now_s, by_person=False)
     assert motor.axis.fault is None
     motor.axis.aim(AimGoal(235.0, 1.0))
     motor.step(0.1)
@@ -170,12 +170,76 @@ def test_acknowledged_it_obeys_again(motor: Motor) -> None:
 def test_a_silent_sensor_holds_it_and_is_a_fault(motor: Motor) -> None:
     motor.axis.aim(AimGoal(235.0, 1.0))
     motor.step()
+    good_s = motor.now_s - STEP_S
     for _ in range(10):
         motor.axis.see(Reading(motor.now_s, None, "no answer from controller 1"), motor.now_s)
-        assert motor.axis.decide(motor.now_s).command is HOLD
+        command = motor.axis.decide(motor.now_s).command
+        assert command is HOLD or (isinstance(command, Steer) and command.until_s <= good_s + RIDDEN_S)
         motor.now_s += STEP_S
+    assert command is HOLD
     assert motor.axis.fault is not None
     assert "no answer from controller 1" in str(motor.axis.fault)
+
+
+def silent(motor: Motor) -> object:
+    """One reading is missing. Returns the command."""
+    motor.axis.see(Reading(motor.now_s, None, "no answer"), motor.now_s)
+    motor.now_s += STEP_S
+    return motor.axis.decide(motor.now_s - STEP_S).command
+
+
+@pytest.mark.parametrize("each", [16, 30])
+def test_missing_readings_do_not_hide_that_it_does_not_follow(motor: Motor, each: int) -> None:
+    motor.stuck = True
+    motor.axis.aim(AimGoal(235.0, 1.0))
+    began_s = motor.now_s
+    while motor.axis.fault is None and motor.now_s < began_s + 2.0 * STRAY_S:
+        motor.step(STEP_S * (each - 1))
+        silent(motor)
+    assert motor.axis.fault is not None
+    assert motor.axis.fault.kind is FaultKind.NOT_FOLLOWING
+    assert motor.now_s - began_s < STRAY_S + 2 * STEP_S * each
+
+
+def test_a_missing_reading_is_ridden_out_and_starts_nothing(motor: Motor) -> None:
+    motor.axis.aim(AimGoal(235.0, 1.0))
+    motor.stuck = True
+    motor.step()
+    assert isinstance(silent(motor), Steer)
+    motor.axis.halt()
+    assert silent(motor) is HOLD
+    motor.axis.aim(AimGoal(235.0, 1.0))
+    assert silent(motor) is HOLD
+
+
+def test_stop_and_go_does_not_hide_it_either(motor: Motor) -> None:
+    motor.stuck = True
+    for _ in range(5):
+        motor.axis.aim(AimGoal(235.0, 1.0))
+        motor.step(0.5)
+        motor.axis.halt()
+        motor.step(0.5)
+    assert motor.axis.fault is not None
+    assert motor.axis.fault.kind is FaultKind.NOT_FOLLOWING
+
+
+def test_a_link_has_it_tried_three_times(motor: Motor) -> None:
+    motor.stuck = True
+    for _ in range(6):
+        motor.axis.aim(AimGoal(235.0, 1.0))
+        motor.step(STRAY_S + 0.5)
+        motor.axis.acknowledge(motor.now_s, by_person=False)
+    assert motor.axis.fault is not None
+    assert motor.axis.acknowledge(motor.now_s, by_person=True)
+    assert motor.axis.fault is None
+
+
+def test_orders_that_a_controller_does_not_answer_are_bad_readings(motor: Motor) -> None:
+    for count in range(100):
+        motor.axis.see(Reading(motor.now_s, 100.0, condition=Condition(missed=count // 10)), motor.now_s)
+        motor.now_s += STEP_S
+    assert motor.axis.fault is not None
+    assert motor.axis.fault.kind is FaultKind.BAD_READINGS
 
 
 # --- status
@@ -188,6 +252,6 @@ def test_it_moves_until_it_is_there(motor: Motor) -> None:
     status = motor.axis.status(motor.now_s)
     assert (status.moving, status.drive, status.target_deg) == (True, Direction.PLUS, 235.0)
     motor.angle_deg = 235.0
-    motor.step()
+    motor.step(0.1)
     status = motor.axis.status(motor.now_s)
     assert (status.moving, status.drive) == (False, Direction.OFF)

@@ -6,13 +6,13 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.run_watch import WAYS, RunWatch
+from rotator.control.axis.relay_trust import WAYS
+from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
 
 MINUS, OFF, PLUS = Direction
-QUIET_S = 0.5 + 5.0 / 6.0
-"""Its coast, and a period of its contact."""
+PERIOD_S, COAST_S = 5.0 / 6.0, 0.5
 LONGEST_S = 1.3 * 60.0 + 5.0
 """360° at 6°/s."""
 
@@ -24,7 +24,7 @@ def motors() -> dict[Direction, Motor]:
 
 @pytest.fixture
 def watch(motors: dict[Direction, Motor]) -> RunWatch:
-    return RunWatch(Axis.AZIMUTH, Range(0.0, 360.0), motors, QUIET_S)
+    return RunWatch(Axis.AZIMUTH, Range(0.0, 360.0), motors, PERIOD_S, COAST_S)
 
 
 def first_fault(watch: RunWatch, from_s: float, seconds: float) -> tuple[float, Fault] | None:
@@ -89,24 +89,3 @@ def test_it_accuses_nothing_by_itself(watch: RunWatch) -> None:
     assert watch.accuse(MINUS) is None
     watch.acknowledge()
     assert watch.notices == ()
-
-
-def test_the_opposite_relay_waits_until_the_contact_has_been_quiet_for_a_coast_and_a_period(watch: RunWatch) -> None:
-    watch.driven(0.0, PLUS)
-    watch.driven(1.0, OFF)
-    watch.see(1.5, 6.0, changes=1)
-    assert watch.forbids(MINUS)
-    assert not watch.forbids(PLUS)
-    watch.see(1.5 + QUIET_S - 0.05, 6.0, changes=1)
-    assert watch.forbids(MINUS)
-    watch.see(1.5 + QUIET_S, 6.0, changes=1)
-    assert not watch.forbids(MINUS)
-
-
-def test_it_waits_for_ever_where_the_contact_goes_on_changing(watch: RunWatch) -> None:
-    # The relay that was to open has welded: its opposite would short the motor's winding.
-    watch.driven(0.0, PLUS)
-    watch.driven(1.0, OFF)
-    for count in range(100):
-        watch.see(1.5 + count * 0.4, 6.0, changes=count)
-        assert watch.forbids(MINUS)

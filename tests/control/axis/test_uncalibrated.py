@@ -8,7 +8,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.faults import Missing
-from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed, Stop
+from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed, Source, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
@@ -63,10 +63,42 @@ def test_a_second_press_is_a_second_turn_and_may_go_back(fresh: Any) -> None:
     assert fresh.step(Jog(AZ, MINUS)) == {AZ: MINUS, EL: OFF}
 
 
-def test_the_other_way_at_once_is_obeyed(fresh: Any) -> None:
+def test_the_other_way_is_obeyed_as_soon_as_the_relay_is_seen_to_open(fresh: Any) -> None:
     fresh.step(Jog(AZ, PLUS))
     fresh.run(0.5)
-    assert fresh.step(Jog(AZ, MINUS)) == {AZ: MINUS, EL: OFF}
+    assert fresh.step(Jog(AZ, MINUS)) == RESTING
+    assert fresh.run(1.0) == {(AZ, MINUS)}
+
+
+@pytest.mark.parametrize("every", [0.05, 0.3, 1.0, 1.9, 2.5, 3.1])
+@pytest.mark.parametrize("ways", [(PLUS,), (PLUS, MINUS), (PLUS, PLUS, MINUS)], ids=str)
+def test_a_link_that_presses_for_a_minute_turns_it_two_seconds_at_a_time(
+    fresh: Any, every: float, ways: tuple[Direction, ...]
+) -> None:
+    longest = driven = run = 0
+    for step in range(1200):
+        pressed = [Jog(AZ, ways[step % len(ways)])] if step % round(every / 0.05) == 0 else []
+        on = fresh.step(*pressed)[AZ] is not OFF
+        run = run + 1 if on else 0
+        longest, driven = max(longest, run), driven + on
+    assert longest * 0.05 <= 2.1
+    assert driven <= 0.75 * 1200
+
+
+def test_after_a_stop_it_rests_in_proportion_to_its_turn(fresh: Any) -> None:
+    fresh.step(Jog(AZ, PLUS))
+    fresh.run(1.0)
+    fresh.step(Stop())
+    assert fresh.step(Jog(AZ, PLUS)) == RESTING
+    fresh.run(0.5)
+    assert fresh.step(Jog(AZ, PLUS))[AZ] is PLUS
+
+
+@pytest.mark.parametrize("person", ["console", "panel", "calibrate"])
+def test_a_person_holds_the_key_for_as_long_as_it_suits(fresh: Any, person: str) -> None:
+    for _ in range(20):
+        fresh.step(Jog(AZ, PLUS), by=Source(person))
+        assert fresh.run(0.5) == {(AZ, PLUS)}
 
 
 def test_a_pot_that_is_not_there_lets_not_even_a_jog_pass(fresh: Any) -> None:
@@ -121,6 +153,23 @@ def test_a_calibrated_axis_takes_one_end_anew(desk: Any) -> None:
     calibrate(desk, AZ, 2.0, high_end=False)
     assert desk.status.azimuth.angle_deg == pytest.approx(0.0)
     assert desk.run(5.0) == set()
+
+
+@pytest.mark.parametrize("high_end", [False, True])
+def test_no_end_is_taken_further_out(new_desk: Any, high_end: bool) -> None:
+    desk = new_desk(azimuth=(90.0, 270.0), at=(180.0, 10.0))
+    before = desk.status.azimuth.calibration
+    calibrate(desk, AZ, 273.0 if high_end else 87.0, high_end=high_end)
+    assert desk.status.azimuth.calibration == before
+    assert "only `rotator calibrate` takes an end further out" in desk.controller.troubles[0]
+
+
+def test_an_end_taken_further_in_may_be_put_back_and_no_more(new_desk: Any) -> None:
+    desk = new_desk(azimuth=(90.0, 270.0), at=(180.0, 10.0))
+    before = desk.status.azimuth.calibration
+    for angle_deg in (200.0, 270.0, 273.0):
+        calibrate(desk, AZ, angle_deg, high_end=True)
+    assert [raw for raw, _ in desk.status.azimuth.calibration] == pytest.approx([raw for raw, _ in before])
 
 
 def test_while_anything_moves_it_keeps_its_calibration(desk: Any) -> None:

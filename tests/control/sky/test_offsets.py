@@ -68,3 +68,8 @@ def test_the_controller_works_in_shifted_degrees() -> None:
     status = controller.status(0.0)
     assert status.azimuth.calibration == ((0.05, 20.0), (0.95, 470.0))
     assert status.elevation.calibration == ((0.05, -2.0), (0.95, 178.0))
+
+
+def test_without_a_word_in_the_file_nothing_is_added() -> None:
+    assert (Offsets().azimuth_deg, Offsets().elevation_deg) == (0.0, 0.0)
+    assert offsets() == Offsets()

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import random
 import time
+from dataclasses import dataclass
 
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.pointing import Pointing
@@ -104,3 +108,81 @@ def test_with_a_tolerance_of_the_axis_too_a_target_beyond_the_end_is_reached_on_
     assert goals is not None
     assert goals[0].target_deg == pytest.approx(340.0)
     assert plain.look_ahead(ended_s + 5.0, SPEEDS, had_path=False) is None
+
+
+# --- a target that wavers across the end of the range
+
+
+@dataclass(frozen=True, slots=True)
+class Wavers:
+    """A target `across_deg` to either side of the end of the range, sent every `every_s`; `gauss`: at random."""
+
+    top_deg: float
+    flip: bool
+    elevation_deg: float
+    across_deg: float
+    every_s: float
+    gauss: bool
+    seed: int
+
+
+SPEED_DPS = 6.0
+WATCHED_S = 240.0
+HALF_TURN_DEG = 180.0
+
+
+def swings(target: Wavers) -> int:
+    """How often the azimuth is sent right round while the target wavers."""
+    chance = random.Random(target.seed)
+    elevation = Range(0.0, 180.0 if target.flip else 90.0)
+    pointing = Pointing(Mount(Range(0.0, target.top_deg), elevation, flip=target.flip), 4.0, 4.0)
+    antenna_deg, goal_deg, had_path, count, side = target.top_deg - 5.0, target.top_deg - 5.0, False, 0, 1.0
+    for step in range(int(WATCHED_S / target.every_s)):
+        now_s, side = step * target.every_s, -side
+        off_deg = chance.gauss(0.0, target.across_deg) if target.gauss else side * target.across_deg
+        goal, _ = pointing.aim(
+            now_s, Aim(round((target.top_deg + off_deg) % 360.0), target.elevation_deg), antenna_deg, 20.0
+        )
+        ahead = pointing.look_ahead(now_s + target.every_s / 2, SPEEDS, had_path=had_path)
+        goal = ahead[0] if ahead else goal
+        had_path = goal.path is not None
+        count += abs(goal.target_deg - goal_deg) > HALF_TURN_DEG
+        goal_deg = goal.target_deg
+        reach_deg = SPEED_DPS * target.every_s
+        antenna_deg += min(max(goal_deg - antenna_deg, -reach_deg), reach_deg)
+    return count
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    st.builds(
+        Wavers,
+        top_deg=st.sampled_from([360.0, 450.0]),
+        flip=st.booleans(),
+        elevation_deg=st.sampled_from([0.0, 30.0, 75.0]),
+        across_deg=st.sampled_from([0.6, 1.0, 3.0, 8.0, 20.0]),
+        every_s=st.sampled_from([1.0, 2.0, 5.0, 20.0]),
+        gauss=st.booleans(),
+        seed=st.integers(0, 1000),
+    )
+)
+@example(Wavers(360.0, False, 20.0, 1.0, 1.0, False, 0))
+def test_a_target_that_wavers_across_north_swings_it_round_a_few_times_and_no_more(target: Wavers) -> None:
+    assert swings(target) <= 7
+
+
+def test_one_order_across_north_is_obeyed_at_once() -> None:
+    pointing = Pointing(Mount(Range(0.0, 360.0), Range(0.0, 90.0)), 4.0, 4.0)
+    pointing.aim(0.0, Aim(350.0, 20.0), 340.0, 20.0)
+    assert pointing.aim(30.0, Aim(10.0, 20.0), 350.0, 20.0)[0].target_deg == 10.0
+
+
+def test_a_target_that_goes_back_and_stays_is_met_a_little_later() -> None:
+    pointing = Pointing(Mount(Range(0.0, 360.0), Range(0.0, 90.0)), 4.0, 4.0)
+    for now_s, azimuth_deg in ((0.0, 350.0), (30.0, 10.0)):
+        pointing.aim(now_s, Aim(azimuth_deg, 20.0), 350.0, 20.0)
+    assert pointing.aim(31.0, Aim(350.0, 20.0), 340.0, 20.0)[0].target_deg == 0.0, "the end next to it"
+    assert pointing.look_ahead(33.9, SPEEDS, had_path=False) is None
+    goals = pointing.look_ahead(34.1, SPEEDS, had_path=False)
+    assert goals is not None
+    assert goals[0].target_deg == 350.0

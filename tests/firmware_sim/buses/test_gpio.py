@@ -175,7 +175,7 @@ def test_the_oldest_edges_are_forgotten(gpio: SimGpio) -> None:
     for _ in range(5_001):
         request.set_value(12, Value.ACTIVE)
         request.set_value(12, Value.INACTIVE)
-    assert len(gpio.edges) == 10_000
+    assert len(gpio.edges) == 2_000
 
 
 def test_edges_of_two_threads_come_in_the_order_of_the_levels(gpio: SimGpio) -> None:

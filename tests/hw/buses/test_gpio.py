@@ -15,7 +15,7 @@ import pytest
 
 from firmware_sim.buses.gpio import SimGpio
 from firmware_sim.clock import SimClock
-from hw.buses.gpio import GpioOutputs, find_chip, holders, real_gpiod
+from hw.buses.gpio import GpioInputs, GpioOutputs, find_chip, holders, real_gpiod
 from hw.ports import HardwareError
 
 PI_3 = {"/dev/gpiochip0": "pinctrl-bcm2835", "/dev/gpiochip1": "raspberrypi-exp-gpio"}
@@ -122,6 +122,30 @@ def test_closing_leaves_what_was_off_off() -> None:
     lines.set({"azimuth_cw": False})
     lines.close()
     assert not gpio.level(22)
+
+
+def test_lines_that_were_released_cannot_be_switched() -> None:
+    """Another program may hold them by now."""
+    gpio = simulated(PI_4)
+    lines = take(gpio)
+    lines.close()
+    with pytest.raises(HardwareError, match="cannot switch azimuth_cw: the lines have been released"):
+        lines.set({"azimuth_cw": True})
+    assert not gpio.level(22)
+
+
+def test_a_switch_to_ground_reads_closed_and_an_open_one_is_pulled_up() -> None:
+    gpio = simulated(PI_4)
+    gpio.drive_input(10, False)
+    inputs = GpioInputs(gpio, "/dev/gpiochip0", {"msb": 10, "lsb": 9}, consumer="test")
+    assert inputs.read() == {"msb": True, "lsb": False}
+
+
+def test_released_inputs_cannot_be_read() -> None:
+    inputs = GpioInputs(simulated(PI_4), "/dev/gpiochip0", {"msb": 10, "lsb": 9}, consumer="test")
+    inputs.close()
+    with pytest.raises(HardwareError, match="cannot read msb, lsb: the lines have been released"):
+        inputs.read()
 
 
 def test_a_chip_that_is_not_there_is_a_sentence() -> None:

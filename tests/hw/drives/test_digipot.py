@@ -209,6 +209,16 @@ def test_a_motor_that_stalls_is_not_noticed_until_it_is_measured() -> None:
     assert bench.rotor.azimuth.chip.step == 28
 
 
+def test_a_held_box_does_not_chase_a_sensor_that_disagrees_with_its_own_pot() -> None:
+    bench = Bench()
+    bench.follow(AZ, 40.0, 1.0)
+    for _ in range(200):
+        bench.clock.sleep(0.05)
+        bench.drive.found(AZ, bench.antenna(AZ) + 6.0)
+        bench.drive.hold(AZ)
+    assert bench.antenna(AZ) == pytest.approx(46.0, abs=BAND_DEG + 1.5)
+
+
 def test_a_broken_select_leaves_the_chip_in_the_middle() -> None:
     bench = Bench()
     bench.rotor.inject("azimuth-select-broken")

@@ -164,10 +164,10 @@ def test_enforcing_early_opens_nothing() -> None:
 
 
 class OneLineStuck:
-    """Four outputs of which the azimuth's cannot be switched off."""
+    """Outputs of which the azimuth's cannot be switched off."""
 
-    def __init__(self) -> None:
-        self.levels = dict.fromkeys(PINS, False)
+    def __init__(self, *, master: bool = False) -> None:
+        self.levels = dict.fromkeys((*PINS, "master") if master else PINS, False)
 
     def set(self, levels: dict[str, bool]) -> None:
         if levels.get("azimuth_cw") is False and self.levels["azimuth_cw"]:
@@ -189,6 +189,59 @@ def test_a_line_that_fails_keeps_no_other_axis_on() -> None:
     assert not lines.levels["elevation_up"]
 
 
+def test_a_line_that_fails_takes_the_supply_of_all_motors_at_once() -> None:
+    clock, lines = SimClock(), OneLineStuck(master=True)
+    bank = RelayBank(lines, clock, dead_time_s=DEAD_TIME_S, master=True)
+    bank.drive(AZ, PLUS, 0.2)
+    bank.drive(EL, PLUS, 0.4)
+    assert lines.levels["master"]
+    clock.sleep(0.2)
+    with pytest.raises(HardwareError, match="cannot switch azimuth_cw"):
+        bank.enforce(clock())
+    assert not lines.levels["master"]
+
+
+class MasterStuck(OneLineStuck):
+    """Outputs of which the master alone cannot be switched off."""
+
+    def set(self, levels: dict[str, bool]) -> None:
+        if levels.get("master") is False and self.levels["master"]:
+            raise HardwareError("GPIO: cannot switch master")
+        self.levels.update(levels)
+
+
+def test_a_master_that_cannot_be_opened_is_told_and_tried_again() -> None:
+    clock, lines = SimClock(), MasterStuck(master=True)
+    bank = RelayBank(lines, clock, dead_time_s=DEAD_TIME_S, master=True)
+    bank.drive(AZ, PLUS, 0.2)
+    clock.sleep(0.2)
+    bank.enforce(clock())
+    clock.sleep(MASTER_LINGER_S)
+    for _ in range(2):
+        with pytest.raises(HardwareError, match="cannot switch master"):
+            bank.enforce(clock())
+        assert bank.due_s() == pytest.approx(0.2 + MASTER_LINGER_S)
+
+
+class NothingSwitches(OneLineStuck):
+    def set(self, levels: dict[str, bool]) -> None:
+        if any(self.levels.values()):
+            raise HardwareError(f"GPIO: cannot switch {', '.join(levels)}")
+        super().set(levels)
+
+
+def test_of_several_failures_the_first_is_told_and_the_next_try_is_due_at_once() -> None:
+    clock, lines = SimClock(), NothingSwitches(master=True)
+    bank = RelayBank(lines, clock, dead_time_s=DEAD_TIME_S, master=True)
+    bank.drive(AZ, PLUS, 0.2)
+    clock.sleep(0.3)
+    for _ in range(2):
+        with pytest.raises(HardwareError, match="cannot switch azimuth_cw, azimuth_ccw"):
+            bank.enforce(clock())
+        assert bank.driven()[AZ] is PLUS, "what is not known to be off counts as on"
+        assert bank.due_s() == pytest.approx(0.2)
+
+
 # --- when there is something to enforce
 
 
@@ -202,6 +255,48 @@ def test_due_is_the_earliest_end_of_what_is_on() -> None:
     assert bench.bank.due_s() == pytest.approx(100.4)
     bench.bank.off()
     assert bench.bank.due_s() is None
+
+
+class Waiting:
+    """A thread in `wait_until_due`, and whether it has come back."""
+
+    def __init__(self, bank: RelayBank, patience_s: float) -> None:
+        self.back = threading.Event()
+        self._thread = threading.Thread(target=self._wait, args=(bank, patience_s), daemon=True)
+        self._thread.start()
+
+    def _wait(self, bank: RelayBank, patience_s: float) -> None:
+        bank.wait_until_due(patience_s)
+        self.back.set()
+
+
+def test_who_waits_for_the_next_end_comes_back_at_once_when_it_is_due() -> None:
+    bench = Bench(guarded=False)
+    bench.drive(AZ, PLUS, 0.2)
+    bench.clock.sleep(0.2)
+    bench.bank.wait_until_due(math.inf)  # else this test would not end
+    bench.clock.sleep(5.0)
+    bench.bank.wait_until_due(math.inf)
+
+
+def test_who_waits_has_no_more_patience_than_was_asked() -> None:
+    bench = Bench(guarded=False)
+    bench.bank.wait_until_due(0.001)
+    bench.drive(AZ, PLUS, 0.5)
+    bench.bank.wait_until_due(0.001)
+    assert bench.on() == {"azimuth_cw"}, "and nothing else happens"
+
+
+def test_a_command_wakes_who_waits() -> None:
+    bench = Bench(guarded=False)
+    waiting = Waiting(bench.bank, 3600.0)
+    assert not waiting.back.wait(0.05), "nothing is due: it sleeps"
+    for _ in range(1000):
+        bench.drive(AZ, PLUS, 0.2)
+        bench.drive(AZ, OFF)
+        if waiting.back.wait(0.02):
+            return
+    pytest.fail("it still waits")
 
 
 # --- the master

@@ -179,7 +179,7 @@ def test_a_bug_in_the_drive_is_logged_once_and_the_guard_goes_on(
     said = [record for record in caplog.records if "a bug" in record.getMessage()]
     assert len(said) == 1
     assert said[0].exc_info is not None, "its traceback says where"
-    assert "CUT THE MOTOR POWER" in said[0].getMessage()
+    assert said[0].getMessage() == "CUT THE MOTOR POWER: ZeroDivisionError('a bug'); trying again"
     bench.drive(0.05)
     assert bench.opened.wait(PATIENCE_S), "it still guards"
 
@@ -236,6 +236,52 @@ def test_a_guard_that_has_died_says_so_when_it_is_asked(bench: Bench) -> None:
     guard.stop()
     guard.check()
     assert not any(bench.gpio.level(pin) for pin in PINS.values())
+
+
+class AlwaysDue:
+    """A drive with something to enforce at every moment, which may fail each time. Counts the tries."""
+
+    def __init__(self, *, fails: bool) -> None:
+        self._fails = fails
+        self.tries = 0
+        self.many = {count: threading.Event() for count in (25, 2000)}
+
+    def off(self) -> None:
+        pass
+
+    def due_s(self) -> float | None:
+        return 0.0
+
+    def wait_until_due(self, patience_s: float) -> None:
+        assert patience_s == 1.0, "it looks at the drive once a second at least"
+
+    def enforce(self, now_s: float) -> None:
+        self.tries += 1
+        if self.tries in self.many:
+            self.many[self.tries].set()
+        if self._fails:
+            raise LINE_FAILS
+
+
+def test_a_line_that_fails_is_tried_20_times_a_second_and_leaves_the_machine_its_time() -> None:
+    drive = AlwaysDue(fails=True)
+    guard = Guard(drive, time.monotonic)
+    guard.start()
+    try:
+        assert drive.many[25].wait(PATIENCE_S), "at 20 Hz, 25 tries take little more than a second"
+        assert drive.tries < 1000, "it pauses"
+    finally:
+        guard.stop()
+
+
+def test_as_long_as_all_goes_well_it_never_pauses() -> None:
+    drive = AlwaysDue(fails=False)
+    guard = Guard(drive, time.monotonic)
+    guard.start()
+    try:
+        assert drive.many[2000].wait(PATIENCE_S), "with a pause after each, 2000 would take 100 s"
+    finally:
+        guard.stop()
 
 
 # --- the end

@@ -5,13 +5,16 @@ Its life beside the box, on real lines, is tried on a real kernel (tests/kernel)
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines
-from hw.safety.sentinel import Sentinel
+from hw.safety.sentinel import OOM_SCORE, Sentinel
 
 LINES = RelayLines("/dev/gpiochip0", {"azimuth_cw": 22}, active_low=False)
 GPIOD = """
@@ -38,7 +41,7 @@ def request_lines(path, **_):
 def switched_off(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The file that is there when the sentinel has taken the lines with their off level."""
     (tmp_path / "gpiod.py").write_text(GPIOD)
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join((str(tmp_path), os.environ.get("PYTHONPATH", ""))))
     monkeypatch.setenv("SWITCHED_OFF", str(tmp_path / "off"))
     return tmp_path / "off"
 
@@ -50,6 +53,14 @@ def test_dismissed_it_ends_and_leaves_the_lines_alone(switched_off: Path) -> Non
     sentinel.dismiss()
     sentinel.close()
     assert not switched_off.exists()
+
+
+@pytest.mark.usefixtures("switched_off")
+def test_when_memory_runs_out_the_program_goes_first() -> None:
+    sentinel = Sentinel(LINES)
+    sentinel.dismiss()
+    sentinel.close()
+    assert int(Path("/proc/self/oom_score_adj").read_text()) >= OOM_SCORE
 
 
 def test_closed_without_a_dismissal_it_switches_the_lines_off(switched_off: Path) -> None:
@@ -75,6 +86,20 @@ def test_closed_twice_it_says_nothing_into_another_file(tmp_path: Path) -> None:
 
 def test_where_it_does_not_start_nothing_is_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "gpiod.py").write_text("")
-    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join((str(tmp_path), os.environ.get("PYTHONPATH", ""))))
     with pytest.raises(HardwareError, match="does not start"):
         Sentinel(LINES)
+
+
+def test_what_it_cannot_do_is_a_sentence(tmp_path: Path) -> None:
+    for command in (["now", str(tmp_path)], ["watch", "nonsense"]):
+        done = subprocess.run(
+            [sys.executable, "-P", "-m", "hw.safety.sentinel_process", *command],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 1
+        assert done.stderr.startswith("sentinel: ")
+        assert "Traceback" not in done.stderr

@@ -146,6 +146,8 @@ def test_lines_left_on_by_the_dead_are_switched_off() -> None:
     switch_off(gpio, LINES, clock, clock.sleep, 1.0)
     assert not gpio.level(22)
     assert not gpio.level(23)
+    # The lines are free again: the next start of the program takes them.
+    GpioOutputs(gpio, CHIP, LINES.offsets, consumer="rotator-relays").close()
 
 
 def test_active_low_relays_are_off_at_high() -> None:

@@ -1,0 +1,202 @@
+"""A random box: a kind of rotor as it is shipped, with other motors, ranges, switches, a master, a panel.
+
+Knows which keys are worth varying, and the names of the simulators' faults by kind. Does not know what happens to it.
+"""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass
+from typing import Any
+
+PANEL: dict[str, Any] = {
+    "adc_address": 0x49,
+    "azimuth_knob": 0,
+    "elevation_knob": 1,
+    "jog": 2,
+    "reference": 3,
+    "mode_msb": 5,
+    "mode_lsb": 6,
+    "stop": 19,
+}
+SWITCHES = {"azimuth_low": 12, "azimuth_high": 17, "elevation_low": 27, "elevation_high": 26}
+POTS = ("pot-open", "pot-shorted", "pot-reversed", "pot-stuck", "pot-jumps", "pot-loose")
+SAMPLES = ("pot-crackles", "pot-spikes", "pot-bursts")
+CONVERTER = ("adc-noisy", "adc-gaps")
+RELAYS = ("motor-stalled", "motor-reversed", "hand-turns")
+BOTH = ("azimuth", "elevation")
+FIRMWARE = ("gate-driver", "over-voltage", "encoder", "over-temperature", "under-voltage", "position-invalid", "timing")
+
+
+@dataclass(frozen=True, slots=True)
+class Rotor:
+    """A kind. `faults` of an axis, by the simulators' names without it; `shared` ones have no axis.
+
+    `sporadic` ones strike each so many-th time, of an axis or `shared_sporadic`.
+    """
+
+    kind: str
+    profile: str
+    faults: tuple[str, ...]
+    shared: tuple[str, ...] = ()
+    sporadic: tuple[str, ...] = ()
+    shared_sporadic: tuple[str, ...] = ()
+    top_deg: tuple[float, float] = (360.0, 180.0)
+    geared: bool = True
+    relays: bool = False
+
+
+ROTORS = (
+    Rotor(
+        kind="relay-pot",
+        profile="g5500",
+        faults=(*POTS, *RELAYS, "stop-early"),
+        shared=("adc-gone",),
+        sporadic=SAMPLES,
+        shared_sporadic=CONVERTER,
+        top_deg=(450.0, 180.0),
+        relays=True,
+    ),
+    Rotor(
+        kind="relay-pulse",
+        profile="u100",
+        faults=("contact-stuck-open", "contact-stuck-closed", *RELAYS),
+        sporadic=("pulses-missed", "pulses-doubled"),
+        relays=True,
+    ),
+    Rotor(
+        kind="digipot",
+        profile="orbit360",
+        faults=("chip-dips", "select-broken", "motor-stalled"),
+        top_deg=(360.0, 90.0),
+    ),
+    Rotor(
+        kind="servo",
+        profile="servos",
+        faults=("servo-stalled", "servo-unpowered", "wind-turns"),
+        shared=("board-unpowered", "board-dips"),
+        top_deg=(180.0, 180.0),
+        geared=False,
+    ),
+    Rotor(
+        kind="moteus",
+        profile="isel",
+        faults=("silent", "jammed", "power-cycled", *FIRMWARE),
+        sporadic=("replies-lost", "replies-gaps"),
+        top_deg=(450.0, 90.0),
+        geared=False,
+    ),
+)
+KINDS = {rotor.kind: rotor for rotor in ROTORS}
+
+
+@dataclass(frozen=True, slots=True)
+class Mast:
+    """What was drawn: the tables for the configuration, and what a script has to know of them."""
+
+    rotor: Rotor
+    tables: dict[str, Any]
+    start_deg: tuple[float, float]
+    top_deg: tuple[float, float]
+    speed_dps: tuple[float, float]
+    has_panel: bool
+    has_switches: bool
+    has_pots: bool
+    commissioning: str
+
+
+def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
+    top_deg = rotor.top_deg
+    if rotor.kind in ("relay-pot", "moteus", "relay-pulse"):
+        top_deg = (chance.choice((360.0, 450.0)), chance.choice((90.0, 180.0)) if rotor.relays else 90.0)
+    has_panel, has_switches = chance.random() < 0.25, chance.random() < 0.25
+    tables: dict[str, Any] = {"azimuth": {"max_deg": top_deg[0]}, "elevation": {"max_deg": top_deg[1]}, "sim": {}}
+    if has_panel:
+        tables["panel"] = PANEL
+    low_deg = 0.0
+    if has_switches:
+        tables["limits"] = SWITCHES
+        if rotor.kind == "relay-pulse":  # homing ends below a low switch
+            low_deg = 5.0
+            for axis in BOTH:
+                tables[axis]["min_deg"] = low_deg
+    if top_deg[1] > 90.0 and chance.random() < 0.3:
+        tables["mount"] = {"flip": "over-top"}
+    start_deg = _angle(chance, low_deg, top_deg[0]), _angle(chance, low_deg, top_deg[1])
+    speed_dps = _motors(chance, rotor, tables) if rotor.geared else (30.0, 30.0)
+    if rotor.relays:
+        _relays(chance, rotor, tables)
+    has_pots = rotor.kind == "relay-pot"
+    if rotor.kind == "digipot":
+        for axis, at_deg in zip(BOTH, start_deg, strict=True):
+            tables.setdefault("digipot", {})[axis] = {"start_deg": round(at_deg, 1)}
+        start_deg = round(start_deg[0], 1), round(start_deg[1], 1)
+        has_pots = chance.random() < 0.5
+        if has_pots:
+            for axis in BOTH:
+                tables[axis]["sensor"] = {"kind": "pot"}
+    if rotor.kind == "servo":
+        start_deg = (90.0, 90.0)
+    if chance.random() < 0.25:
+        _sector(chance, tables, start_deg, top_deg)
+    commissioning = chance.choice(BOTH) if rotor.kind in ("relay-pot", "relay-pulse") and chance.random() < 0.1 else ""
+    return Mast(rotor, tables, start_deg, top_deg, speed_dps, has_panel, has_switches, has_pots, commissioning)
+
+
+def _sector(
+    chance: random.Random, tables: dict[str, Any], start_deg: tuple[float, float], top_deg: tuple[float, float]
+) -> None:
+    """A chimney somewhere: neither where the rotor stands, nor where it parks."""
+    for _ in range(20):
+        spans = []
+        for top in top_deg:
+            low_deg = float(chance.randrange(round(top - 20.0)))
+            spans.append([low_deg, low_deg + chance.choice((5.0, 10.0, 20.0, 60.0))])
+        parks = [(0.0, 0.0), (180.0, 0.0), (90.0, 90.0), start_deg]
+        if not any(
+            all(low - 4.0 < at < high + 4.0 for at, (low, high) in zip(place, spans, strict=True)) for place in parks
+        ):
+            sector = {"name": "chimney", "azimuth_deg": spans[0], "elevation_deg": spans[1]}
+            tables["mount"] = {**tables.get("mount", {}), "forbidden": [sector]}
+            return
+
+
+def _angle(chance: random.Random, low_deg: float, top_deg: float) -> float:
+    """Anywhere, often near an end or at it."""
+    match chance.randrange(5):
+        case 0:
+            return low_deg + chance.choice((0.0, 1.0, 4.0))
+        case 1:
+            return top_deg - chance.choice((0.0, 1.0, 4.0))
+        case _:
+            return round(chance.uniform(low_deg, top_deg), 1)
+
+
+def _motors(chance: random.Random, rotor: Rotor, tables: dict[str, Any]) -> tuple[float, float]:
+    """Motors at 0.3 to 1.5 of what the file says."""
+    speeds_dps = []
+    for axis, usual_dps in zip(BOTH, (6.0, 2.7 if rotor.kind == "relay-pot" else 6.0), strict=True):
+        said_dps = usual_dps if chance.random() < 0.6 else chance.choice((1.5, 3.0, 4.5, 9.0))
+        share = 1.0 if chance.random() < 0.4 else chance.uniform(0.3, 1.5)
+        if rotor.kind == "digipot":
+            share = 1.0  # nothing tells the box otherwise
+        lag_s = chance.choice((0.05, 0.1, 0.15, 0.3)) if rotor.kind == "relay-pot" else 0.1
+        tables[axis] |= {"speed_dps": said_dps}
+        tables["sim"][axis] = {
+            "speed_dps": round(said_dps * share, 2),
+            "lag_s": lag_s,
+            "backlash_deg": chance.choice((0.0, 0.5, 0.5, 2.0)) if rotor.kind == "relay-pot" else 0.5,
+            "relay_delay_s": chance.choice((0.005, 0.015, 0.03)),
+            "pot_noise_deg": chance.choice((0.0, 0.1, 0.1, 0.2, 0.4)),
+        }
+        speeds_dps.append(said_dps)
+    return speeds_dps[0], speeds_dps[1]
+
+
+def _relays(chance: random.Random, rotor: Rotor, tables: dict[str, Any]) -> None:
+    relays: dict[str, Any] = {"one_at_a_time": chance.random() < 0.3}
+    if chance.random() < 0.5:
+        relays["master"] = 21
+    tables["relays"] = relays
+    if chance.random() < 0.15:
+        tables["mount"] = {**tables.get("mount", {}), "park_after_s": 60.0}

@@ -1,0 +1,122 @@
+"""A campaign: drills drawn from a seed until their hours are full, played on every core, and what they showed.
+
+Knows seeds, hours and processes. Does not know what a drill is made of.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, field, replace
+from functools import partial
+from multiprocessing import get_context
+
+from benchmarks.drills.boxes import KINDS
+from benchmarks.drills.draw import draw
+from benchmarks.drills.judges import STARTS, TABLE, Violation
+from benchmarks.drills.play import FAILS, play
+from benchmarks.drills.scene import spoils_readings
+from benchmarks.drills.script import Drill
+from benchmarks.drills.shrink import Budget, shrink
+
+HOUR_S = 3600.0
+STARTS_SHARE = 4.0
+FEW_STARTS = 20
+"""Fewer than this in a drill are right, whatever the readings."""
+SHRINK_S = 3600.0
+"""Simulated seconds spent on making one counterexample small."""
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A violation, and the smallest drill that shows it."""
+
+    violation: Violation
+    drill: Drill
+
+    @property
+    def seed(self) -> str:
+        return self.drill.seed
+
+
+@dataclass(slots=True)
+class Tally:
+    """What one kind of rotor was put through."""
+
+    drills: int = 0
+    hours: float = 0.0
+    cpu_s: float = 0.0
+    by_judge: dict[str, int] = field(default_factory=lambda: dict.fromkeys((*TABLE, FAILS), 0))
+
+
+def verdict(drill: Drill) -> list[Violation]:
+    """What this drill shows: what the judges found, and too many relay starts, by a twin with good readings."""
+    outcome = play(drill)
+    if outcome.violations or outcome.relay_starts <= FEW_STARTS:
+        return outcome.violations
+    reads_well = drill.with_events(tuple(event for event in drill.events if not spoils_readings(event)))
+    if reads_well == drill:
+        return []
+    good = play(reads_well)
+    most = STARTS_SHARE * max(good.relay_starts, FEW_STARTS / STARTS_SHARE)
+    if good.violations or outcome.relay_starts <= most:
+        return []
+    measured = f"{outcome.relay_starts} relay starts, {good.relay_starts} with good readings"
+    return [Violation(drill.seconds, STARTS, "both axes", measured)]
+
+
+def shows(wanted: Violation, drill: Drill) -> Violation | None:
+    """The same violation in this drill; of an exception, the same one."""
+    alike = (each for each in verdict(drill) if each.judge == wanted.judge)
+    return next((each for each in alike if wanted.judge != FAILS or each.measured == wanted.measured), None)
+
+
+def seeds(seed: int, hours: float, kind: str = "") -> Iterator[tuple[str, str]]:
+    """The seed and the kind of each drill, until they fill so many hours: all kinds in turn."""
+    kinds = [kind] if kind else list(KINDS)
+    filled_s, number = 0.0, 0
+    while filled_s < hours * HOUR_S:
+        mine = kinds[number % len(kinds)]
+        each = f"{seed}.{number}"
+        filled_s += draw(each, mine).seconds
+        yield each, mine
+        number += 1
+
+
+def try_one(job: tuple[str, str], *, small: bool = True) -> tuple[str, float, float, list[Found]]:
+    """Draw and play one drill: its kind, its hours, what it cost, and what was found; `small`: made small."""
+    seed, kind = job
+    began_s = time.process_time()
+    drill = draw(seed, kind)
+    found = verdict(drill)
+    cpu_s = time.process_time() - began_s
+    kept = [small_one(drill, violation) if small else Found(violation, drill) for violation in found[:1]]
+    return kind, drill.seconds / HOUR_S, cpu_s, kept
+
+
+def small_one(drill: Drill, violation: Violation) -> Found:
+    if violation.judge == STARTS:
+        return Found(violation, drill)
+    least, shown = shrink(drill, violation, lambda each: shows(violation, each), Budget(SHRINK_S))
+    return Found(shown, replace(least, seed=drill.seed))
+
+
+def run(seed: int, hours: float, kind: str = "", *, first: bool = False) -> tuple[dict[str, Tally], list[Found]]:
+    """A whole campaign, on every core. `first`: it ends at the first violation, which is not made small."""
+    tallies: dict[str, Tally] = {}
+    everything: list[Found] = []
+    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("fork")) as pool:
+        for kind_of, hours_of, cpu_s, found in pool.map(partial(try_one, small=not first), seeds(seed, hours, kind)):
+            tally = tallies.setdefault(kind_of, Tally())
+            tally.drills += 1
+            tally.hours += hours_of
+            tally.cpu_s += cpu_s
+            for each in found:
+                tally.by_judge[each.violation.judge] += 1
+            everything += found
+            if first and found:
+                pool.shutdown(wait=False, cancel_futures=True)
+                break
+    return tallies, everything

@@ -1,0 +1,224 @@
+"""What may never happen in the simulated world: one judge for each line of the table, over both axes.
+
+Knows the truth (`world`) and the orders in force (`orders`). Never asks the box. A judge accuses only where physics and
+the script leave no excuse: the wind, a hand, a welded contact without a master, a sensor that lies without a trace.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass, field
+
+from benchmarks.drills.orders import AxisOrders, Goal, Orders
+from benchmarks.drills.world import AxisTruth
+
+BOTH_FED = "both directions of a motor fed, welds included"
+BEYOND = "driven against a stop, or beyond the axis's limits"
+AFTER_STOP = "moving after the last S, STOP, SIGTERM or lease"
+AWAY = "moving away from the target under power"
+NO_ORDER = "moving with no order in force"
+FORBIDDEN = "inside a forbidden sector, coming from outside"
+STANDING_CURRENT = "current in a motor that does not turn"
+STARTS = "relay starts an hour under any bad sensor"
+SILENCE = "a fault that lasts, without a word to anybody"
+TABLE = (BOTH_FED, BEYOND, AFTER_STOP, AWAY, NO_ORDER, FORBIDDEN, STANDING_CURRENT, STARTS, SILENCE)
+
+LOOK_S = 0.11
+"""A look comes every 0.05 s: so much later than it is, a judge may see a thing."""
+BEYOND_S = 2.0
+STOP_S = 0.3
+WELDED_S = 2.0
+AWAY_S = 2.0
+TRY_S = 2.0
+TRIES, TRIES_WITHIN_S = 3, 600.0
+LEASE_S = 0.5
+COUNTED_PERIODS = 3
+"""A counted axis cannot tell standing from turning before its contact is overdue."""
+STREAM_LEAD_S = 5.0
+START_S = 0.5
+"""So long a motor may take to get going; a shorter pulse of current is no try."""
+GOING_SHARE = 0.1
+CHATTER_S, CHATTER_STARTS, STARTS_AN_ORDER = 10.0, 20, 2
+"""An order starts each axis once; so many more in that time are no control."""
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    at_s: float
+    judge: str
+    axis: str
+    measured: str
+
+    def __str__(self) -> str:
+        return f"{self.judge}: {self.axis}: {self.measured}, at {self.at_s:.2f} s"
+
+
+@dataclass(slots=True)
+class AxisCase:
+    """What the judges keep of one axis. `slack_deg`: how far its sensor may be wrong without a trace."""
+
+    low_deg: float
+    high_deg: float
+    tolerance_deg: float
+    slack_deg: float = 1.0
+    shift_deg: float = 0.0
+    """From the rotor's own scale to true degrees."""
+    trusted: bool = True
+    """Whether the angle of this axis can be known at all: a count can be lost, a model can be astray."""
+    astray: bool = False
+    """Its model has been led astray by the hardware: then it moves to be where it is believed to be."""
+    feels: bool = True
+    """Whether anything comes back from this axis: a modelled one cannot know that it stands."""
+    counts: bool = False
+    patience_s: float = TRY_S
+    """How long it may take to see that it stands."""
+    beyond_s: float = 0.0
+    away_s: float = 0.0
+    idle_s: float = 0.0
+    welded_s: float = 0.0
+    standing_s: float = 0.0
+    shorted_s: float = 0.0
+    tries_s: deque[float] = field(default_factory=deque)
+
+    def rest(self, *, at_stop: bool) -> None:
+        """The box feeds it no more; only at its stop does it stay where it was driven.
+
+        An axis that counts cannot tell from one short run to the next that it stands: each run counts for itself.
+        """
+        self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
+        self.away_s = self.idle_s = self.standing_s = 0.0
+
+
+class Judges:
+    """Call `look` after every cycle."""
+
+    def __init__(self, cases: tuple[AxisCase, AxisCase], orders: Orders, *, master: bool) -> None:
+        self.cases = cases
+        self._orders = orders
+        self._master = master
+        self._acknowledged_s = self._released_s = 0.0
+        self._now_s = self._past_s = 0.0
+        self.unattended_s = math.inf
+        """Since when the control thread gets no turn, or the program is dead."""
+        self.ends_at_once = True
+        """Whether the death of the program ends motion: not where chips keep their last order."""
+        self.goes_round = False
+        """Forbidden sectors lie in the way: it may have to move away from its target first."""
+        self.excused_until_s = 0.0
+        """Until then the hardware moves by itself, as after a dip of its supply."""
+        self.found: list[Violation] = []
+        self._told: set[tuple[str, str]] = set()
+        self._starts: deque[tuple[float, int]] = deque()
+        """The relay starts so far, less those that orders ask for, at each look of the last CHATTER_S."""
+
+    def look(self, now_s: float, axes: list[AxisTruth]) -> None:
+        self._past_s, self._now_s = now_s - self._now_s, now_s
+        if self._orders.acknowledged_s != self._acknowledged_s:
+            self._acknowledged_s = self._orders.acknowledged_s
+            for case in self.cases:
+                case.beyond_s = 0.0
+        if self._orders.released_s != self._released_s:
+            self._released_s = self._orders.released_s
+            for case in self.cases:
+                case.tries_s.clear()
+        for truth, case in zip(axes, self.cases, strict=True):
+            if truth.shorted_s > case.shorted_s:
+                self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
+                case.shorted_s = truth.shorted_s
+            if not truth.power:
+                case.rest(at_stop=truth.at_stop != 0)
+                continue
+            self._welded(truth, case)
+            if not truth.coil:
+                case.rest(at_stop=False)
+                continue
+            orders = self._orders.axes[truth.name]
+            self._unordered(truth, case)
+            self._standing(truth, case)
+            if not orders.homes:  # a person watches it touch its stop
+                self._beyond(truth, case)
+                self._away(truth, case, orders)
+
+    def count(self, relay_starts: int | None) -> None:
+        """A motor that starts and stops several times a second, for no order: at once, without a twin to compare it."""
+        if relay_starts is None:
+            return
+        due = relay_starts - STARTS_AN_ORDER * self._orders.heard
+        self._starts.append((self._now_s, due))
+        while self._starts[0][0] < self._now_s - CHATTER_S:
+            self._starts.popleft()
+        if (more := due - self._starts[0][1]) > CHATTER_STARTS and (STARTS, "both axes") not in self._told:
+            self._told.add((STARTS, "both axes"))
+            measured = f"{more} in {CHATTER_S:g} s beyond those that orders ask for"
+            self.found.append(Violation(self._now_s, STARTS, "both axes", measured))
+
+    def _unordered(self, truth: AxisTruth, case: AxisCase) -> None:
+        winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s)
+        excused = self._now_s < self.excused_until_s or case.astray
+        if self._now_s > self.unattended_s + LEASE_S + winds_down_s and self.ends_at_once and not excused:
+            self._accuse(AFTER_STOP, truth, f"driven {self._now_s - self.unattended_s:.2f} s after the last lease")
+        if self._orders.holds(truth.name) or excused:
+            case.idle_s = 0.0
+            return
+        case.idle_s += self._past_s
+        if case.idle_s > winds_down_s:
+            last_s = self._orders.ended_s(truth.name)
+            judge = AFTER_STOP if self._orders.latched or last_s else NO_ORDER
+            self._accuse(judge, truth, f"driven for {case.idle_s:.2f} s; its last order ended at {last_s:.2f} s")
+
+    def _welded(self, truth: AxisTruth, case: AxisCase) -> None:
+        if truth.coil or not self._master or abs(truth.speed_dps) < GOING_SHARE * truth.full_dps:
+            case.welded_s = 0.0
+            return
+        case.welded_s += self._past_s
+        if case.welded_s > WELDED_S + LOOK_S:
+            self._accuse(AFTER_STOP, truth, f"by a welded relay for {case.welded_s:.2f} s, with a master")
+
+    def _beyond(self, truth: AxisTruth, case: AxisCase) -> None:
+        over_deg = case.slack_deg + case.tolerance_deg
+        beyond_deg = truth.shaft_deg - case.high_deg if truth.power > 0 else case.low_deg - truth.shaft_deg
+        if truth.at_stop != truth.power and not (case.trusted and beyond_deg > over_deg):
+            return
+        case.beyond_s += self._past_s
+        if case.beyond_s > max(BEYOND_S, case.patience_s) + LOOK_S:
+            self._accuse(BEYOND, truth, f"{case.beyond_s:.2f} s in all, at {truth.shaft_deg:.1f}°")
+
+    def _away(self, truth: AxisTruth, case: AxisCase, orders: AxisOrders) -> None:
+        goals, here_deg = orders.goals.values(), truth.shaft_deg + case.shift_deg
+        known = not self.goes_round and case.trusted and goals and all(goal.angles_deg for goal in goals)
+        if not known or any(self._nearing(goal, here_deg, truth, case) for goal in goals):
+            case.away_s = 0.0
+            return
+        case.away_s += self._past_s
+        if case.away_s > AWAY_S + LOOK_S:
+            angles_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
+            nearest_deg = min(angles_deg, key=lambda angle_deg: abs(angle_deg - here_deg))
+            measured = f"for {case.away_s:.2f} s, at {here_deg:.1f}°, the target is {nearest_deg:.1f}°"
+            self._accuse(AWAY, truth, measured)
+
+    @staticmethod
+    def _nearing(goal: Goal, here_deg: float, truth: AxisTruth, case: AxisCase) -> bool:
+        """Whether it goes towards one of the goal's angles, or is about there. A stream is led by a few seconds."""
+        slack_deg = 2.0 * case.tolerance_deg + case.slack_deg + STREAM_LEAD_S * goal.rate_dps
+        return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in goal.angles_deg)
+
+    def _standing(self, truth: AxisTruth, case: AxisCase) -> None:
+        if not case.feels or not truth.stands:
+            case.standing_s = 0.0
+            return
+        before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
+        if before_s <= START_S < case.standing_s and not case.counts:
+            case.tries_s.append(self._now_s)
+            while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
+                case.tries_s.popleft()
+            if len(case.tries_s) > TRIES:
+                tries = f"{len(case.tries_s)} tries in {TRIES_WITHIN_S / 60:.0f} minutes"
+                self._accuse(STANDING_CURRENT, truth, tries)
+        if case.standing_s > case.patience_s + LOOK_S:
+            self._accuse(STANDING_CURRENT, truth, f"for {case.standing_s:.2f} s")
+
+    def _accuse(self, judge: str, truth: AxisTruth, measured: str) -> None:
+        if (judge, truth.name) not in self._told:
+            self._told.add((judge, truth.name))
+            self.found.append(Violation(self._now_s, judge, truth.name, measured))

@@ -1,0 +1,265 @@
+"""Which orders of a drill are in force, as a person beside the mast would say it, axis by axis.
+
+Knows the script's orders and what ends them. Does not know what the box made of them: an order that it may have passed
+over counts as in force, and so does the older one that it may have kept. So a judge accuses only what no order excuses.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from benchmarks.drills.script import PANEL, PEOPLE, Event
+from benchmarks.drills.silenced import Silenced
+
+AXES = ("azimuth", "elevation")
+WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
+TURN_DEG = 360.0
+UNCALIBRATED_S = 2.0
+"""A press of an axis that was never set up."""
+SWITCH_S = 1.3
+"""A mode switch acts when it has stood still for a second, at the next cycle."""
+STREAM_S = 12.0
+"""Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ranges:
+    """The range of an axis in true degrees, as orders name them; `flips`: over the top."""
+
+    low_deg: float
+    high_deg: float
+    flips: bool
+
+
+@dataclass(slots=True)
+class Goal:
+    """One sender's order for one axis. `angles_deg` empty: anywhere. `way`: it jogs."""
+
+    angles_deg: tuple[float, ...] = ()
+    way: int = 0
+    said_s: float = 0.0
+    until_s: float = math.inf
+    rate_dps: float = 0.0
+
+
+@dataclass(slots=True)
+class AxisOrders:
+    goals: dict[str, Goal] = field(default_factory=dict)
+    homes: bool = False
+    ended_s: float | None = None
+    """When the last order ended; None: there has been none."""
+
+    def forget(self, now_s: float) -> None:
+        if self.goals:
+            self.ended_s = now_s
+        self.goals.clear()
+        self.homes = False
+
+    def expire(self, now_s: float) -> None:
+        for sender in [sender for sender, goal in self.goals.items() if goal.until_s <= now_s]:
+            self.ended_s = self.goals.pop(sender).until_s
+
+
+class Orders:
+    """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up."""
+
+    def __init__(
+        self,
+        ranges: tuple[Ranges, Ranges],
+        park_deg: tuple[float, float],
+        *,
+        lacking: str = "",
+        parks_idle: bool = False,
+    ) -> None:
+        self.axes = {name: AxisOrders() for name in AXES}
+        self._ranges = dict(zip(AXES, ranges, strict=True))
+        self._park_deg = dict(zip(AXES, park_deg, strict=True))
+        self._lacking = lacking
+        self._parks_idle = parks_idle
+        self.latched = False
+        """A person has stopped it, and has not let it go."""
+        self.acknowledged_s = 0.0
+        """When anybody last stopped both axes, or a person let it go: faults are acknowledged."""
+        self.released_s = 0.0
+        """When a person last let it go, or began the program anew."""
+        self._switch: tuple[str, float] | None = None
+        self._mode = "auto"
+        self._silenced = Silenced()
+        self.heard = 0
+        """How many orders there have been."""
+        self._storm = False
+
+    def holds(self, axis: str) -> bool:
+        """Whether an order for this axis is in force."""
+        return not self._held and bool(self.axes[axis].goals)
+
+    @property
+    def _held(self) -> bool:
+        return self.latched or self._mode == "park"
+
+    def ended_s(self, axis: str) -> float:
+        """When the last order for this axis ended; the beginning where there has been none."""
+        return self.axes[axis].ended_s or 0.0
+
+    def forget_all(self, now_s: float) -> None:
+        """The program ends, and all orders with it; a new one begins with no order, and no stop."""
+        self._forget(now_s)
+        self._release(now_s)
+        self._mode = "auto"
+
+    def links_lost(self, now_s: float) -> None:
+        """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
+        if not self._storm and self._mode == "auto" and PANEL not in self._senders():
+            self._forget(now_s)
+
+    def _senders(self) -> set[str]:
+        return {sender for orders in self.axes.values() for sender in orders.goals}
+
+    def expire(self, now_s: float) -> None:
+        for orders in self.axes.values():
+            orders.expire(now_s)
+        if self._switch is not None and now_s >= self._switch[1]:
+            before, self._mode, self._switch = self._mode, self._switch[0], None
+            if self._mode != before:
+                self._forget(now_s)
+                self._silenced.forget()
+
+    def note(self, event: Event) -> None:
+        self.heard += 1
+        if event.who == PANEL:
+            self._note_panel(event)
+        elif event.who in PEOPLE:
+            self._note_person(event)
+        else:
+            self._note_order(event)
+
+    def _note_person(self, event: Event) -> None:
+        match event.what:
+            case "stop" | "let-go":
+                self._forget(event.at_s)
+                self.latched = True
+                self.acknowledged_s = event.at_s
+            case "resume":
+                self._release(event.at_s)
+            case "storm":
+                if not self._held:
+                    self._forget(event.at_s)
+                    self._storm = True
+                    for axis in AXES:
+                        self._aim(event, axis, (self._park_deg[axis],))
+            case "home":
+                self._anywhere(event, event.text(0))
+                self.axes[event.text(0)].homes = True
+            case "confirm":
+                self.axes[event.text(0)].forget(event.at_s)
+            case _:
+                self._note_order(event)
+
+    def _note_panel(self, event: Event) -> None:
+        match event.what:
+            case "mode":
+                self._switch = (event.text(0), event.at_s + SWITCH_S)
+            case "stop" if event.text(0) == "press":
+                self._forget(event.at_s)
+                self.latched = True
+            case "stop":
+                self._release(event.at_s)
+            case "knob":
+                self._anywhere(event, event.text(0))
+            case "jog":
+                self._anywhere(event, WAYS[event.text(0)][0])
+
+    def _note_order(self, event: Event) -> None:
+        match event.what:
+            case "aim":
+                if self._silenced.aim(event):
+                    return
+            case "stop":
+                self._silenced.stop(event)
+            case "ask" | "junk" | "speed":
+                pass
+            case _:
+                self._silenced.other(event)
+        match event.what:
+            case "aim":
+                self._aim_azimuth(event, event.number(1))
+                self._aim(event, "elevation", self._elevations(event.number(1)))
+            case "aim-azimuth":
+                self._aim_azimuth(event, 0.0)
+            case "aim-elevation":
+                self._aim(event, "elevation", self._elevations(event.number(0)))
+            case "jog":
+                axis, way = WAYS[event.text(0)]
+                seconds = event.number(1) if len(event.args) > 1 else math.inf
+                if axis == self._lacking:
+                    seconds = min(seconds, UNCALIBRATED_S)
+                self.axes[axis].goals[event.who] = Goal((), way, event.at_s, event.at_s + seconds)
+            case "stop":
+                self._forget(event.at_s)
+                self.acknowledged_s = event.at_s
+            case "stop-axis":
+                self.axes[event.text(0)].forget(event.at_s)
+            case "park":
+                for axis in AXES:
+                    self._aim(event, axis, (self._park_deg[axis],))
+            case "list" | "run-list":
+                for axis in AXES:
+                    self._anywhere(event, axis)
+            case "leave":
+                self._left(event)
+
+    def _release(self, now_s: float) -> None:
+        self.latched = False
+        self._silenced.forget()
+        self.acknowledged_s = self.released_s = now_s
+
+    def _left(self, event: Event) -> None:
+        for orders in self.axes.values():
+            if (goal := orders.goals.get(event.who)) is not None and goal.way and goal.until_s == math.inf:
+                orders.goals[event.who].until_s = event.at_s
+                orders.expire(event.at_s)
+
+    def _forget(self, now_s: float) -> None:
+        self._storm = False
+        for axis, orders in self.axes.items():
+            orders.forget(now_s)
+            if self._parks_idle:
+                orders.goals["idle"] = Goal((self._park_deg[axis],), 0, now_s)
+
+    def _anywhere(self, event: Event, axis: str) -> None:
+        self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)
+
+    def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...]) -> None:
+        if axis == self._lacking:
+            return
+        goals, rate_dps = self.axes[axis].goals, 0.0
+        before = goals.get(event.who)
+        if before and before.angles_deg and angles_deg and 0 < event.at_s - before.said_s < STREAM_S:
+            nearest_deg = min(abs(angle - other) for angle in angles_deg for other in before.angles_deg)
+            rate_dps = nearest_deg / (event.at_s - before.said_s)
+        goals[event.who] = Goal(angles_deg, 0, event.at_s, rate_dps=rate_dps)
+        if self._parks_idle:
+            goals.setdefault("idle", Goal((self._park_deg[axis],), 0, event.at_s))
+
+    def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
+        """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
+        angles_deg = self._azimuths(event.number(0), elevation_deg)
+        before = self.axes["azimuth"].goals.get(event.who)
+        if before and (event.number(0) > TURN_DEG or not angles_deg):
+            angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
+        self._aim(event, "azimuth", angles_deg)
+
+    def _azimuths(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, ...]:
+        """Every axis angle that shows there, over the top too where it may be."""
+        span = self._ranges["azimuth"]
+        over = span.flips or elevation_deg > 90.0
+        bases = (azimuth_deg, azimuth_deg + 180.0) if over else (azimuth_deg,)
+        turns = [base % 360.0 + 360.0 * turn for base in bases for turn in range(-2, 3)]
+        return tuple(angle for angle in turns if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
+
+    def _elevations(self, elevation_deg: float) -> tuple[float, ...]:
+        span = self._ranges["elevation"]
+        over = self._ranges["azimuth"].flips or elevation_deg > 90.0
+        angles = (elevation_deg, 180.0 - elevation_deg) if over else (elevation_deg,)
+        return tuple(min(max(angle, span.low_deg), span.high_deg) for angle in angles)

@@ -1,0 +1,118 @@
+"""Runs the campaign on a copy of the source with one planted bug in it: what it finds, and after how many hours.
+
+Knows folders and processes. The checkout itself is never changed. A find counts only if its script shows nothing on the
+source without the bug: else the campaign has found a bug that nobody planted, and the hunt goes on.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from benchmarks.drills.judges import TABLE
+from benchmarks.drills.planted.patch import FOLDER, Bug, plant
+
+ROOT = Path(__file__).parents[3]
+PACKAGES = ("rotator", "hw", "firmware_sim", "benchmarks")
+NOTHING, FOUND = 0, 1
+"""The campaign's exit codes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Find:
+    judge: str
+    kind: str
+    after_h: float
+    """Simulated hours played until then."""
+    measured: str
+    drawn_from: str
+    """SEED.NUMBER/KIND of the drill."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hunt:
+    bug: Bug
+    hours: float
+    """Simulated hours played in all."""
+    find: Find | None
+    also_without: int
+    """Finds that show on the source without the bug too, and so do not count."""
+
+
+class CampaignError(Exception):
+    """The campaign itself has failed. The text is its output."""
+
+
+@contextmanager
+def copied(root: Path = ROOT) -> Iterator[Path]:
+    """A copy of the source in a temporary folder."""
+    with tempfile.TemporaryDirectory(prefix="planted-") as folder:
+        for package in PACKAGES:
+            shutil.copytree(root / package, Path(folder) / package, ignore=shutil.ignore_patterns("__pycache__"))
+        yield Path(folder)
+
+
+def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> Hunt:
+    """`sound`: a tree without the bug. Raises CampaignError, Misfit."""
+    played_h, also_without = 0.0, 0
+    with copied(sound) as tree:
+        plant(bug, tree)
+        while played_h < hours:
+            result = _campaign(tree, ["--seed", str(seed), "--hours", f"{hours - played_h:g}", "--first"], kind)
+            played_h += sum(float(tally["hours"]) for tally in result["kinds"].values())
+            for found in result["found"]:
+                if not _replay(sound, found["script"]):
+                    drawn_from = str(found["drawn_from"])
+                    find = Find(found["judge"], drawn_from.partition("/")[2], played_h, found["measured"], drawn_from)
+                    return Hunt(bug, played_h, find, also_without)
+                also_without += 1
+            seed += 1
+    return Hunt(bug, played_h, None, also_without)
+
+
+def scripted(bug: Bug, sound: Path) -> str:
+    """What the bug's own script shows with it, and does not show without it; empty: nothing. Raises CampaignError."""
+    script = (FOLDER / f"{bug.name}.json").read_text(encoding="utf-8")
+    with copied(sound) as tree:
+        plant(bug, tree)
+        shown = _replay(tree, script)
+    return "" if _replay(sound, script) else shown
+
+
+def _campaign(tree: Path, arguments: list[str], kind: str) -> dict[str, Any]:
+    kinds = ["--kind", kind] if kind else []
+    result = _run(tree, [*arguments, *kinds, "--json"])
+    try:
+        content: dict[str, Any] = json.loads(result.stdout)
+    except ValueError as fault:
+        raise CampaignError(result.stdout + result.stderr) from fault
+    return content
+
+
+def _replay(tree: Path, script: str) -> str:
+    """The judge that this script calls on that source; empty: none."""
+    path = tree / "script.json"
+    path.write_text(script, encoding="utf-8")
+    result = _run(tree, ["--replay", str(path)])
+    if result.returncode not in (NOTHING, FOUND):
+        raise CampaignError(result.stdout + result.stderr)
+    if result.returncode == NOTHING:
+        return ""
+    lines = result.stdout.splitlines()
+    return next((judge for line in reversed(lines) for judge in TABLE if line.startswith(judge)), lines[-1])
+
+
+def _run(tree: Path, arguments: list[str]) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "benchmarks.drills", *arguments]
+    # The tree comes before the installed program, which is the checkout.
+    environment = os.environ | {"PYTHONPATH": str(tree), "PYTHONHASHSEED": "0"}
+    return subprocess.run(command, cwd=tree, env=environment, capture_output=True, text=True, check=False)

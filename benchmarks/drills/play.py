@@ -1,0 +1,271 @@
+"""Plays a drill: the box in simulated time, the events at their moments, and the judges after every cycle.
+
+Knows time. Does not know what an event means to a part of the world, nor what may not happen.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+import random
+import shutil
+import tempfile
+import traceback
+from collections import deque
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from benchmarks.drills.box import Box, configured
+from benchmarks.drills.judges import Judges, Violation
+from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse, spoil
+from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
+from benchmarks.drills.sectors import Sectors
+from benchmarks.drills.silence import Silence, Words
+from benchmarks.drills.speech import said
+from benchmarks.drills.trouble import Troubles
+from benchmarks.drills.world import World
+from firmware_sim.clock import SimClock
+
+STARTED_S = 1000.0
+STEP_S = 0.05
+"""How often the world is looked at while no control cycle comes."""
+FAILS = "the program ends with an exception"
+STALLED_S = 1.0
+"""Links whose event loop has stood still for longer have lost their orders."""
+MOST_ACTS_S = 0.01
+"""Orders that come faster than this are taken together, as by a thread that is woken."""
+
+
+@dataclass(slots=True)
+class Outcome:
+    """What a drill showed."""
+
+    violations: list[Violation] = field(default_factory=list)
+    relay_starts: int = 0
+    said: list[str] = field(default_factory=list)
+    """The box's log, for the person who looks into a violation."""
+
+
+def play(drill: Drill) -> Outcome:
+    """Play it to its end, or to the first violation."""
+    log = logging.getLogger()
+    handlers, level = log.handlers, log.level
+    with tempfile.TemporaryDirectory(prefix="drill-") as folder:
+        try:
+            return _Play(drill, Path(folder)).run()
+        finally:
+            log.handlers, log.level = handlers, level
+
+
+class _Play:
+    def __init__(self, drill: Drill, folder: Path) -> None:
+        self._drill = drill
+        self._folder = folder / "now"
+        self._folder.mkdir()
+        self._clock = SimClock(STARTED_S)
+        self._words = Words(lambda: self._now_s)
+        log = logging.getLogger()
+        log.handlers, log.level = [self._words], logging.WARNING
+        self._chance = random.Random(drill.seed)
+        self._config = configured(drill, self._folder)
+        self._box = Box(drill, self._config, self._folder, self._clock, None)
+        self._world = World(self._box.world, self._clock)
+        self._troubles = Troubles(self._box.world, self._clock, drill.seed)
+        self._cases = axis_cases(self._config, self._world.axes)
+        self._orders = build_orders(self._config, lacking=drill.commissioning)
+        has_master = self._config.rotor.switched and self._config.relays.master is not None
+        self._judges = Judges(self._cases, self._orders, master=has_master)
+        feels, counts = tuple(case.feels for case in self._cases), any(case.counts for case in self._cases)
+        self._silence = Silence(self._words, feels=(feels[0], feels[1]), counts=counts)
+        self._sectors = Sectors(self._config, self._cases)
+        self._judges.goes_round = bool(self._sectors)
+        self._period_s = 1 / self._config.control.rate_hz
+        self._blind = False
+        """The reading thread hangs."""
+        self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
+        self._stalled_s: tuple[float, float] | None = None
+        """The event loop of the links stands still, from when to when; None: it runs."""
+        self._unheard: list[Event] = []
+        """What links and people have sent to it meanwhile."""
+        self._acted_s = -1.0
+        self._back_s = 0.0
+        """When the program began: what was sent to it before is lost."""
+
+    @property
+    def _now_s(self) -> float:
+        return self._clock() - STARTED_S
+
+    def run(self) -> Outcome:
+        outcome = Outcome()
+        try:
+            self._run()
+        except Exception as failure:
+            where = traceback.extract_tb(failure.__traceback__)[-1]
+            text = f"{type(failure).__name__}: {failure} ({Path(where.filename).name}:{where.lineno})"
+            outcome.violations.append(Violation(self._now_s, FAILS, "program", text))
+        outcome.violations += self._found()
+        outcome.relay_starts = self._world.relay_starts or 0
+        outcome.said = [f"{at_s:9.2f} s  {line}" for at_s, line in self._words.lines]
+        if self._box.alive:
+            self._box.end()
+        return outcome
+
+    def _run(self) -> None:
+        events = deque(sorted(lapse(self._drill), key=lambda event: event.at_s))
+        next_s = 0.0
+        while self._now_s < self._drill.seconds and not self._found():
+            if events and events[0].at_s <= next_s:
+                event = events.popleft()
+                self._sleep_until(event.at_s)
+                before_s = self._now_s
+                self._happen(replace(event, at_s=before_s), late_s=before_s - event.at_s)
+                if self._now_s > before_s + self._period_s:  # the control thread had no turn meanwhile
+                    next_s = self._now_s
+                continue
+            self._sleep_until(next_s)
+            self._tick()
+            self._cycle()
+            self._look()
+            late_s = self._chance.uniform(0.0, self._jitter_s) if self._now_s < self._jitter_until_s else 0.0
+            next_s += self._period_s
+            next_s = max(next_s, self._now_s + late_s)
+
+    def _cycle(self) -> None:
+        blind = self._now_s < self._blind_until_s
+        if self._blind and not blind:
+            self._silence.end("hung")
+        self._blind = blind
+        self._box.cycle(blind=blind)
+
+    def _found(self) -> list[Violation]:
+        return [*self._judges.found, *self._sectors.found, *self._silence.found]
+
+    def _sleep_until(self, at_s: float) -> None:
+        self._clock.sleep_until(STARTED_S + at_s)
+
+    def _look(self) -> None:
+        now_s = self._now_s
+        self._troubles.look()
+        self._world.look()
+        self._orders.expire(now_s)
+        self._judges.look(now_s, self._world.axes)
+        self._judges.count(self._world.relay_starts)
+        self._sectors.look(now_s, self._world.axes)
+        ordered = any(map(self._orders.holds, self._orders.axes))
+        self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered)
+
+    def _happen(self, event: Event, late_s: float) -> None:
+        match event.who:
+            case str(who) if who == WORLD:
+                self._befall(event)
+            case str(who) if who == CLOCK:
+                self._be_late(event)
+            case str(who) if who == PROGRAM:
+                self._restart(event)
+            case str(who) if who == PANEL:
+                self._orders.note(event)
+                words = [f"{word:.3f}" if isinstance(word, float) else str(word) for word in (event.what, *event.args)]
+                self._box.hand(words)
+            case _ if event.at_s - late_s >= self._back_s:
+                self._hear(event)
+
+    def _tick(self) -> None:
+        """The event loop ticks, or stands still; what it has missed it then hears at once."""
+        if self._stalled_s is None:
+            self._box.events.tick()
+            return
+        since_s, until_s = self._stalled_s
+        if self._now_s > since_s + STALLED_S:
+            self._orders.links_lost(self._now_s)
+        if self._now_s >= until_s:
+            self._stalled_s, unheard, self._unheard = None, self._unheard, []
+            self._box.events.tick()
+            for event in unheard:
+                self._hear(replace(event, at_s=self._now_s))
+
+    def _hear(self, event: Event) -> None:
+        """Bytes of a link or a person: they wake the control thread, as any order does."""
+        if self._stalled_s is not None:
+            self._unheard.append(event)
+            return
+        if event.what == "leave":
+            self._orders.note(event)
+            self._box.leave(event.who)
+        else:
+            if event.what == "confirm":
+                event = self._confirmed(event)
+            if not (data := said(event)):
+                return
+            self._orders.note(event)
+            if event.what == "calibrate":
+                self._cases[0 if event.text(0) == "azimuth" else 1].trusted = False  # a person says where it stands
+            self._box.hear(event.who, data)
+        if self._now_s - self._acted_s >= MOST_ACTS_S:
+            self._acted_s = self._now_s
+            self._box.loop.act()
+
+    def _confirmed(self, event: Event) -> Event:
+        """A person reads the antenna's angle, wrong by so much."""
+        place = 0 if event.text(0) == "azimuth" else 1
+        angle_deg = self._world.axes[place].shaft_deg + self._cases[place].shift_deg + event.number(1)
+        self._cases[place].slack_deg += abs(event.number(1))
+        return replace(event, args=(event.text(0), angle_deg))
+
+    def _befall(self, event: Event) -> None:
+        now_s = self._now_s
+        spoil(self._config, self._cases, self._judges, event)
+        self._troubles.begin(event.what, event.args)
+        if event.what == "fault":
+            self._silence.begin(event.text(0), now_s)
+        elif event.what == "clear":
+            self._silence.end(event.text(0))
+        elif event.what == "weld":
+            self._silence.begin(f"{event.text(0)}-relay-welded", now_s)
+        elif event.what == "unweld":
+            self._silence.end(f"{event.text(0)}-relay-welded")
+
+    def _be_late(self, event: Event) -> None:
+        seconds = event.number(0)
+        match event.what:
+            case "late":
+                self._pass(seconds, dead=False)
+            case "hung":
+                self._blind_until_s = self._now_s + seconds
+                self._silence.begin("hung", self._now_s)
+            case "stalled":
+                self._stalled_s = self._now_s, self._now_s + seconds
+            case "jitter":
+                self._jitter_until_s, self._jitter_s = self._now_s + seconds, event.number(1)
+
+    def _restart(self, event: Event) -> None:
+        """The program ends, and begins again so much later. What it wrote to its folder before is all that is left."""
+        if event.what == "kill":
+            kept = self._folder.with_name("kept")
+            shutil.copytree(self._folder, kept)
+            self._box.die()
+            shutil.rmtree(self._folder)
+            kept.rename(self._folder)
+        else:
+            self._box.end()
+        self._stalled_s, self._unheard = None, []
+        self._orders.forget_all(self._now_s)
+        self._silence.pause()
+        self._pass(event.number(0), dead=True)
+        self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world)
+        self._back_s = self._now_s
+        begins_anew(self._config, self._cases, self._world.axes)
+
+    def _pass(self, seconds: float, *, dead: bool) -> None:
+        """The world goes on, and the control thread gets no turn."""
+        self._judges.unattended_s = self._now_s
+        # In a thread that stands still, the guard still ends every command; a dead program leaves chips as they are.
+        self._judges.ends_at_once = not dead or self._config.rotor.type not in KEEP_THEIR_ORDER
+        for _ in range(math.ceil(seconds / STEP_S)):
+            self._clock.sleep(STEP_S)
+            self._troubles.look()
+            self._world.look()
+            self._judges.look(self._now_s, self._world.axes)
+            self._sectors.look(self._now_s, self._world.axes)
+        self._judges.unattended_s = math.inf
+        if not dead:
+            self._silence.pause()

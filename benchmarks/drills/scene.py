@@ -1,0 +1,136 @@
+"""What a configuration and a fault mean for the judges: ranges, what a sensor can tell, and what leads a box astray.
+
+Knows the kinds of rotor, and which of the world's troubles no box can notice. Does not judge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from benchmarks.drills.judges import COUNTED_PERIODS, TRY_S, AxisCase, Judges
+from benchmarks.drills.orders import Orders, Ranges
+from benchmarks.drills.script import WORLD, Drill, Event
+from benchmarks.drills.world import AxisTruth
+from hw.ports import AngleSource, Axis
+from rotator.assembly.settings import build_offsets
+from rotator.config.model import Config
+
+KEEP_THEIR_ORDER = ("digipot", "servo")
+"""Kinds of rotor that go to their last order when the program dies (docs/safety.md)."""
+NOISE_SIGMAS = 5.0
+NOISY_DEG, NOISY_TRY_S = 0.2, 2.4
+SLOW_DPS, SLOW_TRY_S = 2.0, 4.0
+"""Noise hides a slow motor: these are docs/safety.md's."""
+READINGS = ("every", "burst", "noise", "drift", "stands")
+SENSORS = ("pot-", "adc-", "contact-", "pulses-", "replies-")
+"""How the simulators' names of faults of a sensor begin, without their axis."""
+DIP_S = 1.2
+"""A chip that has lost its supply for a moment gets its order again within a second."""
+
+
+def axis_cases(config: Config, truths: list[AxisTruth]) -> tuple[AxisCase, AxisCase]:
+    azimuth, elevation = (_case(config, axis, truth) for axis, truth in zip(Axis, truths, strict=True))
+    return azimuth, elevation
+
+
+def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
+    table, sim, source = config.axis(axis), config.sim.of(axis), config.angle(axis).source
+    patience_s = TRY_S
+    if source is AngleSource.COUNTED:
+        slowest_dps = min(table.speed_dps, truth.full_dps)
+        patience_s = COUNTED_PERIODS * config.pulses.of(axis).spacing_deg / slowest_dps + 0.5
+    elif truth.full_dps < SLOW_DPS:
+        patience_s = SLOW_TRY_S
+    elif sim.pot_noise_deg > NOISY_DEG:
+        patience_s = NOISY_TRY_S
+    elif config.rotor.type == "moteus":
+        patience_s += truth.coasts_s  # it slows down under current
+    slack_deg = 1.0 + NOISE_SIGMAS * sim.pot_noise_deg + sim.backlash_deg + abs(sim.pot_bow_deg)
+    return AxisCase(
+        low_deg=table.min_deg,
+        high_deg=table.max_deg,
+        tolerance_deg=table.tolerance_deg + config.kind.slack_deg(axis),
+        slack_deg=slack_deg,
+        shift_deg=build_offsets(config).of(axis),
+        feels=source is not AngleSource.MODELLED,
+        counts=source is AngleSource.COUNTED,
+        patience_s=patience_s,
+    )
+
+
+def build_orders(config: Config, *, lacking: str) -> Orders:
+    shift, park_deg = build_offsets(config), (config.mount.park_azimuth_deg, config.mount.park_elevation_deg)
+    flips = config.mount.flip == "over-top"
+    ranges = [
+        Ranges(config.axis(axis).min_deg + shift.of(axis), config.axis(axis).max_deg + shift.of(axis), flips)
+        for axis in Axis
+    ]
+    return Orders(
+        (ranges[0], ranges[1]),
+        (park_deg[0] + shift.azimuth_deg, park_deg[1] + shift.elevation_deg),
+        lacking=lacking,
+        parks_idle=config.mount.park_after_s > 0,
+    )
+
+
+def lapse(drill: Drill) -> Iterator[Event]:
+    """The events one by one: a stream and a flood are many orders."""
+    for event in drill.events:
+        match event.what:
+            case "stream":
+                azimuth_deg, elevation_deg, az_dps, el_dps, every_s, count = map(float, event.args)
+                for number in range(int(count)):
+                    past_s = number * every_s
+                    aim_deg = (azimuth_deg + az_dps * past_s) % 360.0, elevation_deg + el_dps * past_s
+                    yield Event(event.at_s + past_s, event.who, "aim", (aim_deg[0], min(max(aim_deg[1], -5.0), 180.0)))
+            case "flood":
+                azimuth_deg, elevation_deg, spread_deg, rate_hz, count = map(float, event.args)
+                for number in range(int(count)):
+                    turned_deg = azimuth_deg + (spread_deg if number % 2 else 0.0)
+                    yield Event(event.at_s + number / rate_hz, event.who, "aim", (turned_deg % 360.0, elevation_deg))
+            case _:
+                yield event
+
+
+def spoils_readings(event: Event) -> bool:
+    """Whether this is a trouble of a sensor alone, or the end of one."""
+    if event.who != WORLD or event.what in READINGS:
+        return event.who == WORLD
+    name = str(event.args[0]).removeprefix("azimuth-").removeprefix("elevation-")
+    return event.what in ("fault", "clear") and name.startswith(SENSORS)
+
+
+def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, event: Event) -> None:
+    """What this trouble of the world excuses from now on: what no box could notice."""
+    name = str(event.args[0]) if event.args else ""
+    plain = name.removeprefix("azimuth-").removeprefix("elevation-")
+    mine = [cases[1]] if name.startswith("elevation") else [cases[0]] if name.startswith("azimuth") else list(cases)
+    if plain in ("board-dips", "chip-dips", "power-cycled"):
+        judges.excused_until_s = event.at_s + DIP_S
+    for case in mine:
+        match event.what:
+            case "noise":
+                case.slack_deg += NOISE_SIGMAS * event.number(1)
+                case.patience_s = max(case.patience_s, NOISY_TRY_S)
+            case "drift":
+                case.slack_deg += abs(event.number(2))
+            case "pace" | "push" | "weld" if not case.feels:
+                case.trusted, case.astray = False, True
+            case "push" | "weld" | "sticks" if case.counts:
+                case.trusted = False
+            case "pace" if case.counts:
+                case.patience_s /= min(1.0, max(event.number(1), 0.3))
+            case "fault" if not case.feels and plain not in ("bus-hung",):
+                case.trusted, case.astray = False, True
+            case "fault" if case.counts:
+                case.trusted = False
+
+
+def begins_anew(config: Config, cases: tuple[AxisCase, AxisCase], truths: list[AxisTruth]) -> None:
+    """The program has begun again: a control box without feedback is taken to stand where the file says."""
+    if config.rotor.type != "digipot":
+        return
+    for axis, case, truth in zip(Axis, cases, truths, strict=True):
+        table = config.digipot.of(axis)
+        if not case.feels and abs(truth.shaft_deg - table.start_deg) > table.dead_band_deg:
+            case.trusted, case.astray = False, True

@@ -1,0 +1,103 @@
+"""The last line of the table: a fault that lasts, without a word to anybody.
+
+Knows which faults of the simulators can be seen, and when: at once, while the axis is driven, while it turns. The only
+judge that listens to the box: any word counts, in the log, as a notice or as a fault.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from benchmarks.drills.judges import LOOK_S, SILENCE, Violation
+from benchmarks.drills.world import AxisTruth
+from rotator.status import Status
+
+SILENT_S = 5.0
+AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent", "hung")
+ORDERED = ("board-unpowered",)
+"""Only with an order in force is the part in use."""
+DRIVEN = ("motor-stalled", "pot-stuck", "stands", "jammed", "contact-stuck-open", "contact-stuck-closed")
+"""Only while the motor has current is there anything to be seen."""
+TURNING_SHARE = 0.5
+"""A welded contact or a hand turns it as fast as this share of its speed: slower is a wind, and only a notice."""
+
+
+class Words(logging.Handler):
+    """The log, and when it last had anything to say."""
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        super().__init__(logging.WARNING)
+        self._clock = clock
+        self.said_s = float("-inf")
+        self.lines: list[tuple[float, str]] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.said_s = self._clock()
+        if len(self.lines) < 2000:
+            self.lines.append((self.said_s, record.getMessage()))
+
+
+@dataclass(slots=True)
+class _Lasting:
+    name: str
+    axis: str
+    since_s: float
+    seen_s: float = 0.0
+    """For how long there has been something to see."""
+
+
+class Silence:
+    """Tell it when a fault begins and ends; `look` after every cycle."""
+
+    def __init__(self, words: Words, *, feels: tuple[bool, bool], counts: bool) -> None:
+        self._words = words
+        self._feels = dict(zip(("azimuth", "elevation"), feels, strict=True))
+        self._counts = counts
+        self._lasting: list[_Lasting] = []
+        self._looked_s = 0.0
+        self.found: list[Violation] = []
+
+    def begin(self, name: str, now_s: float) -> None:
+        axis = "elevation" if name.startswith("elevation") else "azimuth"
+        plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
+        seen = plain in (*AT_ONCE, *ORDERED) or (plain in DRIVEN and self._feels[axis])
+        # A count that is lost already cannot be lost once more by a hand.
+        if seen or plain.startswith("relay-welded") or (plain == "hand-turns" and not self._counts):
+            self._lasting.append(_Lasting(plain, axis, now_s))
+
+    def end(self, name: str) -> None:
+        plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
+        self._lasting = [each for each in self._lasting if each.name != plain]
+
+    def pause(self) -> None:
+        """The program had no turn: nothing could be said."""
+        for each in self._lasting:
+            each.seen_s = 0.0
+
+    def look(self, now_s: float, axes: list[AxisTruth], status: Status, *, ordered: bool) -> None:
+        """`ordered`: an order is in force."""
+        past_s, self._looked_s = now_s - self._looked_s, now_s
+        if not self._lasting:
+            return
+        shown = bool(status.faults or status.azimuth.notices or status.elevation.notices or status.notices)
+        for each in list(self._lasting):
+            if shown or self._words.said_s >= each.since_s:
+                self._lasting.remove(each)
+                continue
+            truth = axes[0 if each.axis == "azimuth" else 1]
+            each.seen_s = each.seen_s + past_s if self._to_be_seen(each, truth, ordered=ordered) else 0.0
+            if each.seen_s > SILENT_S + LOOK_S:
+                self.found.append(Violation(now_s, SILENCE, each.axis, f"{each.name} for {each.seen_s:.2f} s"))
+                self._lasting.remove(each)
+
+    @staticmethod
+    def _to_be_seen(fault: _Lasting, truth: AxisTruth, *, ordered: bool) -> bool:
+        if fault.name in AT_ONCE:
+            return True
+        if fault.name in ORDERED:
+            return ordered
+        if fault.name in DRIVEN:
+            return truth.coil != 0
+        return truth.coil == 0 and abs(truth.speed_dps) > TURNING_SHARE * truth.full_dps

@@ -1,0 +1,181 @@
+"""Stories: an order, a mishap, a stop and the next order within seconds of each other, as things go wrong on a mast.
+
+Events at moments that know nothing of each other seldom meet within the second in which a bug shows. A story puts them
+one after the other, with pauses from none to a few seconds. Knows how things follow each other. Does not know what is
+right or wrong.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+
+from benchmarks.drills.boxes import BOTH, Mast
+from benchmarks.drills.script import CLOCK, LINKS, PEOPLE, PROGRAM, WORLD, Arg, Event
+
+PAUSES_S = (0.0, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 8.0)
+INSISTS_S = (20.0, 60.0, 90.0)
+"""For how long a program repeats its order once a second, whatever happens."""
+WAYS = (("cw", "ccw"), ("up", "down"))
+
+Trouble = Callable[[], tuple[tuple[str, *tuple[Arg, ...]], tuple[str, *tuple[Arg, ...]] | None]]
+
+
+class Story:
+    """One story after `at_s`; `ends_s` is when it is over. `trouble` draws a trouble of the world, and its end."""
+
+    def __init__(self, chance: random.Random, mast: Mast, at_s: float, trouble: Trouble) -> None:
+        self.events: list[Event] = []
+        self.ends_s = at_s
+        self._chance = chance
+        self._mast = mast
+        self._trouble = trouble
+        self._link, self._other = chance.sample(LINKS, 2)
+        self._person = chance.choice(PEOPLE)
+        self._axis = chance.randrange(2)
+        self._way = chance.randrange(2)
+        self._tell()
+
+    def _tell(self) -> None:
+        chance = self._chance
+        self._move()
+        if chance.random() < 0.7:
+            self._pause()
+            self._mishap()
+        for _ in range(chance.choice((0, 1, 1, 2))):
+            self._pause()
+            self._stop()
+        if chance.random() < 0.7:
+            self._pause()
+            self._let_go()
+        for _ in range(chance.choice((0, 1, 1, 2))):
+            self._pause()
+            if chance.random() < 0.5:
+                self._way = 1 - self._way
+            self._move()
+            if chance.random() < 0.5:
+                self._pause()
+                self._stop()
+        self.ends_s += chance.choice((5.0, 5.0, 15.0, 15.0, 30.0, 90.0))
+
+    def _pause(self) -> None:
+        self.ends_s += self._chance.choice(PAUSES_S)
+
+    def _add(self, who: str, what: str, *args: Arg) -> None:
+        rounded = tuple(round(each, 3) if isinstance(each, float) else each for each in args)
+        self.events.append(Event(round(self.ends_s, 3), who, what, rounded))
+
+    def _move(self) -> None:
+        """An order that turns the axis of this story its way for a while."""
+        way = WAYS[self._axis][self._way]
+        aim_deg = [self._far(0), self._far(1)]
+        match self._chance.randrange(11):
+            case 0:
+                self._add(self._link, "jog", way)
+            case 1:
+                self._add(self._other, "jog", way)
+            case 2:
+                for _ in range(self._chance.choice((1, 3, 12))):
+                    self._add(self._person, "jog", way, self._chance.choice((0.5, 2.0, 5.0)))
+                    self.ends_s += self._chance.choice((0.5, 2.0, 5.5))
+            case 3 | 8:
+                self._insist(aim_deg)
+            case 9:
+                self._waver()
+            case 4 if "gs232" in self._link:
+                self._add(self._link, "list", 2.0, *aim_deg, self._near(0), self._near(1), *aim_deg)
+                self._pause()
+                self._add(self._link, "run-list")
+            case 5:
+                self._add(self._link, "park")
+            case 6 if self._mast.rotor.kind == "relay-pulse":
+                self._add(self._person, "home", BOTH[self._axis])
+            case 7:
+                what, args = (("aim-azimuth", aim_deg[:1]), ("aim-elevation", aim_deg[1:]))[self._axis]
+                self._add(self._link, what, *args)
+            case _:
+                self._add(self._link, "aim", *aim_deg)
+
+    def _insist(self, aim_deg: list[float]) -> None:
+        """A program that tracks repeats its order; what happens next happens meanwhile."""
+        count = round(self._chance.choice(INSISTS_S))
+        self._add(self._link, "stream", *aim_deg, 0.0, 0.0, 1.0, float(count))
+        self.ends_s += self._chance.choice((0.5, 5.0))
+
+    def _waver(self) -> None:
+        """A hand that goes to and fro."""
+        for turn in range(8):
+            self._add(self._link, "jog", WAYS[self._axis][turn % 2])
+            self.ends_s += self._chance.choice((0.03, 0.06, 0.1, 0.3))
+
+    def _far(self, axis: int) -> float:
+        """An angle far along the way, near the end of the range."""
+        top_deg = self._mast.top_deg[axis]
+        if axis != self._axis:
+            return round(self._chance.uniform(0.0, top_deg))
+        return round(
+            self._chance.uniform(0.8, 1.0) * top_deg if self._way == 0 else self._chance.uniform(0.0, 0.2) * top_deg
+        )
+
+    def _near(self, axis: int) -> float:
+        return round(self._chance.uniform(0.3, 0.7) * self._mast.top_deg[axis])
+
+    def _mishap(self) -> None:
+        chance, axis = self._chance, BOTH[self._axis]
+        match chance.randrange(8):
+            case 0:
+                self._add(CLOCK, "late", chance.choice((0.3, 0.6, 1.5, 5.0)))
+            case 1:
+                self._add(CLOCK, "hung", chance.choice((0.2, 1.0, 8.0)))
+            case 2:
+                self._add(PROGRAM, chance.choice(("kill", "kill", "restart")), chance.choice((0.5, 2.0, 10.0)))
+                self.ends_s += 10.0
+            case 3 if self._mast.rotor.relays:
+                self._add(WORLD, "weld", axis, 1.0 if self._way == 0 else -1.0)
+            case 4 if self._mast.rotor.geared:
+                self._add(WORLD, "fault", f"{axis}-motor-stalled")
+            case _:
+                begins, ends = self._trouble()
+                self._add(WORLD, *begins)
+                if ends and chance.random() < 0.4:
+                    self._pause()
+                    self._add(WORLD, *ends)
+
+    def _stop(self) -> None:
+        match self._chance.randrange(9):
+            case 0 | 1:
+                self._add(self._link, "stop")
+            case 2 | 3:
+                self._add(self._other, "stop")
+            case 4:
+                self._add(self._link, "stop-axis", BOTH[self._axis])
+            case 5:
+                # A program stops one axis and then the other, in one write, under its own flood.
+                self._add("gs232b", "flood", self._near(0), self._near(1), 0.0, 500.0, 200.0)
+                self.ends_s += 0.399
+                for axis in BOTH:
+                    self._add("gs232b", "stop-axis", axis)
+            case 6:
+                self._add(self._link, "leave")
+                self._add(self._other, "leave")
+            case _:
+                self._add(self._person, "stop")
+
+    def _let_go(self) -> None:
+        self._add(*((self._person, "resume") if self._chance.random() < 0.6 else (self._link, "stop")))
+
+
+def stories(chance: random.Random, mast: Mast, trouble: Trouble) -> tuple[list[Event], float]:
+    """A few stories one after the other, and when the last one is over."""
+    events: list[Event] = []
+    at_s = chance.choice((0.2, 3.0))
+    for axis in BOTH:
+        if mast.rotor.relays and chance.random() < 0.3:
+            events.append(Event(0.0, WORLD, "sticks", (axis, round(chance.uniform(0.02, 0.15), 3))))
+        if mast.rotor.kind == "relay-pulse" and chance.random() < 0.8:
+            events.append(Event(0.1, chance.choice(PEOPLE), "confirm", (axis, 0.0)))
+    for _ in range(chance.choice((1, 1, 2, 3))):
+        story = Story(chance, mast, at_s, trouble)
+        events += story.events
+        at_s = story.ends_s
+    return events, at_s

@@ -1,0 +1,165 @@
+"""The truth of the simulated world, axis by axis: what turns, what feeds it, and where the stops are.
+
+Knows the simulated rotors by their parts. Never asks the box. `coil` is what the box itself commands; `power` is the
+current that turns the shaft, a welded contact's included. Angles are on the rotor's own scale.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from firmware_sim.moteus.motor import Mode
+from firmware_sim.parts.motor import SimMotor
+from firmware_sim.parts.servo import SimServo
+from firmware_sim.rotors.digipot import SimBox, SimDigipotRotor
+from firmware_sim.rotors.moteus import SimMoteusRotor
+from firmware_sim.rotors.relay_pot import SimRelayPotRotor
+from firmware_sim.rotors.relay_pulse import SimRelayPulseRotor
+from firmware_sim.rotors.rotor import AXES, SimRotor
+from firmware_sim.rotors.servo import SimServoRotor
+
+AT_STOP_DEG = 1e-3
+STANDS_DPS = 0.02
+"""Slower than this a shaft stands."""
+
+
+@dataclass(slots=True)
+class AxisTruth:
+    """One axis at the latest look. Directions: -1, 0 or 1."""
+
+    name: str
+    full_dps: float
+    """How fast its motor is at its best, whatever the file says."""
+    coasts_s: float
+    """How long it takes from full speed to a standstill."""
+    stop_low_deg: float = -math.inf
+    stop_high_deg: float = math.inf
+    shaft_deg: float = 0.0
+    boom_deg: float = 0.0
+    speed_dps: float = 0.0
+    power: int = 0
+    coil: int = 0
+    welded: bool = False
+    pushed: bool = False
+    """A hand or the wind turns it."""
+    shorted_s: float = 0.0
+    relayed: bool = False
+    """Relays of the box itself feed its motor."""
+
+    @property
+    def at_stop(self) -> int:
+        """The stop at which it stands: -1, 1; 0: at none."""
+        if self.shaft_deg >= self.stop_high_deg - AT_STOP_DEG:
+            return 1
+        return -1 if self.shaft_deg <= self.stop_low_deg + AT_STOP_DEG else 0
+
+    @property
+    def stands(self) -> bool:
+        return abs(self.speed_dps) < STANDS_DPS
+
+
+Look = Callable[[AxisTruth], None]
+
+
+class World:
+    """Call `look` at every cycle: it brings `axes` up to the present moment."""
+
+    def __init__(self, rotor: SimRotor, clock: Callable[[], float]) -> None:
+        self.rotor = rotor
+        self._clock = clock
+        self._looks: list[Look] = []
+        self.axes: list[AxisTruth] = []
+        for place, name in enumerate(AXES):
+            truth, look = _eye(rotor, place, name)
+            self.axes.append(truth)
+            self._looks.append(look)
+        self._looked_s = clock()
+        for truth, look, boom_deg in zip(self.axes, self._looks, rotor.antenna(), strict=True):
+            look(truth)
+            truth.boom_deg = boom_deg
+
+    @property
+    def relay_starts(self) -> int | None:
+        return self.rotor.relay_starts
+
+    def look(self) -> None:
+        now_s = self._clock()
+        past_s, self._looked_s = now_s - self._looked_s, now_s
+        if past_s <= 0:
+            return
+        booms_deg = self.rotor.antenna()
+        for place, (truth, look) in enumerate(zip(self.axes, self._looks, strict=True)):
+            before_deg = truth.shaft_deg
+            look(truth)
+            truth.boom_deg = booms_deg[place]
+            truth.speed_dps = (truth.shaft_deg - before_deg) / past_s
+
+
+def _eye(rotor: SimRotor, place: int, name: str) -> tuple[AxisTruth, Look]:
+    """What looks at one axis of this kind of rotor."""
+    match rotor:
+        case SimRelayPotRotor() | SimRelayPulseRotor():
+            motor = (rotor.azimuth, rotor.elevation)[place].motor
+            truth = _geared(name, motor)
+            truth.relayed = True
+            return truth, lambda truth: _see_relays(truth, motor, rotor.drives()[place])
+        case SimDigipotRotor():
+            box = (rotor.azimuth, rotor.elevation)[place]
+            return _geared(name, box.motor), lambda truth: _see_box(truth, box)
+        case SimServoRotor():
+            servo = (rotor.azimuth, rotor.elevation)[place]
+            spec = servo.spec
+            low_deg = spec.low_deg - spec.stop_margin_deg
+            high_deg = spec.low_deg + spec.range_deg + spec.stop_margin_deg
+            truth = AxisTruth(name, spec.slew_dps, 0.1, low_deg, high_deg)
+            return truth, lambda truth: _see_servo(truth, servo)
+        case SimMoteusRotor():
+            return AxisTruth(name, 30.0, 30.0 / 20.0), lambda truth: _see_moteus(truth, rotor, place)
+    raise ValueError(f"no eye for {type(rotor).__name__}")
+
+
+def _geared(name: str, motor: SimMotor) -> AxisTruth:
+    spec = motor.spec
+    # Five time constants: less than a hundredth of the speed is left.
+    coasts_s = spec.relay_delay_s + 5.0 * spec.lag_s
+    return AxisTruth(name, spec.speed_dps, coasts_s, motor.stop_low_deg, motor.stop_high_deg)
+
+
+def _see_motor(truth: AxisTruth, motor: SimMotor) -> None:
+    truth.shaft_deg = motor.shaft_deg
+    truth.power = motor.drive if motor.supply else 0
+    truth.stop_low_deg, truth.stop_high_deg = motor.stop_low_deg, motor.stop_high_deg
+    truth.pushed = motor.pushed != 0.0
+    truth.shorted_s = motor.shorted_s
+
+
+def _see_relays(truth: AxisTruth, motor: SimMotor, coil: int) -> None:
+    _see_motor(truth, motor)
+    truth.coil = coil if motor.supply else 0
+    truth.welded = motor.welded != 0
+
+
+def _see_box(truth: AxisTruth, box: SimBox) -> None:
+    _see_motor(truth, box.motor)
+    truth.coil = truth.power
+
+
+def _see_servo(truth: AxisTruth, servo: SimServo) -> None:
+    before_deg, truth.shaft_deg = truth.shaft_deg, servo.shaft_deg()
+    # A servo has no line that tells its current: it works while it moves under its pulse.
+    turned_deg = truth.shaft_deg - before_deg
+    truth.pushed = servo.pushed_dps != 0.0
+    truth.power = 0 if truth.pushed or abs(turned_deg) < AT_STOP_DEG else (1 if turned_deg > 0 else -1)
+    truth.coil = truth.power
+
+
+def _see_moteus(truth: AxisTruth, rotor: SimMoteusRotor, place: int) -> None:
+    name = AXES[place]
+    motor = rotor.controller(name).motor
+    truth.shaft_deg = rotor.antenna()[place]
+    rev_s = motor.set_point.velocity_rev_s if motor.mode in (Mode.POSITION, Mode.TIMEOUT) else 0.0
+    sense = rotor.sense(name)
+    truth.power = 0 if abs(rev_s) < 1e-6 else (1 if rev_s * sense > 0 else -1)
+    truth.coil = truth.power

@@ -1,0 +1,268 @@
+"""The running box in real time: every link busy, hostile bytes on four, and quiet moments in which it is measured.
+
+A bout is busy for a while; then everything that gives orders leaves, the box is stopped, and only the hostile bytes on
+read_only links go on. In that quiet no relay may be on, each link must answer, and memory, files and threads are read.
+At the end each link must still turn the antenna. Relays and motors are read from the simulated world's own file.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import random
+import statistics
+import sys
+import tempfile
+import time
+from collections import Counter
+from dataclasses import dataclass, field
+from itertools import combinations
+from pathlib import Path
+
+from benchmarks.fuzz_box import PATIENCE_S
+from benchmarks.soak.box import Box, Held
+from benchmarks.soak.crowd import READY, Crowd
+from benchmarks.soak.programs import program
+from benchmarks.soak.words import STOP, WORDS
+
+BUSY_S, COASTS_S, QUIET_S = 100.0, 4.0, 10.0
+LOOK_S = 0.1
+SETTLES_S = 600.0
+MOST_KIB_PER_H = 1024.0
+AWAY_DEG = 30.0
+
+
+@dataclass
+class Soaked:
+    """What was seen."""
+
+    held: list[Held] = field(default_factory=list)
+    found: list[str] = field(default_factory=list)
+    """What is wrong."""
+    lasted_s: float = 0.0
+    answers: int = 0
+    orders: int = 0
+    hostile_b: int = 0
+    relay_starts: int = 0
+    saved: int = 0
+    """How often the state file was written."""
+    late: int = 0
+    """Axes that were stopped because the box got no turn on a busy machine, as they should be."""
+
+    @property
+    def settled(self) -> list[Held]:
+        """After the first ten minutes, or the first third of a short soak."""
+        from_s = min(SETTLES_S, self.lasted_s / 3)
+        return [each for each in self.held if each.at_s >= from_s]
+
+    def growth_per_h(self, value: str) -> float:
+        """The median of the slopes between all pairs of moments: a few odd moments do not matter."""
+        pairs = combinations(self.settled, 2)
+        slopes = [(getattr(b, value) - getattr(a, value)) / (b.at_s - a.at_s) * 3600 for a, b in pairs]
+        return statistics.median(slopes) if slopes else 0.0
+
+
+async def soak(seconds: float, seed: int) -> Soaked:
+    seen = Soaked()
+    with tempfile.TemporaryDirectory() as folder:
+        box = Box(Path(folder))
+        box.start()
+        try:
+            await _answers(box)
+            await box.holds(0.0)
+            await box.says(*READY)
+            await _bouts(box, seed, seconds, seen)
+            seen.found += await _still_turned_by_all(box)
+            seen.relay_starts = box.world().relay_starts or 0
+        finally:
+            if code := await box.stop():
+                seen.found.append(f"exit code {code}")
+        world = box.world()
+        if world.drives != (0, 0):
+            seen.found.append(f"a relay is on at the end: {world.drives}")
+        if world.shorted_s:
+            seen.found.append(f"both directions of a motor had current for {world.shorted_s} s")
+        _read_log(box.log, seen)
+    judge(seen)
+    return seen
+
+
+async def _answers(box: Box) -> None:
+    give_up_s = time.monotonic() + 3 * PATIENCE_S
+    while time.monotonic() < give_up_s:
+        await asyncio.sleep(0.5)
+        try:
+            if await _heard(box, "rotctld", 1.0):
+                return
+        except OSError:
+            continue
+    raise SystemExit("the box does not start")
+
+
+async def _bouts(box: Box, seed: int, seconds: float, seen: Soaked) -> None:
+    assert box.process is not None
+    began_s, bout, changed = time.monotonic(), 0, 0.0
+    state = box.folder / "state.json"
+    while time.monotonic() - began_s < seconds:
+        crowd = Crowd(box, random.Random(f"{seed} {bout}"))
+        ends_s = time.monotonic() + BUSY_S
+        quiet_ends_s = ends_s + COASTS_S + QUIET_S
+        async with asyncio.TaskGroup() as group:
+            group.create_task(crowd.hostile(quiet_ends_s, read_only=True))
+            group.create_task(crowd.hostile(ends_s, read_only=False))
+            await crowd.work(bout, ends_s)
+            await box.says(*READY)
+            await _stop(box)
+            await asyncio.sleep(COASTS_S)
+            seen.found += await _stands(box, quiet_ends_s)
+        seen.found += crowd.unanswered
+        for words in WORDS:
+            if words.has and not await _heard(box, words.protocol, PATIENCE_S):
+                seen.found.append(f"no right answer on {words.protocol} in the quiet")
+        seen.answers += crowd.answers
+        seen.orders += crowd.orders
+        seen.hostile_b += crowd.sent_by_hostile_b
+        if state.exists() and state.stat().st_mtime != changed:
+            changed, seen.saved = state.stat().st_mtime, seen.saved + 1
+        # What left has left: the box closes what it held for the last of them.
+        await asyncio.sleep(1.0)
+        seen.held.append(await box.holds(time.monotonic() - began_s))
+        seen.lasted_s = time.monotonic() - began_s
+        _print(seen)
+        if box.process.poll() is not None:
+            seen.found.append(f"the box ended with exit code {box.process.returncode}")
+            return
+        bout += 1
+
+
+def _print(seen: Soaked) -> None:
+    now, wrong = seen.held[-1], "; ".join(seen.found[-3:])
+    print(
+        f"{seen.lasted_s:6.0f} s  {now.private_kib} KiB  {now.blocks} blocks  {now.files} files  {now.tasks} tasks  "
+        f"{len(now.threads)} threads  {wrong}",
+        file=sys.stderr,
+        flush=True,
+    )
+
+
+async def _heard(box: Box, protocol: str, patience_s: float) -> bool:
+    """By a program that comes for one question."""
+    each = program(box, protocol)
+    await each.open()
+    try:
+        return await each.hears(patience_s)
+    finally:
+        each.close()
+
+
+async def _stop(box: Box) -> None:
+    each = program(box, "rotctld")
+    await each.open()
+    each.send(STOP)
+    await each.hears(PATIENCE_S)
+    each.close()
+
+
+async def _stands(box: Box, until_s: float) -> list[str]:
+    """Nobody has given an order since the stop: no relay is on."""
+    world = box.world()
+    while time.monotonic() < until_s:
+        await asyncio.sleep(LOOK_S)
+        before, world = world, box.world()
+        if world.drives != (0, 0):
+            return [f"a relay is on without an order: {world.drives} at {world.antenna_deg}"]
+        if world.at_s == before.at_s:
+            await asyncio.sleep(2.0)
+            if box.world().at_s == world.at_s:
+                return ["the simulated world has stopped"]
+    return []
+
+
+async def _still_turned_by_all(box: Box) -> list[str]:
+    """An order on each link, one after the other: a relay closes, and a stop opens it."""
+    found = []
+    for words in WORDS:
+        each = program(box, words.protocol)
+        await each.open()
+        try:
+            at_deg = box.world().antenna_deg[0]
+            goal_deg = at_deg % 360 + (AWAY_DEG if at_deg < 225 else -AWAY_DEG)
+            # The first content of a file, and the first position of another rotor, are no orders.
+            for nearer in (1, 0):
+                each.send(words.order((goal_deg - nearer) % 360, 10.0))
+                await asyncio.sleep(1.1)
+            if not await _driven(box):
+                found.append(f"an order on {words.protocol} turns nothing: {await box.says('status')}")
+        finally:
+            await _stop(box)
+            each.close()
+        await asyncio.sleep(COASTS_S)
+        if box.world().drives != (0, 0):
+            found.append(f"turns after a stop: {words.protocol}")
+    return found
+
+
+async def _driven(box: Box) -> bool:
+    give_up_s = time.monotonic() + PATIENCE_S
+    while time.monotonic() < give_up_s:
+        if box.world().drives != (0, 0):
+            return True
+        await asyncio.sleep(LOOK_S)
+    return False
+
+
+def _read_log(path: Path, seen: Soaked) -> None:
+    lines = path.read_text(errors="replace").splitlines() if path.exists() else []
+    errors = [line for line in lines if " E " in line or "Traceback" in line or "protocol failed" in line]
+    late = [line for line in errors if "late:" in line]
+    seen.late = len(late)
+    texts = Counter(line.partition(" E ")[2] or line for line in errors if line not in late)
+    seen.found += [f"log, {count} times: {text}" for text, count in texts.items()]
+
+
+def judge(seen: Soaked) -> None:
+    settled = seen.settled
+    if not settled:
+        return
+    first = settled[0]
+    if (growth := seen.growth_per_h("private_kib")) > MOST_KIB_PER_H:
+        seen.found.append(f"memory grew by {growth:.0f} KiB an hour")
+    for each in settled:
+        if each.own_threads != first.own_threads:
+            before, now = Counter(first.own_threads), Counter(each.own_threads)
+            seen.found.append(f"threads at {each.at_s:.0f} s: lost {sorted(before - now)}, new {sorted(now - before)}")
+    for name, values in (
+        ("file descriptors", [each.files for each in settled]),
+        ("asyncio tasks", [each.tasks for each in settled]),
+    ):
+        if (early := _least(values, first=True)) < (late := _least(values, first=False)):
+            seen.found.append(f"{name} grew from {early} to {late}")
+
+
+def _least(values: list[int], *, first: bool) -> int:
+    """Of the first or of the last third: a file may just be open while it is counted."""
+    third = max(1, len(values) // 3)
+    return min(values[:third] if first else values[-third:])
+
+
+def figures(seen: Soaked) -> dict[str, str]:
+    """The table's rows: a name and its figure."""
+    settled = seen.settled or seen.held
+    if not settled:
+        return {}
+    first, last = settled[0], settled[-1]
+    return {
+        "time on the running box": f"{seen.lasted_s / 3600:.2f} h",
+        "links, of them under hostile bytes": f"{len(WORDS)} protocols and 4 more; {seen.hostile_b / 1e6:.0f} MB",
+        "questions answered": f"{seen.answers}",
+        "orders of passes": f"{seen.orders}",
+        "motor starts": f"{seen.relay_starts}",
+        "state saved": f"{seen.saved} times",
+        "private memory": f"{first.private_kib / 1024:.1f} MiB after {first.at_s / 60:.0f} minutes, "
+        f"{last.private_kib / 1024:.1f} MiB at the end",
+        "its growth": f"{seen.growth_per_h('private_kib'):+.0f} KiB an hour",
+        "blocks of Python's memory": f"{first.blocks}, then {seen.growth_per_h('blocks'):+.0f} an hour",
+        "file descriptors": f"{first.files}, then {last.files}",
+        "threads": f"{len(first.threads)}, then {len(last.threads)}",
+        "asyncio tasks": f"{first.tasks}, then {last.tasks}",
+        "axes stopped for a late turn": f"{seen.late}",
+    }

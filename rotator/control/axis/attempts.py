@@ -1,0 +1,86 @@
+"""What a motor was tried for in vain: its fault, who may try it again, and how near to where it stood still.
+
+Knows the axis's latest faults, its short runs, and the places at which it stood still. Does not find any other fault,
+and stops nothing.
+"""
+
+from __future__ import annotations
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.fault_latch import FaultLatch
+from rotator.control.axis.met_stops import MetStops
+from rotator.control.axis.short_runs import STANDING, ShortRuns
+from rotator.control.sky.mount import Range
+from rotator.faults import Fault, FaultKind, Notice
+
+
+class Attempts:
+    """Give it every change of the relays (`driven`) and every good reading (`see`), in order of time."""
+
+    def __init__(self, axis: Axis, limits: Range) -> None:
+        self._faults = FaultLatch()
+        self._short_runs = ShortRuns(axis)
+        self._stops = MetStops(axis, limits)
+        self._now_s = 0.0
+        self._angle_deg: float | None = None
+        self._direction = self._last = Direction.OFF
+        """What the relays do, and the direction of the present or latest run."""
+
+    @property
+    def fault(self) -> Fault | None:
+        """What stopped the axis; None: it may be driven."""
+        return self._faults.fault
+
+    @property
+    def limits(self) -> Range:
+        """How far the axis may turn now."""
+        return self._stops.limits
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        return self._stops.notices
+
+    def driven(self, now_s: float, direction: Direction, speed_dps: float) -> None:
+        """What the relays do from now on. `speed_dps`: of that direction's motor."""
+        self._short_runs.driven(now_s, direction, speed_dps)
+        self._direction, self._last = direction, direction or self._last
+
+    def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
+        """A good reading. Returns the fault that it shows, if any."""
+        self._angle_deg = angle_deg
+        return self._short_runs.see(at_s, angle_deg, noise_deg)
+
+    def note(self, found: Fault | None, now_s: float, *, cause: Fault | None) -> bool:
+        """What is wrong at this moment, and as much of it as acknowledging would not end. Returns whether it is new."""
+        self._now_s = now_s
+        return self._struck(self._faults.note(found, now_s, cause=cause, tries=self._tries(found)))
+
+    def fail(self, fault: Fault) -> bool:
+        """The axis is stopped by this fault. Returns whether there was none before."""
+        return self._struck(self._faults.fail(fault, self._now_s, tries=self._tries(fault)))
+
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
+        """End the fault, unless a person has to. Returns whether it has been acknowledged."""
+        if not self._faults.acknowledge(now_s, by_person=by_person):
+            return False
+        if by_person:
+            self.forget()
+        return True
+
+    def forget(self) -> None:
+        """A person has looked, or the readings mean other places than before."""
+        self._short_runs.forget()
+        self._stops.forget()
+
+    def _tries(self, found: Fault | None) -> int:
+        """How often the motor was on in vain before this fault: it runs now, or its last runs were short."""
+        if self._direction or found is None:
+            return int(bool(self._direction))
+        return max(1, self._short_runs.tries) if found.kind in {*STANDING, FaultKind.WRONG_WAY} else 0
+
+    def _struck(self, new: bool) -> bool:
+        if new and self.fault is not None:
+            self._short_runs.struck(self.fault.kind)
+            if self.fault.kind in STANDING and self._last and self._angle_deg is not None:
+                self._stops.stood_still(self.fault.kind, self._last, self._angle_deg)
+        return new

@@ -1,0 +1,61 @@
+"""How many readings of a sensor are bad: a few are ridden out, more are noticed, and too many are a fault.
+
+Knows good and bad. Does not know what makes a reading bad, nor what a motor does meanwhile.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+
+from rotator.faults import Notice
+
+LOOKED_AT = 100
+"""So many of the latest readings count: five seconds."""
+NOTICED, NOTICED_NO_MORE = 4, 1
+TOO_MANY = 8
+HEALED_S = 1.0
+"""A fault for too many bad readings can be acknowledged so long after the last one."""
+NOTICE = Notice(
+    "bad readings now and then: look for a loose wire, a worn pot, or motor cables beside the sensor's", "BAD READINGS"
+)
+
+
+class BadReadings:
+    def __init__(self) -> None:
+        self._bad: deque[bool] = deque(maxlen=LOOKED_AT)
+        self._count = 0
+        self._noticed = False
+        self._bad_s: float | None = None
+        """When the latest bad reading came."""
+        self._too_many = False
+
+    @property
+    def count(self) -> int:
+        """How many of the latest readings are bad."""
+        return self._count
+
+    @property
+    def notice(self) -> Notice | None:
+        return NOTICE if self._noticed else None
+
+    def note(self, at_s: float, *, bad: bool) -> None:
+        """One more reading."""
+        if len(self._bad) == LOOKED_AT:
+            self._count -= self._bad[0]
+        self._bad.append(bad)
+        self._count += bad
+        if bad:
+            self._bad_s = at_s
+        if self._count >= NOTICED:
+            self._noticed = True
+        elif self._count <= NOTICED_NO_MORE:
+            self._noticed = False
+        self._too_many = self._too_many or self._count >= TOO_MANY
+
+    def too_many(self, now_s: float) -> bool:
+        """Whether the sensor is not good enough to move with. Once it was not, it has to be good for a while."""
+        if self._too_many and self._bad_s is not None and now_s - self._bad_s >= HEALED_S:
+            self._too_many = False
+            self._bad.clear()
+            self._count = 0
+        return self._too_many

@@ -1,0 +1,138 @@
+"""Whether the relay of an axis that counts has been seen to open: its contact stops changing, where it would change.
+
+Knows when the contact changed, what the relays do, and on which sides of the axis another edge of the contact lies
+before its stop. A contact that is silent shows that the motor has no current only where that motor would soon have
+changed it: after a run in which it did, and with an edge ahead. Else the relay is in doubt, as `opening_watch` has it.
+Times are compared with those of the latest run; before one, with those of a motor at a third of its speed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+from hw.ports import Direction
+from rotator.control.axis.sensing import Condition
+from rotator.status import Trust, Trusts
+
+PLUS, MINUS = Direction.PLUS, Direction.MINUS
+BOTH_WAYS = frozenset((PLUS, MINUS))
+SLOWEST_SHARE = 0.3
+"""A motor with current turns at this share of its speed at least."""
+SURE = 1.4
+"""A contact that is silent for so many times the longest pause between two changes of a run is silent."""
+READ_S = 0.1
+"""A change of the contact has been read after this time."""
+BLIND_PERIODS = 3.0
+"""Driven for so many periods in all without a change, an axis was not seen to turn."""
+
+
+class ContactWatch:
+    """Give it every reading and every change of the relays, in order of time.
+
+    `period_s`: from pulse to pulse at full speed. `coast_s`: how long the motor coasts at most.
+    """
+
+    def __init__(self, trusts: Trusts, period_s: float, coast_s: float, *, look: bool) -> None:
+        self._period_s = period_s
+        self._coast_s = coast_s
+        self._trust = dict(zip((PLUS, MINUS), trusts, strict=True))
+        self.looked = not look
+        self.homing = False
+        """A person watches how it finds its stop, and that it turns back there."""
+        self._driven = self._last = Direction.OFF
+        self._since_s = -math.inf
+        self._supplied_s: float | None = None
+        self._changes: int | None = None
+        self._changed_s = -math.inf
+        self._moments_s: deque[float] = deque(maxlen=3)
+        """The latest changes of the present or latest run."""
+        self._blind_s = 0.0
+        """For how long relays were closed since the contact last changed."""
+        self._ran_since = {PLUS: False, MINUS: False}
+        """Whether a relay has been closed again since it was doubted."""
+
+    @property
+    def trusts(self) -> Trusts:
+        return self._trust[PLUS], self._trust[MINUS]
+
+    def trust(self, direction: Direction) -> Trust:
+        return self._trust[direction]
+
+    def waits(self, direction: Direction) -> bool:
+        """Whether that relay stays open, because nothing has shown yet that its opposite is open."""
+        if self._driven is direction:
+            return False
+        return not self.looked or self._trust[Direction(-direction)] is not Trust.OPEN
+
+    def checked(self) -> None:
+        """A person has looked at both relays: they are open."""
+        self._trust, self._blind_s = {PLUS: Trust.OPEN, MINUS: Trust.OPEN}, 0.0
+
+    def driven(self, now_s: float, direction: Direction) -> None:
+        if direction is self._driven:
+            return
+        if self._driven is not Direction.OFF:
+            self._last = self._driven
+            self._blind_s += now_s - max(self._since_s, self._changed_s)
+        if direction is not Direction.OFF:
+            if self._trust[direction] is Trust.OPEN:
+                self._trust[direction] = Trust.UNSEEN
+            self._moments_s.clear()
+            self._ran_since[direction] = True
+        self._driven, self._since_s = direction, now_s
+
+    def see(self, at_s: float, condition: Condition) -> None:
+        changed = self._changes is not None and condition.changes != self._changes
+        self._changes = condition.changes
+        if changed:
+            self._changed_s, self._blind_s = at_s, 0.0
+        if self._driven is not Direction.OFF:
+            self._supplied_s = self._since_s
+            if changed:
+                self._moments_s.append(at_s)
+        elif not condition.supplied:
+            self._supplied_s = None
+        else:
+            self._supplied_s = at_s if self._supplied_s is None else self._supplied_s
+            self._see_rest(at_s, condition, changed=changed)
+
+    def _see_rest(self, at_s: float, condition: Condition, *, changed: bool) -> None:
+        still_s = self._since_s + self._coast_s + READ_S
+        if changed and at_s > still_s:
+            self._turns_by_itself()
+            return
+        assert self._supplied_s is not None
+        if at_s - max(still_s, self._changed_s, self._supplied_s) >= self._pause_s:
+            self._note_standing(condition)
+
+    @property
+    def _pause_s(self) -> float:
+        """For how long the contact of a motor with current may be silent."""
+        if len(self._moments_s) == self._moments_s.maxlen:
+            return SURE * (self._moments_s[-1] - self._moments_s[0])
+        return self._period_s / SLOWEST_SHARE
+
+    def _turns_by_itself(self) -> None:
+        """The contact changes, and does not say which way the axis turns."""
+        for way in (PLUS, MINUS):
+            if self._trust[way] is not Trust.OPEN and way is self._last:
+                self._trust[way], self._ran_since[way] = Trust.DOUBTED, False
+            elif self._trust[way] is Trust.OPEN:
+                self._trust[way] = Trust.UNSEEN
+
+    def _note_standing(self, condition: Condition) -> None:
+        self.looked = True
+        ahead = BOTH_WAYS if condition.lost or self.homing else condition.ahead
+        for way in (PLUS, MINUS):
+            own = way is self._last and self._ran_since[way]
+            followed = self.homing or self._blind_s <= BLIND_PERIODS * self._period_s
+            if self._trust[way] is Trust.DOUBTED:
+                # Only a run of its own shows that it opens.
+                followed = followed and own and bool(self._moments_s)
+            if self._trust[way] is Trust.OPEN:
+                continue
+            if followed and way in ahead:
+                self._trust[way] = Trust.OPEN
+            elif self._trust[way] is Trust.UNSEEN:
+                self._trust[way], self._ran_since[way] = Trust.DOUBTED, False

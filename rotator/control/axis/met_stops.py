@@ -1,0 +1,61 @@
+"""The places at which a driven axis stood still: an end stop, or ice. A link does not drive it there again.
+
+Knows each direction's place until a person releases the axis. Knows no motor and no reading.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.relay_trust import WAYS
+from rotator.control.sky.mount import Range
+from rotator.faults import FaultKind, Notice
+
+KEPT_OFF_DEG = 2.0
+"""An axis ends so far before a stop that it has met."""
+SAME_DEG = 3.0
+"""Where it stands still in mid-travel twice, no further apart, there is a stop."""
+
+
+class MetStops:
+    def __init__(self, axis: Axis, limits: Range) -> None:
+        self._axis = axis
+        self._limits = limits
+        self._stood: Mapping[Direction, float] = {}
+        """Where it stood still last, by direction."""
+        self._stops: Mapping[Direction, float] = {}
+        self.limits = limits
+        """How far the axis may turn now."""
+
+    def stood_still(self, kind: FaultKind, direction: Direction, angle_deg: float) -> None:
+        """A fault of that kind: driven in this direction, the axis stood there."""
+        again = direction in self._stood and abs(self._stood[direction] - angle_deg) <= SAME_DEG
+        self._stood = {**self._stood, direction: angle_deg}
+        if kind is FaultKind.END_STOP or again:
+            self._keep({**self._stops, direction: angle_deg})
+
+    def forget(self) -> None:
+        """A person releases the axis."""
+        self._stood = {}
+        self._keep({})
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        return tuple(
+            Notice(
+                f"stood at {angle_deg:.0f}°, driven {WAYS[self._axis, direction]}: "
+                "it goes there again only after `resume`",
+                "STOP MET",
+            )
+            for direction, angle_deg in self._stops.items()
+        )
+
+    def _keep(self, stops: Mapping[Direction, float]) -> None:
+        self._stops = stops
+        low_deg, high_deg = self._limits.min_deg, self._limits.max_deg
+        if Direction.PLUS in stops:
+            high_deg = max(low_deg, min(high_deg, stops[Direction.PLUS] - KEPT_OFF_DEG))
+        if Direction.MINUS in stops:
+            low_deg = min(high_deg, max(low_deg, stops[Direction.MINUS] + KEPT_OFF_DEG))
+        self.limits = Range(low_deg, high_deg)

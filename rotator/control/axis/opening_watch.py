@@ -1,0 +1,344 @@
+"""Whether a relay that was switched off has been seen to open: the axis slows down, or stands where nothing holds it.
+
+A relay that has welded keeps its motor fed: the axis goes on as before, or is held by a stop. So it counts as open only
+after readings that no fed motor makes:
+
+* the axis turned when the relay was switched off, and is slower since, inside its limits; speeds are compared with what
+  this run measured, not with what the file says of the motor;
+* or it stands, inside its limits, after a run in which it was seen to turn.
+
+Standing at a stop, beyond a limit, after running on, or after a run in which it stood, shows nothing: the relay is then
+in doubt, until a run in its direction ends as it should, or a person has looked at it. Readings without a supply (the
+master is open) do not count. Before the first relay of a run of the program the axis is seen to stand. Knows the
+motion, the relays and the supply. Decides nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from dataclasses import dataclass
+
+from hw.ports import Direction
+from rotator.control.axis.observed_motion import RELAY_S, ObservedMotion
+from rotator.control.axis.trend import Slope
+from rotator.status import Trust, Trusts
+
+PLUS, MINUS = Direction.PLUS, Direction.MINUS
+SLOWED_SHARE = 0.6
+"""An axis slower than this share of its run's speed has lost its current."""
+FED_SHARE, FED_BELIEVED_SHARE = 0.5, 0.2
+"""A motor with current turns at this share of its speed at least: of the speed measured, or of the one believed."""
+END_WINDOWS_S = (0.25, 0.5, 1.0, 2.0)
+"""The end of a run is looked at for so long, in turn, until its speed is certain."""
+MEASURED_AFTER_S = 0.6
+"""A run as long as this shows the motor's speed; in a shorter one it is still gathering it."""
+STEADY_S = 1.5
+"""After this time the motor runs at its full speed, and the run's last second shows it exactly."""
+UNSEEN_S = 0.3
+"""An axis that was held for less than this at the end of a run seems to turn until the end."""
+BLIND_S = 1.0
+"""So long, in all, an axis may have been driven by short runs that it was not seen to follow."""
+RAN_ON_S, RAN_ON_SHARE = 0.45, 0.9
+"""After this time a coasting axis has gone less than this share of what a fed motor goes."""
+RAN_ON_READINGS = 5
+BEYOND_DEG = 0.5
+"""So far beyond its limit an axis may come to rest: its stop is a degree beyond the limit at least."""
+MOVED_DEG = 0.5
+"""An axis this far, and four times the noise, from where it stood has been moved."""
+SURE_NOISES = 3.3
+"""Two places that differ by so many times the noise are not the same: each is the mean of three readings."""
+LONGEST_WINDOW_S = 3.0
+DECIDED_S = 5.0
+"""After this time without a proof there will be none."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Ended:
+    """The latest run, when its relay was switched off."""
+
+    direction: Direction
+    off_s: float
+    lasted_s: float
+    line: Slope | None
+    """How the axis turned when the run ended; None: it was not seen to turn."""
+    angle_deg: float
+    """Where it was then."""
+
+
+class OpeningWatch:
+    """Give it every change of the relays (`driven`) and every good reading (`see`), in order of time.
+
+    `placed`: the limits are known, and the stops lie beyond them. `look`: nothing has been seen of this axis yet.
+    """
+
+    def __init__(self, seen: ObservedMotion, trusts: Trusts, *, placed: bool, look: bool) -> None:
+        self._seen = seen
+        self._placed = placed
+        self._trust = dict(zip((PLUS, MINUS), trusts, strict=True))
+        self.looked = not look
+        """The axis has been seen to stand in this run of the program."""
+        self.ran_on = False
+        """It went on at its speed after its relay was switched off."""
+        self._going = 0
+        """How many readings in a row have shown that."""
+        self._ended: _Ended | None = None
+        self._supplied_s: float | None = None
+        """Since when the motor would have current if a relay were closed; None: it would not."""
+        self._unbroken = False
+        """There has been a supply ever since the latest run."""
+        self._latest: deque[float] = deque(maxlen=3)
+        self._resting: deque[float] = deque(maxlen=10)
+        """The latest readings without a relay on."""
+        self._rest_deg: float | None = None
+        """Where the axis stands."""
+        self._line: Slope | None = None
+        """How the present run turns the axis."""
+        self._run_dps = 0.0
+        """The fastest that the axis has turned in this run, for certain."""
+        self._turned_s = -math.inf
+        """When the axis was last seen to turn."""
+        self._from_deg: float | None = None
+        """Where it stood when it had last been seen to turn."""
+        self._blind_s = 0.0
+        """For how long relays were closed since the axis was last seen to turn."""
+        self._lagged_deg: float | None = None
+        """Where the axis was when it had fallen behind a motor with current."""
+        self._measured: dict[Direction, float] = {}
+        self._held_deg: dict[Direction, float] = {}
+        """Where the axis stood while it was driven that way."""
+
+    @property
+    def trusts(self) -> Trusts:
+        return self._trust[PLUS], self._trust[MINUS]
+
+    def trust(self, direction: Direction) -> Trust:
+        return self._trust[direction]
+
+    @property
+    def measured_dps(self) -> float | None:
+        """The slower of the speeds that the latest runs have shown; None: there was none yet."""
+        return min(self._measured.values(), default=None)
+
+    @property
+    def fed_dps(self) -> float:
+        """What a motor with current turns at least."""
+        believed_dps = min(motor.speed_dps for motor in self._seen.motors.values())
+        measured_dps = self.measured_dps
+        return FED_BELIEVED_SHARE * believed_dps if measured_dps is None else FED_SHARE * measured_dps
+
+    @property
+    def place(self) -> str:
+        """Where the axis stands, for a person."""
+        return f" stands at {self._place_deg:.1f}°" if self._latest and self._placed else ""
+
+    def waits(self, direction: Direction) -> bool:
+        """Whether that relay stays open, because the readings have not yet shown that its opposite is open."""
+        if not self.looked or self._trust[Direction(-direction)] is not Trust.OPEN:
+            return True
+        # Only now did it begin to turn the other way: what turns it may be the opposite relay.
+        slope = self._seen.trend.slope(self._seen.trend.last_s - END_WINDOWS_S[1])
+        fed_dps = FED_SHARE * self._motor_dps
+        return slope is not None and -slope.speed_dps * direction - 2.0 * slope.rough_dps > fed_dps
+
+    def found_closed(self, direction: Direction) -> None:
+        self._trust[direction] = Trust.WELDED
+        self.ran_on = True
+
+    def checked(self) -> None:
+        """A person has looked at both relays: they are open."""
+        self._trust = {PLUS: Trust.OPEN, MINUS: Trust.OPEN}
+        self._ended, self._blind_s, self.ran_on = None, 0.0, False
+        self._held_deg.clear()
+
+    def driven(self, now_s: float, direction: Direction, was: Direction, since_s: float) -> None:
+        """The relays change to `direction`; they were at `was` since `since_s`."""
+        if was is not Direction.OFF:
+            self._end(now_s, was, now_s - since_s)
+        if direction is not Direction.OFF:
+            if self._trust[direction] is Trust.OPEN:
+                self._trust[direction] = Trust.UNSEEN
+            self._from_deg = self._rest_deg if self._from_deg is None else self._from_deg
+            self._resting.clear()
+            self._rest_deg = self._line = self._ended = self._lagged_deg = None
+            self.ran_on, self._going, self._run_dps = False, 0, 0.0
+
+    def see(self, at_s: float, angle_deg: float, *, supplied: bool) -> None:
+        """A good reading, on the line of the others."""
+        self._latest.append(angle_deg)
+        if self._seen.relays.direction is not Direction.OFF:
+            self._see_run(at_s)
+        elif not supplied:
+            self._supplied_s, self._unbroken = None, False
+        else:
+            self._supplied_s = at_s if self._supplied_s is None else self._supplied_s
+            self._resting.append(angle_deg)
+            self._see_rest(at_s)
+
+    @property
+    def _place_deg(self) -> float:
+        return sum(self._latest) / len(self._latest)
+
+    @property
+    def _motor_dps(self) -> float:
+        return self.measured_dps or min(motor.speed_dps for motor in self._seen.motors.values())
+
+    # --- a relay is closed
+
+    def _see_run(self, at_s: float) -> None:
+        relays = self._seen.relays
+        self._supplied_s, self._unbroken = relays.since_s, True
+        self._line = self._turning(at_s, relays.since_s)
+        if self._line is not None:
+            self._run_dps = max(self._run_dps, abs(self._line.speed_dps) - 2.0 * self._line.rough_dps)
+            self._turned_s, self._blind_s, self._from_deg = at_s, 0.0, None
+            for way, held_deg in list(self._held_deg.items()):
+                if (self._place_deg - held_deg) * way > 2.0 * BEYOND_DEG:
+                    del self._held_deg[way]
+        elif at_s - max(relays.since_s, self._turned_s) > max(BLIND_S, 1.5 * self._unseen_s):
+            self._held_deg[relays.direction] = self._place_deg
+
+    def _turning(self, at_s: float, since_s: float) -> Slope | None:
+        """How fast the axis turns just now, for certain."""
+        trend = self._seen.trend
+        latest = trend.slope(max(since_s, at_s - END_WINDOWS_S[0]))
+        if latest is None:
+            return None
+        for window_s in END_WINDOWS_S:
+            slope = trend.slope(max(since_s, at_s - window_s))
+            if slope is None:
+                continue
+            if abs(slope.speed_dps) + 3.0 * slope.rough_dps < max(self.fed_dps, FED_SHARE * self._run_dps):
+                return None  # it stands, whatever the longer windows still hold
+            if abs(slope.speed_dps) < 3.5 * slope.rough_dps:
+                continue
+            # It may have stopped within this window: then its end is slower than the whole.
+            going_dps = latest.speed_dps * math.copysign(1.0, slope.speed_dps) + 2.0 * latest.rough_dps
+            return slope if going_dps >= SLOWED_SHARE * abs(slope.speed_dps) else None
+        return None
+
+    def _end(self, now_s: float, direction: Direction, lasted_s: float) -> None:
+        line, self._line = self._line, None
+        if line is None:
+            self._blind_s += now_s - max(now_s - lasted_s, self._turned_s)
+        elif lasted_s >= MEASURED_AFTER_S:
+            line = self._exactly(line, now_s) if lasted_s >= STEADY_S else line
+            self._measured[direction] = abs(line.speed_dps)
+        self._ended = _Ended(direction, now_s, lasted_s, line, self._place_deg if self._latest else 0.0)
+
+    def _exactly(self, line: Slope, now_s: float) -> Slope:
+        """The same speed from a longer stretch, where the axis did not change its speed within it."""
+        longer = self._seen.trend.slope(now_s - 1.0)
+        steady = longer is not None and abs(longer.speed_dps - line.speed_dps) <= 3.0 * line.rough_dps
+        return longer if longer is not None and steady and longer.rough_dps < line.rough_dps else line
+
+    # --- no relay is closed
+
+    def _see_rest(self, at_s: float) -> None:
+        ended = self._ended
+        if ended is not None and ended.line is not None and self._unbroken:
+            self._note_slowing(at_s, ended, ended.line)
+        if self._stands(at_s):
+            self._note_standing()
+        elif self._rest_deg is not None and self._moved_from(self._rest_deg):
+            self._note_moved(self._rest_deg)
+        elif ended is not None and at_s - ended.off_s > DECIDED_S:
+            self._doubt()
+
+    def _note_slowing(self, at_s: float, ended: _Ended, line: Slope) -> None:
+        slope = self._seen.trend.slope(ended.off_s + RELAY_S)
+        way = PLUS if line.speed_dps > 0 else MINUS
+        if slope is None or self.ran_on or self._trust[ended.direction] is Trust.OPEN:
+            return
+        slowed = slope.speed_dps * way + 3.0 * slope.rough_dps < SLOWED_SHARE * abs(line.speed_dps)
+        passed_s = at_s - ended.off_s
+        gone_deg = (self._place_deg - ended.angle_deg) * way
+        if (slowed and self._free(way, self._place_deg)) or self._still_coasts(passed_s, gone_deg, line):
+            self._trust[ended.direction] = Trust.OPEN
+        elif passed_s >= RAN_ON_S and ended.lasted_s >= STEADY_S:
+            least_deg = RAN_ON_SHARE * abs(line.speed_dps) * passed_s
+            going = gone_deg - 2.5 * self._seen.trend.noise_deg > least_deg
+            self._going = self._going + 1 if going else 0
+            self.ran_on = self._going >= RAN_ON_READINGS
+
+    def _still_coasts(self, passed_s: float, gone_deg: float, line: Slope) -> bool:
+        """Whether the axis has fallen behind a motor with current, and yet goes on: a stop would have held it there."""
+        sure_deg = SURE_NOISES * self._seen.trend.noise_deg
+        if self._lagged_deg is None:
+            behind_deg = abs(line.speed_dps) * passed_s - gone_deg
+            if behind_deg > sure_deg + 3.0 * line.rough_dps * passed_s:
+                self._lagged_deg = gone_deg
+            return False
+        return gone_deg - self._lagged_deg > sure_deg
+
+    def _stands(self, at_s: float) -> bool:
+        trend, fed_dps = self._seen.trend, self.fed_dps
+        window_s = min(trend.window_s(fed_dps / 6.0), LONGEST_WINDOW_S)
+        assert self._supplied_s is not None
+        from_s = max(self._supplied_s, self._ended.off_s if self._ended else -math.inf, trend.since_s)
+        if at_s - window_s < from_s:
+            return False
+        slope = trend.slope(at_s - window_s)
+        return slope is not None and abs(slope.speed_dps) + slope.rough_dps < fed_dps
+
+    def _note_standing(self) -> None:
+        self.looked = True
+        self._rest_deg = sum(self._resting) / len(self._resting)
+        for way in (PLUS, MINUS):
+            if self._trust[way] is Trust.OPEN:
+                continue
+            ended = self._ended if self._ended and self._ended.direction is way else None
+            shown = self._followed(ended) if ended else self._trust[way] is Trust.UNSEEN and self._blind_s <= BLIND_S
+            if self._trust[way] is Trust.WELDED:
+                # The supply may have been switched off by hand: only a run that was seen shows that it opens.
+                shown = shown and ended is not None and ended.line is not None
+            if shown and not self.ran_on and self._free(way, self._rest_deg):
+                self._trust[way] = Trust.OPEN
+            elif self._trust[way] is Trust.UNSEEN:
+                self._trust[way] = Trust.DOUBTED
+
+    def _followed(self, ended: _Ended) -> bool:
+        """Whether the axis turned when its latest run ended; after a short run, whether it may have."""
+        if ended.line is not None:
+            return True
+        if ended.off_s - ended.lasted_s <= self._turned_s < ended.off_s - self._unseen_s:
+            return False  # in this run it turned at first, and something held it
+        if self._from_deg is None:
+            self._from_deg = self._place_deg
+        elif abs(self._place_deg - self._from_deg) > SURE_NOISES * self._seen.trend.noise_deg:
+            self._blind_s, self._from_deg = 0.0, self._place_deg
+        return self._blind_s <= max(BLIND_S, 1.5 * self._unseen_s)
+
+    @property
+    def _unseen_s(self) -> float:
+        """For so long the noise may hide that a motor with current turns."""
+        return max(UNSEEN_S, self._seen.trend.window_s(self.fed_dps / 3.5))
+
+    def _moved_from(self, rest_deg: float) -> bool:
+        return abs(self._place_deg - rest_deg) > MOVED_DEG + 4.0 * self._seen.trend.noise_deg
+
+    def _note_moved(self, rest_deg: float) -> None:
+        """Something turns it, and no relay was closed: the one that would is not taken for open any more."""
+        way = PLUS if self._place_deg > rest_deg else MINUS
+        self._rest_deg = None
+        if self._trust[way] is Trust.OPEN:
+            self._trust[way] = Trust.UNSEEN
+        against = Direction(-way)
+        if self._trust[against] is Trust.DOUBTED:
+            # It has been turned away from what may have held it.
+            self._trust[against], self._blind_s, self._ended = Trust.UNSEEN, 0.0, None
+            self._held_deg.pop(against, None)
+
+    def _doubt(self) -> None:
+        for way in (PLUS, MINUS):
+            if self._trust[way] is Trust.UNSEEN:
+                self._trust[way] = Trust.DOUBTED
+
+    def _free(self, way: Direction, place_deg: float) -> bool:
+        """Whether a motor with current could turn on that way from there."""
+        held_deg = self._held_deg.get(way)
+        if held_deg is not None and (held_deg - place_deg) * way < 2.0 * BEYOND_DEG:
+            return False
+        limits = self._seen.limits
+        limit_deg = limits.max_deg if way > 0 else limits.min_deg
+        return not self._placed or (place_deg - limit_deg) * way <= BEYOND_DEG

@@ -1,0 +1,122 @@
+"""How far an axis may go before a command can end that: from where it may be now to where it may come to rest.
+
+Knows speeds, and how far a motor runs on. Bounds, not guesses: the motor may be half as fast again as the file says,
+and the latest reading is as old as it is. Knows no goal and no sector.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hw.ports import Direction
+from rotator.control.axis.motion import Motion, Motor
+from rotator.control.axis.sensing import Sensing
+from rotator.control.axis.settings import SwitchedSettings
+from rotator.control.commands import Run
+from rotator.control.sky.mount import Range
+from rotator.control.sky.sectors import UNKNOWN
+from rotator.faults import Fault, FaultKind
+
+FASTER, FASTER_LEARNT = 1.5, 1.2
+"""A motor may be so much faster than the file says, or than its runs have shown."""
+RELAY_S = 0.03
+"""A relay opens within this time."""
+START_S = 0.15
+"""A motor starts only where it may run for so long."""
+NEAR_MODEL_DEG = 3.0
+"""A reading further from the model is a spark on the wire, which the model leaves out too."""
+UNSEEN_S = 0.3
+"""Without a good reading for so long the axis may be anywhere."""
+TRUSTED = frozenset({FaultKind.LIMIT_SWITCH, FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF, FaultKind.CONTROL_LATE})
+"""Faults that leave the angle true. With any other one the axis may be anywhere."""
+
+
+def lost(fault: Fault | None) -> bool:
+    """Whether this fault leaves the angle in doubt."""
+    return fault is not None and fault.kind not in TRUSTED
+
+
+class Runs:
+    """What the relays of an axis do, and did last."""
+
+    def __init__(self) -> None:
+        self.direction = Direction.OFF
+        self.last = Direction.OFF
+        """The direction of the present or latest run."""
+        self._driven_s = -math.inf
+
+    def note(self, now_s: float, driven: Direction) -> None:
+        self.direction = driven
+        if driven is not Direction.OFF:
+            self.last, self._driven_s = driven, now_s
+
+    def off_s(self, now_s: float) -> float:
+        """For how long they have been open."""
+        return now_s - self._driven_s
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """One direction of a motor at its fastest."""
+
+    speed_dps: float
+    lag_s: float
+
+    @property
+    def coast_deg(self) -> float:
+        return self.speed_dps * (self.lag_s + RELAY_S)
+
+    @property
+    def room_deg(self) -> float:
+        return self.speed_dps * START_S + self.coast_deg
+
+
+def bounds(described: Motor, learnt: Motor) -> Bounds:
+    fastest_dps = max(FASTER * described.speed_dps, FASTER_LEARNT * learnt.speed_dps)
+    return Bounds(fastest_dps, max(described.lag_s, learnt.lag_s))
+
+
+class Reach:
+    def __init__(self, settings: SwitchedSettings) -> None:
+        self._described = settings.motor
+        homing = settings.homing
+        self._step_deg = homing.period_s * settings.motor.speed_dps if homing else 0.0
+        """How far it may be from where it was read: a count tells no more than the pulse that came last."""
+
+    def room_deg(self, motion: Motion) -> float:
+        """How far it may go on before a command can end that, at its first start too."""
+        return max(bound.room_deg for bound in self._bounds(motion).values()) + self._step_deg
+
+    def swept(self, now_s: float, sensing: Sensing, motion: Motion, runs: Runs, run: Run | None) -> Range:
+        """Where the axis may pass until it rests, if this run is the last one; None: if it is to stop now."""
+        angle_deg, seen_s = sensing.angle_deg, sensing.believed_s
+        if angle_deg is None or now_s - seen_s > UNSEEN_S:
+            return UNKNOWN
+        model_deg = motion.angle_at(now_s)
+        near = abs(angle_deg - model_deg) <= NEAR_MODEL_DEG
+        span = Range(model_deg, model_deg).spanning(angle_deg if near else model_deg).widened(self._step_deg)
+        motors = self._bounds(motion)
+        if runs.last is not Direction.OFF:
+            span = _further(span, runs.last, _going_on_deg(motors[runs.last], runs, now_s - seen_s, now_s))
+        if run is None or run.direction is Direction.OFF:
+            return span
+        motor = motors[run.direction]
+        # A motor that runs that way already has its coast in the span.
+        coast_deg = 0.0 if run.direction is runs.direction else motor.coast_deg
+        return _further(span, run.direction, motor.speed_dps * max(0.0, run.until_s - now_s) + coast_deg)
+
+    def _bounds(self, motion: Motion) -> dict[Direction, Bounds]:
+        return {direction: bounds(self._described, motor) for direction, motor in motion.motors.items()}
+
+
+def _going_on_deg(motor: Bounds, runs: Runs, age_s: float, now_s: float) -> float:
+    """How far it has gone since it was seen, and goes on until it rests."""
+    if runs.direction is runs.last:
+        return motor.speed_dps * age_s + motor.coast_deg
+    return motor.coast_deg * math.exp(-runs.off_s(now_s) / (FASTER * motor.lag_s))
+
+
+def _further(span: Range, direction: Direction, by_deg: float) -> Range:
+    end_deg = span.max_deg if direction > 0 else span.min_deg
+    return span.spanning(end_deg + direction * by_deg)

@@ -1,0 +1,44 @@
+"""The faults of a motor relay that may not have opened, in words for a person.
+
+Knows how far a relay is trusted, and whether a master is wired. `opening_watch` and `contact_watch` find that out.
+"""
+
+from __future__ import annotations
+
+from hw.ports import Axis, Direction
+from rotator.faults import Fault, FaultKind
+from rotator.status import Trust
+
+CUT_BY_HAND = "CUT MOTOR POWER!"
+WAYS = {
+    (Axis.AZIMUTH, Direction.PLUS): "clockwise",
+    (Axis.AZIMUTH, Direction.MINUS): "counter-clockwise",
+    (Axis.ELEVATION, Direction.PLUS): "up",
+    (Axis.ELEVATION, Direction.MINUS): "down",
+}
+
+
+def unstoppable(kind: FaultKind, axis: Axis, measured: str, limit: str, *, master: bool) -> Fault:
+    """A fault that no relay of this axis ends: only the supply does. `master`: an output switches the supply."""
+    if master:
+        return Fault(kind, axis, f"{measured}; the master is opened", limit, cut=True)
+    measured += "; no master is wired, so switch the motors' supply off by hand NOW"
+    return Fault(kind, axis, measured, limit, cut=True, act_now=CUT_BY_HAND)
+
+
+def accusation(axis: Axis, direction: Direction, trust: Trust, place: str, *, master: bool) -> Fault | None:
+    """The fault that an order against that relay meets; None where the relay is not suspected.
+
+    `place`: where the axis stood when the doubt arose, for a person; empty: not known any more.
+    """
+    way = WAYS[axis, direction]
+    cure = f"one run {way} that ends by itself"
+    match trust:
+        case Trust.WELDED:
+            return unstoppable(FaultKind.RELAY_WELDED, axis, f"{way} found closed", cure, master=master)
+        case Trust.DOUBTED:
+            measured = f"{way}{place}: standing there does not show it"
+            # The motor may have current and be held by its stop: with a master it is spared that.
+            return Fault(FaultKind.RELAY_UNSEEN, axis, measured, cure, cut=master)
+        case _:
+            return None

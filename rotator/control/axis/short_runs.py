@@ -1,0 +1,141 @@
+"""Whether an axis turns at all when it is driven, from one short run to the next.
+
+Knows the readings, and how long the relays were on. A run that is too short to be judged by itself counts with those
+before it: what was seen lasts until the axis is seen to move. Decides nothing: it returns a fault, and the axis stops.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.relay_trust import WAYS
+from rotator.control.axis.sparks import Place
+from rotator.faults import Fault, FaultKind
+
+SMOOTHED = 5
+"""The mean of so many readings is where the axis is."""
+MOVED_DEG, MOVED_NOISES = 0.3, 2.5
+"""An axis has moved when it is further from where it stood than both."""
+STOOD_RUNS = 3
+SLOW_SHARE = 0.2
+"""So many runs that do not move the axis are enough, where even a motor at this share of its speed would have."""
+STOOD_S, UNKNOWN_STOOD_S = 1.5, 2.5
+"""And so is so long in all; longer until the axis has moved once: its motor may be slower than the file says."""
+STANDING = frozenset({FaultKind.STANDS_STILL, FaultKind.END_STOP})
+"""The faults of a motor that does not turn."""
+LEAST_RUN_S = 0.15
+"""A shorter run may be over before a motor turns."""
+SETTLE_S = 0.6
+"""Relay, coast and the mean of the readings take so long after a run."""
+
+
+class ShortRuns:
+    """Give it every change of the relays (`driven`) and every good reading (`see`), in order of time."""
+
+    def __init__(self, axis: Axis) -> None:
+        self._axis = axis
+        self._latest: deque[Place] = deque(maxlen=SMOOTHED)
+        self._stands_deg: float | None = None
+        """Where it was when it was last seen to move."""
+        self._run: tuple[Direction, float, float] | None = None
+        """The present run: which way, since when, and the speed of its motor."""
+        self._ended: tuple[Direction, float, float] | None = None
+        """The last run, until its end is seen: which way, for how long, and when it ended."""
+        self._way = Direction.PLUS
+        """The direction of the last run that was counted."""
+        self._counted = False
+        """That run has not been judged yet."""
+        self._moved_deg = MOVED_DEG
+        self._from_deg: float | None = None
+        """Where the present or last run began."""
+        self._telling_s = math.inf
+        """How long a run must be to move even a slow axis."""
+        self._moved = False
+        """The axis has moved since the present or last run began."""
+        self._known = False
+        """The axis has been seen to move in a run."""
+        self._runs = 0
+        self._stood_s = 0.0
+        self._backwards = 0
+        self.tries = 0
+        """How many runs were in vain since the last fault."""
+
+    def forget(self) -> None:
+        """The fault is acknowledged, or the readings mean other places."""
+        self._latest.clear()
+        self._stands_deg = self._run = self._ended = self._from_deg = None
+        self._runs = self._backwards = self.tries = 0
+        self._stood_s = 0.0
+
+    def struck(self, kind: FaultKind) -> None:
+        """A fault has stopped the axis. Where it stood still, one more run in vain is enough for the next fault."""
+        self._run, self._ended, self._counted, self.tries = None, None, False, 0
+        if kind in STANDING:
+            self._runs, self._stood_s = STOOD_RUNS - 1, 0.0
+
+    def driven(self, now_s: float, direction: Direction, speed_dps: float) -> None:
+        """What the relays do from now on. `speed_dps`: of that direction's motor."""
+        if direction is (self._run[0] if self._run else Direction.OFF):
+            return
+        if self._run is not None:
+            way, since_s, _ = self._run
+            self._ended, self._run = (way, now_s - since_s, now_s), None
+        if direction is not Direction.OFF:
+            self._count()
+            if self._moved:
+                self._stands_deg = self._smoothed_deg
+            self._run, self._from_deg, self._moved = (direction, now_s, speed_dps), self._smoothed_deg, False
+
+    def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
+        """A good reading. Returns the fault that it shows, if any."""
+        self._latest.append((at_s, angle_deg))
+        smoothed_deg = self._smoothed_deg
+        if smoothed_deg is None:
+            return None
+        moved_deg = max(MOVED_DEG, MOVED_NOISES * noise_deg)
+        if self._run is not None:
+            self._telling_s = moved_deg / (SLOW_SHARE * self._run[2]) if self._known else math.inf
+        if self._stands_deg is None or abs(smoothed_deg - self._stands_deg) >= moved_deg:
+            self._known = self._known or (self._stands_deg is not None and self._run is not None)
+            self._stands_deg, self._runs, self._stood_s, self._moved = smoothed_deg, 0, 0.0, True
+            self.tries = 0
+        self._moved_deg = moved_deg
+        if self._ended is not None and at_s - self._ended[2] >= SETTLE_S:
+            self._count()
+        if not self._counted:
+            return None
+        self._counted = False
+        return self._judge(smoothed_deg)
+
+    def _judge(self, smoothed_deg: float) -> Fault | None:
+        name, moved_deg = WAYS[self._axis, self._way], self._moved_deg
+        if self._backwards >= STOOD_RUNS:
+            measured = f"driven {name} {self._backwards} times, it went back each time"
+            return Fault(FaultKind.WRONG_WAY, self._axis, measured, f"{moved_deg:.1f}° backwards")
+        enough_s = STOOD_S if self._known else UNKNOWN_STOOD_S
+        if self._stood_s < enough_s and self._runs < STOOD_RUNS:
+            return None
+        measured = f"driven {name} and stands at {smoothed_deg:.1f}°, after short runs of {self._stood_s:.1f} s in all"
+        return Fault(FaultKind.STANDS_STILL, self._axis, measured, f"{moved_deg:.1f}° in {enough_s:g} s")
+
+    def _count(self) -> None:
+        """The last run is over: has it moved the axis?"""
+        if self._ended is None:
+            return
+        way, run_s, _ = self._ended
+        self._ended, self._counted, self._way = None, True, way
+        if self._from_deg is not None and self._smoothed_deg is not None:
+            gone_deg = (self._smoothed_deg - self._from_deg) * way
+            self._backwards = self._backwards + 1 if gone_deg <= -self._moved_deg else 0
+        if not self._moved and run_s >= LEAST_RUN_S:
+            self._runs += run_s >= self._telling_s
+            self._stood_s += run_s
+            self.tries += 1
+
+    @property
+    def _smoothed_deg(self) -> float | None:
+        if len(self._latest) < SMOOTHED:
+            return None
+        return sum(angle_deg for _, angle_deg in self._latest) / SMOOTHED

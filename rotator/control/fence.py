@@ -1,0 +1,110 @@
+"""The last line before forbidden sectors: every command of both axes passes here on its way to the drives.
+
+Whatever the goal is (a target, a jog, the way to an end stop), a motor runs only where the box that both axes may sweep
+before the next command can end it meets no sector. Knows both axes as what they may sweep. Knows no goal and no order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.port import ControlledAxis
+from rotator.control.axis.reach import START_S
+from rotator.control.commands import HOLD, Command, Hold, Run
+from rotator.control.sky.mount import Mount
+from rotator.control.sky.sectors import UNKNOWN, Box, kept, may_sweep
+from rotator.faults import Notice
+
+GOING_ON_PERIODS = 1.5
+"""A motor that runs may run on for so many cycles at least: the next command comes after one."""
+NOTICED_FOR_S = 3.0
+"""A notice stays this long after its cause, so that it can be read."""
+
+
+class Fence:
+    """`attended`: a person stands by, and presses a motor on for 2 s at a time. So the axes can be calibrated where
+    neither angle is known; nothing can be kept away from a sector then."""
+
+    def __init__(
+        self, mount: Mount, axes: Mapping[Axis, ControlledAxis], *, period_s: float, attended: bool = False
+    ) -> None:
+        self._axes = axes
+        self._sectors = [kept(sector) for sector in mount.sectors]
+        self._limits = Box(mount.azimuth, mount.elevation)
+        self._period_s = period_s
+        self._attended = attended
+        self._held: dict[Axis, tuple[Notice, float]] = {}
+
+    def passed(self, now_s: float, wishes: Mapping[Axis, Command]) -> dict[Axis, Command]:
+        """What is left of these commands."""
+        commands = dict(wishes)
+        moves = [axis for axis in Axis if _moves(commands[axis])]
+        if not self._sectors or not moves:
+            return commands
+        here = Box(*(self._axes[axis].sweep(now_s, None) for axis in Axis))
+        if self._attended and here == Box(UNKNOWN, UNKNOWN):
+            return commands
+        # The motor that runs goes first: one that waits for the other starts once, one that is stopped starts twice.
+        moves.sort(key=lambda axis: not self._axes[axis].driven)
+        swept = here
+        granted: list[Axis] = []
+        inside = bool(self._met(here))
+        for axis in moves:
+            if inside and granted:
+                break  # one axis leads out, and the other one stands
+            for command in self._shorter(now_s, axis, commands[axis]):
+                there = swept.but(axis, self._axes[axis].sweep(now_s, command))
+                if here.of(axis) != UNKNOWN and may_sweep(self._sectors, here, there, self._limits):
+                    swept, commands[axis] = there, command
+                    granted.append(axis)
+                    break
+                if here.of(axis) == UNKNOWN and not self._met(there):
+                    granted.append(axis)
+                    break
+        for axis in moves:
+            if axis not in granted:
+                commands[axis] = self._held_back(axis, commands[axis], now_s, swept)
+        return commands
+
+    def notices(self, axis: Axis, now_s: float) -> tuple[Notice, ...]:
+        """Why the latest command of this axis was not carried out."""
+        notice, since_s = self._held.get(axis, (None, 0.0))
+        return (notice,) if notice is not None and now_s - since_s < NOTICED_FOR_S else ()
+
+    def _shorter(self, now_s: float, axis: Axis, command: Command) -> list[Command]:
+        """The command, and the same one for as short a time as makes sense."""
+        if not isinstance(command, Run):
+            return [command]
+        least_s = GOING_ON_PERIODS * self._period_s if self._axes[axis].driven else START_S
+        return [command, replace(command, until_s=min(command.until_s, now_s + least_s))]
+
+    def _held_back(self, axis: Axis, command: Command, now_s: float, swept: Box) -> Command:
+        there = swept.but(axis, self._axes[axis].sweep(now_s, command))
+        name = " and ".join(self._met(there))
+        if swept.known:
+            notice = Notice(f"held before {name}", "HELD BACK")
+        else:
+            unknown = " and ".join(each.value for each in Axis if swept.of(each) == UNKNOWN)
+            notice = Notice(
+                f"held back: the angle of {unknown} is not known, and {name} may be in the way", "HELD BACK"
+            )
+        if self._axes[axis].aiming is None or not swept.known:
+            # The way of an axis that aims is found elsewhere, and what keeps it from its target is said there.
+            self._held[axis] = (notice, now_s)
+        self._axes[axis].hold_back(now_s, notice.text)
+        return Run(Direction.OFF, now_s) if isinstance(command, Run) else HOLD
+
+    def _met(self, box: Box) -> list[str]:
+        return [each.name for each in self._sectors if each.box.meets(box)]
+
+
+def _moves(command: Command) -> bool:
+    match command:
+        case Run(direction):
+            return direction is not Direction.OFF
+        case Hold():
+            return False
+        case _:
+            return True

@@ -1,0 +1,167 @@
+"""The goals of both axes, led round forbidden sectors: from place to place, and beside a sector that holds the target.
+
+Knows what the axes were asked for, where they are, and the way on which they go. Without sectors each goal goes to its
+axis as it is. What keeps the antenna out of a sector for certain is the `fence`; this finds the way.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from hw.ports import Axis
+from rotator.control.axis.port import ControlledAxis
+from rotator.control.sky.detour import BESIDE_DEG, Detour, Detours
+from rotator.control.sky.mount import ZENITH_DEG, Mount
+from rotator.control.sky.nudges import FULL_TURN_DEG
+from rotator.control.sky.plan import Path
+from rotator.control.sky.pointing import AimGoal
+from rotator.control.sky.route import Speeds
+from rotator.control.sky.sectors import Box, Place
+from rotator.faults import Notice
+from rotator.orders import Aim
+
+PLACE_TOLERANCE_DEG = 0.8 * BESIDE_DEG
+"""How near to a place on its way an axis has to come."""
+SAME_DEG = 0.25
+"""A target that has moved by less needs no new way."""
+
+
+class GoingRound:
+    def __init__(self, mount: Mount, axes: Mapping[Axis, ControlledAxis]) -> None:
+        self._mount = mount
+        self._axes = axes
+        self.detours = detours(mount, axes) if mount.sectors else None
+        self._wishes: dict[Axis, AimGoal] = {}
+        """The goals as asked for."""
+        self._target: Place | None = None
+        self._detour: Detour | None = None
+        """The rest of the way to that target; None: straight on."""
+        self._noticed: dict[Axis, Notice] = {}
+
+    def wish(self, axis: Axis) -> AimGoal | None:
+        """What this axis was asked for, as far as it still aims."""
+        aiming = self._axes[axis].aiming
+        return self._wishes.get(axis, aiming) if aiming is not None and self.detours is not None else aiming
+
+    def turn(self, now_s: float, aim: Aim, from_deg: float) -> tuple[float, bool]:
+        """Near which azimuth the target is to be met, and whether over the top: where the way takes the least time.
+
+        Without sectors, or where no place is free: the nearest turn, as the mount knows it.
+        """
+        azimuth_deg, elevation_deg = aim.azimuth_deg, aim.elevation_deg
+        if self.detours is None or azimuth_deg is None or elevation_deg is None:
+            return from_deg, False
+        if azimuth_deg > FULL_TURN_DEG or elevation_deg > ZENITH_DEG:  # the sender names the place
+            return from_deg, False
+        here = self._here(now_s)
+        if not here.known:
+            return from_deg, False
+        ways = [
+            (self.detours.seconds(here, (place_deg, raised_deg)), over, abs(place_deg - from_deg), place_deg)
+            for place_deg, raised_deg, over in self._mount.places(azimuth_deg, elevation_deg)
+        ]
+        # Over the top only where no other place is free.
+        ways = [way for way in ways if math.isfinite(way[0])]
+        if not ways:
+            return from_deg, False
+        _, over, _, place_deg = min(ways, key=lambda way: (way[1], way[0], way[2]))
+        return place_deg, over
+
+    def aim(self, axis: Axis, goal: AimGoal) -> None:
+        """Go there from now on."""
+        self._axes[axis].aim(goal)
+        if self.detours is not None:
+            self._wishes[axis] = goal
+
+    def forget_paths(self) -> None:
+        """Keep the targets where they are now: their further path is not known any more."""
+        for axis in self._axes.values():
+            axis.forget_path()
+        self._wishes = {axis: goal.standing() for axis, goal in self._wishes.items()}
+
+    def notices(self, axis: Axis) -> tuple[Notice, ...]:
+        return (self._noticed[axis],) if axis in self._noticed else ()
+
+    def lead(self, now_s: float) -> None:
+        """Give each axis the goal of this moment."""
+        if self.detours is None:
+            return
+        wishes = {axis: wish for axis in Axis if (wish := self.wish(axis)) is not None}
+        self._wishes = dict(wishes)
+        self._noticed.clear()
+        # An axis that jogs or homes is led by nothing: the fence ends it in time.
+        free = all(axis in wishes or not self._axes[axis].busy for axis in Axis)
+        here = self._here(now_s)
+        if not wishes or not free or not here.known:
+            self._target = self._detour = None
+            self._give(wishes)
+            return
+        azimuth_deg, elevation_deg = (
+            _place_deg(wishes[axis], now_s) if axis in wishes else here.of(axis).middle_deg for axis in Axis
+        )
+        target = azimuth_deg, elevation_deg
+        if self.detours.free(here, target):
+            self._target = self._detour = None
+            self._give(wishes)
+            return
+        for axis in Axis:
+            if axis not in wishes:
+                # It moves out of the way, and comes back.
+                wishes[axis] = self._wishes[axis] = AimGoal(here.of(axis).middle_deg, PLACE_TOLERANCE_DEG)
+        self._go(wishes, self._way(here, target), target)
+
+    def _way(self, here: Box, target: Place) -> Detour:
+        """The way on which the antenna is, where it still leads to the target; else a new one."""
+        assert self.detours is not None
+        before, detour = self._target, self._detour
+        if detour is not None and before is not None and not detour.leaves and _same(before, target):
+            at = self.detours.further(here, detour.places)
+            if at is not None:
+                self._detour = Detour(detour.places[at:], detour.sector)
+                return self._detour
+        end = detour.places[-1] if detour is not None and detour.sector and not detour.leaves else None
+        self._target = target
+        self._detour = self.detours.round(here, target, end)
+        return self._detour
+
+    def _go(self, wishes: Mapping[Axis, AimGoal], detour: Detour, target: Place) -> None:
+        """To the first place of the way; at its end each axis that reaches its target follows it again."""
+        last = len(detour.places) == 1 and not detour.leaves
+        for axis, place_deg, target_deg in zip(Axis, detour.places[0], target, strict=True):
+            wish = wishes[axis]
+            if last and abs(place_deg - target_deg) < SAME_DEG:
+                self._set(axis, wish)
+                continue
+            tolerance_deg = wish.tolerance_deg if last else PLACE_TOLERANCE_DEG
+            self._set(axis, AimGoal(place_deg, tolerance_deg))
+            if last:
+                text = f"the target is in or behind {detour.sector}: waits at {place_deg:.0f}°"
+                self._noticed[axis] = Notice(text, "FORBIDDEN")
+        if detour.leaves:
+            for axis in Axis:
+                self._noticed[axis] = Notice(f"the antenna is in {detour.sector}: it only leaves it", "IN FORBIDDEN")
+
+    def _here(self, now_s: float) -> Box:
+        return Box(*(self._axes[axis].sweep(now_s, None) for axis in Axis))
+
+    def _give(self, wishes: Mapping[Axis, AimGoal]) -> None:
+        for axis, wish in wishes.items():
+            self._set(axis, wish)
+
+    def _set(self, axis: Axis, goal: AimGoal) -> None:
+        if self._axes[axis].aiming != goal:
+            self._axes[axis].aim(goal)
+
+
+def detours(mount: Mount, axes: Mapping[Axis, ControlledAxis]) -> Detours:
+    azimuth, elevation = axes[Axis.AZIMUTH], axes[Axis.ELEVATION]
+    return Detours(mount, (azimuth.room_deg, elevation.room_deg), Speeds(azimuth.speed_dps, elevation.speed_dps))
+
+
+def _place_deg(goal: AimGoal, now_s: float) -> float:
+    return goal.path.angle_deg(now_s) if isinstance(goal.path, Path) else goal.target_deg
+
+
+def _same(a: Place, b: Place) -> bool:
+    return max(abs(a[0] - b[0]), abs(a[1] - b[1])) < SAME_DEG

@@ -1,0 +1,129 @@
+"""Which fault an axis keeps, and who may end it: after some tries in vain a link may not."""
+
+from __future__ import annotations
+
+from hw.ports import Axis
+from rotator.control.axis.fault_latch import TRIES, TRIES_WITHIN_S, FaultLatch
+from rotator.faults import Fault, FaultKind
+
+STANDS = Fault(FaultKind.STANDS_STILL, Axis.AZIMUTH, "0.0° in 1 s")
+JUMPS = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "3 jumps")
+WELDED = Fault(FaultKind.RELAY_WELDED, Axis.AZIMUTH, "still turning", cut=True)
+ALSO_WELDED = Fault(FaultKind.TURNS_BY_ITSELF, Axis.AZIMUTH, "it turns", cut=True)
+SILENT = Fault(FaultKind.CONTROLLER_SILENT, Axis.AZIMUTH, "no answer", passing=True)
+
+
+def test_nothing_wrong_is_no_fault() -> None:
+    latch = FaultLatch()
+    assert not latch.note(None, 0.0, cause=None, tries=0)
+    assert not latch.fail(None, 0.0, tries=0)
+    assert latch.fault is None
+
+
+def test_the_first_fault_stays_when_its_cause_is_gone() -> None:
+    latch = FaultLatch()
+    assert latch.note(STANDS, 0.0, cause=None, tries=0), "new"
+    assert not latch.note(STANDS, 0.0, cause=None, tries=0), "known"
+    assert not latch.note(JUMPS, 0.0, cause=JUMPS, tries=0)
+    assert not latch.note(None, 0.0, cause=None, tries=0)
+    assert latch.fault is STANDS
+
+
+def test_a_fault_that_needs_the_supply_cut_replaces_another() -> None:
+    latch = FaultLatch()
+    latch.fail(STANDS, 0.0, tries=0)
+    assert latch.fail(WELDED, 0.0, tries=0)
+    assert latch.fault is WELDED
+    assert not latch.fail(ALSO_WELDED, 0.0, tries=0), "the first of these stays"
+    assert not latch.fail(STANDS, 0.0, tries=0)
+    assert latch.fault is WELDED
+
+
+def test_acknowledged_it_ends_unless_its_cause_is_still_there() -> None:
+    latch = FaultLatch()
+    latch.note(JUMPS, 0.0, cause=JUMPS, tries=0)
+    latch.acknowledge(0.0, by_person=False)
+    assert latch.fault is JUMPS
+    latch.note(None, 0.0, cause=None, tries=0)
+    latch.acknowledge(0.0, by_person=False)
+    assert latch.fault is None
+
+
+def test_what_is_there_now_takes_the_place_of_what_is_acknowledged() -> None:
+    latch = FaultLatch()
+    latch.note(STANDS, 0.0, cause=None, tries=0)
+    latch.note(JUMPS, 0.0, cause=JUMPS, tries=0)
+    assert latch.fault is STANDS
+    latch.acknowledge(0.0, by_person=False)
+    assert latch.fault is JUMPS
+
+
+def test_a_passing_fault_ends_with_its_cause() -> None:
+    latch = FaultLatch()
+    assert latch.note(SILENT, 0.0, cause=SILENT, tries=0)
+    assert not latch.note(None, 0.0, cause=None, tries=0)
+    assert latch.fault is None
+    latch.note(SILENT, 0.0, cause=SILENT, tries=0)
+    latch.note(STANDS, 0.0, cause=None, tries=0)
+    assert latch.fault is STANDS, "another one takes its place"
+    latch.note(None, 0.0, cause=None, tries=0)
+    assert latch.fault is STANDS
+
+
+# --- tried again and again
+
+
+def tried(latch: FaultLatch, now_s: float, tries: int = 1) -> bool:
+    """Once more in vain, and acknowledged by a link. Returns whether it counts."""
+    latch.note(STANDS, now_s, cause=None, tries=tries)
+    latch.note(None, now_s, cause=None, tries=0)
+    return latch.acknowledge(now_s, by_person=False)
+
+
+def test_a_link_acknowledges_two_tries_and_not_the_third() -> None:
+    latch = FaultLatch()
+    assert [tried(latch, 10.0 * count) for count in range(TRIES)] == [True, True, False]
+    assert latch.fault is not None
+    assert "only `resume`" in latch.fault.measured
+
+
+def test_the_first_of_them_may_be_ten_minutes_ago() -> None:
+    latch = FaultLatch()
+    tried(latch, 0.0)
+    tried(latch, 300.0)
+    assert tried(latch, TRIES_WITHIN_S)
+
+
+def test_time_lets_a_link_acknowledge_it_again() -> None:
+    latch = FaultLatch()
+    for count in range(TRIES):
+        tried(latch, 10.0 * count)
+    assert not latch.acknowledge(TRIES_WITHIN_S - 1.0, by_person=False)
+    assert latch.acknowledge(TRIES_WITHIN_S, by_person=False)
+    assert latch.fault is None
+
+
+def test_a_person_acknowledges_it_and_the_tries_begin_anew() -> None:
+    latch = FaultLatch()
+    for count in range(TRIES):
+        tried(latch, 10.0 * count)
+    assert latch.acknowledge(40.0, by_person=True)
+    assert latch.fault is None
+    assert tried(latch, 50.0)
+
+
+def test_short_runs_in_vain_count_each() -> None:
+    assert not tried(FaultLatch(), 5.0, tries=TRIES)
+
+
+def test_a_fault_that_struck_at_rest_is_no_try() -> None:
+    latch = FaultLatch()
+    assert all(tried(latch, 10.0 * count, tries=0) for count in range(2 * TRIES))
+
+
+def test_what_passes_by_itself_is_no_try() -> None:
+    latch = FaultLatch()
+    for count in range(2 * TRIES):
+        latch.note(SILENT, 10.0 * count, cause=SILENT, tries=1)
+        latch.note(None, 10.0 * count + 1.0, cause=None, tries=0)
+    assert tried(latch, 100.0)

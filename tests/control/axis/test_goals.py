@@ -1,0 +1,47 @@
+"""What a jog is to the axis: a direction and its end; short presses where the axis is not commissioned."""
+
+from __future__ import annotations
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.goals import JogGoal, jog, limit_reached
+from rotator.faults import FaultKind
+
+MINUS, OFF, PLUS = Direction
+
+
+@pytest.mark.parametrize(
+    ("seconds", "commissioned", "until_s"),
+    [
+        (5.0, True, 105.0),
+        (None, True, None),
+        (1.5, False, 101.5),
+        (2.0, False, 102.0),
+        (60.0, False, 102.0),
+        (None, False, 102.0),
+    ],
+)
+def test_how_long_a_jog_lasts(seconds: float | None, commissioned: bool, until_s: float | None) -> None:
+    for way in (MINUS, PLUS):
+        assert jog(way, seconds, 100.0, commissioned=commissioned) == JogGoal(way, until_s)
+
+
+def test_a_jog_without_a_direction_is_a_stop() -> None:
+    assert jog(OFF, 5.0, 100.0, commissioned=True) is None
+    assert jog(OFF, None, 100.0, commissioned=False) is None
+
+
+@pytest.mark.parametrize(
+    ("axis", "way", "word"),
+    [
+        (Axis.AZIMUTH, PLUS, "clockwise"),
+        (Axis.AZIMUTH, MINUS, "counter-clockwise"),
+        (Axis.ELEVATION, PLUS, "up"),
+        (Axis.ELEVATION, MINUS, "down"),
+    ],
+)
+def test_an_open_limit_switch_names_the_axis_and_the_way(axis: Axis, way: Direction, word: str) -> None:
+    fault = limit_reached(axis, way)
+    assert (fault.kind, fault.axis) == (FaultKind.LIMIT_SWITCH, axis)
+    assert fault.measured.endswith(f"to turn {word}")

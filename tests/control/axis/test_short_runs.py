@@ -1,0 +1,118 @@
+"""Runs too short to be judged alone: an axis that does not move, moves the wrong way, or is just slow."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.short_runs import LEAST_RUN_S, ShortRuns
+from rotator.faults import Fault, FaultKind
+
+STEP_S = 0.05
+SPEED_DPS = 6.0
+PLUS, MINUS = Direction.PLUS, Direction.MINUS
+
+
+class Bench:
+    """An axis looked at twenty times a second. It turns at `pace` of its motor's speed, and coasts 0.15 s."""
+
+    def __init__(self, pace: float = 1.0, noise_deg: float = 0.1, *, known: bool = True) -> None:
+        self.pace = pace
+        self._noise_deg = noise_deg
+        self._chance = random.Random(5)
+        self._runs = ShortRuns(Axis.AZIMUTH)
+        self._way = Direction.OFF
+        self._speed_dps = 0.0
+        self._angle_deg = 100.0
+        self._now_s = 10.0
+        self.faults: list[Fault] = []
+        self.look(1.0)
+        if known:
+            pace, self.pace = self.pace, 1.0
+            self.press(PLUS, 1.0, 1.0)
+            self.pace = pace
+
+    def press(self, way: Direction, run_s: float, pause_s: float) -> None:
+        self._switch(way)
+        self.look(run_s)
+        self._switch(Direction.OFF)
+        self.look(pause_s)
+
+    def look(self, seconds: float) -> None:
+        for _ in range(round(seconds / STEP_S)):
+            self._now_s += STEP_S
+            self._speed_dps += (self._way * SPEED_DPS * self.pace - self._speed_dps) / 3.0
+            self._angle_deg += self._speed_dps * STEP_S
+            seen_deg = self._angle_deg + self._chance.gauss(0.0, self._noise_deg)
+            if (found := self._runs.see(self._now_s, seen_deg, self._noise_deg)) is not None:
+                self.faults.append(found)
+                self._runs.struck(found.kind)
+
+    def _switch(self, way: Direction) -> None:
+        self._way = way
+        self._runs.driven(self._now_s, way, SPEED_DPS)
+
+    @property
+    def kinds(self) -> list[FaultKind]:
+        return [fault.kind for fault in self.faults]
+
+
+@pytest.mark.parametrize("ways", [(PLUS, PLUS), (PLUS, MINUS)], ids=["one way", "to and fro"])
+@pytest.mark.parametrize("pause_s", [0.2, 1.0, 30.0])
+@pytest.mark.parametrize("run_s", [0.3, 0.5, 1.0])
+def test_three_runs_that_move_nothing_are_a_fault(
+    run_s: float, pause_s: float, ways: tuple[Direction, Direction]
+) -> None:
+    bench = Bench(pace=0.0)
+    for count in range(4):
+        bench.press(ways[count % 2], run_s, pause_s)
+    assert bench.kinds[:1] == [FaultKind.STANDS_STILL]
+
+
+def test_after_that_each_further_one_is_a_fault_until_it_moves() -> None:
+    bench = Bench(pace=0.0)
+    for _ in range(6):
+        bench.press(PLUS, 0.5, 1.0)
+    assert len(bench.faults) == 4
+    bench.pace = 1.0
+    bench.press(PLUS, 0.5, 1.0)
+    bench.pace = 0.0
+    bench.press(PLUS, 0.5, 1.0)
+    bench.press(PLUS, 0.5, 1.0)
+    assert len(bench.faults) == 4
+
+
+def test_shorter_ones_add_up() -> None:
+    bench = Bench(pace=0.0)
+    for _ in range(8):
+        bench.press(PLUS, 0.2, 1.0)
+    assert bench.kinds == [FaultKind.STANDS_STILL]
+
+
+def test_driven_backwards_three_times_is_the_wrong_way() -> None:
+    bench = Bench(pace=-1.0)
+    for _ in range(3):
+        bench.press(PLUS, 0.4, 1.0)
+    assert bench.kinds == [FaultKind.WRONG_WAY]
+
+
+@pytest.mark.parametrize("known", [True, False])
+@pytest.mark.parametrize("ways", [(PLUS, PLUS), (PLUS, MINUS)], ids=["one way", "to and fro"])
+@pytest.mark.parametrize("noise_deg", [0.02, 0.1, 0.4])
+@pytest.mark.parametrize("pace", [0.3, 1.0, 1.5])
+def test_an_axis_that_turns_is_never_accused(
+    pace: float, noise_deg: float, ways: tuple[Direction, Direction], known: bool
+) -> None:
+    bench = Bench(pace, noise_deg, known=known)
+    for count in range(60):
+        bench.press(ways[count % 2], (0.1, 0.2, 0.3, 0.6, 1.5)[count % 5], (0.2, 0.7, 2.0)[count % 3])
+    assert bench.faults == []
+
+
+def test_taps_too_short_for_a_motor_are_not_counted() -> None:
+    bench = Bench(pace=0.0)
+    for _ in range(100):
+        bench.press(PLUS, LEAST_RUN_S - STEP_S, 0.5)
+    assert bench.faults == []

@@ -1,0 +1,87 @@
+"""Whose jog turns an axis: one without a time ends with the connection that ordered it, and with no other."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.port import ControlledAxis
+from rotator.control.jogs import Jogs
+from rotator.orders import Jog, Source
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+PLUS = Direction.PLUS
+LINK, AGAIN, OTHER = Source("rotctld", 1), Source("rotctld", 2), Source("gs232b", 1)
+
+
+class TurningAxis:
+    """As much of an axis as a jog needs."""
+
+    def __init__(self) -> None:
+        self.begun: list[tuple[Direction, float | None, float]] = []
+        self.jogs_without_end = False
+
+    def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
+        self.begun.append((direction, seconds, now_s))
+        self.jogs_without_end = seconds is None
+
+    def halt(self) -> None:
+        self.jogs_without_end = False
+        self.begun.clear()
+
+
+@pytest.fixture
+def axes() -> dict[Axis, TurningAxis]:
+    return {axis: TurningAxis() for axis in Axis}
+
+
+@pytest.fixture
+def jogs(axes: dict[Axis, TurningAxis]) -> Jogs:
+    return Jogs(cast(dict[Axis, ControlledAxis], axes))
+
+
+def test_a_jog_goes_to_its_axis_as_it_was_ordered(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
+    jogs.begin(Jog(EL, PLUS, 1.5), LINK, 20.0)
+    assert axes[EL].begun == [(PLUS, 1.5, 20.0)]
+    assert axes[AZ].begun == []
+
+
+def test_one_without_a_time_ends_with_its_connection(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
+    jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
+    for stranger in (AGAIN, OTHER):
+        jogs.end(stranger)
+        assert axes[AZ].begun, "it belongs to another connection"
+    jogs.end(LINK)
+    assert not axes[AZ].begun
+
+
+def test_one_with_a_time_ends_by_itself(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
+    jogs.begin(Jog(AZ, PLUS, 30.0), LINK, 20.0)
+    jogs.end(LINK)
+    assert axes[AZ].begun
+
+
+def test_the_latest_jog_of_an_axis_counts(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
+    jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
+    jogs.begin(Jog(AZ, PLUS, None), OTHER, 21.0)
+    jogs.end(LINK)
+    assert axes[AZ].begun, "another connection turns it now"
+    jogs.end(OTHER)
+    assert not axes[AZ].begun
+
+
+def test_both_axes_of_one_connection_end(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
+    jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
+    jogs.begin(Jog(EL, PLUS, None), LINK, 20.0)
+    jogs.end(LINK)
+    assert not axes[AZ].begun
+    assert not axes[EL].begun
+
+
+def test_an_axis_that_does_something_else_by_now_goes_on(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
+    jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
+    axes[AZ].jogs_without_end = False  # it aims
+    jogs.end(LINK)
+    assert axes[AZ].begun

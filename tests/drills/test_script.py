@@ -1,0 +1,100 @@
+"""A drill comes from its seed and its JSON, always the same; what it names exists; the known ones stay mended."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import benchmarks.drills
+from benchmarks.drills.boxes import BOTH, ROTORS, Rotor
+from benchmarks.drills.campaign import seeds, verdict
+from benchmarks.drills.draw import draw
+from benchmarks.drills.play import play
+from benchmarks.drills.script import LINKS, PEOPLE, Drill, Event
+from benchmarks.drills.speech import said
+
+KNOWN = sorted((Path(benchmarks.drills.__file__).parent / "known").glob("*.json"))
+KINDS = pytest.mark.parametrize("rotor", ROTORS, ids=lambda rotor: rotor.kind)
+
+
+@pytest.mark.parametrize("path", KNOWN, ids=lambda path: path.stem)
+def test_a_counterexample_that_was_found_once_is_none_any_more(path: Path) -> None:
+    assert verdict(Drill.from_json(path.read_text(encoding="utf-8"))) == []
+
+
+@KINDS
+def test_a_seed_draws_one_drill_and_its_text_says_it_all(rotor: Rotor) -> None:
+    for number in range(20):
+        drill = draw(f"1.{number}", rotor.kind)
+        assert draw(f"1.{number}", rotor.kind) == drill
+        assert Drill.from_json(drill.to_json()) == drill
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"format": "drill 0"}', '{"format": "drill 1", "start_deg": [1, 2]}'])
+def test_what_is_no_drill_is_said_to_be_none(text: str) -> None:
+    with pytest.raises(ValueError, match=r"no drill|format|Expecting"):
+        Drill.from_json(text)
+
+
+@KINDS
+def test_a_drill_goes_the_same_way_each_time(rotor: Rotor) -> None:
+    events = (
+        Event(1.0, "rotctld", "aim", (120.0, 60.0)),
+        Event(2.0, "world", "fault", (f"azimuth-{rotor.faults[0]}",)),
+        Event(4.0, "program", "kill", (0.5,)),
+        Event(6.0, "gs232b", "aim", (100.0, 50.0)),
+    )
+    drill = Drill(rotor.kind, rotor.profile, 8.0, (90.0, 45.0), events=events, seed="same")
+    assert play(drill) == play(drill)
+
+
+@KINDS
+def test_every_fault_that_is_drawn_is_one_of_the_simulator(rotor: Rotor) -> None:
+    names = [f"{axis}-{name}" for axis in BOTH for name in rotor.faults] + list(rotor.shared)
+    names += [f"{axis}-{name}:7" for axis in BOTH for name in rotor.sporadic]
+    names += [f"{name}:7" for name in rotor.shared_sporadic]
+    events = tuple(Event(0.1, "world", "fault", (name,)) for name in names)
+    assert play(Drill(rotor.kind, rotor.profile, 0.2, (90.0, 45.0), events=events, seed="names")).violations == []
+
+
+def test_every_kind_of_event_is_drawn_before_long() -> None:
+    drawn = {
+        (event.who in LINKS, event.who in PEOPLE, event.what)
+        for rotor in ROTORS
+        for number in range(60)
+        for event in draw(f"2.{number}", rotor.kind).events
+    }
+    linked = {what for link, _, what in drawn if link}
+    assert linked >= {"aim", "aim-azimuth", "aim-elevation", "stream", "flood", "jog", "stop", "stop-axis", "park"}
+    assert linked >= {"list", "run-list", "leave", "calibrate", "speed", "junk", "ask"}
+    persons = {what for _, person, what in drawn if person}
+    assert persons >= {"stop", "resume", "storm", "home", "confirm", "let-go", "aim", "jog", "leave"}
+    others = {what for link, person, what in drawn if not link and not person}
+    assert others >= {"mode", "knob", "fault", "clear", "weld", "unweld", "pace", "push", "every", "burst", "noise"}
+    assert others >= {"drift", "stands", "stalled", "late", "hung", "jitter", "restart", "kill"}
+
+
+def test_a_campaign_fills_its_hours_with_all_kinds() -> None:
+    drawn = list(seeds(3, 1.0))
+    assert {kind for _, kind in drawn} == {rotor.kind for rotor in ROTORS}
+    assert sum(draw(seed, kind).seconds for seed, kind in drawn) >= 3600.0
+
+
+@pytest.mark.parametrize(
+    ("who", "what", "args", "bytes_sent"),
+    [
+        ("gs232b", "aim", (235.0, 25.0), b"W235 025\r"),
+        ("gs232b", "jog", ("ccw",), b"L\r"),
+        ("rotctld", "jog", ("up",), b"M 2 -1\n"),
+        ("easycomm2", "stop", (), b"SA SE\n"),
+        ("pstrotator", "park", (), b"<PST><PARK>1</PARK></PST>"),
+        ("console", "storm", (), b"park\n"),
+        ("console", "jog", ("cw", 0.5), b"jog cw 0.5\n"),
+        ("rotctld", "list", (1.0, 2.0), b""),
+    ],
+)
+def test_an_order_in_the_words_of_its_protocol(
+    who: str, what: str, args: tuple[float | str, ...], bytes_sent: bytes
+) -> None:
+    assert said(Event(0.0, who, what, args)) == bytes_sent

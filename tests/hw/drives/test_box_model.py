@@ -1,0 +1,201 @@
+"""The model of a control box that follows a wiper: where the rotor is thought to be, and when that is known."""
+
+from __future__ import annotations
+
+import pytest
+
+from hw.drives.box_model import FAST, SLOW, TIGHT_DEG, BoxModel, RestLead
+
+SPEED_DPS, BAND_DEG = 6.0, 2.0
+
+
+def model(at_deg: float = 100.0, low_deg: float = 0.0, high_deg: float = 450.0) -> BoxModel:
+    return BoxModel(at_deg, low_deg, high_deg, SPEED_DPS, BAND_DEG)
+
+
+def after(box: BoxModel, seconds: float, wiper_deg: float, down_deg: float = 1.0, up_deg: float = 1.5) -> float:
+    for _ in range(round(seconds / 0.05)):
+        box.advance(wiper_deg, down_deg, up_deg, 0.05)
+    return box.angle_deg
+
+
+@pytest.mark.parametrize(("wiper_deg", "rests_deg"), [(160.0, 158.5), (40.0, 41.0)])
+def test_it_turns_at_the_motor_s_speed_and_rests_short_of_the_wiper(wiper_deg: float, rests_deg: float) -> None:
+    box = model()
+    way = 1.0 if wiper_deg > 100.0 else -1.0
+    assert after(box, 1.0, wiper_deg) == pytest.approx(100.0 + way * 6.0)
+    assert after(box, 60.0, wiper_deg) == pytest.approx(rests_deg)
+
+
+@pytest.mark.parametrize(("wiper_deg", "turns"), [(102.0, False), (98.0, False), (102.1, True), (97.9, True)])
+def test_a_motor_at_rest_starts_beyond_the_dead_band_only(wiper_deg: float, turns: bool) -> None:
+    box = model()
+    assert (after(box, 1.0, wiper_deg) != 100.0) is turns
+
+
+def test_a_motor_that_turns_goes_on_into_the_dead_band() -> None:
+    box = model()
+    after(box, 1.0, 160.0)
+    assert after(box, 1.0, 107.9) == pytest.approx(106.4), "1.9° away is within the band, and it rests at 1.5°"
+    assert after(box, 5.0, 107.0) == pytest.approx(106.4), "at rest now"
+
+
+def test_no_time_changes_nothing() -> None:
+    box = model()
+    box.advance(160.0, 1.0, 1.5, 0.0)
+    box.advance(160.0, 1.0, 1.5, -1.0)
+    assert box.angle_deg == 100.0
+
+
+def test_the_angle_is_known_when_the_slowest_motor_must_have_come_from_the_furthest_end() -> None:
+    box = model(100.0, 0.0, 450.0)
+    furthest_s = (450.0 - 101.0) / (SPEED_DPS * SLOW)
+    after(box, furthest_s - 1.0, 100.0)
+    assert not box.known
+    after(box, 2.0, 100.0)
+    assert box.known, "from either side it is within the rest's own distance"
+    assert FAST > 1.0 > SLOW
+
+
+def test_measured_it_is_known_at_once_and_stays_so() -> None:
+    box = model()
+    assert not box.known
+    box.found(222.0)
+    assert (box.angle_deg, box.known) == (222.0, True)
+    after(box, 1.0, 222.0)
+    assert (box.angle_deg, box.known) == (222.0, True)
+    assert after(box, 1.0, 300.0) == pytest.approx(228.0)
+
+
+def test_bounds_that_have_met_make_the_model_exact() -> None:
+    """A box without a dead band: from both ends the rotor comes to the same place."""
+    box = model(100.0, 90.0, 110.0)
+    for _ in range(200):
+        box.advance(100.0, 0.0, 0.0, 0.05)
+    assert box.known
+    assert box.angle_deg == pytest.approx(100.0, abs=TIGHT_DEG)
+    assert box.way(100.5, 0, 1.5) == 0, "no side on which it may still be"
+
+
+# --- which way to the target
+
+
+@pytest.mark.parametrize(
+    ("target_deg", "before", "way"),
+    [(110.0, 0, 1), (110.0, -1, 1), (90.0, 1, -1), (101.0, 0, 1), (99.0, 0, -1), (100.4, 0, 0), (101.0, -1, -1)],
+)
+def test_a_small_correction_goes_on_in_the_direction_of_the_last_move(target_deg: float, before: int, way: int) -> None:
+    box = model()
+    box.found(100.0)
+    assert box.way(target_deg, before, 1.5) == way
+
+
+@pytest.mark.parametrize(
+    ("low_deg", "high_deg", "before", "way"),
+    [(50.0, 100.2, 0, 1), (99.8, 150.0, 0, -1), (50.0, 150.0, 0, 1), (50.0, 150.0, -1, -1), (99.0, 101.0, -1, -1)],
+)
+def test_where_the_rotor_may_not_have_arrived_the_side_where_it_may_be_decides(
+    low_deg: float, high_deg: float, before: int, way: int
+) -> None:
+    assert model(100.0, low_deg, high_deg).way(100.0, before, 1.5) == way
+
+
+# --- how far before the wiper it rests
+
+
+class Bench:
+    """A lead with a dead band of 2° and a coast of 0.5°, and a rotor that the test puts somewhere."""
+
+    def __init__(self) -> None:
+        self.lead = RestLead(dead_band_deg=2.0, coast_deg=0.5)
+        self.now_s = 10.0
+
+    def moved(self, from_deg: float, rests_deg: float, wiper_deg: float, way: int) -> None:
+        """A move in that direction, and a rest that lasts."""
+        self.lead.ordered(wiper_deg, way, self.now_s)
+        for angle_deg in (from_deg, (from_deg + rests_deg) / 2, rests_deg):
+            self.lead.seen(angle_deg, self.now_s)
+            self.now_s += 0.5
+        self.rests(rests_deg)
+
+    def rests(self, angle_deg: float, seconds: float = 1.5) -> None:
+        for _ in range(round(seconds / 0.1)):
+            self.now_s += 0.1
+            self.lead.seen(angle_deg, self.now_s)
+
+
+def test_before_anything_was_seen_the_lead_is_the_file_s() -> None:
+    assert Bench().lead.of(1) == Bench().lead.of(-1) == 1.5
+    assert RestLead(dead_band_deg=1.0, coast_deg=3.0).of(1) == 0.0, "never less than nothing"
+
+
+@pytest.mark.parametrize(("way", "from_deg", "rests_deg"), [(1, 60.0, 97.5), (-1, 140.0, 102.5)])
+def test_half_of_what_a_rest_shows_is_learnt_for_that_direction_alone(
+    way: int, from_deg: float, rests_deg: float
+) -> None:
+    bench = Bench()
+    bench.moved(from_deg, rests_deg, 100.0, way)
+    assert bench.lead.of(way) == pytest.approx(1.5 + 0.5 * (2.5 - 1.5))
+    assert bench.lead.of(-way) == 1.5
+    bench.rests(rests_deg, 5.0)
+    assert bench.lead.of(way) == pytest.approx(2.0), "one rest is learnt from once"
+
+
+@pytest.mark.parametrize(
+    ("short_deg", "learnt_deg"),
+    [(4.0, 2.75), (4.1, 1.5), (0.0, 0.75), (-0.6, 0.45), (-0.7, 1.5), (-3.0, 1.5), (10.0, 1.5)],
+)
+def test_a_stalled_motor_teaches_nothing(short_deg: float, learnt_deg: float) -> None:
+    """It rests at most twice the dead band short of the wiper, or its coast beyond it."""
+    bench = Bench()
+    bench.moved(60.0, 100.0 - short_deg, 100.0, 1)
+    assert bench.lead.of(1) == pytest.approx(learnt_deg)
+
+
+def test_a_lead_never_falls_below_nothing() -> None:
+    bench = Bench()
+    for turn in range(8):
+        bench.moved(60.0 + turn, 100.5, 100.0 + turn / 1000, 1)
+        bench.lead.ordered(60.0, -1, bench.now_s)
+    assert bench.lead.of(1) == 0.0
+
+
+def test_only_a_rest_after_three_degrees_shows_the_dead_band() -> None:
+    for from_deg, learns in ((97.5 - 2.9, False), (97.5 - 3.1, True)):
+        bench = Bench()
+        bench.moved(from_deg, 97.5, 100.0, 1)
+        assert (bench.lead.of(1) != 1.5) is learns
+
+
+def test_a_new_target_in_the_same_direction_goes_on_with_the_same_move() -> None:
+    bench = Bench()
+    bench.lead.ordered(98.0, 1, bench.now_s)
+    bench.lead.seen(94.0, bench.now_s)
+    bench.lead.seen(95.0, bench.now_s + 0.5)
+    bench.now_s += 1.0
+    bench.lead.ordered(100.0, 1, bench.now_s)
+    bench.lead.seen(97.5, bench.now_s + 0.5)
+    bench.now_s += 0.5
+    bench.rests(97.5)
+    assert bench.lead.of(1) == pytest.approx(2.0), "it came from 94°, 3.5° in all"
+
+
+def test_the_other_direction_begins_a_new_move() -> None:
+    bench = Bench()
+    bench.moved(60.0, 97.5, 100.0, 1)
+    bench.lead.ordered(95.0, -1, bench.now_s)
+    bench.rests(96.6)
+    assert bench.lead.of(-1) == 1.5, "0.9° are no such turn"
+
+
+def test_a_wiper_set_to_where_the_rotor_is_teaches_nothing() -> None:
+    bench = Bench()
+    bench.lead.seen(60.0, bench.now_s)
+    bench.lead.ordered(100.0, 1, bench.now_s)
+    bench.lead.seen(60.0, bench.now_s)
+    bench.lead.forget()
+    bench.rests(97.5)
+    assert bench.lead.of(1) == 1.5
+    bench.lead.ordered(97.5, 0, bench.now_s)
+    bench.rests(97.5)
+    assert bench.lead.of(0) == 1.5, "and a wiper that stays is no move"

@@ -1,0 +1,59 @@
+"""Which places of a file are changed, and how. Without Cosmic Ray there is nothing to test."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+pytest.importorskip("cosmic_ray", reason="cosmic-ray is missing: make mutants puts it in")
+
+from benchmarks.mutants.places import Mutant, mutants
+
+SOURCE = '''"""A file."""
+
+from __future__ import annotations
+
+LEAST = 5
+
+
+def wide(a: int | None, *, b: float = 2.0) -> int | None:
+    """Do it."""
+    a.close()
+    a.b = LEAST
+    return None if a is None or b < LEAST else a
+'''
+
+
+def changed(source: str, seed: int = 1, sample: int | None = None) -> list[Mutant]:
+    return mutants(source, sample, random.Random(seed))
+
+
+def test_each_mutant_changes_one_line_and_says_which() -> None:
+    for mutant in changed(SOURCE):
+        now = mutant.source.splitlines()
+        different = [at for at, (a, b) in enumerate(zip(SOURCE.splitlines(), now, strict=True), 1) if a != b]
+        assert different == [mutant.line]
+        assert (mutant.was, mutant.now) == (SOURCE.splitlines()[mutant.line - 1].strip(), now[mutant.line - 1].strip())
+
+
+def test_calls_and_attributes_are_dropped_numbers_and_comparisons_changed() -> None:
+    seen = {mutant.now for seed in range(25) for mutant in changed(SOURCE, seed)}
+    assert {"pass", "LEAST = 6", "return None if a is not None or b < LEAST else a"} <= seen
+    assert {"return None if a is None and b < LEAST else a", "return None if a is None or b >= LEAST else a"} <= seen
+
+
+def test_annotations_and_the_heads_of_functions_are_left_alone() -> None:
+    assert all(mutant.line not in (1, 3, 8, 9) for seed in range(25) for mutant in changed(SOURCE, seed))
+
+
+def test_each_place_is_changed_once_and_the_seed_says_how() -> None:
+    places = [(mutant.line, mutant.column) for mutant in changed(SOURCE)]
+    assert len(places) == len(set(places))
+    assert changed(SOURCE) == changed(SOURCE)
+    assert any(changed(SOURCE, seed) != changed(SOURCE) for seed in range(2, 20))
+
+
+def test_a_sample_is_of_places() -> None:
+    assert len(changed(SOURCE, sample=2)) == 2
+    assert changed(SOURCE, sample=1000) == changed(SOURCE)

@@ -1,0 +1,109 @@
+"""What control boxes and servos say of themselves beside going to an angle. Their drives have tests of their own."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import pytest
+
+from hw.drives.digipot import DigipotDrive
+from hw.drives.servo import ServoDrive
+from hw.ports import AngleSource, Axis, Direction, HardwareError
+from rotator.control.axis.calibration_table import Calibration
+from rotator.control.commands import Steer
+from rotator.control.sky.offsets import Offsets
+from rotator.faults import FaultKind
+from rotator.rotors.boxes import ASSUMED, BoxRotor, FollowedBox
+from rotator.rotors.servos import ServoRotor
+from tests.rotors.journal import Journal
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+SHIFT = Offsets(10.0, 0.0)
+
+
+def ends(axis: Axis) -> frozenset[Direction]:
+    return frozenset({Direction.MINUS} if axis is AZ else ())
+
+
+@pytest.fixture
+def drive() -> Journal:
+    return Journal()
+
+
+@pytest.fixture
+def box(drive: Journal) -> BoxRotor:
+    return BoxRotor(cast(DigipotDrive, drive), {}, SHIFT, ends)
+
+
+@pytest.fixture
+def servos(drive: Journal) -> ServoRotor:
+    return ServoRotor(cast(ServoDrive, drive), {}, SHIFT, ends)
+
+
+def test_until_a_box_must_have_arrived_its_angle_is_assumed(box: BoxRotor, drive: Journal) -> None:
+    drive.assumed = {EL}
+    assert box.condition(EL).notice is ASSUMED
+    assert box.condition(AZ).notice is None
+    drive.assumed = set()
+    assert box.condition(EL).notice is None
+
+
+def test_until_a_servo_has_had_time_for_its_jump_it_settles(servos: ServoRotor, drive: Journal) -> None:
+    drive.assumed = {AZ}
+    assert servos.condition(AZ).settling
+    assert not servos.condition(EL).settling
+
+
+def test_a_fault_of_the_servo_board_names_the_axis(servos: ServoRotor, drive: Journal) -> None:
+    assert servos.condition(EL).fault is None
+    drive.wrong = {EL: "no pulses"}
+    fault = servos.condition(EL).fault
+    assert fault is not None
+    assert (fault.kind, fault.axis, fault.measured) == (FaultKind.SERVO_BOARD, EL, "no pulses")
+    assert servos.condition(AZ).fault is None
+
+
+def test_both_tell_what_limit_switches_forbid(box: BoxRotor, servos: ServoRotor) -> None:
+    for rotor in (box, servos):
+        assert rotor.condition(AZ).ends == {Direction.MINUS}
+        assert rotor.condition(EL).ends == frozenset()
+
+
+def test_both_are_aimed_on_the_rotor_s_own_scale(box: BoxRotor, servos: ServoRotor, drive: Journal) -> None:
+    for rotor in (box, servos):
+        drive.said.clear()
+        rotor.obey(AZ, Steer(100.0, 0.0, 1.0))
+        assert drive.said == ["azimuth 90 at 0 until 1"]
+
+
+def test_servos_are_let_go_when_the_box_ends_even_after_a_failure(servos: ServoRotor, drive: Journal) -> None:
+    servos.close()
+    assert drive.said == ["off", "finish"]
+    drive.broken = True
+    with pytest.raises(HardwareError, match="does not answer"):
+        servos.close()
+    assert drive.said[-1] == "finish"
+
+
+class Pot:
+    source = AngleSource.MEASURED
+
+    def __init__(self) -> None:
+        self.reading: float | None = 0.5
+
+    def read(self) -> float:
+        if self.reading is None:
+            raise HardwareError("the converter does not answer")
+        return self.reading
+
+
+def test_a_sensor_beside_a_model_corrects_it_and_is_what_is_read(drive: Journal) -> None:
+    pot = Pot()
+    sensor = FollowedBox(cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))))
+    assert sensor.source is AngleSource.MEASURED
+    assert sensor.read() == 0.5
+    assert drive.models == {EL: 90.0}
+    pot.reading = None
+    with pytest.raises(HardwareError, match="the converter"):
+        sensor.read()
+    assert drive.models == {EL: 90.0}

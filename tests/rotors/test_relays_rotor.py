@@ -1,0 +1,80 @@
+"""Motors on relays as the control loop sees them: directions, the supply, and a guard in the clock's own time."""
+
+from __future__ import annotations
+
+import pytest
+
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.clock import SimClock
+from hw.buses.gpio import GpioOutputs
+from hw.drives.relays import RelayBank
+from hw.ports import Axis, Direction
+from rotator.control.commands import HOLD, Run
+from rotator.rotors.relays import RelayRotor
+
+MINUS, OFF, PLUS = Direction
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+PINS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25, "master": 26}
+
+
+class Bench:
+    def __init__(self, *, master: bool = True) -> None:
+        self.clock, self.gpio = SimClock(50.0), SimGpio(SimClock())
+        pins = PINS if master else {name: pin for name, pin in PINS.items() if name != "master"}
+        lines = GpioOutputs(self.gpio, "/dev/gpiochip0", pins, consumer="test")
+        bank = RelayBank(lines, self.clock, dead_time_s=0.5, master=master)
+        self.rotor = RelayRotor(bank, {}, lambda axis: frozenset({PLUS} if axis is EL else ()))
+        self.rotor.begin(self.clock.add_alarm)
+
+    def run(self, axis: Axis, way: Direction) -> Direction:
+        return self.rotor.obey(axis, Run(way, self.clock() + 0.25))
+
+    def on(self) -> set[str]:
+        return {name for name, pin in PINS.items() if self.gpio.level(pin)}
+
+
+def test_a_direction_closes_its_relay_until_the_command_ends() -> None:
+    bench = Bench()
+    assert bench.run(AZ, MINUS) is MINUS
+    assert bench.run(EL, PLUS) is PLUS
+    assert bench.on() == {"azimuth_ccw", "elevation_up", "master"}
+    assert bench.run(EL, OFF) is OFF
+    assert bench.on() == {"azimuth_ccw", "master"}
+    bench.clock.sleep(0.3)
+    assert bench.on() == {"master"}
+
+
+def test_an_angle_is_no_command_for_relays() -> None:
+    with pytest.raises(AssertionError, match="directions only"):
+        Bench().rotor.obey(AZ, HOLD)
+
+
+def test_the_supply_is_cut_until_it_is_restored() -> None:
+    bench = Bench()
+    bench.run(AZ, PLUS)
+    assert bench.rotor.cut()
+    assert bench.on() == set()
+    assert bench.run(AZ, PLUS) is OFF
+    bench.rotor.restore()
+    assert bench.run(AZ, PLUS) is PLUS
+    assert bench.on() == {"azimuth_cw", "master"}
+
+
+def test_without_a_master_there_is_no_supply_to_cut() -> None:
+    bench = Bench(master=False)
+    assert not bench.rotor.cut()
+    assert bench.run(AZ, PLUS) is PLUS
+
+
+def test_off_and_close_open_everything() -> None:
+    bench = Bench()
+    for end in (bench.rotor.off, bench.rotor.close):
+        bench.run(AZ, PLUS)
+        end()
+        assert bench.on() == set()
+
+
+def test_what_limit_switches_forbid_is_told() -> None:
+    rotor = Bench().rotor
+    assert rotor.condition(EL).ends == {PLUS}
+    assert rotor.condition(AZ).ends == frozenset()
