@@ -170,7 +170,7 @@ def _play(mast: Mast, drill: Drill, axis: Axis, offset_s: float) -> float:
     """Set the scene and let the fault strike; returns the moment from which the clock counts."""
     sim = f"{axis.value}-{drill.sim}"
     go = Jog(axis, Direction.PLUS)
-    mast.run(2.0)
+    mast.run(4.0)  # a slow axis is looked at for 3 s before its first relay closes
     match drill.scene:
         case "starting":
             if drill.sim:

@@ -49,7 +49,7 @@ def test_runs_that_come_and_go_are_not_written(path: Path) -> None:
         "",
         "{}",
         '{"format": "rotator relays 1"}',
-        '{"format": "rotator relays 1", "axes": {"azimuth": {"plus": "glued"}}}',
+        '{"format": "rotator relays 1", "axes": {"azimuth": {"plus": 0}}}',
     ],
 )
 def test_a_damaged_file_leaves_each_relay_unseen(path: Path, text: str, caplog: pytest.LogCaptureFixture) -> None:

@@ -76,13 +76,14 @@ class WeldWorld:
         self._believed_dps, self.high_deg = chance.choice(((6.0, 450.0), (2.7, 180.0)))
         speed_dps = self._believed_dps * chance.uniform(0.3, 1.5)
         # One that coasts past its limits by more than half a degree is not healthy: it is set up wrongly.
-        lag_s = min(chance.choice((0.05, 0.1, 0.15, 0.3, 0.5)), 0.17 + 0.4 / speed_dps)
+        lag_s = min(chance.choice((0.05, 0.1, 0.15, 0.3, 0.5)), (0.17 * self._believed_dps + 0.4) / speed_dps)
         self._noise_deg = chance.choice((0.02, 0.1, 0.1, 0.2))
         self.now_s = 1000.0
         high_deg = self.high_deg
-        start_deg = chance.choice(
-            (0.0, high_deg, chance.uniform(0.0, high_deg), chance.uniform(high_deg - 5, high_deg))
-        )
+        near_deg = chance.uniform(0.0, 5.0)
+        start_deg = chance.choice((0.0, high_deg, chance.uniform(0.0, high_deg), high_deg - near_deg))
+        if not calibrated:
+            start_deg = high_deg / 2.0  # where its stops are is not known: it meets none
         delay_s = chance.choice((0.005, 0.015, 0.03))
         self.motor = SimMotor(MotorSpec(speed_dps, lag_s, delay_s, 0.5, -2.0, high_deg + 2.0), start_deg, self.now_s)
         self._relays = Relays(self.motor, chance.random() < 0.4, chance.choice((0.05, 0.5)))
