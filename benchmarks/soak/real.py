@@ -184,7 +184,7 @@ async def _still_turned_by_all(box: Box) -> list[str]:
         each = program(box, words.protocol)
         await each.open()
         try:
-            if words.has:  # a box that asks us, or reports by itself, has found us now
+            if words.has and words.lasting:  # a box that asks us, or reports by itself, has found us now
                 await each.hears(PATIENCE_S)
             at_deg = box.world().antenna_deg[0]
             goal_deg = at_deg % 360 + (AWAY_DEG if at_deg < 225 else -AWAY_DEG)
