@@ -48,9 +48,8 @@ MOVED_DEG = 0.5
 """An axis this far, and four times the noise, from where it stood has been moved."""
 SURE_NOISES = 3.3
 """Two places that differ by so many times the noise are not the same: each is the mean of three readings."""
-LONGEST_WINDOW_S = 3.0
-DECIDED_S = 5.0
-"""After this time without a proof there will be none."""
+SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
+"""An axis is looked at for so long before it is taken to stand: longer where the readings scatter more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -242,8 +241,6 @@ class OpeningWatch:
             self._note_standing()
         elif self._rest_deg is not None and self._moved_from(self._rest_deg):
             self._note_moved(self._rest_deg)
-        elif ended is not None and at_s - ended.off_s > DECIDED_S:
-            self._doubt()
 
     def _note_slowing(self, at_s: float, ended: _Ended, line: Slope) -> None:
         slope = self._seen.trend.slope(ended.off_s + RELAY_S)
@@ -273,7 +270,7 @@ class OpeningWatch:
 
     def _stands(self, at_s: float) -> bool:
         trend, fed_dps = self._seen.trend, self.fed_dps
-        window_s = min(trend.window_s(fed_dps / 6.0), LONGEST_WINDOW_S)
+        window_s = min(max(SHORTEST_WINDOW_S, trend.window_s(fed_dps / 6.0)), LONGEST_WINDOW_S)
         assert self._supplied_s is not None
         from_s = max(self._supplied_s, self._ended.off_s if self._ended else -math.inf, trend.since_s)
         if at_s - window_s < from_s:
@@ -328,11 +325,6 @@ class OpeningWatch:
             # It has been turned away from what may have held it.
             self._trust[against], self._blind_s, self._ended = Trust.UNSEEN, 0.0, None
             self._held_deg.pop(against, None)
-
-    def _doubt(self) -> None:
-        for way in (PLUS, MINUS):
-            if self._trust[way] is Trust.UNSEEN:
-                self._trust[way] = Trust.DOUBTED
 
     def _free(self, way: Direction, place_deg: float) -> bool:
         """Whether a motor with current could turn on that way from there."""
