@@ -40,6 +40,7 @@ CLEAR_DEG = 14.0
 NEAR_DEG = 6.0
 """So near to its target, on the sky, the antenna has reached it."""
 PATIENCE_S = 60.0
+SERVO_START = (90.0, 90.0)
 START_S = 1000.0
 
 Place = tuple[float, float]
@@ -73,7 +74,8 @@ class World:
             axis: getattr(self.config.sim, axis.value).speed_dps / self.config.axis(axis).speed_dps for axis in Axis
         }
         self.clock = SimClock(START_S)
-        start = self.place()
+        # A servo reports nothing: only from where its first pulse sends it does the box know where it stands.
+        start = SERVO_START if self.config.rotor.type == "servo" else self.place()
         self.station = Station(self.config, self.clock, self.clock.sleep, start, add_alarm=self.clock.add_alarm)
         assert self.station.world is not None
         self.world = self.station.world
@@ -115,7 +117,7 @@ class World:
                     low_deg = draw.uniform(low_deg, limits.elevation.max_deg - 5)
                 high_deg = min(low_deg + draw.uniform(3, 60), limits.elevation.max_deg)
                 sector = Sector("", Range(west_deg, east_deg), Range(low_deg, high_deg), 2.0)
-                if not near(sector, park, 2.0):
+                if not near(sector, park, 2.0) and not near(sector, SERVO_START, CLEAR_DEG):
                     span = {"azimuth_deg": [west_deg, east_deg], "elevation_deg": [low_deg, high_deg]}
                     found.append({"name": f"sector {number}", **span})
         return found
@@ -187,10 +189,11 @@ class World:
         return math.hypot(turn_deg * math.cos(math.radians(place[1])), elevation_deg - place[1])
 
     def _straight_s(self, a: Place, b: Place) -> float:
-        return max(
-            float(abs(to_deg - from_deg) / (self.config.axis(axis).speed_dps * self.paces[axis]))
+        each_s: list[float] = [
+            abs(to_deg - from_deg) / (self.config.axis(axis).speed_dps * self.paces[axis])
             for axis, from_deg, to_deg in zip(Axis, a, b, strict=True)
-        )
+        ]
+        return max(each_s)
 
 
 def near(sector: Sector, place: Place, by_deg: float) -> bool:

@@ -20,6 +20,7 @@ from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import Axis
 from hw.safety.lines_off import switch_off
+from rotator.app import open_relays
 from rotator.assembly.hands import hands
 from rotator.assembly.links import session_maker
 from rotator.assembly.panel import panel_thread
@@ -34,7 +35,7 @@ from rotator.panel.thread import PanelThread
 from rotator.protocols.console_session import ConsoleSession
 from rotator.protocols.panel_words import parse_hand
 from rotator.protocols.session import Session
-from rotator.runtime.autosave import Autosave
+from rotator.runtime.autosave import CALIBRATIONS_EVERY_S, Autosave
 from rotator.runtime.client import Client
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
@@ -88,9 +89,10 @@ class Box:
         )
         assert self.station.world is not None
         self.world: SimRotor = self.station.world
-        learnt = build_learnt(config)
+        learnt, relays = build_learnt(config), open_relays(config)
         commissioning = Axis(drill.commissioning) if drill.commissioning else None
-        controller = build_controller(config, learnt.load(), commissioning, panel=config.panel.fitted)
+        trusts = relays.load() if relays else None
+        controller = build_controller(config, learnt.load(), commissioning, trusts=trusts, panel=config.panel.fitted)
         self.events = EventWatch(clock)
         """The watch over the event loop that serves the links; the drill ticks for it."""
         self.loop = ControlLoop(
@@ -101,7 +103,8 @@ class Box:
             after_good_step=self.station.beat,
             events=self.events,
         )
-        self._autosave = Autosave(self.loop, None, build_offsets(config), learnt)
+        self._autosave = Autosave(self.loop, None, build_offsets(config), learnt, relays)
+        self._kept_s = clock()
         self._mount = build_mount(config)
         self._numbers = itertools.count(1)
         self._sessions: dict[str, tuple[Session, Client]] = {}
@@ -115,6 +118,9 @@ class Box:
             self.loop.cycle()
         if self.panel:
             self.panel.cycle(self._clock())
+        if self._clock() - self._kept_s >= CALIBRATIONS_EVERY_S:
+            self._kept_s = self._clock()
+            self._autosave.keep_relays()
 
     def hear(self, who: str, data: bytes) -> list[bytes]:
         """Bytes from a program or a person. They act at once."""

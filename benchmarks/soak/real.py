@@ -46,7 +46,7 @@ class Soaked:
     saved: int = 0
     """How often the state file was written."""
     late: int = 0
-    """Axes that were stopped because the box got no turn on a busy machine, as they should be."""
+    """How often axes were stopped because the box got no turn on a busy machine, as they should be."""
 
     @property
     def settled(self) -> list[Held]:
@@ -184,6 +184,8 @@ async def _still_turned_by_all(box: Box) -> list[str]:
         each = program(box, words.protocol)
         await each.open()
         try:
+            if words.has and words.lasting:  # a box that asks us, or reports by itself, has found us now
+                await each.hears(PATIENCE_S)
             at_deg = box.world().antenna_deg[0]
             goal_deg = at_deg % 360 + (AWAY_DEG if at_deg < 225 else -AWAY_DEG)
             # The first content of a file, and the first position of another rotor, are no orders.
@@ -213,7 +215,7 @@ async def _driven(box: Box) -> bool:
 def _read_log(path: Path, seen: Soaked) -> None:
     lines = path.read_text(errors="replace").splitlines() if path.exists() else []
     errors = [line for line in lines if " E " in line or "Traceback" in line or "protocol failed" in line]
-    late = [line for line in errors if "late:" in line]
+    late = [line for line in errors if "late:" in line or "the event loop stands still" in line]
     seen.late = len(late)
     texts = Counter(line.partition(" E ")[2] or line for line in errors if line not in late)
     seen.found += [f"log, {count} times: {text}" for text, count in texts.items()]
@@ -264,5 +266,5 @@ def figures(seen: Soaked) -> dict[str, str]:
         "file descriptors": f"{first.files}, then {last.files}",
         "threads": f"{len(first.threads)}, then {len(last.threads)}",
         "asyncio tasks": f"{first.tasks}, then {last.tasks}",
-        "axes stopped for a late turn": f"{seen.late}",
+        "stops because the machine gave no turn": f"{seen.late}",
     }

@@ -91,19 +91,19 @@ def seen_again(tables: Sequence[ForbiddenTable], axes: Mapping[Axis, AxisTable])
         for what, turn_deg, bottom_deg, top_deg in again:
             west, east = max(west_deg + turn_deg, azimuth.min_deg), min(east_deg + turn_deg, azimuth.max_deg)
             bottom, top = max(bottom_deg, elevation.min_deg), min(top_deg, elevation.max_deg)
-            if west < east and bottom < top and not _covered(tables, (west, east), (bottom, top)):
+            if west < east and bottom < top and not _met(tables, (west, east), (bottom, top)):
                 keys = f"azimuth_deg = [{west:g}, {east:g}], elevation_deg = [{bottom:g}, {top:g}]"
                 found.append((what, keys))
     return found
 
 
-def _covered(tables: Sequence[ForbiddenTable], azimuth_deg: Point, elevation_deg: Point) -> bool:
-    """Whether one of the sectors holds all of this."""
+def _met(tables: Sequence[ForbiddenTable], azimuth_deg: Point, elevation_deg: Point) -> bool:
+    """Whether one of the sectors lies there, so that a person has thought of it."""
     return any(
-        table.azimuth_deg[0] <= azimuth_deg[0]
-        and azimuth_deg[1] <= table.azimuth_deg[1]
-        and table.elevation_deg[0] <= elevation_deg[0]
-        and elevation_deg[1] <= table.elevation_deg[1]
+        table.azimuth_deg[0] < azimuth_deg[1]
+        and azimuth_deg[0] < table.azimuth_deg[1]
+        and table.elevation_deg[0] < elevation_deg[1]
+        and elevation_deg[0] < table.elevation_deg[1]
         for table in tables
     )
 

@@ -14,6 +14,8 @@ from rotator.rotors.port import AddAlarm
 BlockedDirections = Callable[[Axis], frozenset[Direction]]
 """For an axis: the directions that an open limit switch blocks now."""
 
+NOTHING_TO_REPORT = Condition()
+
 
 def no_switches(_axis: Axis) -> frozenset[Direction]:
     """A rotor without limit switches: no direction is blocked."""
@@ -58,7 +60,8 @@ class GuardedRotor(PlainRotor):
         self._guard = Guard(drive, time.monotonic, operator_must=operator_must)
 
     def condition(self, axis: Axis) -> Condition:
-        return Condition(ends=self._ends(axis))
+        ends = self._ends(axis)
+        return Condition(ends=ends) if ends else NOTHING_TO_REPORT
 
     def run(self, errand: Errand) -> None:
         """Does nothing. A kind that takes errands overrides this."""

@@ -6,7 +6,9 @@ import re
 
 import pytest
 
+from hw.ports import Axis
 from rotator.assembly.settings import build_mount
+from rotator.config.forbidden import seen_again
 from rotator.config.load import ConfigError, parse
 from rotator.control.sky.mount import Range
 
@@ -49,3 +51,30 @@ def test_whole_numbers_and_decimals_are_both_taken() -> None:
 def test_what_is_no_sector(text: str, said: str) -> None:
     with pytest.raises(ConfigError, match=re.escape(said)):
         parse(text, "x")
+
+
+def again(*tables: str, limits: str = "") -> list[tuple[str, str]]:
+    config = parse(limits + "".join(tables), "x")
+    return seen_again(config.mount.forbidden, {axis: config.axis(axis) for axis in Axis})
+
+
+NO_FLIP = "[elevation]\nmax_deg = 90\n"
+
+
+def test_what_stands_on_the_other_turn_is_named() -> None:
+    assert again(sector("[20, 50]", "[5, 35]"), limits=NO_FLIP) == [
+        (
+            "the chimney stands on the other turn of the azimuth too",
+            "azimuth_deg = [380, 410], elevation_deg = [5, 35]",
+        )
+    ]
+    assert again(sector("[20, 50]", "[5, 35]"), sector("[370, 420]", "[5, 35]", "again"), limits=NO_FLIP) == []
+    assert again(sector("[100, 130]"), limits=NO_FLIP) == [], "460 is beyond the range"
+
+
+def test_what_stands_there_over_the_top_is_named() -> None:
+    (over,) = again(sector("[100, 130]"))
+    assert over == (
+        "over the top the antenna meets the chimney too",
+        "azimuth_deg = [280, 310], elevation_deg = [145, 180]",
+    )

@@ -9,6 +9,7 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.jogs import Jogs
+from rotator.faults import Missing
 from rotator.orders import Jog, Source
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -22,6 +23,8 @@ class TurningAxis:
     def __init__(self) -> None:
         self.begun: list[tuple[Direction, float | None, float]] = []
         self.jogs_without_end = False
+        self.missing: tuple[Missing, ...] = ()
+        self.driven = False
 
     def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
         self.begun.append((direction, seconds, now_s))
@@ -85,3 +88,26 @@ def test_an_axis_that_does_something_else_by_now_goes_on(jogs: Jogs, axes: dict[
     axes[AZ].jogs_without_end = False  # it aims
     jogs.end(LINK)
     assert axes[AZ].begun
+
+
+def test_a_link_s_presses_on_an_axis_that_is_not_commissioned_make_one_turn_of_two_seconds(
+    jogs: Jogs, axes: dict[Axis, TurningAxis]
+) -> None:
+    axes[AZ].missing = (Missing.LIMITS,)
+    jogs.begin(Jog(AZ, PLUS, 30.0), LINK, 20.0)
+    jogs.note_driven(20.0)
+    axes[AZ].driven = True
+    jogs.note_driven(21.5)
+    jogs.begin(Jog(AZ, PLUS, None), OTHER, 21.5)
+    jogs.note_driven(22.0)
+    jogs.begin(Jog(AZ, PLUS, 30.0), LINK, 22.0)
+    assert [seconds for _, seconds, _ in axes[AZ].begun] == [2.0, 0.5], "and the third press counts no more"
+    axes[AZ].driven = False
+    jogs.note_driven(22.7)
+    jogs.begin(Jog(AZ, PLUS, 1.0), LINK, 22.7)
+    assert len(axes[AZ].begun) == 2, "it rests for 0.8 s first"
+    jogs.begin(Jog(AZ, PLUS, 1.0), Source("console"), 22.7)
+    assert len(axes[AZ].begun) == 3, "a person may press"
+    jogs.note_driven(22.9)
+    jogs.begin(Jog(AZ, PLUS, 1.0), LINK, 22.9)
+    assert len(axes[AZ].begun) == 4

@@ -70,7 +70,8 @@ def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> H
             result = _campaign(tree, ["--seed", str(seed), "--hours", f"{hours - played_h:g}", "--first"], kind)
             played_h += sum(float(tally["hours"]) for tally in result["kinds"].values())
             for found in result["found"]:
-                if not _replay(sound, found["script"]):
+                # An exception is no find: a planted bug moves a motor, it does not end the program.
+                if found["judge"] in TABLE and not _replay(sound, found["script"]):
                     drawn_from = str(found["drawn_from"])
                     find = Find(found["judge"], drawn_from.partition("/")[2], played_h, found["measured"], drawn_from)
                     return Hunt(bug, played_h, find, also_without)

@@ -145,15 +145,15 @@ class Detours:
 
 
 def _shrunk(zone: Kept, core: Box, here: Box) -> Kept:
-    """The zone without the side on which the antenna stands: that which takes least away."""
-    smaller: list[tuple[float, Box]] = []
+    """The zone without the sides on which the antenna stands."""
+    box = zone.box
     for axis in Axis:
-        span, inner, mine = zone.box.of(axis), core.of(axis), here.of(axis)
+        span, inner, mine = box.of(axis), core.of(axis), here.of(axis)
         if mine.max_deg <= inner.min_deg:
-            smaller.append((mine.max_deg - span.min_deg, zone.box.but(axis, Range(mine.max_deg, span.max_deg))))
+            box = box.but(axis, Range(max(span.min_deg, mine.max_deg), span.max_deg))
         if mine.min_deg >= inner.max_deg:
-            smaller.append((span.max_deg - mine.min_deg, zone.box.but(axis, Range(span.min_deg, mine.min_deg))))
-    return Kept(zone.name, min(smaller, key=lambda each: each[0])[1])
+            box = box.but(axis, Range(span.min_deg, min(span.max_deg, mine.min_deg)))
+    return Kept(zone.name, box)
 
 
 class _Grid:
