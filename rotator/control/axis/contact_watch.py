@@ -13,6 +13,7 @@ from collections import deque
 
 from hw.ports import Direction
 from rotator.control.axis.sensing import Condition
+from rotator.control.sky.mount import Range
 from rotator.status import Trust, Trusts
 
 PLUS, MINUS = Direction.PLUS, Direction.MINUS
@@ -23,6 +24,8 @@ SURE = 1.4
 """A contact that is silent for so many times the longest pause between two changes of a run is silent."""
 READ_S = 0.1
 """A change of the contact has been read after this time."""
+UNSURE_PERIODS = 2.0
+"""Where a change of the contact may have been counted the wrong way, no stop may be nearer than this."""
 BLIND_PERIODS = 3.0
 """Driven for so many periods in all without a change, an axis was not seen to turn."""
 
@@ -30,10 +33,15 @@ BLIND_PERIODS = 3.0
 class ContactWatch:
     """Give it every reading and every change of the relays, in order of time.
 
-    `period_s`: from pulse to pulse at full speed. `coast_s`: how long the motor coasts at most.
+    `limits`: from stop to stop. `period_s`, `period_deg`: from pulse to pulse at full speed. `coast_s`: how long the
+    motor coasts at most.
     """
 
-    def __init__(self, trusts: Trusts, period_s: float, coast_s: float, *, look: bool) -> None:
+    def __init__(
+        self, trusts: Trusts, limits: Range, period_s: float, period_deg: float, coast_s: float, *, look: bool
+    ) -> None:
+        self._limits = limits
+        self._period_deg = period_deg
         self._period_s = period_s
         self._coast_s = coast_s
         self._trust = dict(zip((PLUS, MINUS), trusts, strict=True))
@@ -45,6 +53,9 @@ class ContactWatch:
         self._supplied_s: float | None = None
         self._changes: int | None = None
         self._changed_s = -math.inf
+        self._angle_deg = 0.0
+        self._turned_back = False
+        """A change after the latest run was counted as a turn back: it may as well have been the next edge ahead."""
         self._moments_s: deque[float] = deque(maxlen=3)
         """The latest changes of the present or latest run."""
         self._blind_s = 0.0
@@ -79,12 +90,16 @@ class ContactWatch:
             if self._trust[direction] is Trust.OPEN:
                 self._trust[direction] = Trust.UNSEEN
             self._moments_s.clear()
+            self._turned_back = False
             self._ran_since[direction] = True
         self._driven, self._since_s = direction, now_s
 
-    def see(self, at_s: float, condition: Condition) -> None:
+    def see(self, at_s: float, angle_deg: float, condition: Condition) -> None:
         changed = self._changes is not None and condition.changes != self._changes
         self._changes = condition.changes
+        if changed and self._driven is Direction.OFF and (angle_deg - self._angle_deg) * self._last < 0.0:
+            self._turned_back = True
+        self._angle_deg = angle_deg
         if changed:
             self._changed_s, self._blind_s = at_s, 0.0
         if self._driven is not Direction.OFF:
@@ -113,6 +128,12 @@ class ContactWatch:
             return SURE * (self._moments_s[-1] - self._moments_s[0])
         return self._period_s / SLOWEST_SHARE
 
+    @property
+    def _room_deg(self) -> float:
+        """From where it is counted to the stop in the direction of the latest run."""
+        limits = self._limits
+        return limits.max_deg - self._angle_deg if self._last > 0 else self._angle_deg - limits.min_deg
+
     def _turns_by_itself(self) -> None:
         """The contact changes, and does not say which way the axis turns."""
         for way in (PLUS, MINUS):
@@ -124,6 +145,8 @@ class ContactWatch:
     def _note_standing(self, condition: Condition) -> None:
         self.looked = True
         ahead = BOTH_WAYS if condition.lost or self.homing else condition.ahead
+        if self._turned_back and not self.homing and self._room_deg < UNSURE_PERIODS * self._period_deg:
+            ahead -= {self._last}
         for way in (PLUS, MINUS):
             own = way is self._last and self._ran_since[way]
             followed = self.homing or self._blind_s <= BLIND_PERIODS * self._period_s

@@ -58,7 +58,8 @@ class RunWatch:
         self._limits = limits
         self._motors = motors
         self._master = master
-        self._contact = ContactWatch(trusts, period_s, coast_s, look=look)
+        period_deg = period_s * max(motor.speed_dps for motor in motors.values())
+        self._contact = ContactWatch(trusts, limits, period_s, period_deg, coast_s, look=look)
         self._direction = Direction.OFF
         self._since_s = 0.0
         self._angle_deg: float | None = None
@@ -81,7 +82,7 @@ class RunWatch:
     def see(self, at_s: float, angle_deg: float, condition: Condition = NORMAL) -> Fault | None:
         """A reading, and what the rotor says of its contact."""
         self._angle_deg = angle_deg
-        self._contact.see(at_s, condition)
+        self._contact.see(at_s, angle_deg, condition)
         if self._direction is Direction.OFF:
             return None
         speed_dps = self._motors[self._direction].speed_dps
