@@ -120,7 +120,15 @@ class Desk:
         return self.driven
 
     def _condition(self, axis: Axis) -> Condition:
-        return Condition(lost=self.lost[axis], changes=self._changes[axis]) if self.counted else Condition()
+        if not self.counted:
+            return Condition()
+        limits, edge = self.range[axis], self._edge[axis]
+        edges = (
+            (Direction.MINUS, edge * EDGE_DEG > limits.min_deg),
+            (Direction.PLUS, (edge + 1) * EDGE_DEG <= limits.max_deg),
+        )
+        ahead = frozenset(way for way, is_ahead in edges if is_ahead)
+        return Condition(lost=self.lost[axis], changes=self._changes[axis], ahead=ahead)
 
     def _turn(self, axis: Axis, wanted_dps: float, seconds: float) -> None:
         fade = math.exp(-seconds / self.LAG_S)

@@ -54,6 +54,7 @@ class ContactWatch:
         self._changes: int | None = None
         self._changed_s = -math.inf
         self._angle_deg = 0.0
+        self._ahead: frozenset[Direction] = frozenset()
         self._turned_back = False
         """A change after the latest run was counted as a turn back: it may as well have been the next edge ahead."""
         self._moments_s: deque[float] = deque(maxlen=3)
@@ -97,9 +98,11 @@ class ContactWatch:
     def see(self, at_s: float, angle_deg: float, condition: Condition) -> None:
         changed = self._changes is not None and condition.changes != self._changes
         self._changes = condition.changes
-        if changed and self._driven is Direction.OFF and (angle_deg - self._angle_deg) * self._last < 0.0:
-            self._turned_back = True
-        self._angle_deg = angle_deg
+        if changed and self._driven is Direction.OFF:
+            went_back = (angle_deg - self._angle_deg) * self._last < 0.0
+            again_ahead = self._last in condition.ahead - self._ahead
+            self._turned_back = self._turned_back or went_back or again_ahead
+        self._angle_deg, self._ahead = angle_deg, condition.ahead
         if changed:
             self._changed_s, self._blind_s = at_s, 0.0
         if self._driven is not Direction.OFF:
