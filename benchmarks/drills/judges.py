@@ -124,7 +124,9 @@ class Judges:
                 case.tries_s.clear()
         for truth, case in zip(axes, self.cases, strict=True):
             if truth.shorted_s > case.shorted_s:
-                self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
+                # Homing presses the axis against its stop: there nothing shows that the relay has opened.
+                if self._master or not (self._orders.axes[truth.name].homes and truth.at_stop):
+                    self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
             if not truth.power:
                 case.rest(at_stop=truth.at_stop != 0)

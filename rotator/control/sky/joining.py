@@ -2,7 +2,7 @@
 
 An antenna over the top has its boom on the other side: its elevation axis stands at 150° while it points 30° high. An
 order for one coordinate then changes both axes. Where the antenna is not over the top, and cannot go there, the order
-moves one axis. Knows directions and the mount. Knows nothing of goals, motors or time.
+moves one axis; so does an elevation above 90°. Knows directions and the mount. Knows nothing of goals, motors or time.
 """
 
 from __future__ import annotations
@@ -27,6 +27,9 @@ def joined(mount: Mount, aim: Aim, wanted: Pair, axes: Pair) -> Aim:
     if axis_azimuth_deg is None or axis_elevation_deg is None:
         return aim
     if not mount.flip and axis_elevation_deg <= ZENITH_DEG:
+        return aim
+    if aim.elevation_deg is not None and ZENITH_DEG < aim.elevation_deg <= mount.elevation.max_deg:
+        # Above 90° it names the axis's own angle, which says nothing of the azimuth.
         return aim
     azimuth_deg, elevation_deg = wanted
     if azimuth_deg is None or elevation_deg is None:
