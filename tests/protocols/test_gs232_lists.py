@@ -24,6 +24,7 @@ WRONG = b"?>\r\n"
 
 @pytest.fixture
 def session(box: BenchBox) -> Gs232Session:
+    box.follows = True  # a motor that stands ends a list
     return Gs232Session(box, Dialect.B)
 
 
