@@ -25,6 +25,7 @@ from rotator.orders import (
     Nudge,
     Order,
     Park,
+    RelaysChecked,
     Release,
     Remark,
     RunTimed,
@@ -67,6 +68,7 @@ others = st.one_of(
     st.just(LetGo()),
     st.builds(Remark, axes, st.sampled_from(["", "its wire is broken"])),
     st.just(Leave()),
+    st.builds(RelaysChecked, axes),
 )
 healthy = st.floats(0.02, 0.98)
 raws = healthy | st.sampled_from([None, 0.0, 0.019, 0.02, 0.05, 0.95, 0.98, 1.0, math.nan, math.inf, -math.inf])
@@ -118,6 +120,8 @@ class Rules:
     def __init__(self) -> None:
         self.ordered = self.latched = self.storm = False
         self._mode, self._panel = Mode.AUTO, LINKS[0]
+        self._good: dict[Axis, tuple[float, Direction]] = {}
+        """When each axis was last driven on a good reading, and which way."""
 
     def note(self, source: Source, order: Order | None) -> None:
         self.ordered = self.ordered or isinstance(order, Aim | Jog | Park | LoadTimed | Home)
@@ -156,8 +160,11 @@ class Rules:
             if run.direction is Direction.OFF:
                 continue
             raw = desk.instead.get(axis, desk.raw(axis))
-            assert raw is not None, "driven blind"
-            assert 0.02 <= raw <= 0.98, "driven on a reading out of range"
+            if raw is not None and 0.02 <= raw <= 0.98:
+                self._good[axis] = desk.now_s, run.direction
+            good_s, running = self._good.get(axis, (-math.inf, None))
+            assert run.until_s <= good_s + LONGEST_LEASE_S, "driven long after the last good reading"
+            assert run.direction is running, "started on a bad reading"
             assert desk.now_s <= run.until_s <= desk.now_s + LONGEST_LEASE_S, "driven on too long a lease"
 
 

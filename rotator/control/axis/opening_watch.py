@@ -218,6 +218,7 @@ class OpeningWatch:
                     del self._held_deg[way]
         elif at_s - max(relays.since_s, self._turned_s) > max(BLIND_S, 1.5 * self._unseen_s):
             self._held_deg[relays.direction] = self._place_deg
+            self._from = self._from or _Rest(self._place_deg, len(self._latest))
 
     def _turning(self, at_s: float, since_s: float) -> Slope | None:
         """How fast the axis turns just now, for certain."""
@@ -313,6 +314,12 @@ class OpeningWatch:
         if self._from is None or self._from_here:
             self._from, self._from_here = rest, True
         elif rest.differs(self._from, self._seen.trend.noise_deg):
+            if self._moved_from(self._from.mean_deg):
+                self._turned_s = -math.inf
+                # It has left what held it, or its readings had stood still.
+                for way, held_deg in list(self._held_deg.items()):
+                    if self._moved_from(held_deg):
+                        del self._held_deg[way]
             self._from, self._from_here, self._blind_s = rest, True, 0.0
         for way in (PLUS, MINUS):
             if self._trust[way] is Trust.OPEN:

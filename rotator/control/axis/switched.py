@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.attempts import Attempts
@@ -19,6 +20,7 @@ from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.reach import Reach, Runs, lost
+from rotator.control.axis.relay_trust import WAYS
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
@@ -29,7 +31,7 @@ from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.status import AxisStatus, LearntMotor, Trusts
+from rotator.status import AxisStatus, LearntMotor, Trust, Trusts
 
 JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
@@ -139,10 +141,21 @@ class SwitchedAxis:
                 found = found or self._attempts.see(at_s, angle_deg, self._watch.noise_deg)
             self._astray = None if self.homing else found
         # The rotor's own report says more than what can be seen of it from here.
-        reported, present = reading.condition.fault, unbelievable or self._astray
+        reported, present = reading.condition.fault, self._blind_to_weld(unbelievable, now_s) or self._astray
         cause = present if reading.condition.latched else reported or present
         if self._attempts.note((None if self.homing else reported) or present or lost, now_s, cause=cause):
             self._law.forget_run()
+
+    def _blind_to_weld(self, unbelievable: Fault | None, now_s: float) -> Fault | None:
+        """A sensor's fault, as it is; where it hides whether the motor has stopped, the master is to stop it."""
+        last = self._runs.last
+        if unbelievable is None or not self.settings.master or last is Direction.OFF:
+            return unbelievable
+        trust = self._watch.trusts[0 if last > 0 else 1]
+        if trust is Trust.OPEN or self.driven or self._runs.off_s(now_s) < SETTLED_AFTER_S:
+            return unbelievable
+        measured = f"{unbelievable.measured}, {WAYS[self.settings.axis, last]} not seen to stop; the master is opened"
+        return replace(unbelievable, measured=measured, cut=True)
 
     def _note_condition(self, condition: Condition) -> Fault | None:
         """What has become of the rotor since the last reading. A count that has just been lost is a fault, once."""
