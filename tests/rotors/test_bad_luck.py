@@ -146,6 +146,7 @@ def put_right(box: Box, axis: Axis, remedy: Remedy) -> None:
             box.order(Stop(), Home(axis), by=PERSON)
             box.run(1.0)
             box.until(lambda: not box.axis(axis).homing)
+            box.run(6.0)  # its contact has to be silent for so long before the other relay closes
             box.run(0.5)
         case Remedy.CONFIRM:
             box.order(Confirm(axis, box.boom_deg(axis) + MISREAD_DEG), by=PERSON)

@@ -77,6 +77,11 @@ class ContactWatch:
             return False
         return not self.looked or self._trust[Direction(-direction)] is not Trust.OPEN
 
+    @property
+    def settles(self) -> bool:
+        """The relay of the latest run is off, and has not been seen open yet."""
+        return self._driven is Direction.OFF and self._trust.get(self._last) is Trust.UNSEEN
+
     def checked(self) -> None:
         """A person has looked at both relays: they are open."""
         self._trust, self._blind_s = {PLUS: Trust.OPEN, MINUS: Trust.OPEN}, 0.0

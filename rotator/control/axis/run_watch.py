@@ -88,9 +88,13 @@ class RunWatch:
         speed_dps = self._motors[self._direction].speed_dps
         return endless(self._axis, self._direction, at_s - self._since_s, self._limits, speed_dps)
 
-    def homes(self, *, homing: bool) -> None:
-        """Whether it looks for its stop, and a person watches."""
-        self._contact.homing = homing
+    def rescale(self, motors: Mapping[Direction, Motor]) -> None:
+        """The count means other places than before. What is known of the relays stays."""
+        self._motors, self._angle_deg = motors, None
+
+    def homes(self, *, homing: bool, failed: bool) -> None:
+        """Whether it looks for its stop, and a person watches: also until it is seen to stand there."""
+        self._contact.homing = homing or (self._contact.homing and not failed and self._contact.settles)
 
     def forbids(self, direction: Direction) -> bool:
         """Whether closing that relay now might work against the opposite one, where that has not let go."""

@@ -184,7 +184,8 @@ class SwitchedAxis:
 
     def decide(self, now_s: float) -> Decision:
         if isinstance(self._watch, RunWatch):
-            self._watch.homes(homing=isinstance(self._goal, HomeGoal) and self._goal.homing.begun)
+            begun = isinstance(self._goal, HomeGoal) and self._goal.homing.begun
+            self._watch.homes(homing=begun, failed=self.fault is not None)
         run = self._safe(self._wish(now_s), now_s)
         if isinstance(self._goal, HomeGoal) and self._goal.homing.homed:
             homed_deg = self._goal.homing.home_deg
@@ -300,7 +301,10 @@ class SwitchedAxis:
         keeps = self.settings.homing is not None
         motors = self._law.motion.motors if keeps else dict.fromkeys(self._law.motion.motors, self.settings.motor)
         self._law = self._new_law(motors)
-        self._watch = self._new_watch(self._watch.trusts, look=self._watch.looks)
+        if isinstance(self._watch, RunWatch):
+            self._watch.rescale(self._law.motion.motors)
+        else:
+            self._watch = self._new_watch(self._watch.trusts, look=self._watch.looks)
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         self._law.driven(now_s, driven)
