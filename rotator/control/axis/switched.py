@@ -37,6 +37,8 @@ JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""
+WAITS_TOLD_AFTER_S = 2.0
+WAITS = Notice("waits until it is seen to stand: only then may its relay close")
 BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
 
 
@@ -60,6 +62,8 @@ class SwitchedAxis:
         """What the watch made of the latest reading."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
         self._runs = Runs()
+        self._waits_s = math.inf
+        """Since when a run waits for the opposite relay to be seen open."""
         self._reach = Reach(settings)
 
     @property
@@ -196,6 +200,7 @@ class SwitchedAxis:
     def _safe(self, run: Run, now_s: float) -> Run | Feed:
         """The run, unless a relay, a limit or the motor's heat forbids it."""
         if run.direction is Direction.OFF:
+            self._waits_s = math.inf
             return run
         if (suspected := self._watch.accuse(run.direction)) is not None:
             self.fail(suspected)
@@ -204,7 +209,9 @@ class SwitchedAxis:
         if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
             return self._law.rest(now_s)
         if not self._watch.forbids(run.direction):
+            self._waits_s = math.inf
             return run
+        self._waits_s = min(self._waits_s, now_s)
         # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
         return Feed(now_s + self._timing.lease_s) if self.settings.master else Run(Direction.OFF, now_s)
 
@@ -329,17 +336,18 @@ class SwitchedAxis:
             confirmable=self.confirmable,
             fault=self.fault,
             homing=self.homing,
-            notices=self._notices(),
+            notices=self._notices(now_s),
             noise_deg=self._watch.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
             trusts=self._watch.trusts,
         )
 
-    def _notices(self) -> tuple[Notice, ...]:
+    def _notices(self, now_s: float) -> tuple[Notice, ...]:
         reported = self._condition.notice if self._condition else None
         blind = BLIND if self.settings.window.blind else None
-        single = (reported, self._sensing.notice, self._endurance.notice, blind)
+        waits = WAITS if now_s - self._waits_s >= WAITS_TOLD_AFTER_S else None
+        single = (reported, self._sensing.notice, self._endurance.notice, blind, waits)
         found = (notice for notice in single if notice is not None)
         return (*self._watch.notices, *self._attempts.notices, *found)
 
