@@ -77,6 +77,8 @@ class AxisStatus:
     """Its motor as learnt, clockwise or up first, then the other way; None: the drive has nothing to learn."""
     trusts: Trusts = ALL_OPEN
     """What is known of its two relays."""
+    waiting: bool = False
+    """Its relay closes as soon as the axis has been seen to stand, or its opposite relay to open."""
 
     @property
     def shown_deg(self) -> float | None:

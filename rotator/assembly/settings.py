@@ -99,6 +99,7 @@ def build_controller(
             known.get(axis),
             (trusts or {}).get(axis, ALL_OPEN),
             commissioning=axis is commissioning,
+            attended=commissioning is not None,
         )
         for axis, limits in ((Axis.AZIMUTH, mount.azimuth), (Axis.ELEVATION, mount.elevation))
     )
@@ -125,8 +126,12 @@ def axis_settings(
     trusts: Trusts = ALL_OPEN,
     *,
     commissioning: bool,
+    attended: bool = False,
 ) -> AxisSettings:
-    """`limits` on the axis's own scale, shifted by its offset. `commissioning`: as if it had never been set up."""
+    """`limits` on the axis's own scale, shifted by its offset. `commissioning`: as if it had never been set up.
+
+    `attended`: a person watches the antenna, and may drive it to its stops.
+    """
     table, shift = config.axis(axis), build_offsets(config)
     in_degrees = config.in_degrees(axis)
     points = None if commissioning and not in_degrees else own_points(config, axis)
@@ -163,6 +168,7 @@ def axis_settings(
         homing=homing(config, axis, shift),
         trusts=trusts,
         look=True,
+        attended=attended,
     )
 
 

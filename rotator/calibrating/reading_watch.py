@@ -16,7 +16,8 @@ from rotator.status import AxisStatus, Status
 REST_READINGS = 10
 """Readings kept from before a movement, to know where it began."""
 EXPECT_S = 1.0
-"""A press that has not started the motor after this time (dead time included) will not start it."""
+"""A press that has not started the motor after this time (dead time included) will not start it. A relay that waits
+until its opposite is seen to open takes longer."""
 STANDING_S = 1.0
 """Driven for this long while the reading stands: the axis is at a stop, or something is broken."""
 
@@ -73,6 +74,8 @@ class ReadingWatch:
         if axis.drive is not Direction.OFF:
             self._directions.add(axis.drive)
             self._expected_until_s = None
+        elif axis.waiting and self._expected_until_s is not None:
+            self._expected_until_s = max(self._expected_until_s, status.at_s + EXPECT_S)
         elif self._expected_until_s is not None and status.at_s > self._expected_until_s:
             self._expected_until_s = None
         self._failed |= axis.fault is not None and bool(self._directions)

@@ -76,7 +76,8 @@ class AxisRig:
     def picture(self) -> tuple[str, bool]:
         axis = self.loop.status.axis(self.guide.facts.axis)
         reading = "----" if axis.raw is None else self.guide.reading_text(axis.raw)
-        direction = f"  {self.guide.direction_text(axis.drive)}" if axis.drive else ""
+        direction = "  it waits, and looks whether the axis stands" if axis.waiting else ""
+        direction = f"  {self.guide.direction_text(axis.drive)}" if axis.drive else direction
         return f"reading {reading}{direction}", bool(axis.drive)
 
     def start(self) -> None:

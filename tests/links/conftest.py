@@ -28,18 +28,23 @@ from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 
 PATIENCE_S = 30.0
+PERIOD_S = 0.05
+LOOK_S = 3.0
+"""So long the box looks at a still antenna before it closes its first relay."""
 
 
 class Bench:
-    """A box that stands at 235 and 25, in simulated time: it acts when the test says so."""
+    """A box that stands at 235 and 25, and has seen that, in simulated time: it acts when the test says so."""
 
     def __init__(self) -> None:
         clock = SimClock()
         config = Config()
         self.station = Station(config, clock, clock.sleep, (235.0, 25.0))
-        self.loop = ControlLoop(build_controller(config), self.station.rotor, clock, 0.05)
+        self.loop = ControlLoop(build_controller(config), self.station.rotor, clock, PERIOD_S)
         self.mount = build_mount(config)
-        self.loop.cycle()
+        for _ in range(round(LOOK_S / PERIOD_S)):
+            self.loop.cycle()
+            clock.sleep(PERIOD_S)
 
     def drives(self) -> tuple[int, int]:
         """Which way the motors run, once the box has taken its orders."""

@@ -27,6 +27,9 @@ from rotator.status import Status
 LINK = Source("link", 1)
 PERIOD_S = 0.05
 LOW_RAW, HIGH_RAW = 0.05, 0.95
+SPEED_DPS = 6.0
+LOOK_S = 3.0
+"""So long the box looks at a still antenna before it closes its first relay."""
 
 
 class BenchBox:
@@ -45,6 +48,8 @@ class BenchBox:
         self.orders: list[Order] = []
         self.driven = dict.fromkeys(Axis, Direction.OFF)
         self.turned: set[Axis] = set()
+        self.follows = False
+        """The antenna turns as its motors are driven; else it stays where it is put."""
         self._at_once = at_once
         self._blind = blind
         self._waiting: list[tuple[Source, Order]] = []
@@ -55,7 +60,7 @@ class BenchBox:
                 axis=axis,
                 limits=Range(low_deg, high_deg),
                 tolerance_deg=4.0,
-                motor=Motor(6.0, 1.0),
+                motor=Motor(SPEED_DPS, 1.0),
                 window=Window(0.02, 0.98),
                 calibration=Calibration(((LOW_RAW, low_deg), (HIGH_RAW, high_deg))),
                 missing=missing,
@@ -82,7 +87,7 @@ class BenchBox:
         """Turn the antenna by hand, and wait until the box has seen that it stays there."""
         self._raw = {Axis.AZIMUTH: self._pot(Axis.AZIMUTH, azimuth_deg)}
         self._raw[Axis.ELEVATION] = self._pot(Axis.ELEVATION, elevation_deg)
-        self.wait(0.5)
+        self.wait(LOOK_S)
 
     def breaks(self, axis: Axis) -> None:
         """The wiper of this axis's pot comes off, and the box has noticed."""
@@ -110,8 +115,16 @@ class BenchBox:
         runs = self._controller.step(self.now_s, readings, orders)
         self.driven = {axis: cast(Run, run).direction for axis, run in runs.items()}
         self.turned |= {axis for axis, direction in self.driven.items() if direction}
+        if self.follows:
+            self._follow()
         self._controller.note_driven(self.now_s, self.driven)
         self._status = self._controller.status(self.now_s)
+
+    def _follow(self) -> None:
+        for axis, direction in self.driven.items():
+            low_deg, high_deg = self._ranges[axis]
+            step = SPEED_DPS * PERIOD_S / (high_deg - low_deg) * (HIGH_RAW - LOW_RAW)
+            self._raw[axis] = min(max(self._raw[axis] + direction * step, LOW_RAW), HIGH_RAW)
 
 
 @pytest.fixture(scope="session")

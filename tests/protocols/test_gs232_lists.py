@@ -24,6 +24,7 @@ WRONG = b"?>\r\n"
 
 @pytest.fixture
 def session(box: BenchBox) -> Gs232Session:
+    box.follows = True  # a motor that stands ends a list
     return Gs232Session(box, Dialect.B)
 
 
@@ -137,6 +138,7 @@ def test_a_new_list_takes_the_old_ones_place(box: BenchBox, session: Gs232Sessio
 def test_a_new_list_in_the_same_packet_as_n(new_box: type[BenchBox]) -> None:
     """Orders reach the controller a moment after the link has read them; its status tells of the old list till then."""
     box = new_box(at_once=False)
+    box.follows = True
     session = Gs232Session(box, Dialect.B)
     session.receive(b"M005 100 120 140\r")
     box.wait(1)

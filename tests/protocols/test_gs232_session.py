@@ -128,8 +128,8 @@ def test_orders_turn_the_motors_at_once_and_s_stops_them(box: BenchBox, session:
     assert box.driven == {AZIMUTH: Direction.PLUS, ELEVATION: Direction.MINUS}
     session.receive(b"A\r")
     assert box.driven == {AZIMUTH: Direction.OFF, ELEVATION: Direction.MINUS}
-    session.receive(b"L\r")
-    assert box.driven == {AZIMUTH: Direction.MINUS, ELEVATION: Direction.MINUS}
+    session.receive(b"R\r")
+    assert box.driven == {AZIMUTH: Direction.PLUS, ELEVATION: Direction.MINUS}
     session.receive(b"S\r")
     assert box.driven == {AZIMUTH: Direction.OFF, ELEVATION: Direction.OFF}
 

@@ -43,7 +43,9 @@ class Bench:
         self.loop = Inbox(build_controller(CONFIG), self.station.rotor, self.clock, 0.05)
         self.loop.posted = []
         self.complaints = LogLimit(self.clock)
-        self.loop.cycle()
+        for _ in range(60):  # it closes no relay before it has seen both axes stand
+            self.loop.cycle()
+            self.clock.sleep(0.05)
 
     def client(self, connection: int = 1, **rights: int) -> Client:
         return Client(

@@ -104,6 +104,7 @@ def test_what_a_link_ordered_ends_and_begins_again_with_the_next_order(orders: t
 
 def test_a_search_for_the_end_stop_ends() -> None:
     rig = Rig('[rotor]\ntype = "relay-pulse"\n')
+    rig.run(PATIENCE_S)  # before its first relay the axis is seen to stand
     rig.order(CONSOLE, Home(Axis.AZIMUTH))
     assert rig.turned_deg(1.0) > 1.0
     rig.ticking = False

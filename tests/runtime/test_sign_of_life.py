@@ -24,6 +24,8 @@ from rotator.runtime.loop import ControlLoop
 class Fragile:
     """A bank whose lines can fail, as after a short in the relay board."""
 
+    supplied = True
+
     def __init__(self, bank: RelayBank) -> None:
         self._bank = bank
         self.broken = False

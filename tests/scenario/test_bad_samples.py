@@ -13,7 +13,7 @@ import pytest
 
 from benchmarks.faults import Mast
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Release, Stop
+from rotator.orders import Aim, Jog, RelaysChecked, Release, Stop
 from tests.scenario.bad_samples import Case, Truth, tried
 
 AZ = Axis.AZIMUTH
@@ -164,6 +164,7 @@ def test_an_end_stop_is_met_once_and_then_kept_off(mast: Mast) -> None:
     mast.run(10.0)
     assert said(mast) == ["end stop reached"]
     mast.order(Stop())
+    mast.order(RelaysChecked(AZ))  # at its stop nothing shows that the relay has opened
     mast.order(Aim(400.0, 15.0))
     mast.run(12.0)
     assert mast.world.antenna()[0] == pytest.approx(400.0, abs=1.0), "away from the stop it turns"

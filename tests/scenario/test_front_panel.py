@@ -272,13 +272,15 @@ def test_a_knob_with_a_loose_wire_never_sends_the_antenna_to_an_end() -> None:
 
 def test_the_knobs_reach_both_ends_of_the_range(shack: Shack) -> None:
     shack.turn_mode(MANUAL)
-    for turned, elevation_deg in ((1.0, 180.0), (0.0, 0.0)):
+    # Each axis rests 1° before the last edge of its contact: beyond it nothing shows that the relay has opened.
+    for turned, elevation_deg in ((1.0, 175.5), (0.0, 1.5)):
         shack.hands.turn_knob("azimuth", turned)
         shack.hands.turn_knob("elevation", turned)
         shack.wait(90.0)
         azimuth_deg, stands_deg = shack.shafts
-        assert stands_deg == pytest.approx(elevation_deg, abs=2.0)
-        assert min(azimuth_deg, 360.0 - azimuth_deg) <= 2.0, "0 and 360 are the same direction"
+        assert stands_deg == pytest.approx(elevation_deg, abs=0.5)
+        assert min(azimuth_deg, 360.0 - azimuth_deg) <= 2.5, "0 and 360 are the same direction"
+        assert shack.loop.status.azimuth.fault is shack.loop.status.elevation.fault is None
 
 
 def test_a_move_by_the_knobs_turns_the_azimuth_first_then_the_elevation(shack: Shack) -> None:

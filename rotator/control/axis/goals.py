@@ -5,7 +5,7 @@ Knows values. `sky.pointing.AimGoal` is the third kind of goal. Knows no motor.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.homing import Homing
@@ -14,6 +14,8 @@ from rotator.faults import Fault, FaultKind
 
 UNCALIBRATED_JOG_S = 2.0
 """The longest press on an axis that is not commissioned."""
+LONGEST_WAIT_S = 6.0
+"""A press that has waited this long for its relay is not carried out any more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +23,14 @@ class JogGoal:
     direction: Direction
     until_s: float | None
     """None: until it is halted, or at its limit."""
+    waits_s: float = 0.0
+    """For so long more its time does not pass while its relay may not close yet."""
+
+    def put_off(self, by_s: float) -> JogGoal:
+        """Its relay waited for `by_s`."""
+        if self.until_s is None or self.waits_s < by_s:
+            return self
+        return replace(self, until_s=self.until_s + by_s, waits_s=self.waits_s - by_s)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +45,16 @@ def limit_reached(axis: Axis, direction: Direction) -> Fault:
     return Fault(FaultKind.LIMIT_SWITCH, axis, measured)
 
 
-def jog(direction: Direction, seconds: float | None, now_s: float, *, commissioned: bool) -> JogGoal | None:
-    """The goal of an order to jog; None: to stop. An axis that is not commissioned obeys short presses only."""
+def jog(
+    direction: Direction, seconds: float | None, now_s: float, *, commissioned: bool, attended: bool = False
+) -> JogGoal | None:
+    """The goal of an order to jog; None: to stop. An axis that is not commissioned obeys short presses only.
+
+    `attended`: the one who presses watches the antenna; the press is as long though its relay waits first.
+    """
     if direction is Direction.OFF:
         return None
     if not commissioned:
         seconds = UNCALIBRATED_JOG_S if seconds is None else min(seconds, UNCALIBRATED_JOG_S)
-    return JogGoal(direction, None if seconds is None else now_s + seconds)
+    waits_s = LONGEST_WAIT_S if attended else 0.0
+    return JogGoal(direction, None if seconds is None else now_s + seconds, waits_s)

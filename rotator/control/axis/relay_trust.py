@@ -6,8 +6,8 @@ Knows how far a relay is trusted, and whether a master is wired. `opening_watch`
 from __future__ import annotations
 
 from hw.ports import Axis, Direction
-from rotator.faults import Fault, FaultKind
-from rotator.status import Trust
+from rotator.faults import Fault, FaultKind, Notice
+from rotator.status import Trust, Trusts
 
 CUT_BY_HAND = "CUT MOTOR POWER!"
 WAYS = {
@@ -42,3 +42,15 @@ def accusation(axis: Axis, direction: Direction, trust: Trust, place: str, *, ma
             return Fault(FaultKind.RELAY_UNSEEN, axis, measured, cure, cut=master)
         case _:
             return None
+
+
+def doubts(axis: Axis, trusts: Trusts) -> tuple[Notice, ...]:
+    """What a person who drives the axis to its stops on purpose should know: the relays in doubt forbid nothing."""
+    return tuple(
+        Notice(
+            f"the relay {WAYS[axis, way]} is not seen to open, as at a stop: if it does not turn "
+            f"{WAYS[axis, Direction(-way)]} now, let go, and look at that relay"
+        )
+        for way, trust in zip((Direction.PLUS, Direction.MINUS), trusts, strict=True)
+        if trust is Trust.DOUBTED
+    )

@@ -45,6 +45,8 @@ class SwitchedSettings:
     """What an earlier run of the program knew of its two relays."""
     look: bool = False
     """The axis is to be seen standing before its first relay closes."""
+    attended: bool = False
+    """A person watches the antenna, and drives it to its stops on purpose: a relay in doubt forbids nothing then."""
 
 
 @dataclass(frozen=True, slots=True)

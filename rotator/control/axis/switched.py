@@ -20,7 +20,7 @@ from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.reach import Reach, Runs, lost
-from rotator.control.axis.relay_trust import WAYS
+from rotator.control.axis.relay_trust import WAYS, doubts
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
@@ -51,8 +51,10 @@ class SwitchedAxis:
         self._attempts = Attempts(settings.axis, settings.limits)
         self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
         self._condition: Condition | None = None
-        # A count does not scatter, and it is corrected by as much as a pulse at once.
-        fastest_dps = math.inf if settings.source is AngleSource.COUNTED else settings.motor.speed_dps
+        # A count does not scatter, and it is corrected by as much as a pulse at once. In a calibration the sensor's
+        # scale and the motor's speed are not known yet, and the person is to hear of every spark.
+        unjudged = settings.source is AngleSource.COUNTED or (settings.attended and settings.calibration is None)
+        fastest_dps = math.inf if unjudged else settings.motor.speed_dps
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
         self._timing = Timing(lease_s=lease_s, period_s=period_s)
         motors = settings.learnt or (settings.motor, settings.motor)
@@ -60,6 +62,8 @@ class SwitchedAxis:
         self._watch = self._new_watch(settings.trusts, look=settings.look)
         self._astray: Fault | None = None
         """What the watch made of the latest reading."""
+        self._waiting = False
+        """A relay would be closed now, if its opposite had been seen to open."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
         self._runs = Runs()
         self._waits_s = math.inf
@@ -116,7 +120,7 @@ class SwitchedAxis:
         self._goal = goal
 
     def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
-        self._goal = jog(direction, seconds, now_s, commissioned=not self.missing)
+        self._goal = jog(direction, seconds, now_s, commissioned=not self.missing, attended=self.settings.attended)
 
     def home(self) -> None:
         """Find the end stop. Raises ValueError where the axis does not count."""
@@ -187,6 +191,7 @@ class SwitchedAxis:
         self._watch.checked()
 
     def decide(self, now_s: float) -> Decision:
+        self._waiting = False
         if isinstance(self._watch, RunWatch):
             begun = isinstance(self._goal, HomeGoal) and self._goal.homing.begun
             self._watch.homes(homing=begun, failed=self.fault is not None)
@@ -202,18 +207,27 @@ class SwitchedAxis:
         if run.direction is Direction.OFF:
             self._waits_s = math.inf
             return run
-        if (suspected := self._watch.accuse(run.direction)) is not None:
+        passes = self._passes_doubt(run.direction)
+        if not passes and (suspected := self._watch.accuse(run.direction)) is not None:
             self.fail(suspected)
         if self._condition and run.direction in self._condition.ends:
             self.fail(limit_reached(self.settings.axis, run.direction))
         if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
             return self._law.rest(now_s)
-        if not self._watch.forbids(run.direction):
+        if passes or not self._watch.forbids(run.direction):
             self._waits_s = math.inf
             return run
+        self._waiting = True
         self._waits_s = min(self._waits_s, now_s)
+        if isinstance(self._goal, JogGoal):
+            self._goal = self._goal.put_off(self._timing.period_s)
         # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
         return Feed(now_s + self._timing.lease_s) if self.settings.master else Run(Direction.OFF, now_s)
+
+    def _passes_doubt(self, direction: Direction) -> bool:
+        """Whether the opposite relay is only in doubt, and a person watches who has driven the axis to its stop."""
+        plus, minus = self._watch.trusts
+        return self.settings.attended and (minus if direction > 0 else plus) is Trust.DOUBTED
 
     def sweep(self, now_s: float, command: Command | None) -> Range:
         if self.missing or lost(self.fault):
@@ -341,6 +355,7 @@ class SwitchedAxis:
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
             trusts=self._watch.trusts,
+            waiting=self._waiting,
         )
 
     def _notices(self, now_s: float) -> tuple[Notice, ...]:
@@ -349,7 +364,8 @@ class SwitchedAxis:
         waits = WAITS if now_s - self._waits_s >= WAITS_TOLD_AFTER_S else None
         single = (reported, self._sensing.notice, self._endurance.notice, blind, waits)
         found = (notice for notice in single if notice is not None)
-        return (*self._watch.notices, *self._attempts.notices, *found)
+        doubted = doubts(self.settings.axis, self._watch.trusts) if self.settings.attended else ()
+        return (*self._watch.notices, *doubted, *self._attempts.notices, *found)
 
     @property
     def _rests_deg(self) -> tuple[float, float]:

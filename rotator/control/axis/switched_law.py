@@ -78,6 +78,7 @@ class SwitchedLaw:
 
     def approach(self, now_s: float, target_deg: float, tolerance_deg: float) -> Run:
         """Towards a target that stands still."""
+        target_deg = self._within_reach(target_deg)
         error_deg = target_deg - self._rest_deg(now_s)
         if self._running is Direction.OFF and abs(error_deg) <= tolerance_deg:
             return self.rest(now_s)
@@ -88,7 +89,7 @@ class SwitchedLaw:
         rest_deg = self._rest_deg(now_s)
         direction = Direction.PLUS if path.angle_deg(now_s) > rest_deg else Direction.MINUS
         speed_dps = self.motion.motors[self._running or direction].speed_dps
-        place_deg = self._place_deg(path, rest_deg, speed_dps, tolerance_deg)
+        place_deg = self._within_reach(self._place_deg(path, rest_deg, speed_dps, tolerance_deg))
         if self._running is Direction.OFF:
             crossing_s = now_s + abs(place_deg - rest_deg) / speed_dps / 2
             then_deg = path.angle_deg(crossing_s)
@@ -108,7 +109,6 @@ class SwitchedLaw:
 
     def _go(self, now_s: float, goal_deg: float) -> Run:
         """Start, or go on, towards the goal; stop where the motor would coast onto it."""
-        goal_deg = min(max(goal_deg, self._reach[0]), self._reach[1])
         if self._stop_s is not None:
             if now_s < self._stop_s and goal_deg == self._goal_deg:
                 return Run(self._running, self._stop_s)
@@ -128,6 +128,9 @@ class SwitchedLaw:
             return Run(self._running, now_s + self._timing.lease_s)
         self._stop_s = now_s + left_s
         return Run(self._running, self._stop_s)
+
+    def _within_reach(self, goal_deg: float) -> float:
+        return min(max(goal_deg, self._reach[0]), self._reach[1])
 
     def _rest_deg(self, now_s: float) -> float:
         return self.motion.rest_deg(now_s)
