@@ -38,6 +38,8 @@ STEADY_S = 1.5
 UNSEEN_S = 0.3
 """An axis that was held for less than this at the end of a run seems to turn until the end."""
 DOUBTS_AFTER_S = 0.5
+GAP_S = 0.5
+"""No command to a relay holds for longer without being renewed."""
 BLIND_S = 1.0
 """So long, in all, an axis may have been driven by short runs that it was not seen to follow."""
 RAN_ON_S, RAN_ON_SHARE = 0.45, 0.9
@@ -115,6 +117,8 @@ class OpeningWatch:
         """How the present run turns the axis."""
         self._run_dps = 0.0
         """The fastest that the axis has turned in this run, for certain."""
+        self._seen_s = -math.inf
+        """When the latest reading was taken."""
         self._turned_s = -math.inf
         """When the axis was last seen to turn."""
         self._from: _Rest | None = None
@@ -187,8 +191,11 @@ class OpeningWatch:
     def see(self, at_s: float, angle_deg: float, *, supplied: bool) -> None:
         """A good reading, on the line of the others."""
         self._latest.append(angle_deg)
+        gap_s, self._seen_s = at_s - self._seen_s, at_s
         if self._seen.relays.direction is not Direction.OFF:
-            self._see_run(at_s)
+            # After a long gap the guard has opened the relay: how the run went before it is what counts.
+            if gap_s <= GAP_S or self._line is None:
+                self._see_run(at_s)
         elif not supplied:
             self._supplied_s, self._unbroken = None, False
         else:

@@ -18,6 +18,8 @@ from rotator.faults import Fault, FaultKind, Notice
 
 BAD_FOR_S = 0.09
 """Bad readings are a fault after this time (the third one in a row at 20 Hz)."""
+COUNTED_IN_A_ROW = 2
+"""More bad readings in a row are one gap, which is a fault of its own or over before it matters."""
 RIDDEN_S = 0.16
 """A motor that runs may go on for so long after the last good reading."""
 STALE_S = 0.2
@@ -117,6 +119,8 @@ class Sensing:
         self._seen_s = -math.inf
         """When the latest reading was taken, a bad one too."""
         self._missed = 0
+        self._in_a_row = 0
+        """How many bad readings have come since the last good one."""
         self._off_line: Fault | None = None
         """The latest reading is a spark."""
         self._loose: Fault | None = None
@@ -165,7 +169,10 @@ class Sensing:
         lasts = self._bad_since_s is not None and now_s - self._bad_since_s >= BAD_FOR_S
         # What lasts is a fault of its own, and so is what the rotor reports: neither spoils the rate.
         if new and not lasts and reading.condition.fault is None:
-            self._rate.note(reading.at_s, bad=problem is not None or missed)
+            bad = problem is not None or missed
+            self._in_a_row = self._in_a_row + 1 if bad else 0
+            if self._in_a_row <= COUNTED_IN_A_ROW:
+                self._rate.note(reading.at_s, bad=bad)
         return jumping or ((self._loose or problem) if lasts else self._too_many(now_s, problem))
 
     def _problem(self, reading: Reading, now_s: float) -> Fault | None:
