@@ -117,6 +117,8 @@ class Sensing:
         self._seen_s = -math.inf
         """When the latest reading was taken, a bad one too."""
         self._missed = 0
+        self._missing = False
+        """The latest order was not answered."""
         self._off_line: Fault | None = None
         """The latest reading is a spark."""
         self._loose: Fault | None = None
@@ -152,7 +154,9 @@ class Sensing:
         `noise_deg`: the scatter of the readings, rms.
         """
         new = reading.at_s > self._seen_s
-        missed, self._missed = reading.condition.missed > self._missed, reading.condition.missed
+        missing, self._missed = reading.condition.missed > self._missed, reading.condition.missed
+        # A controller that is silent for good has missed once: its silence is a fault of its own.
+        missed, self._missing = missing and not self._missing, missing or (self._missing and not new)
         self._seen_s = max(self._seen_s, reading.at_s)
         self.places = ()
         jumping = self._jumping(reading, new=new)
