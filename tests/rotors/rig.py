@@ -176,8 +176,8 @@ class Box:
             ways_deg = [is_deg - was_deg for is_deg, was_deg in zip(shafts_deg, stood_deg, strict=True)]
             if max(map(abs, ways_deg)) > self.kind.trembles_deg:
                 since_s, stood_deg = self.clock(), shafts_deg
-            due = self.status.moving or any(self.axis(axis).waiting for axis in Axis)
-            return self.clock() - since_s >= (STANDS_ANYHOW_S if due else STANDS_S)
+            about_to = self.status.moving or any(self.axis(axis).waiting for axis in Axis)
+            return self.clock() - since_s >= (STANDS_ANYHOW_S if about_to else STANDS_S)
 
         self.until(stands, patience_s)
 

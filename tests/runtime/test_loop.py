@@ -128,6 +128,29 @@ def test_an_order_acts_before_the_next_cycle(rig: Rig) -> None:
     assert rig.clock() == moment_s, "no sensor was read and no time passed"
 
 
+@pytest.mark.parametrize("order", [Aim(235.0, 20.0), Jog(AZ, Direction.PLUS)], ids=["aim", "jog"])
+def test_an_order_before_the_first_look_waits_for_it_and_then_acts(order: Aim | Jog) -> None:
+    rig = Rig()
+    closed: list[tuple[int, int]] = []
+    rig.world.gpio.on_edges.append(lambda _now_s, _changes: closed.append(rig.world.drives()))
+    rig.loop.post(LINK, order)
+    rig.run(2 * PERIOD_S)
+    assert closed == [], "nothing has been seen of the antenna yet"
+    rig.run(LOOK_S)
+    assert rig.world.drives() == (1, 0)
+    rig.station.close()
+
+
+def test_an_order_taken_back_before_the_first_look_ends_moves_nothing() -> None:
+    rig = Rig()
+    rig.loop.post(LINK, Aim(235.0, 20.0))
+    rig.run(2 * PERIOD_S)
+    rig.loop.post(LINK, Stop())
+    rig.run(2 * LOOK_S)
+    assert rig.world.antenna() == (100.0, 20.0)
+    rig.station.close()
+
+
 def test_the_running_loop_wakes_for_an_order(rig: Rig) -> None:
     # Its period is an hour: after the first readings nothing but an order can wake it.
     relays = Relays(rig.world)

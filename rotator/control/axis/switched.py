@@ -37,6 +37,8 @@ JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""
+WAITS_TOLD_AFTER_S = 2.0
+WAITS = Notice("waits until it is seen to stand: only then may its relay close")
 BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
 
 
@@ -64,6 +66,8 @@ class SwitchedAxis:
         """A relay would be closed now, if its opposite had been seen to open."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
         self._runs = Runs()
+        self._waits_s = math.inf
+        """Since when a run waits for the opposite relay to be seen open."""
         self._reach = Reach(settings)
 
     @property
@@ -201,6 +205,7 @@ class SwitchedAxis:
     def _safe(self, run: Run, now_s: float) -> Run | Feed:
         """The run, unless a relay, a limit or the motor's heat forbids it."""
         if run.direction is Direction.OFF:
+            self._waits_s = math.inf
             return run
         passes = self._passes_doubt(run.direction)
         if not passes and (suspected := self._watch.accuse(run.direction)) is not None:
@@ -210,8 +215,10 @@ class SwitchedAxis:
         if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
             return self._law.rest(now_s)
         if passes or not self._watch.forbids(run.direction):
+            self._waits_s = math.inf
             return run
         self._waiting = True
+        self._waits_s = min(self._waits_s, now_s)
         if isinstance(self._goal, JogGoal):
             self._goal = self._goal.put_off(self._timing.period_s)
         # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
@@ -343,7 +350,7 @@ class SwitchedAxis:
             confirmable=self.confirmable,
             fault=self.fault,
             homing=self.homing,
-            notices=self._notices(),
+            notices=self._notices(now_s),
             noise_deg=self._watch.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
@@ -351,10 +358,11 @@ class SwitchedAxis:
             waiting=self._waiting,
         )
 
-    def _notices(self) -> tuple[Notice, ...]:
+    def _notices(self, now_s: float) -> tuple[Notice, ...]:
         reported = self._condition.notice if self._condition else None
         blind = BLIND if self.settings.window.blind else None
-        single = (reported, self._sensing.notice, self._endurance.notice, blind)
+        waits = WAITS if now_s - self._waits_s >= WAITS_TOLD_AFTER_S else None
+        single = (reported, self._sensing.notice, self._endurance.notice, blind, waits)
         found = (notice for notice in single if notice is not None)
         doubted = doubts(self.settings.axis, self._watch.trusts) if self.settings.attended else ()
         return (*self._watch.notices, *doubted, *self._attempts.notices, *found)

@@ -10,7 +10,7 @@ import pytest
 
 from hw.ports import Direction
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.switched_law import LEAST_MOVE_DEG, SwitchedLaw, Timing
+from rotator.control.axis.switched_law import ANYWHERE, LEAST_MOVE_DEG, SwitchedLaw, Timing
 from rotator.control.commands import Run
 from rotator.control.sky.plan import OFFSETS_S, Path
 
@@ -24,9 +24,9 @@ BOTH_WAYS = pytest.mark.parametrize("way", [PLUS, MINUS], ids=["plus", "minus"])
 class Axis:
     """A motor with a first-order lag, cycled at 20 Hz; its relay obeys leases to the moment."""
 
-    def __init__(self, at_deg: float = 100.0) -> None:
+    def __init__(self, at_deg: float = 100.0, reach: tuple[float, float] = ANYWHERE) -> None:
         motor = Motor(SPEED_DPS, SPEED_DPS * LAG_S)
-        self.law = SwitchedLaw({PLUS: motor, MINUS: motor}, Timing(LEASE_S, PERIOD_S))
+        self.law = SwitchedLaw({PLUS: motor, MINUS: motor}, Timing(LEASE_S, PERIOD_S), reach)
         self.now_s, self.angle_deg, self.turning_dps = 20.0, at_deg, 0.0
         self.relay, self.until_s = OFF, 0.0
         self.starts = 0
@@ -66,6 +66,19 @@ def test_within_the_tolerance_it_rests_and_just_outside_it_goes(way: Direction) 
     axis = Axis()
     assert axis.law.approach(20.0, 100.0 + way * 4.0, 4.0) == Run(OFF, 20.0)
     assert axis.law.approach(20.0, 100.0 + way * 4.01, 4.0) == Run(way, 20.0 + LEASE_S)
+
+
+@BOTH_WAYS
+@pytest.mark.parametrize("beyond_deg", [1.0, 4.5, 60.0])
+def test_for_a_target_beyond_its_reach_it_goes_to_the_end_of_its_reach_once(way: Direction, beyond_deg: float) -> None:
+    axis = Axis(reach=(80.0, 120.0))
+    end_deg = 100.0 + way * 20.0
+    axis.approach(end_deg + way * beyond_deg, 30.0)
+    assert axis.angle_deg == pytest.approx(end_deg, abs=0.25)
+    assert axis.starts == 1
+    still = Axis(end_deg - way * 1e-9, reach=(80.0, 120.0))
+    still.approach(end_deg + way * beyond_deg, 5.0)
+    assert still.starts == 0, "where it stands is as near as it comes"
 
 
 def test_once_it_runs_it_runs_to_the_target_not_to_the_edge_of_the_tolerance() -> None:
