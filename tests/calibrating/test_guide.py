@@ -205,3 +205,52 @@ def test_words_that_mean_nothing_do_nothing(calibration: Any, word: str) -> None
     assert "means nothing here" in run.say(word)
     assert run.world.relay_starts == 0
     assert not run.guide.ended
+
+
+# --- the relays
+
+
+def test_a_relay_in_doubt_at_a_stop_is_noted_and_it_turns_back(calibration: Any) -> None:
+    run = calibration()
+    directions(run)
+    run.drive("l", TO_LOW)
+    assert "the relay counter-clockwise is not seen to open" in run.text
+    stop_deg = run.shaft_deg()
+    run.drive("r", 2)
+    assert run.shaft_deg() > stop_deg + 15.0
+    assert "FAULT" not in run.text
+
+
+def test_a_relay_found_closed_keeps_its_opposite_open(calibration: Any) -> None:
+    run = calibration()
+    run.say("r", "y", "l")
+    run.now("l")
+    run.wait(1.0)
+    run.world.inject("azimuth-relay-welded-ccw")
+    run.wait(6.0)
+    assert "azimuth: relay welded" in run.text
+    starts = run.world.relay_starts
+    for _ in range(3):
+        run.now("r")
+        run.wait(8.0)
+    assert run.world.relay_starts == starts
+
+
+def test_a_press_that_waits_for_the_first_look_is_as_long_as_any(calibration: Any) -> None:
+    counted = '[rotor]\ntype = "relay-pulse"\n[azimuth]\nmax_deg = 360\n'
+    early, late = (calibration(counted, start_deg=(90.0, 30.0)) for _ in range(2))
+    late.wait(10.0)
+    for run in (early, late):
+        run.say("r")
+        run.wait(3.0)
+    assert early.shaft_deg() > 90.0 + 8.0
+    assert early.shaft_deg() == pytest.approx(late.shaft_deg(), abs=1.0)
+
+
+def test_stop_ends_a_press_that_waits(calibration: Any) -> None:
+    run = calibration('[rotor]\ntype = "relay-pulse"\n[azimuth]\nmax_deg = 360\n', start_deg=(90.0, 30.0))
+    run.now("r")
+    run.wait(0.2)
+    run.now("s")
+    run.wait(10.0)
+    assert run.world.relay_starts == 0

@@ -51,11 +51,13 @@ class Kind:
     """How far the shaft turns on after a stop at full speed."""
     trembles_deg: float = 0.001
     """How much it moves while it stands."""
+    short_deg: float = 0.0
+    """How far before its low stop it comes to rest: only there its contact would still show a welded relay."""
 
 
 KINDS = (
     Kind("g5500", AngleSource.MEASURED, (90.0, 30.0), 1.0, 1.3),
-    Kind("u100", AngleSource.COUNTED, (90.0, 70.0), 1.0, 1.0),
+    Kind("u100", AngleSource.COUNTED, (90.0, 70.0), 1.0, 1.0, short_deg=2.0),
     # From 30°/s, at 20°/s² down.
     Kind("isel", AngleSource.MEASURED, (90.0, 30.0), 0.05, 24.0),
     # The servo is somewhat faster than its order moves, and trembles while it holds.
@@ -165,7 +167,7 @@ class Box:
         return self.clock() - began_s
 
     def until_it_stands(self, patience_s: float = PATIENCE_S) -> None:
-        """Cycles until no shaft has moved for a while."""
+        """Cycles until no shaft has moved for a while, and none waits for its first look."""
         since_s, stood_deg = self.clock(), self.world.shafts()
 
         def stands() -> bool:

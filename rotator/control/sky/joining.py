@@ -29,8 +29,8 @@ def joined(mount: Mount, aim: Aim, wanted: Pair, axes: Pair) -> Aim:
     if not mount.flip and axis_elevation_deg <= ZENITH_DEG:
         return aim
     if aim.elevation_deg is not None and ZENITH_DEG < aim.elevation_deg <= mount.elevation.max_deg:
-        # Above 90° it names the axis's own angle, which says nothing of the azimuth.
-        return aim
+        # Above 90° it names the axis's own angle: the azimuth axis stays.
+        return replace(aim, azimuth_deg=axis_azimuth_deg)
     azimuth_deg, elevation_deg = wanted
     if azimuth_deg is None or elevation_deg is None:
         azimuth_deg, elevation_deg = direction(axis_azimuth_deg, axis_elevation_deg)

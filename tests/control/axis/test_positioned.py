@@ -242,6 +242,13 @@ def test_orders_that_a_controller_does_not_answer_are_bad_readings(motor: Motor)
     assert motor.axis.fault.kind is FaultKind.BAD_READINGS
 
 
+def test_a_controller_that_is_silent_for_good_is_not_called_a_bad_sensor(motor: Motor) -> None:
+    for count in range(100):
+        motor.axis.see(Reading(motor.now_s, 100.0, condition=Condition(missed=count)), motor.now_s)
+        motor.now_s += STEP_S
+    assert motor.axis.fault is None, "its silence is a fault of its own"
+
+
 # --- status
 
 
