@@ -185,7 +185,7 @@ def test_a_limit_switch_stops_that_way_and_not_the_other(kind: Kind, new_box: Ne
 def test_closed_limit_switches_are_in_nobody_s_way(kind: Kind, new_box: NewBox) -> None:
     box = new_box(kind, limits=LIMITS, pulses=BELOW, lcd=NO_DISPLAY)
     box.run(1.0)
-    for azimuth_deg, elevation_deg in ((0.0, 0.0), (30.0, 20.0)):
+    for azimuth_deg, elevation_deg in ((kind.short_deg, kind.short_deg), (30.0, 20.0)):
         box.order(Aim(azimuth_deg, elevation_deg))
         box.until_it_stands()
         assert box.boom_deg(AZ) == pytest.approx(azimuth_deg, abs=kind.within_deg)
