@@ -114,12 +114,12 @@ def held(orders: list[Order]) -> list[Order]:
     holds = False
     for order in orders:
         match order:
+            case Aim() | Jog() | Home() | Park() if holds:
+                continue
             case Stop() | Park() | LetGo():
                 holds = True
             case Release():
                 holds = False
-            case Aim() | Jog() | Home() if holds:
-                continue
         left.append(order)
     return left
 

@@ -145,7 +145,7 @@ def test_w_moves_c2_answers_s_stops(config: Config, tmp_path: Path) -> None:
             line.send(b"W235 025\r")
             await relays.until((1, 1).__eq__)
             async with asyncio.timeout(PATIENCE_S):
-                while position(await line.ask(b"C2\r"))[0] < 3:
+                while position(await line.ask(b"C2\r"))[0] < 3 or world.antenna()[1] <= 0.0:
                     pass
             assert world.drives()[0] == 1
             line.send(b"S\r")
