@@ -16,6 +16,8 @@ AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
 TURN_DEG = 360.0
 UNCALIBRATED_S = 2.0
+PUT_OFF_S = 6.0
+"""Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
 """A press of an axis that was never set up."""
 SWITCH_S = 1.3
 """A mode switch acts when it has stood still for a second, at the next cycle."""
@@ -194,6 +196,8 @@ class Orders:
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
                 if axis == self._lacking:
                     seconds = min(seconds, UNCALIBRATED_S)
+                if self._lacking:
+                    seconds += PUT_OFF_S
                 self.axes[axis].goals[event.who] = Goal((), way, event.at_s, event.at_s + seconds)
             case "stop":
                 self._forget(event.at_s)
