@@ -29,7 +29,7 @@ SLOWED_SHARE = 0.6
 """An axis slower than this share of its run's speed has lost its current."""
 FED_SHARE, FED_BELIEVED_SHARE = 0.5, 0.2
 """A motor with current turns at this share of its speed at least: of the speed measured, or of the one believed."""
-END_WINDOWS_S = (0.25, 0.5, 1.0, 2.0)
+END_WINDOWS_S = (0.25, 0.5, 1.0, 2.0, 4.0)
 """The end of a run is looked at for so long, in turn, until its speed is certain."""
 MEASURED_AFTER_S = 0.6
 """A run as long as this shows the motor's speed; in a shorter one it is still gathering it."""
@@ -218,7 +218,8 @@ class OpeningWatch:
         self._supplied_s, self._unbroken = relays.since_s, True
         self._line = self._turning(at_s, relays.since_s)
         if self._line is not None:
-            self._run_dps = max(self._run_dps, abs(self._line.speed_dps) - 2.0 * self._line.rough_dps)
+            if abs(self._line.speed_dps) >= EXACT_ERRORS * self._line.rough_dps:
+                self._run_dps = max(self._run_dps, abs(self._line.speed_dps) - 2.0 * self._line.rough_dps)
             self._turned_s, self._blind_s, self._from = at_s, 0.0, None
             for way, held_deg in list(self._held_deg.items()):
                 if (self._place_deg - held_deg) * way > 2.0 * BEYOND_DEG:
@@ -230,9 +231,6 @@ class OpeningWatch:
     def _turning(self, at_s: float, since_s: float) -> Slope | None:
         """How fast the axis turns just now, for certain."""
         trend = self._seen.trend
-        latest = trend.slope(max(since_s, at_s - END_WINDOWS_S[0]))
-        if latest is None:
-            return None
         for window_s in END_WINDOWS_S:
             slope = trend.slope(max(since_s, at_s - window_s))
             if slope is None:
@@ -242,6 +240,9 @@ class OpeningWatch:
             if abs(slope.speed_dps) < 3.5 * slope.rough_dps:
                 continue
             # It may have stopped within this window: then its end is slower than the whole.
+            latest = trend.slope(max(since_s, at_s - max(END_WINDOWS_S[0], window_s / 4.0)))
+            if latest is None:
+                return None
             going_dps = latest.speed_dps * math.copysign(1.0, slope.speed_dps) + 2.0 * latest.rough_dps
             return slope if going_dps >= SLOWED_SHARE * abs(slope.speed_dps) else None
         return None

@@ -37,7 +37,7 @@ JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""
-WAITS_TOLD_AFTER_S = 2.0
+WAITS_TOLD_AFTER_S = 4.0
 WAITS = Notice("waits until it is seen to stand: only then may its relay close")
 BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
 
