@@ -218,7 +218,7 @@ class OpeningWatch:
         self._supplied_s, self._unbroken = relays.since_s, True
         self._line = self._turning(at_s, relays.since_s)
         if self._line is not None:
-            if abs(self._line.speed_dps) >= EXACT_ERRORS * self._line.rough_dps:
+            if abs(self._line.speed_dps) >= 2.0 * EXACT_ERRORS * self._line.rough_dps:
                 self._run_dps = max(self._run_dps, abs(self._line.speed_dps) - 2.0 * self._line.rough_dps)
             self._turned_s, self._blind_s, self._from = at_s, 0.0, None
             for way, held_deg in list(self._held_deg.items()):

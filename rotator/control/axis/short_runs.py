@@ -19,7 +19,7 @@ SMOOTHED = 5
 MOVED_DEG, MOVED_NOISES = 0.3, 2.5
 """An axis has moved when it is further from where it stood than both."""
 STOOD_RUNS = 3
-SLOW_SHARE = 0.2
+SLOW_SHARE, TOLD_SHARE = 0.2, 0.4
 """So many runs that do not move the axis are enough, where even a motor at this share of its speed would have."""
 STOOD_S, UNKNOWN_STOOD_S = 1.5, 2.5
 """And so is so long in all; longer until the axis has moved once: its motor may be slower than the file says."""
@@ -47,6 +47,8 @@ class ShortRuns:
         """The direction of the last run that was counted."""
         self._counted = False
         """That run has not been judged yet."""
+        self._speed_dps = math.inf
+        """Of the motor in that run."""
         self._moved_deg = MOVED_DEG
         self._from_deg: float | None = None
         """Where the present or last run began."""
@@ -87,6 +89,7 @@ class ShortRuns:
             if self._moved:
                 self._stands_deg = self._smoothed_deg
             self._run, self._from_deg, self._moved = (direction, now_s, speed_dps), self._smoothed_deg, False
+            self._speed_dps = speed_dps
 
     def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
         """A good reading. Returns the fault that it shows, if any."""
@@ -114,7 +117,8 @@ class ShortRuns:
         if self._backwards >= STOOD_RUNS:
             measured = f"driven {name} {self._backwards} times, it went back each time"
             return Fault(FaultKind.WRONG_WAY, self._axis, measured, f"{moved_deg:.1f}° backwards")
-        enough_s = STOOD_S if self._known else UNKNOWN_STOOD_S
+        # A slow motor among noisy readings needs longer to show that it moves.
+        enough_s = max(STOOD_S if self._known else UNKNOWN_STOOD_S, moved_deg / (TOLD_SHARE * self._speed_dps))
         if self._stood_s < enough_s and self._runs < STOOD_RUNS:
             return None
         measured = f"driven {name} and stands at {smoothed_deg:.1f}°, after short runs of {self._stood_s:.1f} s in all"
