@@ -54,6 +54,7 @@ def test_its_worker_tracks_a_pass(
         "SATNOGS_ROT_THRESHOLD": str(THRESHOLD_DEG),
         "SATNOGS_APP_PATH": str(tmp_path),
         "SATNOGS_OUTPUT_PATH": str(tmp_path),
+        "SATNOGS_INCOMPLETE_OUTPUT_PATH": str(tmp_path),
         "PYTHONPATH": str(packages(HERE / "satnogs.txt", python)),
     }
     # Hamlib's binding writes every byte there.
