@@ -62,12 +62,10 @@ class SwitchedAxis:
         self._watch = self._new_watch(settings.trusts, look=settings.look)
         self._astray: Fault | None = None
         """What the watch made of the latest reading."""
-        self._waiting = False
-        """A relay would be closed now, if its opposite had been seen to open."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
         self._runs = Runs()
         self._waits_s = math.inf
-        """Since when a run waits for the opposite relay to be seen open."""
+        """Since when a run waits for the opposite relay to be seen open; infinite: none waits."""
         self._reach = Reach(settings)
 
     @property
@@ -191,7 +189,6 @@ class SwitchedAxis:
         self._watch.checked()
 
     def decide(self, now_s: float) -> Decision:
-        self._waiting = False
         if isinstance(self._watch, RunWatch):
             begun = isinstance(self._goal, HomeGoal) and self._goal.homing.begun
             self._watch.homes(homing=begun, failed=self.fault is not None)
@@ -204,8 +201,8 @@ class SwitchedAxis:
 
     def _safe(self, run: Run, now_s: float) -> Run | Feed:
         """The run, unless a relay, a limit or the motor's heat forbids it."""
+        waits_s, self._waits_s = self._waits_s, math.inf
         if run.direction is Direction.OFF:
-            self._waits_s = math.inf
             return run
         passes = self._passes_doubt(run.direction)
         if not passes and (suspected := self._watch.accuse(run.direction)) is not None:
@@ -215,10 +212,8 @@ class SwitchedAxis:
         if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
             return self._law.rest(now_s)
         if passes or not self._watch.forbids(run.direction):
-            self._waits_s = math.inf
             return run
-        self._waiting = True
-        self._waits_s = min(self._waits_s, now_s)
+        self._waits_s = min(waits_s, now_s)
         if isinstance(self._goal, JogGoal):
             self._goal = self._goal.put_off(self._timing.period_s)
         # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
@@ -355,7 +350,7 @@ class SwitchedAxis:
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
             trusts=self._watch.trusts,
-            waiting=self._waiting,
+            waiting=self._waits_s < math.inf,
         )
 
     def _notices(self, now_s: float) -> tuple[Notice, ...]:
