@@ -25,7 +25,7 @@ from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
-from rotator.control.commands import Command, Decision, Feed, Run
+from rotator.control.commands import Command, Decision, Feed, Run, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
@@ -321,6 +321,9 @@ class SwitchedAxis:
             self._watch.rescale(self._law.motion.motors)
         else:
             self._watch = self._new_watch(self._watch.trusts, look=self._watch.looks)
+
+    def shortened(self, now_s: float, command: Steer) -> None:
+        """Relays are not steered."""
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         self._law.driven(now_s, driven)
