@@ -124,12 +124,14 @@ class Judges:
                 case.tries_s.clear()
         for truth, case in zip(axes, self.cases, strict=True):
             if truth.shorted_s > case.shorted_s:
-                # Homing presses the axis against its stop: there nothing shows that the relay has opened.
-                if self._master or not (self._orders.axes[truth.name].homes and truth.at_stop):
+                # Where an axis is pressed against its stop, nothing shows that the relay has opened.
+                homes = self._orders.axes[truth.name].homes and not self._master
+                if not truth.at_stop or not (homes or self._orders.attended):
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
             if not truth.power:
                 case.rest(at_stop=truth.at_stop != 0)
+                case.welded_s = 0.0
                 continue
             self._welded(truth, case)
             if not truth.coil:
@@ -210,7 +212,8 @@ class Judges:
             case.standing_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
-        if before_s <= START_S < case.standing_s and not case.counts:
+        pressed = truth.name == self._orders.lacking  # by a person who watches it: each press counts for itself
+        if before_s <= START_S < case.standing_s and not case.counts and not pressed:
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
                 case.tries_s.popleft()

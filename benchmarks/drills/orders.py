@@ -7,6 +7,7 @@ over counts as in force, and so does the older one that it may have kept. So a j
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from benchmarks.drills.script import PANEL, PEOPLE, Event
@@ -21,6 +22,9 @@ PUT_OFF_S = 6.0
 """A press of an axis that was never set up."""
 SWITCH_S = 1.3
 """A mode switch acts when it has stood still for a second, at the next cycle."""
+ZENITH_DEG = 90.0
+WAVERS_S, WAVERS_DEG = 120.0, 90.0
+"""A target that has changed so lately, and now lies no further beyond an end of the range, may be met at that end."""
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -64,7 +68,10 @@ class AxisOrders:
 
 
 class Orders:
-    """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up."""
+    """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
+
+    `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes.
+    """
 
     def __init__(
         self,
@@ -73,12 +80,18 @@ class Orders:
         *,
         lacking: str = "",
         parks_idle: bool = False,
+        over_top: Callable[[], bool] = lambda: False,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
         self._ranges = dict(zip(AXES, ranges, strict=True))
         self._park_deg = dict(zip(AXES, park_deg, strict=True))
-        self._lacking = lacking
+        self.lacking = lacking
         self._parks_idle = parks_idle
+        self._over_top = over_top
+        self._azimuth_deg: float | None = None
+        """The latest azimuth that was ordered."""
+        self._changed_s = -math.inf
+        """When that azimuth was last another one than before."""
         self.latched = False
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
@@ -91,6 +104,11 @@ class Orders:
         self.heard = 0
         """How many orders there have been."""
         self._storm = False
+
+    @property
+    def attended(self) -> bool:
+        """A person sets the box up, and watches the antenna: a relay in doubt is only a note to that person."""
+        return bool(self.lacking)
 
     def holds(self, axis: str) -> bool:
         """Whether an order for this axis is in force."""
@@ -135,6 +153,13 @@ class Orders:
             self._note_person(event)
         else:
             self._note_order(event)
+        self._may_idle(event.at_s)
+
+    def _may_idle(self, now_s: float) -> None:
+        """Once there has been an order, a box that parks when it is idle may do so."""
+        if self._parks_idle:
+            for axis, orders in self.axes.items():
+                orders.goals.setdefault("idle", Goal((self._park_deg[axis],), 0, now_s))
 
     def _note_person(self, event: Event) -> None:
         match event.what:
@@ -188,15 +213,19 @@ class Orders:
                 self._aim_azimuth(event, event.number(1))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
+                if self._shows_over_top:
+                    self._anywhere(event, "elevation")
                 self._aim_azimuth(event, 0.0)
             case "aim-elevation":
+                if self._shows_over_top and event.number(0) <= ZENITH_DEG:
+                    self._anywhere(event, "azimuth")
                 self._aim(event, "elevation", self._elevations(event.number(0)))
             case "jog":
                 axis, way = WAYS[event.text(0)]
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
-                if axis == self._lacking:
+                if axis == self.lacking:
                     seconds = min(seconds, UNCALIBRATED_S)
-                if self._lacking:
+                if self.lacking:
                     seconds += PUT_OFF_S
                 self.axes[axis].goals[event.who] = Goal((), way, event.at_s, event.at_s + seconds)
             case "stop":
@@ -226,16 +255,15 @@ class Orders:
 
     def _forget(self, now_s: float) -> None:
         self._storm = False
-        for axis, orders in self.axes.items():
+        for orders in self.axes.values():
             orders.forget(now_s)
-            if self._parks_idle:
-                orders.goals["idle"] = Goal((self._park_deg[axis],), 0, now_s)
+        self._may_idle(now_s)
 
     def _anywhere(self, event: Event, axis: str) -> None:
         self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)
 
     def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...]) -> None:
-        if axis == self._lacking:
+        if axis == self.lacking:
             return
         goals, rate_dps = self.axes[axis].goals, 0.0
         before = goals.get(event.who)
@@ -243,16 +271,38 @@ class Orders:
             nearest_deg = min(abs(angle - other) for angle in angles_deg for other in before.angles_deg)
             rate_dps = nearest_deg / (event.at_s - before.said_s)
         goals[event.who] = Goal(angles_deg, 0, event.at_s, rate_dps=rate_dps)
-        if self._parks_idle:
-            goals.setdefault("idle", Goal((self._park_deg[axis],), 0, event.at_s))
+
+    @property
+    def _shows_over_top(self) -> bool:
+        """Whether the antenna stands over the top, or may have to go there."""
+        goals = self.axes["elevation"].goals.values()
+        return self._over_top() or any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
         angles_deg = self._azimuths(event.number(0), elevation_deg)
+        if self._wavers(event):
+            angles_deg = (*angles_deg, *self._ends_near(angles_deg))
         before = self.axes["azimuth"].goals.get(event.who)
         if before and (event.number(0) > TURN_DEG or not angles_deg):
             angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
         self._aim(event, "azimuth", angles_deg)
+
+    def _wavers(self, event: Event) -> bool:
+        """Whether azimuth has lately been ordered elsewhere. Only a target that stays turns the antenna right round."""
+        latest_deg = event.number(0)
+        if self._azimuth_deg is not None and latest_deg != self._azimuth_deg:
+            self._changed_s = event.at_s
+        self._azimuth_deg = latest_deg
+        return event.at_s - self._changed_s < WAVERS_S
+
+    def _ends_near(self, angles_deg: tuple[float, ...]) -> tuple[float, ...]:
+        """The ends of the range that lie near these angles, seen round the circle."""
+        span = self._ranges["azimuth"]
+        beyond_deg = [angle_deg + turn_deg for angle_deg in angles_deg for turn_deg in (-TURN_DEG, TURN_DEG)]
+        low = any(0.0 < span.low_deg - angle_deg < WAVERS_DEG for angle_deg in beyond_deg)
+        high = any(0.0 < angle_deg - span.high_deg < WAVERS_DEG for angle_deg in beyond_deg)
+        return (span.low_deg,) * low + (span.high_deg,) * high
 
     def _azimuths(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, ...]:
         """Every axis angle that shows there, over the top too where it may be."""

@@ -72,7 +72,7 @@ class _Play:
         self._world = World(self._box.world, self._clock)
         self._troubles = Troubles(self._box.world, self._clock, drill.seed)
         self._cases = axis_cases(self._config, self._world.axes)
-        self._orders = build_orders(self._config, lacking=drill.commissioning)
+        self._orders = build_orders(self._config, self._world.axes, self._cases, lacking=drill.commissioning)
         has_master = self._config.rotor.switched and self._config.relays.master is not None
         self._judges = Judges(self._cases, self._orders, master=has_master)
         feels, counts = tuple(case.feels for case in self._cases), any(case.counts for case in self._cases)

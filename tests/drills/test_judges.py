@@ -16,10 +16,24 @@ STEP_S = 0.05
 class Mast:
     """Two motors of 6°/s on relays, range 0° to 360°, stops 2° beyond; azimuth is moved by hand."""
 
-    def __init__(self, *, master: bool = False, at_deg: float = 100.0) -> None:
+    def __init__(
+        self,
+        *,
+        master: bool = False,
+        at_deg: float = 100.0,
+        top_deg: float = 360.0,
+        lacking: str = "",
+        idle: bool = False,
+    ) -> None:
         self.azimuth = AxisTruth("azimuth", 6.0, 0.5, -2.0, 362.0, shaft_deg=at_deg, relayed=True)
         self.elevation = AxisTruth("elevation", 6.0, 0.5, -2.0, 182.0, relayed=True)
-        self.orders = Orders((Ranges(0.0, 360.0, False), Ranges(0.0, 180.0, False)), (0.0, 0.0))
+        self.orders = Orders(
+            (Ranges(0.0, top_deg, False), Ranges(0.0, 180.0, False)),
+            (0.0, 0.0),
+            lacking=lacking,
+            parks_idle=idle,
+            over_top=lambda: self.elevation.shaft_deg > 90.0,
+        )
         self.case = AxisCase(0.0, 360.0, 4.0)
         self.judges = Judges((self.case, AxisCase(0.0, 180.0, 4.0)), self.orders, master=master)
         self.now_s = 0.0
@@ -121,8 +135,7 @@ def test_away_from_the_target() -> None:
 
 
 def test_towards_the_other_turn_of_the_target_is_not_away() -> None:
-    mast = Mast()
-    mast.orders = mast.judges._orders = Orders((Ranges(0.0, 450.0, False), Ranges(0.0, 180.0, False)), (0.0, 0.0))
+    mast = Mast(top_deg=450.0)
     mast.order("rotctld", "aim", 20.0, 0.0)
     assert mast.run(10.0, coil=1) == []
 
@@ -168,3 +181,55 @@ def test_what_links_ordered_ends_when_no_stop_could_arrive_but_not_a_storm_park(
     mast.order("console", "storm")
     mast.orders.links_lost(mast.now_s)
     assert mast.orders.holds("azimuth")
+
+
+def test_a_relay_that_welds_at_a_stop_in_a_calibration_is_left_to_the_person_who_watches() -> None:
+    for at_deg, found in ((362.0, []), (300.0, [judges.BOTH_FED])):
+        mast = Mast(at_deg=at_deg, lacking="azimuth", master=True)
+        mast.azimuth.shorted_s = 0.001
+        assert mast.run(STEP_S) == found
+
+
+def test_presses_of_an_axis_that_was_never_set_up_count_each_for_itself() -> None:
+    mast = Mast(lacking="azimuth")
+    for _ in range(9):
+        mast.order("console", "jog", "cw", 2.0)
+        assert mast.run(1.9, coil=1, dps=0.0) == []
+        mast.run(1.0)
+    assert mast.run(2.5, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+
+
+def test_a_welded_motor_has_its_time_again_when_its_supply_comes_back() -> None:
+    mast = Mast(master=True)
+    for _ in range(3):
+        assert mast.run(1.9, coil=0, power=1) == []
+        mast.run(10.0)
+    assert mast.run(2.5, coil=0, power=1) == [judges.AFTER_STOP]
+
+
+def test_one_coordinate_alone_moves_both_axes_only_over_the_top() -> None:
+    for stands_deg, found in ((150.0, []), (60.0, [judges.NO_ORDER])):
+        mast = Mast()
+        mast.elevation.shaft_deg = stands_deg
+        mast.order("easycomm2", "aim-elevation", 26.0)
+        assert mast.run(3.0, coil=1) == found
+
+
+def test_a_target_that_wavers_across_the_end_is_met_at_that_end_and_any_other_is_not() -> None:
+    for before_deg, found in ((5.0, []), (200.0, []), (None, [judges.AWAY])):
+        mast = Mast(at_deg=60.0)
+        if before_deg is not None:
+            mast.order("rotctld", "aim", before_deg, 0.0)
+        mast.order("rotctld", "aim", 346.0, 0.0)
+        assert mast.run(4.0, coil=-1) == found
+    mast = Mast(at_deg=60.0)
+    mast.order("rotctld", "aim", 5.0, 0.0)
+    mast.order("rotctld", "aim", 200.0, 0.0)
+    assert mast.run(4.0, coil=-1) == [judges.AWAY]
+
+
+def test_an_idle_park_begins_after_any_order() -> None:
+    mast = Mast(idle=True)
+    mast.order("rotctld", "jog", "cw")
+    mast.order("rotctld", "leave")
+    assert mast.run(4.0, coil=-1) == []

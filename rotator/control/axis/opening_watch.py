@@ -49,7 +49,7 @@ BEYOND_DEG = 0.5
 """So far beyond its limit an axis may come to rest: its stop is a degree beyond the limit at least."""
 MOVED_DEG = 0.5
 """An axis this far, and four times the noise, from where it stood has been moved."""
-SURE_NOISES = 3.3
+COASTS_NOISES, COASTS_S = 5.0, 1.5
 """Two places that differ by so many times the noise are not the same: each is the mean of three readings."""
 SURE_ERRORS = 4.0
 """Two means of more readings are not the same place if they differ by so many standard errors."""
@@ -292,8 +292,13 @@ class OpeningWatch:
             self.ran_on = self._going >= RAN_ON_READINGS
 
     def _still_coasts(self, passed_s: float, gone_deg: float, line: Slope) -> bool:
-        """Whether the axis has fallen behind a motor with current, and yet goes on: a stop would have held it there."""
-        sure_deg = SURE_NOISES * self._seen.trend.noise_deg
+        """Whether the axis has fallen behind a motor with current, and yet goes on: a stop would have held it there.
+
+        Many readings are compared for it, so it takes more than for one; and none coasts for long.
+        """
+        if passed_s > COASTS_S:
+            return False
+        sure_deg = COASTS_NOISES * self._seen.trend.noise_deg
         if self._lagged_deg is None:
             behind_deg = abs(line.speed_dps) * passed_s - gone_deg
             if behind_deg > sure_deg + 3.0 * line.rough_dps * passed_s:
