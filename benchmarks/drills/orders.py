@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from benchmarks.drills.script import PANEL, PEOPLE, Event
 from benchmarks.drills.silenced import Silenced
+from benchmarks.drills.wavering import Wavering
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
@@ -39,6 +40,8 @@ class Goal:
     """One sender's order for one axis. `angles_deg` empty: anywhere. `way`: it jogs."""
 
     angles_deg: tuple[float, ...] = ()
+    ends_deg: tuple[float, ...] = ()
+    """The ends of the range where it may be waited for meanwhile."""
     way: int = 0
     said_s: float = 0.0
     until_s: float = math.inf
@@ -64,7 +67,10 @@ class AxisOrders:
 
 
 class Orders:
-    """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up."""
+    """Give it every event (`note`), and the time (`expire`).
+
+    `lacking`: the axis that was never set up. `confirms`: a person may tell the box where an axis stands.
+    """
 
     def __init__(
         self,
@@ -73,12 +79,14 @@ class Orders:
         *,
         lacking: str = "",
         parks_idle: bool = False,
+        confirms: bool = True,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
         self._ranges = dict(zip(AXES, ranges, strict=True))
         self._park_deg = dict(zip(AXES, park_deg, strict=True))
         self._lacking = lacking
         self._parks_idle = parks_idle
+        self._confirms = confirms
         self.latched = False
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
@@ -88,6 +96,7 @@ class Orders:
         self._switch: tuple[str, float] | None = None
         self._mode = "auto"
         self._silenced = Silenced()
+        self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
         self.heard = 0
         """How many orders there have been."""
         self._storm = False
@@ -154,7 +163,9 @@ class Orders:
                 self._anywhere(event, event.text(0))
                 self.axes[event.text(0)].homes = True
             case "confirm":
-                self.axes[event.text(0)].forget(event.at_s)
+                # It has no effect in a storm park, while an axis homes, and where the sensor measures.
+                if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
+                    self.axes[event.text(0)].forget(event.at_s)
             case _:
                 self._note_order(event)
 
@@ -198,7 +209,7 @@ class Orders:
                     seconds = min(seconds, UNCALIBRATED_S)
                 if self._lacking:
                     seconds += PUT_OFF_S
-                self.axes[axis].goals[event.who] = Goal((), way, event.at_s, event.at_s + seconds)
+                self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=event.at_s + seconds)
             case "stop":
                 self._forget(event.at_s)
                 self.acknowledged_s = event.at_s
@@ -226,15 +237,16 @@ class Orders:
 
     def _forget(self, now_s: float) -> None:
         self._storm = False
+        self._wavering.forget()
         for axis, orders in self.axes.items():
             orders.forget(now_s)
             if self._parks_idle:
-                orders.goals["idle"] = Goal((self._park_deg[axis],), 0, now_s)
+                orders.goals["idle"] = Goal((self._park_deg[axis],), said_s=now_s)
 
     def _anywhere(self, event: Event, axis: str) -> None:
         self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)
 
-    def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...]) -> None:
+    def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...], ends_deg: tuple[float, ...] = ()) -> None:
         if axis == self._lacking:
             return
         goals, rate_dps = self.axes[axis].goals, 0.0
@@ -242,25 +254,25 @@ class Orders:
         if before and before.angles_deg and angles_deg and 0 < event.at_s - before.said_s < STREAM_S:
             nearest_deg = min(abs(angle - other) for angle in angles_deg for other in before.angles_deg)
             rate_dps = nearest_deg / (event.at_s - before.said_s)
-        goals[event.who] = Goal(angles_deg, 0, event.at_s, rate_dps=rate_dps)
+        goals[event.who] = Goal(angles_deg, ends_deg, said_s=event.at_s, rate_dps=rate_dps)
         if self._parks_idle:
-            goals.setdefault("idle", Goal((self._park_deg[axis],), 0, event.at_s))
+            goals.setdefault("idle", Goal((self._park_deg[axis],), said_s=event.at_s))
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
-        angles_deg = self._azimuths(event.number(0), elevation_deg)
+        turns_deg = self._turns(event.number(0), elevation_deg)
+        span, ends_deg = self._ranges["azimuth"], self._wavering.ends(event.at_s, turns_deg)
+        angles_deg = tuple(angle for angle in turns_deg if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
         before = self.axes["azimuth"].goals.get(event.who)
         if before and (event.number(0) > TURN_DEG or not angles_deg):
             angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
-        self._aim(event, "azimuth", angles_deg)
+        self._aim(event, "azimuth", angles_deg, ends_deg)
 
-    def _azimuths(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, ...]:
-        """Every axis angle that shows there, over the top too where it may be."""
-        span = self._ranges["azimuth"]
-        over = span.flips or elevation_deg > 90.0
+    def _turns(self, azimuth_deg: float, elevation_deg: float) -> list[float]:
+        """Every axis angle that shows there, on any turn, over the top too where it may be."""
+        over = self._ranges["azimuth"].flips or elevation_deg > 90.0
         bases = (azimuth_deg, azimuth_deg + 180.0) if over else (azimuth_deg,)
-        turns = [base % 360.0 + 360.0 * turn for base in bases for turn in range(-2, 3)]
-        return tuple(angle for angle in turns if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
+        return [base % TURN_DEG + TURN_DEG * turn for base in bases for turn in range(-2, 3)]
 
     def _elevations(self, elevation_deg: float) -> tuple[float, ...]:
         span = self._ranges["elevation"]

@@ -70,6 +70,7 @@ def build_orders(config: Config, *, lacking: str) -> Orders:
         (park_deg[0] + shift.azimuth_deg, park_deg[1] + shift.elevation_deg),
         lacking=lacking,
         parks_idle=config.mount.park_after_s > 0,
+        confirms=config.kind.confirmable or config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
     )
 
 
