@@ -117,7 +117,7 @@ class Judges:
         if self._orders.acknowledged_s != self._acknowledged_s:
             self._acknowledged_s = self._orders.acknowledged_s
             for case in self.cases:
-                case.beyond_s = 0.0
+                case.beyond_s = case.standing_s = 0.0  # the next order is another try, also where current flows on
         if self._orders.released_s != self._released_s:
             self._released_s = self._orders.released_s
             for case in self.cases:
@@ -205,7 +205,8 @@ class Judges:
     def _nearing(goal: Goal, here_deg: float, truth: AxisTruth, case: AxisCase) -> bool:
         """Whether it goes towards one of the goal's angles, or is about there. A stream is led by a few seconds."""
         slack_deg = 2.0 * case.tolerance_deg + case.slack_deg + STREAM_LEAD_S * goal.rate_dps
-        return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in goal.angles_deg)
+        places_deg = (*goal.angles_deg, *goal.ends_deg)
+        return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in places_deg)
 
     def _standing(self, truth: AxisTruth, case: AxisCase) -> None:
         if not case.feels or not truth.stands:

@@ -12,19 +12,18 @@ from dataclasses import dataclass, field
 
 from benchmarks.drills.script import PANEL, PEOPLE, Event
 from benchmarks.drills.silenced import Silenced
+from benchmarks.drills.wavering import Wavering
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
 TURN_DEG = 360.0
 UNCALIBRATED_S = 2.0
+"""A press of an axis that was never set up."""
 PUT_OFF_S = 6.0
 """Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
-"""A press of an axis that was never set up."""
 SWITCH_S = 1.3
 """A mode switch acts when it has stood still for a second, at the next cycle."""
 ZENITH_DEG = 90.0
-WAVERS_S, WAVERS_DEG = 120.0, 90.0
-"""A target that has changed so lately, and now lies no further beyond an end of the range, may be met at that end."""
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -43,6 +42,8 @@ class Goal:
     """One sender's order for one axis. `angles_deg` empty: anywhere. `way`: it jogs."""
 
     angles_deg: tuple[float, ...] = ()
+    ends_deg: tuple[float, ...] = ()
+    """The ends of the range where it may be waited for meanwhile."""
     way: int = 0
     said_s: float = 0.0
     until_s: float = math.inf
@@ -70,7 +71,8 @@ class AxisOrders:
 class Orders:
     """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
 
-    `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes.
+    `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes. `confirms`: a person
+    may tell the box where an axis stands.
     """
 
     def __init__(
@@ -81,6 +83,7 @@ class Orders:
         lacking: str = "",
         parks_idle: bool = False,
         over_top: Callable[[], bool] = lambda: False,
+        confirms: bool = True,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
         self._ranges = dict(zip(AXES, ranges, strict=True))
@@ -88,10 +91,7 @@ class Orders:
         self.lacking = lacking
         self._parks_idle = parks_idle
         self._over_top = over_top
-        self._azimuth_deg: float | None = None
-        """The latest azimuth that was ordered."""
-        self._changed_s = -math.inf
-        """When that azimuth was last another one than before."""
+        self._confirms = confirms
         self.latched = False
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
@@ -101,6 +101,7 @@ class Orders:
         self._switch: tuple[str, float] | None = None
         self._mode = "auto"
         self._silenced = Silenced()
+        self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
         self.heard = 0
         """How many orders there have been."""
         self._storm = False
@@ -159,7 +160,7 @@ class Orders:
         """Once there has been an order, a box that parks when it is idle may do so."""
         if self._parks_idle:
             for axis, orders in self.axes.items():
-                orders.goals.setdefault("idle", Goal((self._park_deg[axis],), 0, now_s))
+                orders.goals.setdefault("idle", Goal((self._park_deg[axis],), said_s=now_s))
 
     def _note_person(self, event: Event) -> None:
         match event.what:
@@ -179,7 +180,9 @@ class Orders:
                 self._anywhere(event, event.text(0))
                 self.axes[event.text(0)].homes = True
             case "confirm":
-                self.axes[event.text(0)].forget(event.at_s)
+                # It has no effect in a storm park, while an axis homes, and where the sensor measures.
+                if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
+                    self.axes[event.text(0)].forget(event.at_s)
             case _:
                 self._note_order(event)
 
@@ -227,7 +230,7 @@ class Orders:
                     seconds = min(seconds, UNCALIBRATED_S)
                 if self.lacking:
                     seconds += PUT_OFF_S
-                self.axes[axis].goals[event.who] = Goal((), way, event.at_s, event.at_s + seconds)
+                self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=event.at_s + seconds)
             case "stop":
                 self._forget(event.at_s)
                 self.acknowledged_s = event.at_s
@@ -255,6 +258,7 @@ class Orders:
 
     def _forget(self, now_s: float) -> None:
         self._storm = False
+        self._wavering.forget()
         for orders in self.axes.values():
             orders.forget(now_s)
         self._may_idle(now_s)
@@ -262,7 +266,7 @@ class Orders:
     def _anywhere(self, event: Event, axis: str) -> None:
         self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)
 
-    def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...]) -> None:
+    def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...], ends_deg: tuple[float, ...] = ()) -> None:
         if axis == self.lacking:
             return
         goals, rate_dps = self.axes[axis].goals, 0.0
@@ -270,7 +274,7 @@ class Orders:
         if before and before.angles_deg and angles_deg and 0 < event.at_s - before.said_s < STREAM_S:
             nearest_deg = min(abs(angle - other) for angle in angles_deg for other in before.angles_deg)
             rate_dps = nearest_deg / (event.at_s - before.said_s)
-        goals[event.who] = Goal(angles_deg, 0, event.at_s, rate_dps=rate_dps)
+        goals[event.who] = Goal(angles_deg, ends_deg, said_s=event.at_s, rate_dps=rate_dps)
 
     @property
     def _shows_over_top(self) -> bool:
@@ -280,37 +284,19 @@ class Orders:
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
-        angles_deg = self._azimuths(event.number(0), elevation_deg)
-        if self._wavers(event):
-            angles_deg = (*angles_deg, *self._ends_near(angles_deg))
+        turns_deg = self._turns(event.number(0), elevation_deg)
+        span, ends_deg = self._ranges["azimuth"], self._wavering.ends(event.at_s, turns_deg)
+        angles_deg = tuple(angle for angle in turns_deg if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
         before = self.axes["azimuth"].goals.get(event.who)
         if before and (event.number(0) > TURN_DEG or not angles_deg):
             angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
-        self._aim(event, "azimuth", angles_deg)
+        self._aim(event, "azimuth", angles_deg, ends_deg)
 
-    def _wavers(self, event: Event) -> bool:
-        """Whether azimuth has lately been ordered elsewhere. Only a target that stays turns the antenna right round."""
-        latest_deg = event.number(0)
-        if self._azimuth_deg is not None and latest_deg != self._azimuth_deg:
-            self._changed_s = event.at_s
-        self._azimuth_deg = latest_deg
-        return event.at_s - self._changed_s < WAVERS_S
-
-    def _ends_near(self, angles_deg: tuple[float, ...]) -> tuple[float, ...]:
-        """The ends of the range that lie near these angles, seen round the circle."""
-        span = self._ranges["azimuth"]
-        beyond_deg = [angle_deg + turn_deg for angle_deg in angles_deg for turn_deg in (-TURN_DEG, TURN_DEG)]
-        low = any(0.0 < span.low_deg - angle_deg < WAVERS_DEG for angle_deg in beyond_deg)
-        high = any(0.0 < angle_deg - span.high_deg < WAVERS_DEG for angle_deg in beyond_deg)
-        return (span.low_deg,) * low + (span.high_deg,) * high
-
-    def _azimuths(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, ...]:
-        """Every axis angle that shows there, over the top too where it may be."""
-        span = self._ranges["azimuth"]
-        over = span.flips or elevation_deg > 90.0
+    def _turns(self, azimuth_deg: float, elevation_deg: float) -> list[float]:
+        """Every axis angle that shows there, on any turn, over the top too where it may be."""
+        over = self._ranges["azimuth"].flips or elevation_deg > 90.0
         bases = (azimuth_deg, azimuth_deg + 180.0) if over else (azimuth_deg,)
-        turns = [base % 360.0 + 360.0 * turn for base in bases for turn in range(-2, 3)]
-        return tuple(angle for angle in turns if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
+        return [base % TURN_DEG + TURN_DEG * turn for base in bases for turn in range(-2, 3)]
 
     def _elevations(self, elevation_deg: float) -> tuple[float, ...]:
         span = self._ranges["elevation"]

@@ -140,6 +140,21 @@ def test_towards_the_other_turn_of_the_target_is_not_away() -> None:
     assert mast.run(10.0, coil=1) == []
 
 
+@pytest.mark.parametrize(("wavered", "found"), [(0, [judges.AWAY]), (1, [])])
+def test_to_the_end_of_the_range_where_a_target_beyond_it_is_waited_for(wavered: int, found: list[str]) -> None:
+    mast = Mast(at_deg=300.0)
+    for azimuth_deg in (350.0, 20.0) * (1 + wavered):
+        mast.order("rotctld", "aim", azimuth_deg, 0.0)
+    assert mast.run(4.0, coil=1) == found
+
+
+def test_another_target_is_not_waited_for() -> None:
+    mast = Mast(at_deg=300.0)
+    for azimuth_deg in (350.0, 20.0, 350.0, 200.0):
+        mast.order("rotctld", "aim", azimuth_deg, 0.0)
+    assert mast.run(4.0, coil=1) == [judges.AWAY]
+
+
 def test_driven_before_any_order() -> None:
     assert Mast().run(0.6, coil=1) == [judges.NO_ORDER]
 
@@ -153,6 +168,16 @@ def test_current_in_a_motor_that_stands() -> None:
     mast.order("rotctld", "aim", 200.0, 0.0)
     assert mast.run(2.0, coil=1, dps=0.0) == []
     assert mast.run(0.3, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+
+
+def test_an_order_after_a_stop_is_another_try_though_the_current_never_ends() -> None:
+    mast = Mast()
+    for _ in range(3):
+        mast.order("rotctld", "aim", 200.0, 0.0)
+        assert mast.run(1.9, coil=1, dps=0.0) == []
+        mast.order("rotctld", "stop")
+    mast.order("rotctld", "aim", 200.0, 0.0)
+    assert mast.run(0.6, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
 
 
 def test_four_tries_in_ten_minutes() -> None:
@@ -215,17 +240,12 @@ def test_one_coordinate_alone_moves_both_axes_only_over_the_top() -> None:
         assert mast.run(3.0, coil=1) == found
 
 
-def test_a_target_that_wavers_across_the_end_is_met_at_that_end_and_any_other_is_not() -> None:
-    for before_deg, found in ((5.0, []), (200.0, []), (None, [judges.AWAY])):
+def test_a_target_that_wavers_across_the_end_is_waited_for_there_after_its_first_swing() -> None:
+    for before_deg, found in (((), [judges.AWAY]), ((346.0, 5.0), []), ((200.0, 5.0), [judges.AWAY])):
         mast = Mast(at_deg=60.0)
-        if before_deg is not None:
-            mast.order("rotctld", "aim", before_deg, 0.0)
-        mast.order("rotctld", "aim", 346.0, 0.0)
+        for azimuth_deg in (5.0, *before_deg, 346.0):
+            mast.order("rotctld", "aim", azimuth_deg, 0.0)
         assert mast.run(4.0, coil=-1) == found
-    mast = Mast(at_deg=60.0)
-    mast.order("rotctld", "aim", 5.0, 0.0)
-    mast.order("rotctld", "aim", 200.0, 0.0)
-    assert mast.run(4.0, coil=-1) == [judges.AWAY]
 
 
 def test_an_idle_park_begins_after_any_order() -> None:
@@ -233,3 +253,19 @@ def test_an_idle_park_begins_after_any_order() -> None:
     mast.order("rotctld", "jog", "cw")
     mast.order("rotctld", "leave")
     assert mast.run(4.0, coil=-1) == []
+
+
+@pytest.mark.parametrize(("before", "holds"), [("storm", True), ("home", True), ("aim", False)])
+def test_a_person_who_gives_an_angle_ends_an_aim_but_neither_a_storm_park_nor_a_homing(
+    before: str, holds: bool
+) -> None:
+    mast = Mast()
+    match before:
+        case "aim":
+            mast.order("console", before, 200.0, 0.0)
+        case "home":
+            mast.order("console", before, "azimuth")
+        case _:
+            mast.order("console", before)
+    mast.order("console", "confirm", "azimuth", 0.0)
+    assert mast.orders.holds("azimuth") is holds
