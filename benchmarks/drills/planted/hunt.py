@@ -20,6 +20,7 @@ from typing import Any
 
 from benchmarks.drills.judges import TABLE
 from benchmarks.drills.planted.patch import FOLDER, Bug, plant
+from benchmarks.drills.script import Drill
 
 ROOT = Path(__file__).parents[3]
 PACKAGES = ("rotator", "hw", "firmware_sim", "benchmarks")
@@ -62,8 +63,12 @@ def copied(root: Path = ROOT) -> Iterator[Path]:
 
 
 def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> Hunt:
-    """`sound`: a tree without the bug. Raises CampaignError, Misfit."""
+    """`sound`: a tree without the bug. `kind`: of the rotor; empty: the one of the bug's own script.
+
+    Raises CampaignError, Misfit.
+    """
     played_h, also_without = 0.0, 0
+    kind = kind or Drill.from_json(_script(bug)).kind
     with copied(sound) as tree:
         plant(bug, tree)
         while played_h < hours:
@@ -82,16 +87,19 @@ def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> H
 
 def scripted(bug: Bug, sound: Path) -> str:
     """What the bug's own script shows with it, and does not show without it; empty: nothing. Raises CampaignError."""
-    script = (FOLDER / f"{bug.name}.json").read_text(encoding="utf-8")
+    script = _script(bug)
     with copied(sound) as tree:
         plant(bug, tree)
         shown = _replay(tree, script)
     return "" if _replay(sound, script) else shown
 
 
+def _script(bug: Bug) -> str:
+    return (FOLDER / f"{bug.name}.json").read_text(encoding="utf-8")
+
+
 def _campaign(tree: Path, arguments: list[str], kind: str) -> dict[str, Any]:
-    kinds = ["--kind", kind] if kind else []
-    result = _run(tree, [*arguments, *kinds, "--json"])
+    result = _run(tree, [*arguments, "--kind", kind, "--json"])
     try:
         content: dict[str, Any] = json.loads(result.stdout)
     except ValueError as fault:
