@@ -136,6 +136,7 @@ class Judges:
                 case.rest(at_stop=False)
                 continue
             orders = self._orders.axes[truth.name]
+            orders.turned(now_s, truth.coil, self._past_s)
             self._unordered(truth, case)
             self._standing(truth, case)
             if not orders.homes:  # a person watches it touch its stop

@@ -16,9 +16,9 @@ AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
 TURN_DEG = 360.0
 UNCALIBRATED_S = 2.0
+"""A press of an axis that was never set up."""
 PUT_OFF_S = 6.0
 """Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
-"""A press of an axis that was never set up."""
 SWITCH_S = 1.3
 """A mode switch acts when it has stood still for a second, at the next cycle."""
 STREAM_S = 12.0
@@ -42,6 +42,8 @@ class Goal:
     way: int = 0
     said_s: float = 0.0
     until_s: float = math.inf
+    turns_s: float = math.inf
+    """For so long more it may turn the motor, whenever it begins."""
     rate_dps: float = 0.0
 
 
@@ -57,6 +59,15 @@ class AxisOrders:
             self.ended_s = now_s
         self.goals.clear()
         self.homes = False
+
+    def turned(self, now_s: float, way: int, past_s: float) -> None:
+        """The box has fed the motor this way for so long."""
+        for goal in self.goals.values():
+            if goal.way == way:
+                goal.turns_s -= past_s
+                if goal.turns_s <= 0.0:
+                    goal.until_s = min(goal.until_s, now_s)
+        self.expire(now_s)
 
     def expire(self, now_s: float) -> None:
         for sender in [sender for sender, goal in self.goals.items() if goal.until_s <= now_s]:
@@ -196,9 +207,8 @@ class Orders:
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
                 if axis == self._lacking:
                     seconds = min(seconds, UNCALIBRATED_S)
-                if self._lacking:
-                    seconds += PUT_OFF_S
-                self.axes[axis].goals[event.who] = Goal((), way, event.at_s, event.at_s + seconds)
+                until_s = event.at_s + seconds + (PUT_OFF_S if self._lacking else 0.0)
+                self.axes[axis].goals[event.who] = Goal((), way, event.at_s, until_s, turns_s=seconds)
             case "stop":
                 self._forget(event.at_s)
                 self.acknowledged_s = event.at_s
