@@ -128,12 +128,10 @@ class Judges:
                 if self._master or not (self._orders.axes[truth.name].homes and truth.at_stop):
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
-            if not truth.power:
+            if truth.power:
+                self._welded(truth, case)
+            if not (truth.power and truth.coil):
                 case.rest(at_stop=truth.at_stop != 0)
-                continue
-            self._welded(truth, case)
-            if not truth.coil:
-                case.rest(at_stop=False)
                 continue
             orders = self._orders.axes[truth.name]
             orders.turned(now_s, truth.coil, self._past_s)

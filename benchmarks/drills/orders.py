@@ -19,8 +19,12 @@ UNCALIBRATED_S = 2.0
 """A press of an axis that was never set up."""
 PUT_OFF_S = 6.0
 """Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
-SWITCH_S = 1.3
+SWITCH_S, SWITCHES_AT_MOST_S = 1.0, 1.3
 """A mode switch acts when it has stood still for a second, at the next cycle."""
+NO_TURN_S = 0.4
+"""Between two looks further apart the program had no turn."""
+PANEL_S = 0.2
+"""A jog switch is read twice before it counts, and once when it is let go."""
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -54,11 +58,11 @@ class AxisOrders:
     ended_s: float | None = None
     """When the last order ended; None: there has been none."""
 
-    def forget(self, now_s: float) -> None:
-        if self.goals:
+    def forget(self, now_s: float, said_before_s: float = math.inf) -> None:
+        kept = {sender: goal for sender, goal in self.goals.items() if goal.said_s >= said_before_s}
+        if len(kept) < len(self.goals):
             self.ended_s = now_s
-        self.goals.clear()
-        self.homes = False
+        self.goals, self.homes = kept, self.homes and bool(kept)
 
     def turned(self, now_s: float, way: int, past_s: float) -> None:
         """The box has fed the motor this way for so long."""
@@ -96,8 +100,14 @@ class Orders:
         """When anybody last stopped both axes, or a person let it go: faults are acknowledged."""
         self.released_s = 0.0
         """When a person last let it go, or began the program anew."""
-        self._switch: tuple[str, float] | None = None
+        self._switch: tuple[str, float, float] | None = None
+        """The panel's mode switch was turned to this mode, when, and when that has surely had its effect."""
         self._mode = "auto"
+        self._pressed = False
+        """The panel's stop button is."""
+        self._pulled_s = -math.inf
+        """When it was last let go."""
+        self._looked_s = 0.0
         self._silenced = Silenced()
         self.heard = 0
         """How many orders there have been."""
@@ -130,13 +140,28 @@ class Orders:
         return {sender for orders in self.axes.values() for sender in orders.goals}
 
     def expire(self, now_s: float) -> None:
+        past_s, self._looked_s = now_s - self._looked_s, now_s
         for orders in self.axes.values():
             orders.expire(now_s)
-        if self._switch is not None and now_s >= self._switch[1]:
-            before, self._mode, self._switch = self._mode, self._switch[0], None
-            if self._mode != before:
-                self._forget(now_s)
-                self._silenced.forget()
+        if self._pressed and not self.latched:
+            self._forget(now_s)
+            self.latched = True
+        if self._switch is not None:
+            mode, turned_s, due_s = self._switch
+            if past_s > NO_TURN_S:
+                self._switch = mode, turned_s, due_s + past_s
+            elif now_s >= due_s:
+                self._switch = None
+                self._switched(now_s, mode, turned_s)
+
+    def _switched(self, now_s: float, mode: str, turned_s: float) -> None:
+        """The mode switch acts: a new mode ends the older orders, and any turn releases a stop."""
+        if mode != self._mode:
+            self._mode = mode
+            self._forget(now_s, turned_s + SWITCH_S)
+            self._silenced.forget()
+        if self._pulled_s <= turned_s:
+            self._release(now_s)
 
     def note(self, event: Event) -> None:
         self.heard += 1
@@ -167,20 +192,25 @@ class Orders:
             case "confirm":
                 self.axes[event.text(0)].forget(event.at_s)
             case _:
+                if event.what == "jog" and self._lacking:  # who sets the box up watches it touch its stops
+                    self.acknowledged_s = event.at_s
                 self._note_order(event)
 
     def _note_panel(self, event: Event) -> None:
         match event.what:
             case "mode":
-                self._switch = (event.text(0), event.at_s + SWITCH_S)
+                self._switch = event.text(0), event.at_s, event.at_s + SWITCHES_AT_MOST_S
             case "stop" if event.text(0) == "press":
-                self._forget(event.at_s)
-                self.latched = True
+                self._pressed = True
             case "stop":
-                self._release(event.at_s)
+                self._pressed, self._pulled_s = False, event.at_s
             case "knob":
                 self._anywhere(event, event.text(0))
-            case "jog":
+            case "jog" if self._mode == "jog" and self._switch is None:
+                axis, way = WAYS[event.text(0)]
+                until_s = event.at_s + event.number(1) + PANEL_S
+                self.axes[axis].goals[PANEL] = Goal((), way, event.at_s, until_s)
+            case "jog":  # it may shift the target in force
                 self._anywhere(event, WAYS[event.text(0)][0])
 
     def _note_order(self, event: Event) -> None:
@@ -224,7 +254,7 @@ class Orders:
                 self._left(event)
 
     def _release(self, now_s: float) -> None:
-        self.latched = False
+        self.latched = self._pressed
         self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
 
@@ -234,10 +264,10 @@ class Orders:
                 orders.goals[event.who].until_s = event.at_s
                 orders.expire(event.at_s)
 
-    def _forget(self, now_s: float) -> None:
+    def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
         self._storm = False
         for axis, orders in self.axes.items():
-            orders.forget(now_s)
+            orders.forget(now_s, said_before_s)
             if self._parks_idle:
                 orders.goals["idle"] = Goal((self._park_deg[axis],), 0, now_s)
 

@@ -97,8 +97,8 @@ def _hunt_all(chosen: list[Bug], *, hours: float, seed: int, kind: str, as_json:
         print(json.dumps([_content(each) for each in hunts], indent=1))
     else:
         print(f"{len(hunts) - len(missed)} of {len(hunts)} planted bugs found")
-        if also_without := sum(each.also_without for each in hunts):
-            print(f"not counted: {also_without} finds that show without the planted bug too")
+        if also_without := dict.fromkeys(drawn for each in hunts for drawn in each.also_without):
+            print(f"not counted, for they show without the planted bug too: {', '.join(also_without)}")
     return 1 if missed else 0
 
 

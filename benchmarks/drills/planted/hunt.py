@@ -45,8 +45,8 @@ class Hunt:
     hours: float
     """Simulated hours played in all."""
     find: Find | None
-    also_without: int
-    """Finds that show on the source without the bug too, and so do not count."""
+    also_without: tuple[str, ...]
+    """The drills of finds that show on the source without the bug too, and so do not count."""
 
 
 class CampaignError(Exception):
@@ -67,7 +67,8 @@ def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> H
 
     Raises CampaignError, Misfit.
     """
-    played_h, also_without = 0.0, 0
+    played_h = 0.0
+    also_without: list[str] = []
     kind = kind or Drill.from_json(_script(bug)).kind
     with copied(sound) as tree:
         plant(bug, tree)
@@ -75,14 +76,14 @@ def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> H
             result = _campaign(tree, ["--seed", str(seed), "--hours", f"{hours - played_h:g}", "--first"], kind)
             played_h += sum(float(tally["hours"]) for tally in result["kinds"].values())
             for found in result["found"]:
+                drawn_from = str(found["drawn_from"])
                 # An exception is no find: a planted bug moves a motor, it does not end the program.
                 if found["judge"] in TABLE and not _replay(sound, found["script"]):
-                    drawn_from = str(found["drawn_from"])
                     find = Find(found["judge"], drawn_from.partition("/")[2], played_h, found["measured"], drawn_from)
-                    return Hunt(bug, played_h, find, also_without)
-                also_without += 1
+                    return Hunt(bug, played_h, find, tuple(also_without))
+                also_without.append(drawn_from)
             seed += 1
-    return Hunt(bug, played_h, None, also_without)
+    return Hunt(bug, played_h, None, tuple(also_without))
 
 
 def scripted(bug: Bug, sound: Path) -> str:
