@@ -108,6 +108,8 @@ class Orders:
         self._pulled_s = -math.inf
         """When it was last let go."""
         self._looked_s = 0.0
+        self.joins = False
+        """An order for one axis may turn both: the boom is over the top, or a forbidden sector lies in the way."""
         self._silenced = Silenced()
         self.heard = 0
         """How many orders there have been."""
@@ -171,6 +173,9 @@ class Orders:
             self._note_person(event)
         else:
             self._note_order(event)
+        if self._parks_idle:
+            for axis, orders in self.axes.items():
+                orders.goals.setdefault("idle", Goal((self._park_deg[axis],), 0, event.at_s))
 
     def _note_person(self, event: Event) -> None:
         match event.what:
@@ -230,8 +235,12 @@ class Orders:
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
                 self._aim_azimuth(event, 0.0)
+                if self.joins:
+                    self._anywhere(event, "elevation")
             case "aim-elevation":
                 self._aim(event, "elevation", self._elevations(event.number(0)))
+                if self.joins:
+                    self._anywhere(event, "azimuth")
             case "jog":
                 axis, way = WAYS[event.text(0)]
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
@@ -283,8 +292,6 @@ class Orders:
             nearest_deg = min(abs(angle - other) for angle in angles_deg for other in before.angles_deg)
             rate_dps = nearest_deg / (event.at_s - before.said_s)
         goals[event.who] = Goal(angles_deg, 0, event.at_s, rate_dps=rate_dps)
-        if self._parks_idle:
-            goals.setdefault("idle", Goal((self._park_deg[axis],), 0, event.at_s))
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
