@@ -139,7 +139,7 @@ def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
         start_deg = (90.0, 90.0)
     if chance.random() < 0.25:
         _sector(chance, tables, start_deg, top_deg)
-    commissioning = chance.choice(BOTH) if rotor.kind in ("relay-pot", "relay-pulse") and chance.random() < 0.1 else ""
+    commissioning = chance.choice(BOTH) if rotor.kind in ("relay-pot", "relay-pulse") and chance.random() < 0.15 else ""
     return Mast(rotor, tables, start_deg, top_deg, speed_dps, has_panel, has_switches, has_pots, commissioning)
 
 

@@ -89,6 +89,11 @@ class AxisCase:
         self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
         self.away_s = self.idle_s = self.standing_s = 0.0
 
+    def press(self) -> None:
+        """Who sets the axis up watches it touch its stops: each press is a try of its own."""
+        self.beyond_s = self.standing_s = 0.0
+        self.tries_s.clear()
+
 
 class Judges:
     """Call `look` after every cycle."""
@@ -97,7 +102,7 @@ class Judges:
         self.cases = cases
         self._orders = orders
         self._master = master
-        self._acknowledged_s = self._released_s = 0.0
+        self._acknowledged_s = self._released_s = self._pressed_s = 0.0
         self._now_s = self._past_s = 0.0
         self.unattended_s = math.inf
         """Since when the control thread gets no turn, or the program is dead."""
@@ -122,7 +127,10 @@ class Judges:
             self._released_s = self._orders.released_s
             for case in self.cases:
                 case.tries_s.clear()
+        pressed, self._pressed_s = self._orders.pressed_s != self._pressed_s, self._orders.pressed_s
         for truth, case in zip(axes, self.cases, strict=True):
+            if pressed and truth.name == self._orders.lacking:
+                case.press()
             if truth.shorted_s > case.shorted_s:
                 # Homing presses the axis against its stop: there nothing shows that the relay has opened.
                 if self._master or not (self._orders.axes[truth.name].homes and truth.at_stop):

@@ -92,7 +92,7 @@ class Orders:
         self.axes = {name: AxisOrders() for name in AXES}
         self._ranges = dict(zip(AXES, ranges, strict=True))
         self._park_deg = dict(zip(AXES, park_deg, strict=True))
-        self._lacking = lacking
+        self.lacking = lacking
         self._parks_idle = parks_idle
         self.latched = False
         """A person has stopped it, and has not let it go."""
@@ -100,6 +100,8 @@ class Orders:
         """When anybody last stopped both axes, or a person let it go: faults are acknowledged."""
         self.released_s = 0.0
         """When a person last let it go, or began the program anew."""
+        self.pressed_s = 0.0
+        """When a person last pressed the axis that was never set up, and watched it."""
         self._switch: tuple[str, float, float] | None = None
         """The panel's mode switch was turned to this mode, when, and when that has surely had its effect."""
         self._mode = "auto"
@@ -197,8 +199,8 @@ class Orders:
             case "confirm":
                 self.axes[event.text(0)].forget(event.at_s)
             case _:
-                if event.what == "jog" and self._lacking:  # who sets the box up watches it touch its stops
-                    self.acknowledged_s = event.at_s
+                if event.what == "jog" and WAYS[event.text(0)][0] == self.lacking:
+                    self.pressed_s = event.at_s
                 self._note_order(event)
 
     def _note_panel(self, event: Event) -> None:
@@ -244,9 +246,9 @@ class Orders:
             case "jog":
                 axis, way = WAYS[event.text(0)]
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
-                if axis == self._lacking:
+                if axis == self.lacking:
                     seconds = min(seconds, UNCALIBRATED_S)
-                until_s = event.at_s + seconds + (PUT_OFF_S if self._lacking else 0.0)
+                until_s = event.at_s + seconds + (PUT_OFF_S if self.lacking else 0.0)
                 self.axes[axis].goals[event.who] = Goal((), way, event.at_s, until_s, turns_s=seconds)
             case "stop":
                 self._forget(event.at_s)
@@ -284,7 +286,7 @@ class Orders:
         self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)
 
     def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...]) -> None:
-        if axis == self._lacking:
+        if axis == self.lacking:
             return
         goals, rate_dps = self.axes[axis].goals, 0.0
         before = goals.get(event.who)

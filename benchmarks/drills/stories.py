@@ -119,13 +119,16 @@ class Story:
             self.ends_s += self._chance.choice((0.5, 2.0, 5.5))
 
     def _set_up(self) -> None:
-        """A person who sets an axis up drives it to its stop, presses again to be sure, and turns back at once."""
+        """Who sets an axis up drives it to its nearer stop, presses again to be sure, and turns back at once."""
         axis = BOTH.index(self._mast.commissioning)
-        there, back = WAYS[axis][self._way], WAYS[axis][1 - self._way]
-        self._press(there)
+        top_deg, start_deg = self._mast.top_deg[axis], self._mast.start_deg[axis]
+        there, back = WAYS[axis] if start_deg > top_deg / 2.0 else WAYS[axis][::-1]
+        for _ in range(self._chance.choice((1, 3, 12, 20))):
+            self._add(self._person, "jog", there, 2.0)
+            self.ends_s += 2.0
         self.ends_s += self._chance.choice((0.5, 12.0))
         self._add(self._person, "jog", there, 2.0)
-        self.ends_s += self._chance.choice((1.0, 2.5))
+        self.ends_s += self._chance.choice((0.3, 1.0))
         self._add(self._person, "jog", back, 2.0)
 
     def _move_at_panel(self, way: str) -> None:
@@ -232,7 +235,7 @@ def stories(chance: random.Random, mast: Mast, trouble: Trouble) -> tuple[list[E
     events: list[Event] = []
     at_s = chance.choice((0.2, 3.0))
     for axis in BOTH:
-        if mast.rotor.relays and chance.random() < 0.3:
+        if mast.rotor.relays and chance.random() < (0.6 if axis == mast.commissioning else 0.3):
             events.append(Event(0.0, WORLD, "sticks", (axis, round(chance.uniform(0.02, 0.15), 3))))
         if mast.rotor.kind == "relay-pulse" and chance.random() < 0.8:
             events.append(Event(0.1, chance.choice(PEOPLE), "confirm", (axis, 0.0)))
