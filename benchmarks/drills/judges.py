@@ -89,6 +89,11 @@ class AxisCase:
         self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
         self.away_s = self.idle_s = self.standing_s = 0.0
 
+    def press(self) -> None:
+        """Who sets the axis up watches it touch its stops: each press is a try of its own."""
+        self.beyond_s = self.standing_s = 0.0
+        self.tries_s.clear()
+
 
 class Judges:
     """Call `look` after every cycle."""
@@ -97,7 +102,7 @@ class Judges:
         self.cases = cases
         self._orders = orders
         self._master = master
-        self._acknowledged_s = self._released_s = 0.0
+        self._acknowledged_s = self._released_s = self._pressed_s = 0.0
         self._now_s = self._past_s = 0.0
         self.unattended_s = math.inf
         """Since when the control thread gets no turn, or the program is dead."""
@@ -122,22 +127,25 @@ class Judges:
             self._released_s = self._orders.released_s
             for case in self.cases:
                 case.tries_s.clear()
+        pressed, self._pressed_s = self._orders.pressed_s != self._pressed_s, self._orders.pressed_s
         for truth, case in zip(axes, self.cases, strict=True):
+            if pressed and truth.name == self._orders.lacking:
+                case.press()
             if truth.shorted_s > case.shorted_s:
                 # Where an axis is pressed against its stop, nothing shows that the relay has opened.
                 homes = self._orders.axes[truth.name].homes and not self._master
                 if not truth.at_stop or not (homes or self._orders.attended):
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
-            if not truth.power:
-                case.rest(at_stop=truth.at_stop != 0)
+            if truth.power:
+                self._welded(truth, case)
+            else:
                 case.welded_s = 0.0
-                continue
-            self._welded(truth, case)
-            if not truth.coil:
-                case.rest(at_stop=False)
+            if not (truth.power and truth.coil):
+                case.rest(at_stop=truth.at_stop != 0)
                 continue
             orders = self._orders.axes[truth.name]
+            orders.turned(now_s, truth.coil, self._past_s)
             self._unordered(truth, case)
             self._standing(truth, case)
             if not orders.homes:  # a person watches it touch its stop

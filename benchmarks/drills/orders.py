@@ -7,7 +7,6 @@ over counts as in force, and so does the older one that it may have kept. So a j
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from benchmarks.drills.script import PANEL, PEOPLE, Event
@@ -21,9 +20,13 @@ UNCALIBRATED_S = 2.0
 """A press of an axis that was never set up."""
 PUT_OFF_S = 6.0
 """Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
-SWITCH_S = 1.3
+SWITCH_S, SWITCHES_AT_MOST_S = 1.0, 1.3
 """A mode switch acts when it has stood still for a second, at the next cycle."""
 ZENITH_DEG = 90.0
+NO_TURN_S = 0.4
+"""Between two looks further apart the program had no turn."""
+PANEL_S = 0.2
+"""A jog switch is read twice before it counts, and once when it is let go."""
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -47,6 +50,8 @@ class Goal:
     way: int = 0
     said_s: float = 0.0
     until_s: float = math.inf
+    turns_s: float = math.inf
+    """For so long more it may turn the motor, whenever it begins."""
     rate_dps: float = 0.0
 
 
@@ -57,11 +62,20 @@ class AxisOrders:
     ended_s: float | None = None
     """When the last order ended; None: there has been none."""
 
-    def forget(self, now_s: float) -> None:
-        if self.goals:
+    def forget(self, now_s: float, said_before_s: float = math.inf) -> None:
+        kept = {sender: goal for sender, goal in self.goals.items() if goal.said_s >= said_before_s}
+        if len(kept) < len(self.goals):
             self.ended_s = now_s
-        self.goals.clear()
-        self.homes = False
+        self.goals, self.homes = kept, self.homes and bool(kept)
+
+    def turned(self, now_s: float, way: int, past_s: float) -> None:
+        """The box has fed the motor this way for so long."""
+        for goal in self.goals.values():
+            if goal.way == way:
+                goal.turns_s -= past_s
+                if goal.turns_s <= 0.0:
+                    goal.until_s = min(goal.until_s, now_s)
+        self.expire(now_s)
 
     def expire(self, now_s: float) -> None:
         for sender in [sender for sender, goal in self.goals.items() if goal.until_s <= now_s]:
@@ -71,8 +85,7 @@ class AxisOrders:
 class Orders:
     """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
 
-    `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes. `confirms`: a person
-    may tell the box where an axis stands.
+    `confirms`: a person may tell the box where an axis stands.
     """
 
     def __init__(
@@ -82,7 +95,6 @@ class Orders:
         *,
         lacking: str = "",
         parks_idle: bool = False,
-        over_top: Callable[[], bool] = lambda: False,
         confirms: bool = True,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
@@ -90,7 +102,6 @@ class Orders:
         self._park_deg = dict(zip(AXES, park_deg, strict=True))
         self.lacking = lacking
         self._parks_idle = parks_idle
-        self._over_top = over_top
         self._confirms = confirms
         self.latched = False
         """A person has stopped it, and has not let it go."""
@@ -98,8 +109,18 @@ class Orders:
         """When anybody last stopped both axes, or a person let it go: faults are acknowledged."""
         self.released_s = 0.0
         """When a person last let it go, or began the program anew."""
-        self._switch: tuple[str, float] | None = None
+        self.pressed_s = 0.0
+        """When a person last pressed the axis that was never set up, and watched it."""
+        self._switch: tuple[str, float, float] | None = None
+        """The panel's mode switch was turned to this mode, when, and when that has surely had its effect."""
         self._mode = "auto"
+        self._pressed = False
+        """The panel's stop button is."""
+        self._pulled_s = -math.inf
+        """When it was last let go."""
+        self._looked_s = 0.0
+        self.joins = False
+        """An order for one axis may turn both: the boom is over the top, or a forbidden sector lies in the way."""
         self._silenced = Silenced()
         self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
         self.heard = 0
@@ -138,13 +159,28 @@ class Orders:
         return {sender for orders in self.axes.values() for sender in orders.goals}
 
     def expire(self, now_s: float) -> None:
+        past_s, self._looked_s = now_s - self._looked_s, now_s
         for orders in self.axes.values():
             orders.expire(now_s)
-        if self._switch is not None and now_s >= self._switch[1]:
-            before, self._mode, self._switch = self._mode, self._switch[0], None
-            if self._mode != before:
-                self._forget(now_s)
-                self._silenced.forget()
+        if self._pressed and not self.latched:
+            self._forget(now_s)
+            self.latched = True
+        if self._switch is not None:
+            mode, turned_s, due_s = self._switch
+            if past_s > NO_TURN_S:
+                self._switch = mode, turned_s, due_s + past_s
+            elif now_s >= due_s:
+                self._switch = None
+                self._switched(now_s, mode, turned_s)
+
+    def _switched(self, now_s: float, mode: str, turned_s: float) -> None:
+        """The mode switch acts: a new mode ends the older orders, and any turn releases a stop."""
+        if mode != self._mode:
+            self._mode = mode
+            self._forget(now_s, turned_s + SWITCH_S)
+            self._silenced.forget()
+        if self._pulled_s <= turned_s:
+            self._release(now_s)
 
     def note(self, event: Event) -> None:
         self.heard += 1
@@ -184,20 +220,25 @@ class Orders:
                 if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
                     self.axes[event.text(0)].forget(event.at_s)
             case _:
+                if event.what == "jog" and WAYS[event.text(0)][0] == self.lacking:
+                    self.pressed_s = event.at_s
                 self._note_order(event)
 
     def _note_panel(self, event: Event) -> None:
         match event.what:
             case "mode":
-                self._switch = (event.text(0), event.at_s + SWITCH_S)
+                self._switch = event.text(0), event.at_s, event.at_s + SWITCHES_AT_MOST_S
             case "stop" if event.text(0) == "press":
-                self._forget(event.at_s)
-                self.latched = True
+                self._pressed = True
             case "stop":
-                self._release(event.at_s)
+                self._pressed, self._pulled_s = False, event.at_s
             case "knob":
                 self._anywhere(event, event.text(0))
-            case "jog":
+            case "jog" if self._mode == "jog" and self._switch is None:
+                axis, way = WAYS[event.text(0)]
+                until_s = event.at_s + event.number(1) + PANEL_S
+                self.axes[axis].goals[PANEL] = Goal(way=way, said_s=event.at_s, until_s=until_s)
+            case "jog":  # it may shift the target in force
                 self._anywhere(event, WAYS[event.text(0)][0])
 
     def _note_order(self, event: Event) -> None:
@@ -216,21 +257,22 @@ class Orders:
                 self._aim_azimuth(event, event.number(1))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
-                if self._shows_over_top:
-                    self._anywhere(event, "elevation")
                 self._aim_azimuth(event, 0.0)
+                if self._turns_both:
+                    self._anywhere(event, "elevation")
             case "aim-elevation":
-                if self._shows_over_top and event.number(0) <= ZENITH_DEG:
-                    self._anywhere(event, "azimuth")
+                turns_both = self._turns_both
                 self._aim(event, "elevation", self._elevations(event.number(0)))
+                if turns_both:
+                    self._anywhere(event, "azimuth")
             case "jog":
                 axis, way = WAYS[event.text(0)]
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
                 if axis == self.lacking:
                     seconds = min(seconds, UNCALIBRATED_S)
-                if self.lacking:
-                    seconds += PUT_OFF_S
-                self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=event.at_s + seconds)
+                until_s = event.at_s + seconds + (PUT_OFF_S if self.lacking else 0.0)
+                goal = Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds)
+                self.axes[axis].goals[event.who] = goal
             case "stop":
                 self._forget(event.at_s)
                 self.acknowledged_s = event.at_s
@@ -246,7 +288,7 @@ class Orders:
                 self._left(event)
 
     def _release(self, now_s: float) -> None:
-        self.latched = False
+        self.latched = self._pressed
         self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
 
@@ -256,11 +298,11 @@ class Orders:
                 orders.goals[event.who].until_s = event.at_s
                 orders.expire(event.at_s)
 
-    def _forget(self, now_s: float) -> None:
+    def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
         self._storm = False
         self._wavering.forget()
         for orders in self.axes.values():
-            orders.forget(now_s)
+            orders.forget(now_s, said_before_s)
         self._may_idle(now_s)
 
     def _anywhere(self, event: Event, axis: str) -> None:
@@ -277,10 +319,10 @@ class Orders:
         goals[event.who] = Goal(angles_deg, ends_deg, said_s=event.at_s, rate_dps=rate_dps)
 
     @property
-    def _shows_over_top(self) -> bool:
-        """Whether the antenna stands over the top, or may have to go there."""
+    def _turns_both(self) -> bool:
+        """Whether an order for one axis may turn both: now, or when the elevation ordered before is reached."""
         goals = self.axes["elevation"].goals.values()
-        return self._over_top() or any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
+        return self.joins or any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""

@@ -32,6 +32,10 @@ STEP_S = 0.05
 FAILS = "the program ends with an exception"
 STALLED_S = 1.0
 """Links whose event loop has stood still for longer have lost their orders."""
+OUTSIDE = ("zero", "full")
+"""What a bad reading shows that no sensor in order can show."""
+OVER_DEG = 88.0
+"""From here on up, as a sensor may read it, the boom may be over the top."""
 MOST_ACTS_S = 0.01
 """Orders that come faster than this are taken together, as by a thread that is woken."""
 
@@ -148,6 +152,8 @@ class _Play:
         self._troubles.look()
         self._world.look()
         self._orders.expire(now_s)
+        raised_deg = self._world.axes[1].shaft_deg + self._cases[1].shift_deg + self._cases[1].slack_deg
+        self._orders.joins = raised_deg > OVER_DEG or bool(self._sectors)
         self._judges.look(now_s, self._world.axes)
         self._judges.count(self._world.relay_starts)
         self._sectors.look(now_s, self._world.axes)
@@ -223,6 +229,12 @@ class _Play:
             self._silence.begin(f"{event.text(0)}-relay-welded", now_s)
         elif event.what == "unweld":
             self._silence.end(f"{event.text(0)}-relay-welded")
+        elif event.what in ("every", "stands"):
+            self._silence.end("every")
+            if event.what == "stands":
+                self._silence.end("pot-crackles")
+            elif self._config.rotor.type == "relay-pot" and event.number(1) and event.text(2) in OUTSIDE:
+                self._silence.begin(f"{event.text(0)}-every:{event.number(1):.0f}", now_s)
 
     def _be_late(self, event: Event) -> None:
         seconds = event.number(0)

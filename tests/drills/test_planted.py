@@ -55,13 +55,14 @@ def test_a_planted_bug_fits_the_source_and_comes_out_again(bug: Bug, tmp_path: P
 
 def test_there_are_planted_bugs_in_every_layer_that_moves_a_motor() -> None:
     rooms = {str(Path(path).parent) for bug in BUGS.values() for path in bug.paths}
-    assert len(BUGS) >= 22
+    assert len(BUGS) >= 34
     assert rooms >= {
         "hw/drives",
         "hw/moteus",
         "hw/sensors",
         "rotator/control",
         "rotator/control/axis",
+        "rotator/panel",
         "rotator/runtime",
     }
 
