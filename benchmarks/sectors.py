@@ -83,6 +83,7 @@ class World:
         self.world = self.station.world
         self._period_s = 1 / self.config.control.rate_hz
         self._next_s = self.clock()
+        self._connections = 1
         self.restart()
 
     def restart(self) -> None:
@@ -158,10 +159,12 @@ class World:
     def order(self, order: Order, by: Source = LINK) -> None:
         self.loop.post(by, order)
 
-    def reach(self, place: Place, by: Source = LINK) -> None:
+    def reach(self, place: Place) -> None:
         """Order a free place, and wait until the antenna stands there."""
         began_s, began = self.clock(), self.world.shafts()
-        self.order(Aim(*place, place=True), by)
+        # A link that lost the antenna to the panel counts again on a new connection.
+        self._connections += 1
+        self.order(Aim(*place, place=True), Source("gs232b", self._connections))
         slowest = min(self.paces.values())
         end_s = began_s + PATIENCE_S + 8.0 * self._straight_s(began, (720.0, 360.0)) / max(slowest, 0.3)
         while self.clock() < end_s and not self.outcome.inside:
