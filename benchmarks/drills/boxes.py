@@ -137,6 +137,8 @@ def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
                 tables[axis]["sensor"] = {"kind": "pot"}
     if rotor.kind == "servo":
         start_deg = (90.0, 90.0)
+    if rotor.kind == "moteus" and chance.random() < 0.8:
+        tables["control"] = {"rate_hz": 20}  # as every other kind; its own 50 Hz costs more than twice as much
     if chance.random() < 0.25:
         _sector(chance, tables, start_deg, top_deg)
     commissioning = chance.choice(BOTH) if rotor.kind in ("relay-pot", "relay-pulse") and chance.random() < 0.15 else ""

@@ -92,7 +92,6 @@ class AxisCase:
     def press(self) -> None:
         """Who sets the axis up watches it touch its stops: each press is a try of its own."""
         self.beyond_s = self.standing_s = 0.0
-        self.tries_s.clear()
 
 
 class Judges:
@@ -122,7 +121,7 @@ class Judges:
         if self._orders.acknowledged_s != self._acknowledged_s:
             self._acknowledged_s = self._orders.acknowledged_s
             for case in self.cases:
-                case.beyond_s = 0.0
+                case.beyond_s = case.standing_s = 0.0  # the next order is another try, also where current flows on
         if self._orders.released_s != self._released_s:
             self._released_s = self._orders.released_s
             for case in self.cases:
@@ -132,12 +131,12 @@ class Judges:
             if pressed and truth.name == self._orders.lacking:
                 case.press()
             if truth.shorted_s > case.shorted_s:
-                # Homing presses the axis against its stop: there nothing shows that the relay has opened.
-                if self._master or not (self._orders.axes[truth.name].homes and truth.at_stop):
+                # Where an axis is pressed against its stop, nothing shows that its relay has welded.
+                homes = self._orders.axes[truth.name].homes and not self._master
+                if not truth.welded or not truth.at_stop or not (homes or self._orders.attended):
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
-            if truth.power:
-                self._welded(truth, case)
+            self._welded(truth, case)
             if not (truth.power and truth.coil):
                 case.rest(at_stop=truth.at_stop != 0)
                 continue
@@ -177,7 +176,8 @@ class Judges:
             self._accuse(judge, truth, f"driven for {case.idle_s:.2f} s; its last order ended at {last_s:.2f} s")
 
     def _welded(self, truth: AxisTruth, case: AxisCase) -> None:
-        if truth.coil or not self._master or abs(truth.speed_dps) < GOING_SHARE * truth.full_dps:
+        turns = abs(truth.speed_dps) >= GOING_SHARE * truth.full_dps
+        if truth.coil or not truth.power or not self._master or not turns:
             case.welded_s = 0.0
             return
         case.welded_s += self._past_s
@@ -210,14 +210,16 @@ class Judges:
     def _nearing(goal: Goal, here_deg: float, truth: AxisTruth, case: AxisCase) -> bool:
         """Whether it goes towards one of the goal's angles, or is about there. A stream is led by a few seconds."""
         slack_deg = 2.0 * case.tolerance_deg + case.slack_deg + STREAM_LEAD_S * goal.rate_dps
-        return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in goal.angles_deg)
+        places_deg = (*goal.angles_deg, *goal.ends_deg)
+        return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in places_deg)
 
     def _standing(self, truth: AxisTruth, case: AxisCase) -> None:
         if not case.feels or not truth.stands:
             case.standing_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
-        if before_s <= START_S < case.standing_s and not case.counts:
+        pressed = truth.name == self._orders.lacking  # by a person who watches it: each press counts for itself
+        if before_s <= START_S < case.standing_s and not case.counts and not pressed:
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
                 case.tries_s.popleft()

@@ -7,10 +7,12 @@ over counts as in force, and so does the older one that it may have kept. So a j
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from benchmarks.drills.script import PANEL, PEOPLE, Event
 from benchmarks.drills.silenced import Silenced
+from benchmarks.drills.wavering import Wavering
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
@@ -25,6 +27,7 @@ NO_TURN_S = 0.4
 """Between two looks further apart the program had no turn."""
 PANEL_S = 0.2
 """A jog switch is read twice before it counts, and once when it is let go."""
+ZENITH_DEG = 90.0
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -43,6 +46,8 @@ class Goal:
     """One sender's order for one axis. `angles_deg` empty: anywhere. `way`: it jogs."""
 
     angles_deg: tuple[float, ...] = ()
+    ends_deg: tuple[float, ...] = ()
+    """The ends of the range where it may be waited for meanwhile."""
     way: int = 0
     said_s: float = 0.0
     until_s: float = math.inf
@@ -79,7 +84,11 @@ class AxisOrders:
 
 
 class Orders:
-    """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up."""
+    """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
+
+    `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes. `confirms`: a person
+    may tell the box where an axis stands.
+    """
 
     def __init__(
         self,
@@ -88,12 +97,16 @@ class Orders:
         *,
         lacking: str = "",
         parks_idle: bool = False,
+        over_top: Callable[[], bool] = lambda: False,
+        confirms: bool = True,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
         self._ranges = dict(zip(AXES, ranges, strict=True))
         self._park_deg = dict(zip(AXES, park_deg, strict=True))
         self.lacking = lacking
         self._parks_idle = parks_idle
+        self._over_top = over_top
+        self._confirms = confirms
         self.latched = False
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
@@ -110,12 +123,18 @@ class Orders:
         self._pulled_s = -math.inf
         """When it was last let go."""
         self._looked_s = 0.0
-        self.joins = False
-        """An order for one axis may turn both: the boom is over the top, or a forbidden sector lies in the way."""
+        self.goes_round = False
+        """Forbidden sectors lie in the way: an order for one axis may turn both."""
         self._silenced = Silenced()
+        self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
         self.heard = 0
         """How many orders there have been."""
         self._storm = False
+
+    @property
+    def attended(self) -> bool:
+        """A person sets the box up, and watches the antenna: a relay in doubt is only a note to that person."""
+        return bool(self.lacking)
 
     def holds(self, axis: str) -> bool:
         """Whether an order for this axis is in force."""
@@ -175,9 +194,13 @@ class Orders:
             self._note_person(event)
         else:
             self._note_order(event)
+        self._may_idle(event.at_s)
+
+    def _may_idle(self, now_s: float) -> None:
+        """Once there has been an order, a box that parks when it is idle may do so."""
         if self._parks_idle:
             for axis, orders in self.axes.items():
-                orders.goals.setdefault("idle", Goal((self._park_deg[axis],), 0, event.at_s))
+                orders.goals.setdefault("idle", Goal((self._park_deg[axis],), said_s=now_s))
 
     def _note_person(self, event: Event) -> None:
         match event.what:
@@ -197,7 +220,9 @@ class Orders:
                 self._anywhere(event, event.text(0))
                 self.axes[event.text(0)].homes = True
             case "confirm":
-                self.axes[event.text(0)].forget(event.at_s)
+                # It has no effect in a storm park, while an axis homes, and where the sensor measures.
+                if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
+                    self.axes[event.text(0)].forget(event.at_s)
             case _:
                 if event.what == "jog" and WAYS[event.text(0)][0] == self.lacking:
                     self.pressed_s = event.at_s
@@ -216,7 +241,7 @@ class Orders:
             case "jog" if self._mode == "jog" and self._switch is None:
                 axis, way = WAYS[event.text(0)]
                 until_s = event.at_s + event.number(1) + PANEL_S
-                self.axes[axis].goals[PANEL] = Goal((), way, event.at_s, until_s)
+                self.axes[axis].goals[PANEL] = Goal(way=way, said_s=event.at_s, until_s=until_s)
             case "jog":  # it may shift the target in force
                 self._anywhere(event, WAYS[event.text(0)][0])
 
@@ -236,20 +261,20 @@ class Orders:
                 self._aim_azimuth(event, event.number(1))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
-                self._aim_azimuth(event, 0.0)
-                if self.joins:
+                if self._shows_over_top or self.goes_round:
                     self._anywhere(event, "elevation")
+                self._aim_azimuth(event, 0.0)
             case "aim-elevation":
-                self._aim(event, "elevation", self._elevations(event.number(0)))
-                if self.joins:
+                if self.goes_round or (self._shows_over_top and event.number(0) <= ZENITH_DEG):
                     self._anywhere(event, "azimuth")
+                self._aim(event, "elevation", self._elevations(event.number(0)))
             case "jog":
                 axis, way = WAYS[event.text(0)]
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
                 if axis == self.lacking:
                     seconds = min(seconds, UNCALIBRATED_S)
                 until_s = event.at_s + seconds + (PUT_OFF_S if self.lacking else 0.0)
-                self.axes[axis].goals[event.who] = Goal((), way, event.at_s, until_s, turns_s=seconds)
+                self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds)
             case "stop":
                 self._forget(event.at_s)
                 self.acknowledged_s = event.at_s
@@ -277,15 +302,15 @@ class Orders:
 
     def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
         self._storm = False
-        for axis, orders in self.axes.items():
+        self._wavering.forget()
+        for orders in self.axes.values():
             orders.forget(now_s, said_before_s)
-            if self._parks_idle:
-                orders.goals["idle"] = Goal((self._park_deg[axis],), 0, now_s)
+        self._may_idle(now_s)
 
     def _anywhere(self, event: Event, axis: str) -> None:
         self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)
 
-    def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...]) -> None:
+    def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...], ends_deg: tuple[float, ...] = ()) -> None:
         if axis == self.lacking:
             return
         goals, rate_dps = self.axes[axis].goals, 0.0
@@ -293,23 +318,29 @@ class Orders:
         if before and before.angles_deg and angles_deg and 0 < event.at_s - before.said_s < STREAM_S:
             nearest_deg = min(abs(angle - other) for angle in angles_deg for other in before.angles_deg)
             rate_dps = nearest_deg / (event.at_s - before.said_s)
-        goals[event.who] = Goal(angles_deg, 0, event.at_s, rate_dps=rate_dps)
+        goals[event.who] = Goal(angles_deg, ends_deg, said_s=event.at_s, rate_dps=rate_dps)
+
+    @property
+    def _shows_over_top(self) -> bool:
+        """Whether the antenna stands over the top, or may have to go there."""
+        goals = self.axes["elevation"].goals.values()
+        return self._over_top() or any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
-        angles_deg = self._azimuths(event.number(0), elevation_deg)
+        turns_deg = self._turns(event.number(0), elevation_deg)
+        span, ends_deg = self._ranges["azimuth"], self._wavering.ends(event.at_s, turns_deg)
+        angles_deg = tuple(angle for angle in turns_deg if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
         before = self.axes["azimuth"].goals.get(event.who)
         if before and (event.number(0) > TURN_DEG or not angles_deg):
             angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
-        self._aim(event, "azimuth", angles_deg)
+        self._aim(event, "azimuth", angles_deg, ends_deg)
 
-    def _azimuths(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, ...]:
-        """Every axis angle that shows there, over the top too where it may be."""
-        span = self._ranges["azimuth"]
-        over = span.flips or elevation_deg > 90.0
+    def _turns(self, azimuth_deg: float, elevation_deg: float) -> list[float]:
+        """Every axis angle that shows there, on any turn, over the top too where it may be."""
+        over = self._ranges["azimuth"].flips or elevation_deg > 90.0
         bases = (azimuth_deg, azimuth_deg + 180.0) if over else (azimuth_deg,)
-        turns = [base % 360.0 + 360.0 * turn for base in bases for turn in range(-2, 3)]
-        return tuple(angle for angle in turns if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
+        return [base % TURN_DEG + TURN_DEG * turn for base in bases for turn in range(-2, 3)]
 
     def _elevations(self, elevation_deg: float) -> tuple[float, ...]:
         span = self._ranges["elevation"]

@@ -18,6 +18,8 @@ GAIN_RESTING = 0.03
 JUMP_DEG = 3.0
 """A reading this far from the model is a spark on the wire, unless it stays."""
 JUMP_READINGS = 3
+LAGS_READINGS, LAGS_DEG = 20, 0.3
+"""A model that has been behind by this much, on average over so many readings at full speed, is too slow."""
 SETTLE_S = 0.8
 """How long a motor takes to come to rest for certain; the readings after that show where it stopped."""
 LANDING_READINGS = 10
@@ -25,6 +27,7 @@ LEARN = 0.35
 """How far one run moves what has been learnt."""
 LEAST_RUN_DEG = 1.0
 """Shorter runs teach nothing: the noise of the readings is as large as they are."""
+NEARLY_FULL_SPEED = 0.98
 FULL_SPEED = 0.8
 """A run that got this near to full speed shows the whole coast."""
 
@@ -72,6 +75,8 @@ class Motion:
         self._run: _Run | None = None
         self._landing: _Landing | None = None
         self._strays: deque[tuple[float, float]] = deque(maxlen=JUMP_READINGS)
+        self._behind: deque[tuple[float, float]] = deque(maxlen=LAGS_READINGS)
+        """How far the readings of this run were ahead of the model, each with its moment."""
 
     @property
     def resting(self) -> bool:
@@ -83,6 +88,7 @@ class Motion:
             return
         self._advance(now_s)
         run, self._run = self._run, None
+        self._behind.clear()
         if direction is not Direction.OFF:
             self._run = _Run(direction, now_s, self.angle_deg if self._landing is None else None)
             self._landing = None
@@ -110,6 +116,7 @@ class Motion:
                 self._strays.clear()
             return
         self._strays.clear()
+        self._note_behind(at_s, stray_deg)
         self.angle_deg += (GAIN_RESTING if self.resting else GAIN_RUNNING) * stray_deg
         self._land(at_s, angle_deg)
 
@@ -149,6 +156,25 @@ class Motion:
         self.angle_deg += wanted_dps * passed_s + gap_dps * lag_s * (1 - fade)
         self._speed_dps = wanted_dps + gap_dps * fade
         self._at_s = now_s
+
+    def _note_behind(self, at_s: float, stray_deg: float) -> None:
+        """A motor faster than its model is ahead of it at every reading, and would be stopped too late."""
+        run, behind = self._run, self._behind
+        if run is None or abs(self._speed_dps) < NEARLY_FULL_SPEED * self.motors[run.direction].speed_dps:
+            return
+        behind.append((at_s, stray_deg * run.direction))
+        if len(behind) < LAGS_READINGS:
+            return
+        behind_deg = sum(each_deg for _, each_deg in behind) / LAGS_READINGS
+        if behind_deg <= LAGS_DEG:
+            return
+        motor, period_s = self.motors[run.direction], (at_s - behind[0][0]) / (LAGS_READINGS - 1)
+        speed_dps = motor.speed_dps + GAIN_RUNNING * behind_deg / period_s
+        self.motors[run.direction] = Motor(speed_dps, speed_dps * motor.lag_s)
+        self._speed_dps = speed_dps * run.direction
+        assert self.angle_deg is not None
+        self.angle_deg += (1.0 - GAIN_RUNNING) * behind_deg * run.direction
+        behind.clear()
 
     def _correct_speed(self) -> None:
         """A motor that leaves its model far behind is faster than was known: take the speed that is seen."""

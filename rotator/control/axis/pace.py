@@ -65,10 +65,13 @@ class Pace:
         span = self._braking_span(now_s)
         if not self._stops or self._modelled or self._place_deg is None:
             return span
-        angle_deg, near_deg = self._readings[-1][1], self._settings.near_deg
-        if self._place_deg > angle_deg:
-            return Range(span.min_deg, max(angle_deg, min(span.max_deg, self._place_deg + near_deg)))
-        return Range(min(angle_deg, max(span.min_deg, self._place_deg - near_deg)), span.max_deg)
+        angle_deg, near_deg, place_deg = self._readings[-1][1], self._settings.near_deg, self._place_deg
+        least_deg, most_deg = span.min_deg, span.max_deg
+        if place_deg >= angle_deg - near_deg:
+            most_deg = max(angle_deg, min(most_deg, place_deg + near_deg))
+        if place_deg <= angle_deg + near_deg:
+            least_deg = min(angle_deg, max(least_deg, place_deg - near_deg))
+        return Range(least_deg, most_deg)
 
     def _braking_span(self, now_s: float) -> Range:
         at_s, angle_deg = self._readings[-1]

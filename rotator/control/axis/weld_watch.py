@@ -21,6 +21,7 @@ TURNING_SHARE = 0.5
 """An axis faster than this share of its motor's speed is turned by its motor."""
 NOTICED_SHARE = 0.2
 """An axis slower than this share stands; one between the two is noticed."""
+CLEAR_ERRORS = 4.0
 STILL_FAST_S = 0.4
 NOTICED_FOR_S = 3.0
 """A notice stays this long after its cause, so that it can be read."""
@@ -74,7 +75,7 @@ class WeldWatch:
     def _turning(self, at_s: float) -> Fault | None:
         seen, motor_dps = self._seen, self._motor_dps
         limit_dps = (TURNING_SHARE if self._knows_speed else NOTICED_SHARE) * motor_dps
-        slope = seen.speed(at_s, TURNING, limit_dps / 6.0)
+        slope = seen.speed(at_s, TURNING, limit_dps / 6.0) or self._clearly(at_s)
         if slope is None:
             return None
         speed_dps = abs(slope.speed_dps)
@@ -90,6 +91,13 @@ class WeldWatch:
         if self._rested and not self._still_turns(at_s, way, limit_dps):
             return None
         return self._suspected(at_s, way, slope, limit_dps)
+
+    def _clearly(self, at_s: float) -> Slope | None:
+        """The speed of an axis that turns like its motor, where noise asks for a longer look at a slower one."""
+        slope = self._seen.speed(at_s, TURNING, math.inf)
+        if slope is None or abs(slope.speed_dps) - CLEAR_ERRORS * slope.rough_dps < TURNING_SHARE * self._motor_dps:
+            return None
+        return slope
 
     def _run_on(self) -> Fault | None:
         """It ran on, and stands now: at a stop, where the motor may still have current."""

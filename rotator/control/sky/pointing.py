@@ -181,6 +181,8 @@ class Pointing:
         if not swings:
             self._swings.forgo()
         wavers = abs(kept_deg - self._way.azimuth_deg) <= WAVERS_DEG
+        if self._way.flipped and not way.flipped and not self._mount.flip:
+            wavers = False  # over the top only for an order that names it
         return Way(kept_deg, self._way.flipped) if swings and wavers and not self._swings.may_begin(now_s) else way
 
     def _standing(self, now_s: float, *, settled: bool) -> Goals:

@@ -116,7 +116,7 @@ def test_a_right_model_learns_nothing_new(way: Direction) -> None:
 
 
 @BOTH_WAYS
-@pytest.mark.parametrize("real_dps", [4.5, 7.0])
+@pytest.mark.parametrize("real_dps", [4.5, 6.5])
 def test_from_run_to_run_it_learns_the_speed_of_that_direction_alone(way: Direction, real_dps: float) -> None:
     axis = Axis(real_dps, 0.2, motor())
     axis.run(way, 3.0)
@@ -126,6 +126,16 @@ def test_from_run_to_run_it_learns_the_speed_of_that_direction_alone(way: Direct
         axis.run(way, 3.0)
     assert axis.model.motors[way].speed_dps == pytest.approx(real_dps, rel=0.02)
     assert axis.model.motors[Direction(-way)] == motor()
+
+
+@BOTH_WAYS
+@pytest.mark.parametrize("real_dps", [7.5, 9.0])
+def test_a_motor_much_faster_than_known_shows_it_within_its_first_run(way: Direction, real_dps: float) -> None:
+    axis = Axis(real_dps, 0.2, motor())
+    axis.drive(way)
+    axis.turn(3.5)
+    assert axis.model.motors[way].speed_dps == pytest.approx(real_dps, rel=0.05)
+    assert axis.model.angle_at(axis.now_s) == pytest.approx(axis.angle_deg, abs=0.15)
 
 
 @BOTH_WAYS
