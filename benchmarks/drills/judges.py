@@ -92,7 +92,6 @@ class AxisCase:
     def press(self) -> None:
         """Who sets the axis up watches it touch its stops: each press is a try of its own."""
         self.beyond_s = self.standing_s = 0.0
-        self.tries_s.clear()
 
 
 class Judges:
@@ -132,15 +131,12 @@ class Judges:
             if pressed and truth.name == self._orders.lacking:
                 case.press()
             if truth.shorted_s > case.shorted_s:
-                # Where an axis is pressed against its stop, nothing shows that the relay has opened.
+                # Where an axis is pressed against its stop, nothing shows that its relay has welded.
                 homes = self._orders.axes[truth.name].homes and not self._master
-                if not truth.at_stop or not (homes or self._orders.attended):
+                if not truth.welded or not truth.at_stop or not (homes or self._orders.attended):
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
-            if truth.power:
-                self._welded(truth, case)
-            else:
-                case.welded_s = 0.0
+            self._welded(truth, case)
             if not (truth.power and truth.coil):
                 case.rest(at_stop=truth.at_stop != 0)
                 continue
@@ -180,7 +176,8 @@ class Judges:
             self._accuse(judge, truth, f"driven for {case.idle_s:.2f} s; its last order ended at {last_s:.2f} s")
 
     def _welded(self, truth: AxisTruth, case: AxisCase) -> None:
-        if truth.coil or not self._master or abs(truth.speed_dps) < GOING_SHARE * truth.full_dps:
+        turns = abs(truth.speed_dps) >= GOING_SHARE * truth.full_dps
+        if truth.coil or not truth.power or not self._master or not turns:
             case.welded_s = 0.0
             return
         case.welded_s += self._past_s

@@ -7,6 +7,7 @@ over counts as in force, and so does the older one that it may have kept. So a j
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from benchmarks.drills.script import PANEL, PEOPLE, Event
@@ -22,11 +23,11 @@ PUT_OFF_S = 6.0
 """Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
 SWITCH_S, SWITCHES_AT_MOST_S = 1.0, 1.3
 """A mode switch acts when it has stood still for a second, at the next cycle."""
-ZENITH_DEG = 90.0
 NO_TURN_S = 0.4
 """Between two looks further apart the program had no turn."""
 PANEL_S = 0.2
 """A jog switch is read twice before it counts, and once when it is let go."""
+ZENITH_DEG = 90.0
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -85,7 +86,8 @@ class AxisOrders:
 class Orders:
     """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
 
-    `confirms`: a person may tell the box where an axis stands.
+    `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes. `confirms`: a person
+    may tell the box where an axis stands.
     """
 
     def __init__(
@@ -95,6 +97,7 @@ class Orders:
         *,
         lacking: str = "",
         parks_idle: bool = False,
+        over_top: Callable[[], bool] = lambda: False,
         confirms: bool = True,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
@@ -102,6 +105,7 @@ class Orders:
         self._park_deg = dict(zip(AXES, park_deg, strict=True))
         self.lacking = lacking
         self._parks_idle = parks_idle
+        self._over_top = over_top
         self._confirms = confirms
         self.latched = False
         """A person has stopped it, and has not let it go."""
@@ -119,8 +123,8 @@ class Orders:
         self._pulled_s = -math.inf
         """When it was last let go."""
         self._looked_s = 0.0
-        self.joins = False
-        """An order for one axis may turn both: the boom is over the top, or a forbidden sector lies in the way."""
+        self.goes_round = False
+        """Forbidden sectors lie in the way: an order for one axis may turn both."""
         self._silenced = Silenced()
         self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
         self.heard = 0
@@ -257,22 +261,20 @@ class Orders:
                 self._aim_azimuth(event, event.number(1))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
-                self._aim_azimuth(event, 0.0)
-                if self._turns_both:
+                if self._shows_over_top or self.goes_round:
                     self._anywhere(event, "elevation")
+                self._aim_azimuth(event, 0.0)
             case "aim-elevation":
-                turns_both = self._turns_both
-                self._aim(event, "elevation", self._elevations(event.number(0)))
-                if turns_both:
+                if self.goes_round or (self._shows_over_top and event.number(0) <= ZENITH_DEG):
                     self._anywhere(event, "azimuth")
+                self._aim(event, "elevation", self._elevations(event.number(0)))
             case "jog":
                 axis, way = WAYS[event.text(0)]
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
                 if axis == self.lacking:
                     seconds = min(seconds, UNCALIBRATED_S)
                 until_s = event.at_s + seconds + (PUT_OFF_S if self.lacking else 0.0)
-                goal = Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds)
-                self.axes[axis].goals[event.who] = goal
+                self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds)
             case "stop":
                 self._forget(event.at_s)
                 self.acknowledged_s = event.at_s
@@ -319,10 +321,10 @@ class Orders:
         goals[event.who] = Goal(angles_deg, ends_deg, said_s=event.at_s, rate_dps=rate_dps)
 
     @property
-    def _turns_both(self) -> bool:
-        """Whether an order for one axis may turn both: now, or when the elevation ordered before is reached."""
+    def _shows_over_top(self) -> bool:
+        """Whether the antenna stands over the top, or may have to go there."""
         goals = self.axes["elevation"].goals.values()
-        return self.joins or any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
+        return self._over_top() or any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""

@@ -34,8 +34,6 @@ STALLED_S = 1.0
 """Links whose event loop has stood still for longer have lost their orders."""
 OUTSIDE = ("zero", "full")
 """What a bad reading shows that no sensor in order can show."""
-OVER_DEG = 88.0
-"""From here on up, as a sensor may read it, the boom may be over the top."""
 MOST_ACTS_S = 0.01
 """Orders that come faster than this are taken together, as by a thread that is woken."""
 
@@ -82,7 +80,7 @@ class _Play:
         feels, counts = tuple(case.feels for case in self._cases), any(case.counts for case in self._cases)
         self._silence = Silence(self._words, feels=(feels[0], feels[1]), counts=counts)
         self._sectors = Sectors(self._config, self._cases)
-        self._judges.goes_round = bool(self._sectors)
+        self._judges.goes_round = self._orders.goes_round = bool(self._sectors)
         self._period_s = 1 / self._config.control.rate_hz
         self._blind = False
         """The reading thread hangs."""
@@ -152,8 +150,6 @@ class _Play:
         self._troubles.look()
         self._world.look()
         self._orders.expire(now_s)
-        raised_deg = self._world.axes[1].shaft_deg + self._cases[1].shift_deg + self._cases[1].slack_deg
-        self._orders.joins = raised_deg > OVER_DEG or bool(self._sectors)
         self._judges.look(now_s, self._world.axes)
         self._judges.count(self._world.relay_starts)
         self._sectors.look(now_s, self._world.axes)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from benchmarks.drills.judges import COUNTED_PERIODS, TRY_S, AxisCase, Judges
-from benchmarks.drills.orders import Orders, Ranges
+from benchmarks.drills.orders import ZENITH_DEG, Orders, Ranges
 from benchmarks.drills.script import WORLD, Drill, Event
 from benchmarks.drills.world import AxisTruth
 from hw.ports import AngleSource, Axis
@@ -69,6 +69,7 @@ def build_orders(config: Config, truths: list[AxisTruth], cases: tuple[AxisCase,
         (ranges[0], ranges[1]),
         (park_deg[0] + shift.azimuth_deg, park_deg[1] + shift.elevation_deg),
         lacking=lacking,
+        over_top=lambda: truths[1].shaft_deg + shift.elevation_deg + cases[1].slack_deg > ZENITH_DEG,
         parks_idle=config.mount.park_after_s > 0,
         confirms=config.kind.confirmable or config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
     )

@@ -32,6 +32,7 @@ class Mast:
             (0.0, 0.0),
             lacking=lacking,
             parks_idle=idle,
+            over_top=lambda: self.elevation.shaft_deg > 90.0,
         )
         self.case = AxisCase(0.0, 360.0, 4.0)
         self.judges = Judges((self.case, AxisCase(0.0, 180.0, 4.0)), self.orders, master=master)
@@ -87,14 +88,6 @@ def test_a_contact_that_opens_a_moment_after_its_coil_does_not_end_the_sum_at_a_
     mast.run(STEP_S, coil=0, power=1)
     mast.run(5.0)
     assert mast.run(1.5, coil=1) == [judges.BEYOND]
-
-
-def test_who_sets_an_axis_up_may_press_it_into_its_stop_again_and_again() -> None:
-    mast = Mast(at_deg=362.0, lacking="azimuth")
-    for _ in range(5):
-        mast.order("console", "jog", "cw", 2.0)
-        assert mast.run(2.0, coil=1, dps=0.0) == []
-        mast.run(1.0)
 
 
 def test_a_press_of_an_axis_that_was_never_set_up_turns_it_two_seconds_in_all_however_late_it_begins() -> None:
@@ -154,11 +147,11 @@ def test_a_new_mode_ends_the_orders_before_it_and_none_after_it() -> None:
     assert mast.orders.holds("elevation")
 
 
-def test_an_order_for_azimuth_may_turn_both_axes_only_over_the_top_and_round_a_sector() -> None:
+def test_an_order_for_azimuth_may_turn_both_axes_round_a_sector() -> None:
     mast = Mast()
     mast.order("rotctld", "aim-azimuth", 200.0)
     assert not mast.orders.holds("elevation")
-    mast.orders.joins = True
+    mast.orders.goes_round = True
     mast.order("rotctld", "aim-azimuth", 200.0)
     assert mast.orders.holds("elevation")
 
@@ -294,7 +287,7 @@ def test_what_links_ordered_ends_when_no_stop_could_arrive_but_not_a_storm_park(
 def test_a_relay_that_welds_at_a_stop_in_a_calibration_is_left_to_the_person_who_watches() -> None:
     for at_deg, found in ((362.0, []), (300.0, [judges.BOTH_FED])):
         mast = Mast(at_deg=at_deg, lacking="azimuth", master=True)
-        mast.azimuth.shorted_s = 0.001
+        mast.azimuth.welded, mast.azimuth.shorted_s = True, 0.001
         assert mast.run(STEP_S) == found
 
 
@@ -304,7 +297,24 @@ def test_presses_of_an_axis_that_was_never_set_up_count_each_for_itself() -> Non
         mast.order("console", "jog", "cw", 2.0)
         assert mast.run(1.9, coil=1, dps=0.0) == []
         mast.run(1.0)
-    assert judges.STANDING_CURRENT in mast.run(2.5, coil=1, dps=0.0)
+    mast.order("console", "jog", "cw", 2.0)
+    assert mast.run(2.3, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+
+
+def test_who_sets_an_axis_up_may_press_it_into_its_stop_again_and_again() -> None:
+    mast = Mast(at_deg=361.0, lacking="azimuth")
+    mast.case.feels = False
+    for _ in range(5):
+        mast.order("console", "jog", "cw", 2.0)
+        assert mast.run(2.0, coil=1) == []
+        mast.run(1.0)
+
+
+def test_opposite_relays_that_meet_at_a_stop_are_excused_only_by_a_weld() -> None:
+    for welded, found in ((True, []), (False, [judges.BOTH_FED])):
+        mast = Mast(at_deg=362.0, lacking="azimuth")
+        mast.azimuth.welded, mast.azimuth.shorted_s = welded, 0.1
+        assert mast.run(STEP_S) == found
 
 
 def test_a_welded_motor_has_its_time_again_when_its_supply_comes_back() -> None:
@@ -318,7 +328,7 @@ def test_a_welded_motor_has_its_time_again_when_its_supply_comes_back() -> None:
 def test_one_coordinate_alone_moves_both_axes_only_over_the_top() -> None:
     for stands_deg, found in ((150.0, []), (60.0, [judges.NO_ORDER])):
         mast = Mast()
-        mast.orders.joins = stands_deg > 90.0
+        mast.elevation.shaft_deg = stands_deg
         mast.order("easycomm2", "aim-elevation", 26.0)
         assert mast.run(3.0, coil=1) == found
 
