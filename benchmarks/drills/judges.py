@@ -79,6 +79,8 @@ class AxisCase:
     welded_s: float = 0.0
     standing_s: float = 0.0
     shorted_s: float = 0.0
+    pressed_s: float = 0.0
+    """When an axis that was never set up was last pressed."""
     tries_s: deque[float] = field(default_factory=deque)
 
     def rest(self, *, at_stop: bool) -> None:
@@ -138,6 +140,8 @@ class Judges:
                 case.rest(at_stop=False)
                 continue
             orders = self._orders.axes[truth.name]
+            if truth.name == self._orders.lacking:
+                self._press(case, orders)
             self._unordered(truth, case)
             self._standing(truth, case)
             if not orders.homes:  # a person watches it touch its stop
@@ -156,6 +160,14 @@ class Judges:
             self._told.add((STARTS, "both axes"))
             measured = f"{more} in {CHATTER_S:g} s beyond those that orders ask for"
             self.found.append(Violation(self._now_s, STARTS, "both axes", measured))
+
+    @staticmethod
+    def _press(case: AxisCase, orders: AxisOrders) -> None:
+        """Of an axis that was never set up, whose angle is not known, each press counts for itself."""
+        pressed_s = max((goal.said_s for goal in orders.goals.values()), default=case.pressed_s)
+        if pressed_s != case.pressed_s:
+            case.pressed_s = pressed_s
+            case.beyond_s = case.standing_s = 0.0
 
     def _unordered(self, truth: AxisTruth, case: AxisCase) -> None:
         winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s)
@@ -212,8 +224,7 @@ class Judges:
             case.standing_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
-        pressed = truth.name == self._orders.lacking  # by a person who watches it: each press counts for itself
-        if before_s <= START_S < case.standing_s and not case.counts and not pressed:
+        if before_s <= START_S < case.standing_s and not case.counts and truth.name != self._orders.lacking:
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
                 case.tries_s.popleft()

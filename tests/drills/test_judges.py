@@ -195,7 +195,6 @@ def test_presses_of_an_axis_that_was_never_set_up_count_each_for_itself() -> Non
     for _ in range(9):
         mast.order("console", "jog", "cw", 2.0)
         assert mast.run(1.9, coil=1, dps=0.0) == []
-        mast.run(1.0)
     assert mast.run(2.5, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
 
 
