@@ -181,7 +181,7 @@ class Judges:
             case.welded_s = 0.0
             return
         case.welded_s += self._past_s
-        if case.welded_s > WELDED_S + LOOK_S:
+        if case.welded_s > (WELDED_S if case.counts else max(WELDED_S, case.patience_s)) + LOOK_S:
             self._accuse(AFTER_STOP, truth, f"by a welded relay for {case.welded_s:.2f} s, with a master")
 
     def _beyond(self, truth: AxisTruth, case: AxisCase) -> None:
@@ -214,12 +214,11 @@ class Judges:
         return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in places_deg)
 
     def _standing(self, truth: AxisTruth, case: AxisCase) -> None:
-        if not case.feels or not truth.stands:
+        if not case.feels or not truth.stands or self._is_there(truth, case):
             case.standing_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
-        pressed = truth.name == self._orders.lacking  # by a person who watches it: each press counts for itself
-        if before_s <= START_S < case.standing_s and not case.counts and not pressed:
+        if before_s <= START_S < case.standing_s and not case.counts and truth.name != self._orders.lacking:
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
                 case.tries_s.popleft()
@@ -228,6 +227,13 @@ class Judges:
                 self._accuse(STANDING_CURRENT, truth, tries)
         if case.standing_s > case.patience_s + LOOK_S:
             self._accuse(STANDING_CURRENT, truth, f"for {case.standing_s:.2f} s")
+
+    def _is_there(self, truth: AxisTruth, case: AxisCase) -> bool:
+        """Whether a control box of its own drives it where the box sees it arrived: nothing shows the current."""
+        near_deg, here_deg = case.tolerance_deg + case.slack_deg, truth.shaft_deg + case.shift_deg
+        goals = self._orders.axes[truth.name].goals.values()
+        places_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
+        return not truth.relayed and any(abs(place_deg - here_deg) < near_deg for place_deg in places_deg)
 
     def _accuse(self, judge: str, truth: AxisTruth, measured: str) -> None:
         if (judge, truth.name) not in self._told:

@@ -257,7 +257,6 @@ class _Play:
             self._box.end()
         self._stalled_s, self._unheard = None, []
         self._orders.forget_all(self._now_s)
-        self._silence.pause()
         self._pass(event.number(0), dead=True)
         self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world)
         self._back_s = self._now_s
@@ -275,5 +274,4 @@ class _Play:
             self._judges.look(self._now_s, self._world.axes)
             self._sectors.look(self._now_s, self._world.axes)
         self._judges.unattended_s = math.inf
-        if not dead:
-            self._silence.pause()
+        self._silence.pause(self._now_s)

@@ -75,8 +75,9 @@ class Silence:
         plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
         self._lasting = [each for each in self._lasting if each.name != plain]
 
-    def pause(self) -> None:
-        """The program had no turn: nothing could be said."""
+    def pause(self, now_s: float) -> None:
+        """The program had no turn until now: nothing could be said."""
+        self._looked_s = now_s
         for each in self._lasting:
             each.seen_s = 0.0
 

@@ -44,7 +44,7 @@ class PositionedAxis:
         # A model jumps where it is corrected, and it does not scatter.
         fastest_dps = settings.speed_dps if settings.source is AngleSource.MEASURED else math.inf
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
-        self._stray = StrayWatch(settings.axis, settings.speed_dps)
+        self._stray = StrayWatch(settings.axis, settings.speed_dps, settings.accel_dps2)
         self._seen_s = 0.0
         """The moment of the present cycle."""
         self._readings = Trend()

@@ -13,21 +13,24 @@ from rotator.control.commands import Steer
 from rotator.faults import Fault, FaultKind
 
 STRAY_DEG = 5.0
-STRAY_S = 1.9
-"""An axis this far from where it was sent, and not coming nearer for so long, does not follow. One that has to turn
-back first, at 20°/s² from 30°/s, takes 1.5 s."""
+STRAY_S = 1.7
+"""An axis this far from where it was sent, and not coming nearer for so long, does not follow."""
+TURNED_BACK_S = 0.4
+"""An axis that has to turn back first is seen to come nearer so long after it stood: a moteus at 20°/s² from 30°/s
+takes 1.5 s and this."""
 COMING_DEG, COMING_NOISES = 0.5, 6.0
 """An axis that has moved further than both towards its place is coming nearer."""
 SLOW_SHARE = 0.25
-"""A motor at this share of its speed still comes nearer in time."""
+"""A motor at this share of its speed still comes nearer in time; a target faster than that leaves it behind soon."""
 
 
 class StrayWatch:
-    """`speed_dps`: of the motor."""
+    """`speed_dps`: of the motor; `accel_dps2`: how hard it brakes, None: it stops at once."""
 
-    def __init__(self, axis: Axis, speed_dps: float) -> None:
+    def __init__(self, axis: Axis, speed_dps: float, accel_dps2: float | None = None) -> None:
         self._axis = axis
         self._speed_dps = speed_dps
+        self._stray_s = max(STRAY_S, speed_dps / accel_dps2 + TURNED_BACK_S) if accel_dps2 else STRAY_S
         self._coming_deg: float | None = None
         """Where the axis was when it was last seen to come nearer, or how far it has gone astray since."""
         self._strayed_s = 0.0
@@ -51,16 +54,19 @@ class StrayWatch:
             return None
         passed_s, self._sent_s = now_s - (now_s if self._sent_s is None else self._sent_s), now_s
         ahead_deg = steered.angle_deg - angle_deg
-        nearer_deg = 0.0 if self._coming_deg is None else (angle_deg - self._coming_deg) * math.copysign(1.0, ahead_deg)
+        near = abs(ahead_deg) < STRAY_DEG
+        runs_on = abs(steered.rate_dps) > SLOW_SHARE * self._speed_dps
+        towards = steered.rate_dps if near and runs_on else ahead_deg
+        nearer_deg = 0.0 if self._coming_deg is None else (angle_deg - self._coming_deg) * math.copysign(1.0, towards)
         coming_deg = max(COMING_DEG, COMING_NOISES * noise_deg)
-        if abs(ahead_deg) < STRAY_DEG or settling or self._coming_deg is None or nearer_deg >= coming_deg:
+        if (near and not runs_on) or settling or self._coming_deg is None or nearer_deg >= coming_deg:
             self._coming_deg, self._strayed_s = angle_deg, 0.0
             return None
         if nearer_deg < 0.0:
             self._coming_deg = angle_deg
         self._strayed_s += passed_s
-        patience_s = max(STRAY_S, coming_deg / (SLOW_SHARE * self._speed_dps))
-        if self._strayed_s < patience_s:
+        patience_s = max(self._stray_s, coming_deg / (SLOW_SHARE * self._speed_dps))
+        if near or self._strayed_s < patience_s:
             return None
         measured = f"stands at {angle_deg:.1f}°, {abs(ahead_deg):.1f}° from where it was told to be"
         return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{STRAY_DEG:g}° for {patience_s:.2g} s")
