@@ -31,6 +31,8 @@ CW, CCW, UP, DOWN, MASTER, HEARTBEAT = 22, 23, 24, 25, 16, 26
 RELAYS = (CW, CCW, UP, DOWN)
 PORT = 4000
 START_S = 60.0
+LIMIT_S = 1.0
+"""However the program dies, its relays open within this time."""
 
 LOW, HIGH = SIM_CALIBRATION_RAW
 BOX = """

@@ -20,9 +20,8 @@ from rotator.store.learnt import FORMAT
 from rotator.store.whole import write_whole
 from tests.kernel.bench.gpio import persisting
 from tests.kernel.bench.waiting import until
-from tests.kernel.whole.site import CW, MASTER, Nursery, Site, lives
+from tests.kernel.whole.site import CW, LIMIT_S, MASTER, Nursery, Site, lives
 
-LIMIT_S = 1.0
 Measure = Callable[[str, float], None]
 
 
