@@ -35,6 +35,8 @@ PROFILES = ("g5500", "u100", "isel", "servos", "orbit360")
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 LINK, OTHER, PERSON, PANEL = Source("gs232b", 1), Source("rotctld", 1), Source("console"), Source("panel")
 SLOWEST, FASTEST = 0.3, 1.5
+SLOWEST_COUNTED = 0.7
+"""A motor that is slower still reaches nothing: its contact changes so late that a pulse may have been missed."""
 CLEAR_DEG = 14.0
 """A target or a start this far from every sector is free for certain, on every kind of rotor."""
 NEAR_DEG = 6.0
@@ -81,6 +83,7 @@ class World:
         self.world = self.station.world
         self._period_s = 1 / self.config.control.rate_hz
         self._next_s = self.clock()
+        self._connections = 1
         self.restart()
 
     def restart(self) -> None:
@@ -97,9 +100,10 @@ class World:
         values["mount"] = {**values.get("mount", {}), "forbidden": self._sectors(plain)}
         if plain.rotor.type != "moteus":
             # What a moteus does is its own: it obeys speeds.
+            slowest = SLOWEST_COUNTED if plain.rotor.type == "relay-pulse" else SLOWEST
             for axis in Axis:
                 sim = values.setdefault("sim", {}).setdefault(axis.value, {})
-                sim["speed_dps"] = plain.axis(axis).speed_dps * draw.uniform(SLOWEST, FASTEST)
+                sim["speed_dps"] = plain.axis(axis).speed_dps * draw.uniform(slowest, FASTEST)
                 sim["lag_s"], sim["backlash_deg"] = draw.uniform(0.05, 0.17), draw.choice([0.0, 0.5, 1.0])
                 sim["pot_noise_deg"] = draw.choice([0.0, 0.1, 0.4])
         return simulated(parse(tomlkit.dumps(values), profile))
@@ -155,10 +159,12 @@ class World:
     def order(self, order: Order, by: Source = LINK) -> None:
         self.loop.post(by, order)
 
-    def reach(self, place: Place, by: Source = LINK) -> None:
+    def reach(self, place: Place) -> None:
         """Order a free place, and wait until the antenna stands there."""
         began_s, began = self.clock(), self.world.shafts()
-        self.order(Aim(*place, place=True), by)
+        # A link that lost the antenna to the panel counts again on a new connection.
+        self._connections += 1
+        self.order(Aim(*place, place=True), Source("gs232b", self._connections))
         slowest = min(self.paces.values())
         end_s = began_s + PATIENCE_S + 8.0 * self._straight_s(began, (720.0, 360.0)) / max(slowest, 0.3)
         while self.clock() < end_s and not self.outcome.inside:

@@ -137,9 +137,11 @@ def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
                 tables[axis]["sensor"] = {"kind": "pot"}
     if rotor.kind == "servo":
         start_deg = (90.0, 90.0)
+    if rotor.kind == "moteus" and chance.random() < 0.8:
+        tables["control"] = {"rate_hz": 20}  # as every other kind; its own 50 Hz costs more than twice as much
     if chance.random() < 0.25:
         _sector(chance, tables, start_deg, top_deg)
-    commissioning = chance.choice(BOTH) if rotor.kind in ("relay-pot", "relay-pulse") and chance.random() < 0.1 else ""
+    commissioning = chance.choice(BOTH) if rotor.kind in ("relay-pot", "relay-pulse") and chance.random() < 0.15 else ""
     return Mast(rotor, tables, start_deg, top_deg, speed_dps, has_panel, has_switches, has_pots, commissioning)
 
 

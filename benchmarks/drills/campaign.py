@@ -104,10 +104,10 @@ def small_one(drill: Drill, violation: Violation) -> Found:
 
 
 def run(seed: int, hours: float, kind: str = "", *, first: bool = False) -> tuple[dict[str, Tally], list[Found]]:
-    """A whole campaign, on every core. `first`: it ends at the first violation, which is not made small."""
+    """A whole campaign, on the cores that it may use. `first`: it ends at the first violation, which stays as it is."""
     tallies: dict[str, Tally] = {}
     everything: list[Found] = []
-    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("fork")) as pool:
+    with ProcessPoolExecutor(len(os.sched_getaffinity(0)), mp_context=get_context("fork")) as pool:
         for kind_of, hours_of, cpu_s, found in pool.map(partial(try_one, small=not first), seeds(seed, hours, kind)):
             tally = tallies.setdefault(kind_of, Tally())
             tally.drills += 1

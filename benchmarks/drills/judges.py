@@ -79,8 +79,6 @@ class AxisCase:
     welded_s: float = 0.0
     standing_s: float = 0.0
     shorted_s: float = 0.0
-    pressed_s: float = 0.0
-    """When an axis that was never set up was last pressed."""
     tries_s: deque[float] = field(default_factory=deque)
 
     def rest(self, *, at_stop: bool) -> None:
@@ -91,6 +89,10 @@ class AxisCase:
         self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
         self.away_s = self.idle_s = self.standing_s = 0.0
 
+    def press(self) -> None:
+        """Who sets the axis up watches it touch its stops: each press is a try of its own."""
+        self.beyond_s = self.standing_s = 0.0
+
 
 class Judges:
     """Call `look` after every cycle."""
@@ -99,7 +101,7 @@ class Judges:
         self.cases = cases
         self._orders = orders
         self._master = master
-        self._acknowledged_s = self._released_s = 0.0
+        self._acknowledged_s = self._released_s = self._pressed_s = 0.0
         self._now_s = self._past_s = 0.0
         self.unattended_s = math.inf
         """Since when the control thread gets no turn, or the program is dead."""
@@ -119,29 +121,27 @@ class Judges:
         if self._orders.acknowledged_s != self._acknowledged_s:
             self._acknowledged_s = self._orders.acknowledged_s
             for case in self.cases:
-                case.beyond_s = 0.0
+                case.beyond_s = case.standing_s = 0.0  # the next order is another try, also where current flows on
         if self._orders.released_s != self._released_s:
             self._released_s = self._orders.released_s
             for case in self.cases:
                 case.tries_s.clear()
+        pressed, self._pressed_s = self._orders.pressed_s != self._pressed_s, self._orders.pressed_s
         for truth, case in zip(axes, self.cases, strict=True):
+            if pressed and truth.name == self._orders.lacking:
+                case.press()
             if truth.shorted_s > case.shorted_s:
-                # Where an axis is pressed against its stop, nothing shows that the relay has opened.
+                # Where an axis is pressed against its stop, nothing shows that its relay has welded.
                 homes = self._orders.axes[truth.name].homes and not self._master
-                if not truth.at_stop or not (homes or self._orders.attended):
+                if not truth.welded or not truth.at_stop or not (homes or self._orders.attended):
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
-            if not truth.power:
-                case.rest(at_stop=truth.at_stop != 0)
-                case.welded_s = 0.0
-                continue
             self._welded(truth, case)
-            if not truth.coil:
-                case.rest(at_stop=False)
+            if not (truth.power and truth.coil):
+                case.rest(at_stop=truth.at_stop != 0)
                 continue
             orders = self._orders.axes[truth.name]
-            if truth.name == self._orders.lacking:
-                self._press(case, orders)
+            orders.turned(now_s, truth.coil, self._past_s)
             self._unordered(truth, case)
             self._standing(truth, case)
             if not orders.homes:  # a person watches it touch its stop
@@ -161,14 +161,6 @@ class Judges:
             measured = f"{more} in {CHATTER_S:g} s beyond those that orders ask for"
             self.found.append(Violation(self._now_s, STARTS, "both axes", measured))
 
-    @staticmethod
-    def _press(case: AxisCase, orders: AxisOrders) -> None:
-        """Of an axis that was never set up, whose angle is not known, each press counts for itself."""
-        pressed_s = max((goal.said_s for goal in orders.goals.values()), default=case.pressed_s)
-        if pressed_s != case.pressed_s:
-            case.pressed_s = pressed_s
-            case.beyond_s = case.standing_s = 0.0
-
     def _unordered(self, truth: AxisTruth, case: AxisCase) -> None:
         winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s)
         excused = self._now_s < self.excused_until_s or case.astray
@@ -184,7 +176,8 @@ class Judges:
             self._accuse(judge, truth, f"driven for {case.idle_s:.2f} s; its last order ended at {last_s:.2f} s")
 
     def _welded(self, truth: AxisTruth, case: AxisCase) -> None:
-        if truth.coil or not self._master or abs(truth.speed_dps) < GOING_SHARE * truth.full_dps:
+        turns = abs(truth.speed_dps) >= GOING_SHARE * truth.full_dps
+        if truth.coil or not truth.power or not self._master or not turns:
             case.welded_s = 0.0
             return
         case.welded_s += self._past_s
@@ -217,7 +210,8 @@ class Judges:
     def _nearing(goal: Goal, here_deg: float, truth: AxisTruth, case: AxisCase) -> bool:
         """Whether it goes towards one of the goal's angles, or is about there. A stream is led by a few seconds."""
         slack_deg = 2.0 * case.tolerance_deg + case.slack_deg + STREAM_LEAD_S * goal.rate_dps
-        return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in goal.angles_deg)
+        places_deg = (*goal.angles_deg, *goal.ends_deg)
+        return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in places_deg)
 
     def _standing(self, truth: AxisTruth, case: AxisCase) -> None:
         if not case.feels or not truth.stands or self._is_there(truth, case):

@@ -12,19 +12,22 @@ from dataclasses import dataclass, field
 
 from benchmarks.drills.script import PANEL, PEOPLE, Event
 from benchmarks.drills.silenced import Silenced
+from benchmarks.drills.wavering import Wavering
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
 TURN_DEG = 360.0
 UNCALIBRATED_S = 2.0
+"""A press of an axis that was never set up."""
 PUT_OFF_S = 6.0
 """Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
-"""A press of an axis that was never set up."""
-SWITCH_S = 1.3
+SWITCH_S, SWITCHES_AT_MOST_S = 1.0, 1.3
 """A mode switch acts when it has stood still for a second, at the next cycle."""
+NO_TURN_S = 0.4
+"""Between two looks further apart the program had no turn."""
+PANEL_S = 0.2
+"""A jog switch is read twice before it counts, and once when it is let go."""
 ZENITH_DEG = 90.0
-WAVERS_S, WAVERS_DEG = 120.0, 90.0
-"""A target that has changed so lately, and now lies no further beyond an end of the range, may be met at that end."""
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -43,9 +46,13 @@ class Goal:
     """One sender's order for one axis. `angles_deg` empty: anywhere. `way`: it jogs."""
 
     angles_deg: tuple[float, ...] = ()
+    ends_deg: tuple[float, ...] = ()
+    """The ends of the range where it may be waited for meanwhile."""
     way: int = 0
     said_s: float = 0.0
     until_s: float = math.inf
+    turns_s: float = math.inf
+    """For so long more it may turn the motor, whenever it begins."""
     rate_dps: float = 0.0
 
 
@@ -56,11 +63,20 @@ class AxisOrders:
     ended_s: float | None = None
     """When the last order ended; None: there has been none."""
 
-    def forget(self, now_s: float) -> None:
-        if self.goals:
+    def forget(self, now_s: float, said_before_s: float = math.inf) -> None:
+        kept = {sender: goal for sender, goal in self.goals.items() if goal.said_s >= said_before_s}
+        if len(kept) < len(self.goals):
             self.ended_s = now_s
-        self.goals.clear()
-        self.homes = False
+        self.goals, self.homes = kept, self.homes and bool(kept)
+
+    def turned(self, now_s: float, way: int, past_s: float) -> None:
+        """The box has fed the motor this way for so long."""
+        for goal in self.goals.values():
+            if goal.way == way:
+                goal.turns_s -= past_s
+                if goal.turns_s <= 0.0:
+                    goal.until_s = min(goal.until_s, now_s)
+        self.expire(now_s)
 
     def expire(self, now_s: float) -> None:
         for sender in [sender for sender, goal in self.goals.items() if goal.until_s <= now_s]:
@@ -70,7 +86,8 @@ class AxisOrders:
 class Orders:
     """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
 
-    `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes.
+    `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes. `confirms`: a person
+    may tell the box where an axis stands.
     """
 
     def __init__(
@@ -81,6 +98,7 @@ class Orders:
         lacking: str = "",
         parks_idle: bool = False,
         over_top: Callable[[], bool] = lambda: False,
+        confirms: bool = True,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
         self._ranges = dict(zip(AXES, ranges, strict=True))
@@ -88,19 +106,27 @@ class Orders:
         self.lacking = lacking
         self._parks_idle = parks_idle
         self._over_top = over_top
-        self._azimuth_deg: float | None = None
-        """The latest azimuth that was ordered."""
-        self._changed_s = -math.inf
-        """When that azimuth was last another one than before."""
+        self._confirms = confirms
         self.latched = False
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
         """When anybody last stopped both axes, or a person let it go: faults are acknowledged."""
         self.released_s = 0.0
         """When a person last let it go, or began the program anew."""
-        self._switch: tuple[str, float] | None = None
+        self.pressed_s = 0.0
+        """When a person last pressed the axis that was never set up, and watched it."""
+        self._switch: tuple[str, float, float] | None = None
+        """The panel's mode switch was turned to this mode, when, and when that has surely had its effect."""
         self._mode = "auto"
+        self._pressed = False
+        """The panel's stop button is."""
+        self._pulled_s = -math.inf
+        """When it was last let go."""
+        self._looked_s = 0.0
+        self.goes_round = False
+        """Forbidden sectors lie in the way: an order for one axis may turn both."""
         self._silenced = Silenced()
+        self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
         self.heard = 0
         """How many orders there have been."""
         self._storm = False
@@ -137,13 +163,28 @@ class Orders:
         return {sender for orders in self.axes.values() for sender in orders.goals}
 
     def expire(self, now_s: float) -> None:
+        past_s, self._looked_s = now_s - self._looked_s, now_s
         for orders in self.axes.values():
             orders.expire(now_s)
-        if self._switch is not None and now_s >= self._switch[1]:
-            before, self._mode, self._switch = self._mode, self._switch[0], None
-            if self._mode != before:
-                self._forget(now_s)
-                self._silenced.forget()
+        if self._pressed and not self.latched:
+            self._forget(now_s)
+            self.latched = True
+        if self._switch is not None:
+            mode, turned_s, due_s = self._switch
+            if past_s > NO_TURN_S:
+                self._switch = mode, turned_s, due_s + past_s
+            elif now_s >= due_s:
+                self._switch = None
+                self._switched(now_s, mode, turned_s)
+
+    def _switched(self, now_s: float, mode: str, turned_s: float) -> None:
+        """The mode switch acts: a new mode ends the older orders, and any turn releases a stop."""
+        if mode != self._mode:
+            self._mode = mode
+            self._forget(now_s, turned_s + SWITCH_S)
+            self._silenced.forget()
+        if self._pulled_s <= turned_s:
+            self._release(now_s)
 
     def note(self, event: Event) -> None:
         self.heard += 1
@@ -159,7 +200,7 @@ class Orders:
         """Once there has been an order, a box that parks when it is idle may do so."""
         if self._parks_idle:
             for axis, orders in self.axes.items():
-                orders.goals.setdefault("idle", Goal((self._park_deg[axis],), 0, now_s))
+                orders.goals.setdefault("idle", Goal((self._park_deg[axis],), said_s=now_s))
 
     def _note_person(self, event: Event) -> None:
         match event.what:
@@ -179,22 +220,29 @@ class Orders:
                 self._anywhere(event, event.text(0))
                 self.axes[event.text(0)].homes = True
             case "confirm":
-                self.axes[event.text(0)].forget(event.at_s)
+                # It has no effect in a storm park, while an axis homes, and where the sensor measures.
+                if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
+                    self.axes[event.text(0)].forget(event.at_s)
             case _:
+                if event.what == "jog" and WAYS[event.text(0)][0] == self.lacking:
+                    self.pressed_s = event.at_s
                 self._note_order(event)
 
     def _note_panel(self, event: Event) -> None:
         match event.what:
             case "mode":
-                self._switch = (event.text(0), event.at_s + SWITCH_S)
+                self._switch = event.text(0), event.at_s, event.at_s + SWITCHES_AT_MOST_S
             case "stop" if event.text(0) == "press":
-                self._forget(event.at_s)
-                self.latched = True
+                self._pressed = True
             case "stop":
-                self._release(event.at_s)
+                self._pressed, self._pulled_s = False, event.at_s
             case "knob":
                 self._anywhere(event, event.text(0))
-            case "jog":
+            case "jog" if self._mode == "jog" and self._switch is None:
+                axis, way = WAYS[event.text(0)]
+                until_s = event.at_s + event.number(1) + PANEL_S
+                self.axes[axis].goals[PANEL] = Goal(way=way, said_s=event.at_s, until_s=until_s)
+            case "jog":  # it may shift the target in force
                 self._anywhere(event, WAYS[event.text(0)][0])
 
     def _note_order(self, event: Event) -> None:
@@ -213,11 +261,11 @@ class Orders:
                 self._aim_azimuth(event, event.number(1))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
-                if self._shows_over_top:
+                if self._shows_over_top or self.goes_round:
                     self._anywhere(event, "elevation")
                 self._aim_azimuth(event, 0.0)
             case "aim-elevation":
-                if self._shows_over_top and event.number(0) <= ZENITH_DEG:
+                if self.goes_round or (self._shows_over_top and event.number(0) <= ZENITH_DEG):
                     self._anywhere(event, "azimuth")
                 self._aim(event, "elevation", self._elevations(event.number(0)))
             case "jog":
@@ -225,9 +273,8 @@ class Orders:
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
                 if axis == self.lacking:
                     seconds = min(seconds, UNCALIBRATED_S)
-                if self.lacking:
-                    seconds += PUT_OFF_S
-                self.axes[axis].goals[event.who] = Goal((), way, event.at_s, event.at_s + seconds)
+                until_s = event.at_s + seconds + (PUT_OFF_S if self.lacking else 0.0)
+                self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds)
             case "stop":
                 self._forget(event.at_s)
                 self.acknowledged_s = event.at_s
@@ -243,7 +290,7 @@ class Orders:
                 self._left(event)
 
     def _release(self, now_s: float) -> None:
-        self.latched = False
+        self.latched = self._pressed
         self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
 
@@ -253,16 +300,17 @@ class Orders:
                 orders.goals[event.who].until_s = event.at_s
                 orders.expire(event.at_s)
 
-    def _forget(self, now_s: float) -> None:
+    def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
         self._storm = False
+        self._wavering.forget()
         for orders in self.axes.values():
-            orders.forget(now_s)
+            orders.forget(now_s, said_before_s)
         self._may_idle(now_s)
 
     def _anywhere(self, event: Event, axis: str) -> None:
         self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)
 
-    def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...]) -> None:
+    def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...], ends_deg: tuple[float, ...] = ()) -> None:
         if axis == self.lacking:
             return
         goals, rate_dps = self.axes[axis].goals, 0.0
@@ -270,7 +318,7 @@ class Orders:
         if before and before.angles_deg and angles_deg and 0 < event.at_s - before.said_s < STREAM_S:
             nearest_deg = min(abs(angle - other) for angle in angles_deg for other in before.angles_deg)
             rate_dps = nearest_deg / (event.at_s - before.said_s)
-        goals[event.who] = Goal(angles_deg, 0, event.at_s, rate_dps=rate_dps)
+        goals[event.who] = Goal(angles_deg, ends_deg, said_s=event.at_s, rate_dps=rate_dps)
 
     @property
     def _shows_over_top(self) -> bool:
@@ -280,37 +328,19 @@ class Orders:
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
-        angles_deg = self._azimuths(event.number(0), elevation_deg)
-        if self._wavers(event):
-            angles_deg = (*angles_deg, *self._ends_near(angles_deg))
+        turns_deg = self._turns(event.number(0), elevation_deg)
+        span, ends_deg = self._ranges["azimuth"], self._wavering.ends(event.at_s, turns_deg)
+        angles_deg = tuple(angle for angle in turns_deg if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
         before = self.axes["azimuth"].goals.get(event.who)
         if before and (event.number(0) > TURN_DEG or not angles_deg):
             angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
-        self._aim(event, "azimuth", angles_deg)
+        self._aim(event, "azimuth", angles_deg, ends_deg)
 
-    def _wavers(self, event: Event) -> bool:
-        """Whether azimuth has lately been ordered elsewhere. Only a target that stays turns the antenna right round."""
-        latest_deg = event.number(0)
-        if self._azimuth_deg is not None and latest_deg != self._azimuth_deg:
-            self._changed_s = event.at_s
-        self._azimuth_deg = latest_deg
-        return event.at_s - self._changed_s < WAVERS_S
-
-    def _ends_near(self, angles_deg: tuple[float, ...]) -> tuple[float, ...]:
-        """The ends of the range that lie near these angles, seen round the circle."""
-        span = self._ranges["azimuth"]
-        beyond_deg = [angle_deg + turn_deg for angle_deg in angles_deg for turn_deg in (-TURN_DEG, TURN_DEG)]
-        low = any(0.0 < span.low_deg - angle_deg < WAVERS_DEG for angle_deg in beyond_deg)
-        high = any(0.0 < angle_deg - span.high_deg < WAVERS_DEG for angle_deg in beyond_deg)
-        return (span.low_deg,) * low + (span.high_deg,) * high
-
-    def _azimuths(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, ...]:
-        """Every axis angle that shows there, over the top too where it may be."""
-        span = self._ranges["azimuth"]
-        over = span.flips or elevation_deg > 90.0
+    def _turns(self, azimuth_deg: float, elevation_deg: float) -> list[float]:
+        """Every axis angle that shows there, on any turn, over the top too where it may be."""
+        over = self._ranges["azimuth"].flips or elevation_deg > 90.0
         bases = (azimuth_deg, azimuth_deg + 180.0) if over else (azimuth_deg,)
-        turns = [base % 360.0 + 360.0 * turn for base in bases for turn in range(-2, 3)]
-        return tuple(angle for angle in turns if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
+        return [base % TURN_DEG + TURN_DEG * turn for base in bases for turn in range(-2, 3)]
 
     def _elevations(self, elevation_deg: float) -> tuple[float, ...]:
         span = self._ranges["elevation"]

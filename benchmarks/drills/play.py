@@ -32,6 +32,8 @@ STEP_S = 0.05
 FAILS = "the program ends with an exception"
 STALLED_S = 1.0
 """Links whose event loop has stood still for longer have lost their orders."""
+OUTSIDE = ("zero", "full")
+"""What a bad reading shows that no sensor in order can show."""
 MOST_ACTS_S = 0.01
 """Orders that come faster than this are taken together, as by a thread that is woken."""
 
@@ -78,7 +80,7 @@ class _Play:
         feels, counts = tuple(case.feels for case in self._cases), any(case.counts for case in self._cases)
         self._silence = Silence(self._words, feels=(feels[0], feels[1]), counts=counts)
         self._sectors = Sectors(self._config, self._cases)
-        self._judges.goes_round = bool(self._sectors)
+        self._judges.goes_round = self._orders.goes_round = bool(self._sectors)
         self._period_s = 1 / self._config.control.rate_hz
         self._blind = False
         """The reading thread hangs."""
@@ -223,6 +225,12 @@ class _Play:
             self._silence.begin(f"{event.text(0)}-relay-welded", now_s)
         elif event.what == "unweld":
             self._silence.end(f"{event.text(0)}-relay-welded")
+        elif event.what in ("every", "stands"):
+            self._silence.end("every")
+            if event.what == "stands":
+                self._silence.end("pot-crackles")
+            elif self._config.rotor.type == "relay-pot" and event.number(1) and event.text(2) in OUTSIDE:
+                self._silence.begin(f"{event.text(0)}-every:{event.number(1):.0f}", now_s)
 
     def _be_late(self, event: Event) -> None:
         seconds = event.number(0)

@@ -20,6 +20,9 @@ ORDERED = ("board-unpowered",)
 """Only with an order in force is the part in use."""
 DRIVEN = ("motor-stalled", "pot-stuck", "stands", "jammed", "contact-stuck-open", "contact-stuck-closed")
 """Only while the motor has current is there anything to be seen."""
+CRACKLES, GAP = ("every", "pot-crackles"), 20
+"""Each so many-th reading is bad: from 4 of 100 on that is told."""
+PERIOD_S = 0.05
 TURNING_SHARE = 0.5
 """A welded contact or a hand turns it as fast as this share of its speed: slower is a wind, and only a notice."""
 
@@ -63,6 +66,7 @@ class Silence:
         axis = "elevation" if name.startswith("elevation") else "azimuth"
         plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
         seen = plain in (*AT_ONCE, *ORDERED) or (plain in DRIVEN and self._feels[axis])
+        seen = seen or (plain in CRACKLES and int(name.partition(":")[2] or 0) <= GAP)
         # A count that is lost already cannot be lost once more by a hand.
         if seen or plain.startswith("relay-welded") or (plain == "hand-turns" and not self._counts):
             self._lasting.append(_Lasting(plain, axis, now_s))
@@ -88,14 +92,16 @@ class Silence:
                 self._lasting.remove(each)
                 continue
             truth = axes[0 if each.axis == "azimuth" else 1]
-            each.seen_s = each.seen_s + past_s if self._to_be_seen(each, truth, ordered=ordered) else 0.0
+            # Bad readings are counted: of those that come late there are fewer.
+            more_s = min(past_s, PERIOD_S) if each.name in CRACKLES else past_s
+            each.seen_s = each.seen_s + more_s if self._to_be_seen(each, truth, ordered=ordered) else 0.0
             if each.seen_s > SILENT_S + LOOK_S:
                 self.found.append(Violation(now_s, SILENCE, each.axis, f"{each.name} for {each.seen_s:.2f} s"))
                 self._lasting.remove(each)
 
     @staticmethod
     def _to_be_seen(fault: _Lasting, truth: AxisTruth, *, ordered: bool) -> bool:
-        if fault.name in AT_ONCE:
+        if fault.name in (*AT_ONCE, *CRACKLES):
             return True
         if fault.name in ORDERED:
             return ordered

@@ -11,12 +11,14 @@ import random
 from collections.abc import Callable
 
 from benchmarks.drills.boxes import BOTH, Mast
-from benchmarks.drills.script import CLOCK, LINKS, PEOPLE, PROGRAM, WORLD, Arg, Event
+from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Event
 
 PAUSES_S = (0.0, 0.03, 0.1, 0.3, 1.0, 2.0, 4.0, 8.0)
 INSISTS_S = (20.0, 60.0, 90.0)
 """For how long a program repeats its order once a second, whatever happens."""
 WAYS = (("cw", "ccw"), ("up", "down"))
+TURNS_S = 1.3
+"""A mode switch counts when it has stood still for a second."""
 
 Trouble = Callable[[], tuple[tuple[str, *tuple[Arg, ...]], tuple[str, *tuple[Arg, ...]] | None]]
 
@@ -34,6 +36,8 @@ class Story:
         self._person = chance.choice(PEOPLE)
         self._axis = chance.randrange(2)
         self._way = chance.randrange(2)
+        self._mode = ""
+        """Of the panel; empty: as an earlier story has left it."""
         self._tell()
 
     def _tell(self) -> None:
@@ -68,16 +72,22 @@ class Story:
     def _move(self) -> None:
         """An order that turns the axis of this story its way for a while."""
         way = WAYS[self._axis][self._way]
+        if self._mast.commissioning and self._chance.random() < 0.6:
+            self._set_up()
+            return
+        if self._mast.has_panel:
+            if self._chance.random() < 0.3:
+                self._move_at_panel(way)
+                return
+            self._turn("auto")
         aim_deg = [self._far(0), self._far(1)]
         match self._chance.randrange(11):
             case 0:
-                self._add(self._link, "jog", way)
+                self._jog(self._link, way)
             case 1:
-                self._add(self._other, "jog", way)
+                self._jog(self._other, way)
             case 2:
-                for _ in range(self._chance.choice((1, 3, 12))):
-                    self._add(self._person, "jog", way, self._chance.choice((0.5, 2.0, 5.0)))
-                    self.ends_s += self._chance.choice((0.5, 2.0, 5.5))
+                self._press(way)
             case 3 | 8:
                 self._insist(aim_deg)
             case 9:
@@ -95,6 +105,47 @@ class Story:
                 self._add(self._link, what, *args)
             case _:
                 self._add(self._link, "aim", *aim_deg)
+
+    def _jog(self, link: str, way: str) -> None:
+        """A program jogs, and sometimes its connection ends before it has stopped."""
+        self._add(link, "jog", way)
+        if self._chance.random() < 0.3:
+            self._pause()
+            self._add(link, "leave")
+
+    def _press(self, way: str) -> None:
+        for _ in range(self._chance.choice((1, 3, 12))):
+            self._add(self._person, "jog", way, self._chance.choice((0.5, 2.0, 5.0)))
+            self.ends_s += self._chance.choice((0.5, 2.0, 5.5))
+
+    def _set_up(self) -> None:
+        """Who sets an axis up drives it to its nearer stop, presses again to be sure, and turns back at once."""
+        axis = BOTH.index(self._mast.commissioning)
+        top_deg, start_deg = self._mast.top_deg[axis], self._mast.start_deg[axis]
+        there, back = WAYS[axis] if start_deg > top_deg / 2.0 else WAYS[axis][::-1]
+        for _ in range(self._chance.choice((1, 3, 12, 20))):
+            self._add(self._person, "jog", there, 2.0)
+            self.ends_s += 2.0
+        self.ends_s += self._chance.choice((0.5, 12.0))
+        self._add(self._person, "jog", there, 2.0)
+        self.ends_s += self._chance.choice((0.3, 1.0))
+        self._add(self._person, "jog", back, 2.0)
+
+    def _move_at_panel(self, way: str) -> None:
+        if self._chance.random() < 0.7:
+            self._turn("jog")
+            self._add(PANEL, "jog", way, self._chance.choice((0.1, 0.5, 3.0)))
+        else:
+            self._turn("manual")
+            self._add(PANEL, "knob", BOTH[self._axis], self._chance.random())
+            self.ends_s += TURNS_S
+
+    def _turn(self, mode: str) -> None:
+        """Turn the panel's mode switch, unless it is there."""
+        if mode != self._mode:
+            self._mode = mode
+            self._add(PANEL, "mode", mode)
+            self.ends_s += TURNS_S
 
     def _insist(self, aim_deg: list[float]) -> None:
         """A program that tracks repeats its order; what happens next happens meanwhile."""
@@ -142,6 +193,9 @@ class Story:
                     self._add(WORLD, *ends)
 
     def _stop(self) -> None:
+        if self._mast.has_panel and self._chance.random() < 0.3:
+            self._stop_at_panel()
+            return
         match self._chance.randrange(9):
             case 0 | 1:
                 self._add(self._link, "stop")
@@ -161,7 +215,18 @@ class Story:
             case _:
                 self._add(self._person, "stop")
 
+    def _stop_at_panel(self) -> None:
+        if self._chance.random() < 0.5:
+            self._turn(self._chance.choice(("park", "manual", "jog")))
+            return
+        self._add(PANEL, "stop", "press")
+        self._pause()
+        self._add(PANEL, "stop", "release")
+
     def _let_go(self) -> None:
+        if self._mast.has_panel and self._chance.random() < 0.3:
+            self._turn(self._chance.choice(("auto", "manual", "jog")))
+            return
         self._add(*((self._person, "resume") if self._chance.random() < 0.6 else (self._link, "stop")))
 
 
@@ -170,7 +235,7 @@ def stories(chance: random.Random, mast: Mast, trouble: Trouble) -> tuple[list[E
     events: list[Event] = []
     at_s = chance.choice((0.2, 3.0))
     for axis in BOTH:
-        if mast.rotor.relays and chance.random() < 0.3:
+        if mast.rotor.relays and chance.random() < (0.6 if axis == mast.commissioning else 0.3):
             events.append(Event(0.0, WORLD, "sticks", (axis, round(chance.uniform(0.02, 0.15), 3))))
         if mast.rotor.kind == "relay-pulse" and chance.random() < 0.8:
             events.append(Event(0.1, chance.choice(PEOPLE), "confirm", (axis, 0.0)))

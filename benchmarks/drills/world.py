@@ -77,8 +77,8 @@ class World:
             self._looks.append(look)
         self._looked_s = clock()
         for truth, look, boom_deg in zip(self.axes, self._looks, rotor.antenna(), strict=True):
-            look(truth)
             truth.boom_deg = boom_deg
+            look(truth)
 
     @property
     def relay_starts(self) -> int | None:
@@ -91,9 +91,8 @@ class World:
             return
         booms_deg = self.rotor.antenna()
         for place, (truth, look) in enumerate(zip(self.axes, self._looks, strict=True)):
-            before_deg = truth.shaft_deg
+            before_deg, truth.boom_deg = truth.shaft_deg, booms_deg[place]
             look(truth)
-            truth.boom_deg = booms_deg[place]
             truth.speed_dps = (truth.shaft_deg - before_deg) / past_s
 
 
@@ -158,7 +157,7 @@ def _see_servo(truth: AxisTruth, servo: SimServo) -> None:
 def _see_moteus(truth: AxisTruth, rotor: SimMoteusRotor, place: int) -> None:
     name = AXES[place]
     motor = rotor.controller(name).motor
-    truth.shaft_deg = rotor.antenna()[place]
+    truth.shaft_deg = truth.boom_deg
     rev_s = motor.set_point.velocity_rev_s if motor.mode in (Mode.POSITION, Mode.TIMEOUT) else 0.0
     sense = rotor.sense(name)
     truth.power = 0 if abs(rev_s) < 1e-6 else (1 if rev_s * sense > 0 else -1)

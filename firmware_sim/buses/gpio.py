@@ -135,8 +135,11 @@ class SimGpio:
 
     def drive_input(self, offset: int, level: bool | None, at_s: float | None = None) -> None:
         """Put a level on a pin of the header from outside, now or from the earlier moment `at_s`; None: open."""
+        line = self._header.lines[offset]
+        if line.outside is level:  # most looks at a switch find it as it was
+            return
         with self._header.instant([offset], at_s):
-            self._header.lines[offset].outside = level
+            line.outside = level
 
     def bury_process(self) -> None:
         """The process that held the header's lines has died: the kernel gives them back, and watches no edge for it."""

@@ -36,26 +36,27 @@ class SimController:
         motor = self.motor
         motor.advance()
         answer, mode = b"", None
-        try:
-            for part in multiplex.subframes(data):
-                if isinstance(part, multiplex.Read):
-                    reply = self._read(part)
-                    answer += reply
-                    if reply[0] == multiplex.READ_ERROR:
-                        break
-                elif part.register == Register.MODE:
-                    if part.value not in COMMANDABLE:
-                        return multiplex.error(multiplex.WRITE_ERROR, part.register, multiplex.NOT_WRITEABLE)
-                    mode = Mode(int(part.value))
-                    motor.command = dict(COMMAND_DEFAULTS)
-                elif Register.UUID_MASK <= part.register < Register.UUID_MASK_CAPABLE:
-                    if part.value != self._uuid_word(part.register - Register.UUID_MASK):
-                        return None
-                elif code := self._write(part):
-                    answer += multiplex.error(multiplex.WRITE_ERROR, part.register, code)
+        parts, whole = multiplex.decoded(data)
+        for part in parts:
+            if isinstance(part, multiplex.Read):
+                reply = self._read(part)
+                answer += reply
+                if reply[0] == multiplex.READ_ERROR:
                     break
-        except multiplex.ShortFrameError:
-            return answer
+            elif part.register == Register.MODE:
+                if part.value not in COMMANDABLE:
+                    return multiplex.error(multiplex.WRITE_ERROR, part.register, multiplex.NOT_WRITEABLE)
+                mode = Mode(int(part.value))
+                motor.command = dict(COMMAND_DEFAULTS)
+            elif Register.UUID_MASK <= part.register < Register.UUID_MASK_CAPABLE:
+                if part.value != self._uuid_word(part.register - Register.UUID_MASK):
+                    return None
+            elif code := self._write(part):
+                answer += multiplex.error(multiplex.WRITE_ERROR, part.register, code)
+                break
+        else:
+            if not whole:
+                return answer
         if mode is not None:
             motor.obey(mode)
         return answer
@@ -67,7 +68,7 @@ class SimController:
             if value is None:
                 return multiplex.error(multiplex.READ_ERROR, register, multiplex.UNKNOWN_REGISTER)
             values.append(value)
-        return multiplex.reply(read, values)
+        return multiplex.reply(read, tuple(values))
 
     def _value(self, register: int) -> float | None:
         motor = self.motor

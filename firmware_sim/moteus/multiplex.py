@@ -11,6 +11,7 @@ import math
 import struct
 from collections.abc import Iterator
 from enum import IntEnum
+from functools import lru_cache
 from typing import NamedTuple
 
 from firmware_sim.moteus.registers import steps_of
@@ -84,7 +85,20 @@ def subframes(data: bytes) -> Iterator[Write | Read]:
             yield Write(register, from_wire(register, kind, number))
 
 
-def reply(read: Read, values: list[float]) -> bytes:
+@lru_cache(maxsize=64)
+def decoded(data: bytes) -> tuple[tuple[Write | Read, ...], bool]:
+    """The subframes of a frame, and whether the last one is whole. A motor that holds gets the same frame each time."""
+    parts: list[Write | Read] = []
+    try:
+        for part in subframes(data):
+            parts.append(part)
+    except ShortFrameError:
+        return tuple(parts), False
+    return tuple(parts), True
+
+
+@lru_cache(maxsize=64)
+def reply(read: Read, values: tuple[float, ...]) -> bytes:
     """The answer to a read, with the same opcode bits; `values` are in the registers' own units."""
     head = (
         bytes([REPLY | read.kind << 2 | read.length])

@@ -31,6 +31,8 @@ class Wire:
             axis: moteus.Controller(id=spec.can_id, transport=transport, query_resolution=resolution)
             for axis, spec in drive.specs.items()
         }
+        self._latest: dict[Axis, tuple[Order, Any]] = {}
+        """The latest order of each axis, and its call: a motor that holds gets it again, 50 times a second."""
 
     async def serve(self, patiently: Patience) -> bool:
         """Send each controller the order that is due. `patiently` limits each call. Returns whether any answered."""
@@ -49,8 +51,12 @@ class Wire:
 
     async def _exchange(self, axis: Axis, spec: MoteusSpec, order: Order, patiently: Patience) -> Answer | None:
         controller = self._controllers[axis]
+        before, command = self._latest.get(axis, (None, None))
+        if order != before:
+            command = self._command(controller, spec, order)
+            self._latest[axis] = order, command
         try:
-            result = await patiently(controller.execute(self._command(controller, spec, order)))
+            result = await patiently(controller.execute(command))
         except TimeoutError:
             return None
         return self._answer(result.values) if result else None

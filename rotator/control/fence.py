@@ -12,7 +12,7 @@ from dataclasses import replace
 from hw.ports import Axis, Direction
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.axis.reach import START_S
-from rotator.control.commands import HOLD, Command, Feed, Hold, Run
+from rotator.control.commands import HOLD, Command, Feed, Hold, Run, Steer
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.sectors import UNKNOWN, Box, kept, may_sweep
 from rotator.faults import Notice
@@ -54,9 +54,12 @@ class Fence:
         for axis in moves:
             if inside and granted:
                 break  # one axis leads out, and the other one stands
-            for command in self._shorter(now_s, axis, commands[axis]):
+            for command in (commands[axis], *self._shorter(now_s, axis, commands[axis], swept)):
                 there = swept.but(axis, self._axes[axis].sweep(now_s, command))
                 if here.of(axis) != UNKNOWN and may_sweep(self._sectors, here, there, self._limits):
+                    if isinstance(command, Steer) and command is not commands[axis]:
+                        self._note(now_s, axis, commands[axis], swept)
+                        self._axes[axis].shortened(now_s, command)
                     swept, commands[axis] = there, command
                     granted.append(axis)
                     break
@@ -65,7 +68,7 @@ class Fence:
                     break
         for axis in moves:
             if axis not in granted:
-                commands[axis] = self._held_back(axis, commands[axis], now_s, swept)
+                commands[axis] = self._held_back(now_s, axis, commands[axis], swept)
         return commands
 
     def notices(self, axis: Axis, now_s: float) -> tuple[Notice, ...]:
@@ -73,14 +76,37 @@ class Fence:
         notice, since_s = self._held.get(axis, (None, 0.0))
         return (notice,) if notice is not None and now_s - since_s < NOTICED_FOR_S else ()
 
-    def _shorter(self, now_s: float, axis: Axis, command: Command) -> list[Command]:
-        """The command, and the same one for as short a time as makes sense."""
-        if not isinstance(command, Run):
-            return [command]
-        least_s = GOING_ON_PERIODS * self._period_s if self._axes[axis].driven else START_S
-        return [command, replace(command, until_s=min(command.until_s, now_s + least_s))]
+    def _shorter(self, now_s: float, axis: Axis, command: Command, swept: Box) -> list[Command]:
+        """The same command for as short a time, or as short a way, as makes sense; none where it is that already."""
+        match command:
+            case Run():
+                least_s = GOING_ON_PERIODS * self._period_s if self._axes[axis].driven else START_S
+                return [replace(command, until_s=min(command.until_s, now_s + least_s))]
+            case Steer(_, rate_dps, until_s) if rate_dps:
+                return [Steer(place_deg, 0.0, until_s) for place_deg in self._last_places(now_s, axis, command, swept)]
+            case _:
+                return []
 
-    def _held_back(self, axis: Axis, command: Command, now_s: float, swept: Box) -> Command:
+    def _last_places(self, now_s: float, axis: Axis, command: Steer, swept: Box) -> list[float]:
+        """Where an axis that moves on may still come to rest: before the nearest sector ahead. None: it is there."""
+        angle_deg, room_deg = self._axes[axis].angle_deg, self._axes[axis].room_deg
+        there = swept.but(axis, self._axes[axis].sweep(now_s, command))
+        edges = [each.box.of(axis) for each in self._sectors if each.box.meets(there)]
+        if angle_deg is None or not edges:
+            return []
+        if command.rate_dps > 0:
+            place_deg = min(edge.min_deg for edge in edges) - room_deg
+            return [place_deg] if place_deg - angle_deg > room_deg else []
+        place_deg = max(edge.max_deg for edge in edges) + room_deg
+        return [place_deg] if angle_deg - place_deg > room_deg else []
+
+    def _held_back(self, now_s: float, axis: Axis, command: Command, swept: Box) -> Command:
+        notice = self._note(now_s, axis, command, swept)
+        self._axes[axis].hold_back(now_s, notice.text)
+        return Run(Direction.OFF, now_s) if isinstance(command, Run) else HOLD
+
+    def _note(self, now_s: float, axis: Axis, command: Command, swept: Box) -> Notice:
+        """Why this command is not carried out as it is."""
         there = swept.but(axis, self._axes[axis].sweep(now_s, command))
         name = " and ".join(self._met(there))
         if swept.known:
@@ -93,8 +119,7 @@ class Fence:
         if self._axes[axis].aiming is None or not swept.known:
             # The way of an axis that aims is found elsewhere, and what keeps it from its target is said there.
             self._held[axis] = (notice, now_s)
-        self._axes[axis].hold_back(now_s, notice.text)
-        return Run(Direction.OFF, now_s) if isinstance(command, Run) else HOLD
+        return notice
 
     def _met(self, box: Box) -> list[str]:
         return [each.name for each in self._sectors if each.box.meets(box)]

@@ -80,6 +80,82 @@ def test_against_a_stop_once_for_two_seconds_in_all() -> None:
     assert mast.run(1.5, coil=1) == [judges.BEYOND]
 
 
+def test_a_contact_that_opens_a_moment_after_its_coil_does_not_end_the_sum_at_a_stop() -> None:
+    mast = Mast(at_deg=361.0)
+    mast.case.feels = False
+    mast.order("rotctld", "jog", "cw")
+    mast.run(1.5, coil=1)
+    mast.run(STEP_S, coil=0, power=1)
+    mast.run(5.0)
+    assert mast.run(1.5, coil=1) == [judges.BEYOND]
+
+
+def test_a_press_of_an_axis_that_was_never_set_up_turns_it_two_seconds_in_all_however_late_it_begins() -> None:
+    mast = Mast(lacking="azimuth")
+    mast.order("console", "jog", "cw", 5.0)
+    mast.run(3.0)
+    assert mast.run(2.3, coil=1) == []
+    assert mast.run(0.5, coil=1) == [judges.AFTER_STOP]
+
+
+def test_the_panels_jog_switch_is_let_go() -> None:
+    mast = Mast()
+    mast.order("panel", "mode", "jog")
+    mast.run(2.0)
+    mast.order("panel", "jog", "cw", 1.0)
+    assert mast.run(1.3, coil=1) == []
+    assert mast.run(0.5, coil=1) == [judges.AFTER_STOP]
+
+
+def test_the_stop_button_stays_in_force_when_it_is_let_go() -> None:
+    mast = Mast()
+    mast.order("rotctld", "aim", 200.0, 0.0)
+    mast.order("panel", "stop", "press")
+    mast.run(1.0)
+    mast.order("panel", "stop", "release")
+    mast.order("rotctld", "aim", 200.0, 0.0)
+    assert mast.run(0.6, coil=1) == [judges.AFTER_STOP]
+
+
+def test_a_turn_of_the_mode_switch_releases_a_stop() -> None:
+    mast = Mast()
+    mast.order("console", "stop")
+    mast.order("panel", "mode", "manual")
+    mast.run(2.0)
+    mast.order("panel", "knob", "azimuth", 0.5)
+    assert mast.run(2.0, coil=1) == []
+
+
+def test_a_turn_of_the_mode_switch_while_the_stop_button_is_pressed_releases_nothing() -> None:
+    mast = Mast()
+    mast.order("panel", "stop", "press")
+    mast.order("panel", "mode", "manual")
+    mast.run(2.0)
+    mast.order("panel", "stop", "release")
+    mast.order("panel", "knob", "azimuth", 0.5)
+    assert mast.run(0.6, coil=1) == [judges.AFTER_STOP]
+
+
+def test_a_new_mode_ends_the_orders_before_it_and_none_after_it() -> None:
+    mast = Mast()
+    mast.order("rotctld", "aim", 200.0, 0.0)
+    mast.order("panel", "mode", "manual")
+    mast.run(1.2, coil=1)
+    mast.order("panel", "knob", "elevation", 0.5)
+    assert mast.run(0.2) == []
+    assert not mast.orders.holds("azimuth")
+    assert mast.orders.holds("elevation")
+
+
+def test_an_order_for_azimuth_may_turn_both_axes_round_a_sector() -> None:
+    mast = Mast()
+    mast.order("rotctld", "aim-azimuth", 200.0)
+    assert not mast.orders.holds("elevation")
+    mast.orders.goes_round = True
+    mast.order("rotctld", "aim-azimuth", 200.0)
+    assert mast.orders.holds("elevation")
+
+
 def test_against_a_stop_again_after_a_person() -> None:
     mast = Mast(at_deg=361.0)
     mast.case.feels = False
@@ -140,6 +216,21 @@ def test_towards_the_other_turn_of_the_target_is_not_away() -> None:
     assert mast.run(10.0, coil=1) == []
 
 
+@pytest.mark.parametrize(("wavered", "found"), [(0, [judges.AWAY]), (1, [])])
+def test_to_the_end_of_the_range_where_a_target_beyond_it_is_waited_for(wavered: int, found: list[str]) -> None:
+    mast = Mast(at_deg=300.0)
+    for azimuth_deg in (350.0, 20.0) * (1 + wavered):
+        mast.order("rotctld", "aim", azimuth_deg, 0.0)
+    assert mast.run(4.0, coil=1) == found
+
+
+def test_another_target_is_not_waited_for() -> None:
+    mast = Mast(at_deg=300.0)
+    for azimuth_deg in (350.0, 20.0, 350.0, 200.0):
+        mast.order("rotctld", "aim", azimuth_deg, 0.0)
+    assert mast.run(4.0, coil=1) == [judges.AWAY]
+
+
 def test_driven_before_any_order() -> None:
     assert Mast().run(0.6, coil=1) == [judges.NO_ORDER]
 
@@ -153,6 +244,16 @@ def test_current_in_a_motor_that_stands() -> None:
     mast.order("rotctld", "aim", 200.0, 0.0)
     assert mast.run(2.0, coil=1, dps=0.0) == []
     assert mast.run(0.3, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+
+
+def test_an_order_after_a_stop_is_another_try_though_the_current_never_ends() -> None:
+    mast = Mast()
+    for _ in range(3):
+        mast.order("rotctld", "aim", 200.0, 0.0)
+        assert mast.run(1.9, coil=1, dps=0.0) == []
+        mast.order("rotctld", "stop")
+    mast.order("rotctld", "aim", 200.0, 0.0)
+    assert mast.run(0.6, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
 
 
 def test_four_tries_in_ten_minutes() -> None:
@@ -186,7 +287,7 @@ def test_what_links_ordered_ends_when_no_stop_could_arrive_but_not_a_storm_park(
 def test_a_relay_that_welds_at_a_stop_in_a_calibration_is_left_to_the_person_who_watches() -> None:
     for at_deg, found in ((362.0, []), (300.0, [judges.BOTH_FED])):
         mast = Mast(at_deg=at_deg, lacking="azimuth", master=True)
-        mast.azimuth.shorted_s = 0.001
+        mast.azimuth.welded, mast.azimuth.shorted_s = True, 0.001
         assert mast.run(STEP_S) == found
 
 
@@ -195,7 +296,25 @@ def test_presses_of_an_axis_that_was_never_set_up_count_each_for_itself() -> Non
     for _ in range(9):
         mast.order("console", "jog", "cw", 2.0)
         assert mast.run(1.9, coil=1, dps=0.0) == []
-    assert mast.run(2.5, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+        mast.run(1.0)
+    mast.order("console", "jog", "cw", 2.0)
+    assert mast.run(2.3, coil=1, dps=0.0) == [judges.STANDING_CURRENT]
+
+
+def test_who_sets_an_axis_up_may_press_it_into_its_stop_again_and_again() -> None:
+    mast = Mast(at_deg=361.0, lacking="azimuth")
+    mast.case.feels = False
+    for _ in range(5):
+        mast.order("console", "jog", "cw", 2.0)
+        assert mast.run(2.0, coil=1) == []
+        mast.run(1.0)
+
+
+def test_opposite_relays_that_meet_at_a_stop_are_excused_only_by_a_weld() -> None:
+    for welded, found in ((True, []), (False, [judges.BOTH_FED])):
+        mast = Mast(at_deg=362.0, lacking="azimuth")
+        mast.azimuth.welded, mast.azimuth.shorted_s = welded, 0.1
+        assert mast.run(STEP_S) == found
 
 
 def test_a_welded_motor_has_its_time_again_when_its_supply_comes_back() -> None:
@@ -214,17 +333,12 @@ def test_one_coordinate_alone_moves_both_axes_only_over_the_top() -> None:
         assert mast.run(3.0, coil=1) == found
 
 
-def test_a_target_that_wavers_across_the_end_is_met_at_that_end_and_any_other_is_not() -> None:
-    for before_deg, found in ((5.0, []), (200.0, []), (None, [judges.AWAY])):
+def test_a_target_that_wavers_across_the_end_is_waited_for_there_after_its_first_swing() -> None:
+    for before_deg, found in (((), [judges.AWAY]), ((346.0, 5.0), []), ((200.0, 5.0), [judges.AWAY])):
         mast = Mast(at_deg=60.0)
-        if before_deg is not None:
-            mast.order("rotctld", "aim", before_deg, 0.0)
-        mast.order("rotctld", "aim", 346.0, 0.0)
+        for azimuth_deg in (5.0, *before_deg, 346.0):
+            mast.order("rotctld", "aim", azimuth_deg, 0.0)
         assert mast.run(4.0, coil=-1) == found
-    mast = Mast(at_deg=60.0)
-    mast.order("rotctld", "aim", 5.0, 0.0)
-    mast.order("rotctld", "aim", 200.0, 0.0)
-    assert mast.run(4.0, coil=-1) == [judges.AWAY]
 
 
 def test_an_idle_park_begins_after_any_order() -> None:
@@ -232,3 +346,19 @@ def test_an_idle_park_begins_after_any_order() -> None:
     mast.order("rotctld", "jog", "cw")
     mast.order("rotctld", "leave")
     assert mast.run(4.0, coil=-1) == []
+
+
+@pytest.mark.parametrize(("before", "holds"), [("storm", True), ("home", True), ("aim", False)])
+def test_a_person_who_gives_an_angle_ends_an_aim_but_neither_a_storm_park_nor_a_homing(
+    before: str, holds: bool
+) -> None:
+    mast = Mast()
+    match before:
+        case "aim":
+            mast.order("console", before, 200.0, 0.0)
+        case "home":
+            mast.order("console", before, "azimuth")
+        case _:
+            mast.order("console", before)
+    mast.order("console", "confirm", "azimuth", 0.0)
+    assert mast.orders.holds("azimuth") is holds

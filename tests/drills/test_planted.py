@@ -55,13 +55,14 @@ def test_a_planted_bug_fits_the_source_and_comes_out_again(bug: Bug, tmp_path: P
 
 def test_there_are_planted_bugs_in_every_layer_that_moves_a_motor() -> None:
     rooms = {str(Path(path).parent) for bug in BUGS.values() for path in bug.paths}
-    assert len(BUGS) >= 22
+    assert len(BUGS) >= 34
     assert rooms >= {
         "hw/drives",
         "hw/moteus",
         "hw/sensors",
         "rotator/control",
         "rotator/control/axis",
+        "rotator/panel",
         "rotator/runtime",
     }
 
@@ -76,6 +77,12 @@ def test_no_planted_bug_changes_the_simulated_world_or_its_judges() -> None:
 def test_a_planted_bug_has_its_judges_and_a_script_that_shows_it(bug: Bug) -> None:
     assert set(bug.judges) <= set(TABLE)
     assert Drill.from_json((FOLDER / f"{bug.name}.json").read_text()).events
+
+
+def test_each_planted_bug_has_its_row_in_the_table_of_what_found_it() -> None:
+    table = (ROOT / "docs" / "drills.md").read_text().partition("<!-- planted: begin -->")[2]
+    rows = [line.split(" | ") for line in table.splitlines() if line.startswith("| ")][2:]
+    assert [row[0].removeprefix("| ") for row in rows] == list(BUGS)
 
 
 def test_a_patch_names_what_is_wrong_and_who_should_see_it() -> None:

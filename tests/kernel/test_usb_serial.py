@@ -160,7 +160,7 @@ def test_the_cable_pulled_and_put_back(cable: UsbSerialCable, box: Box, caplog: 
             assert port.read(len(POSITION)) == POSITION
             port.write(b"W300")  # half a command, which must not outlive the plug
             cable.pull()
-        until(lambda: box.wire.state != "open", "the loss noticed")
+        until(lambda: box.wire.state == "waiting for it", "the loss noticed and logged")
         assert caplog.text.count(" lost: ") == count
         cable.plug()
         until(lambda: box.wire.state == "open", "the box's port open again")

@@ -1,7 +1,8 @@
 """Whether the campaign finds each planted bug: run `python -m benchmarks.drills.planted [NAME ...]`.
 
-Plants one bug at a time in a copy of the source, and runs the campaign there until it finds it or its hours are used
-up. Prints a table; the exit code is 1 where a bug was not found. `--scripts` plays a short script for each bug instead,
+Plants one bug at a time in a copy of the source, and runs the campaign there, on the kind of rotor that the bug's own
+script is about, until it finds the bug or its hours are used up. Prints the table of docs/drills.md; the exit code is 1
+where a bug was not found. `--scripts` plays a short script for each bug instead,
 which tells in a minute whether the judges can see it. `--apply NAME` and `--take-back NAME` change the
 checkout itself, for a person who wants to look.
 """
@@ -11,12 +12,15 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from collections.abc import Sequence
 from dataclasses import asdict
 
+from benchmarks.drills.boxes import KINDS
 from benchmarks.drills.planted.hunt import ROOT, CampaignError, Hunt, copied, hunt, scripted
 from benchmarks.drills.planted.patch import Bug, Misfit, bugs, plant, take_back
 
-HOURS = 10.0
+HOURS = 5.0
+COLUMNS = ("planted bug", "found after", "on", "by the judge of")
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -47,7 +51,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("names", nargs="*", metavar="NAME", help="the bugs to look for; all, where none is named")
     parser.add_argument("--hours", type=float, default=HOURS, help="simulated hours for each bug, at most")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--kind", default="", help="one kind of rotor alone")
+    parser.add_argument("--kind", choices=list(KINDS), default="", help="on this kind of rotor")
     parser.add_argument("--json", action="store_true", help="the result as JSON")
     parser.add_argument("--list", action="store_true", help="say what each bug is, and run nothing")
     parser.add_argument(
@@ -81,6 +85,8 @@ def _play_scripts(chosen: list[Bug]) -> int:
 
 def _hunt_all(chosen: list[Bug], *, hours: float, seed: int, kind: str, as_json: bool) -> int:
     hunts: list[Hunt] = []
+    if not as_json:
+        print(f"{_cells(COLUMNS)}\n{_cells(['---'] * len(COLUMNS))}", flush=True)
     with copied() as sound:
         for bug in chosen:
             hunts.append(hunt(bug, sound, hours=hours, seed=seed, kind=kind))
@@ -91,13 +97,19 @@ def _hunt_all(chosen: list[Bug], *, hours: float, seed: int, kind: str, as_json:
         print(json.dumps([_content(each) for each in hunts], indent=1))
     else:
         print(f"{len(hunts) - len(missed)} of {len(hunts)} planted bugs found")
+        if also_without := dict.fromkeys(drawn for each in hunts for drawn in each.also_without):
+            print(f"not counted, for they show without the planted bug too: {', '.join(also_without)}")
     return 1 if missed else 0
 
 
 def _row(each: Hunt) -> str:
-    found = f"{each.find.after_h:6.2f} h  {each.find.kind:12} {each.find.judge}" if each.find else "NOT FOUND"
-    more = f"  ({each.also_without} finds show without it too)" if each.also_without else ""
-    return f"{each.bug.name:36} {found}{more}"
+    if each.find is None:
+        return _cells([each.bug.name, f"not in {each.hours:.1f} h", "", ""])
+    return _cells([each.bug.name, f"{each.find.after_h:.2f} h", each.find.kind, each.find.judge])
+
+
+def _cells(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(cells)} |"
 
 
 def _content(each: Hunt) -> dict[str, object]:

@@ -20,6 +20,7 @@ from typing import Any
 
 from benchmarks.drills.judges import TABLE
 from benchmarks.drills.planted.patch import FOLDER, Bug, plant
+from benchmarks.drills.script import Drill
 
 ROOT = Path(__file__).parents[3]
 PACKAGES = ("rotator", "hw", "firmware_sim", "benchmarks")
@@ -44,8 +45,8 @@ class Hunt:
     hours: float
     """Simulated hours played in all."""
     find: Find | None
-    also_without: int
-    """Finds that show on the source without the bug too, and so do not count."""
+    also_without: tuple[str, ...]
+    """The drills of finds that show on the source without the bug too, and so do not count."""
 
 
 class CampaignError(Exception):
@@ -62,36 +63,44 @@ def copied(root: Path = ROOT) -> Iterator[Path]:
 
 
 def hunt(bug: Bug, sound: Path, *, hours: float, seed: int, kind: str = "") -> Hunt:
-    """`sound`: a tree without the bug. Raises CampaignError, Misfit."""
-    played_h, also_without = 0.0, 0
+    """`sound`: a tree without the bug. `kind`: of the rotor; empty: the one of the bug's own script.
+
+    Raises CampaignError, Misfit.
+    """
+    played_h = 0.0
+    also_without: list[str] = []
+    kind = kind or Drill.from_json(_script(bug)).kind
     with copied(sound) as tree:
         plant(bug, tree)
         while played_h < hours:
             result = _campaign(tree, ["--seed", str(seed), "--hours", f"{hours - played_h:g}", "--first"], kind)
             played_h += sum(float(tally["hours"]) for tally in result["kinds"].values())
             for found in result["found"]:
+                drawn_from = str(found["drawn_from"])
                 # An exception is no find: a planted bug moves a motor, it does not end the program.
                 if found["judge"] in TABLE and not _replay(sound, found["script"]):
-                    drawn_from = str(found["drawn_from"])
                     find = Find(found["judge"], drawn_from.partition("/")[2], played_h, found["measured"], drawn_from)
-                    return Hunt(bug, played_h, find, also_without)
-                also_without += 1
+                    return Hunt(bug, played_h, find, tuple(also_without))
+                also_without.append(drawn_from)
             seed += 1
-    return Hunt(bug, played_h, None, also_without)
+    return Hunt(bug, played_h, None, tuple(also_without))
 
 
 def scripted(bug: Bug, sound: Path) -> str:
     """What the bug's own script shows with it, and does not show without it; empty: nothing. Raises CampaignError."""
-    script = (FOLDER / f"{bug.name}.json").read_text(encoding="utf-8")
+    script = _script(bug)
     with copied(sound) as tree:
         plant(bug, tree)
         shown = _replay(tree, script)
     return "" if _replay(sound, script) else shown
 
 
+def _script(bug: Bug) -> str:
+    return (FOLDER / f"{bug.name}.json").read_text(encoding="utf-8")
+
+
 def _campaign(tree: Path, arguments: list[str], kind: str) -> dict[str, Any]:
-    kinds = ["--kind", kind] if kind else []
-    result = _run(tree, [*arguments, *kinds, "--json"])
+    result = _run(tree, [*arguments, "--kind", kind, "--json"])
     try:
         content: dict[str, Any] = json.loads(result.stdout)
     except ValueError as fault:

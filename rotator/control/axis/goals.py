@@ -25,6 +25,8 @@ class JogGoal:
     """None: until it is halted, or at its limit."""
     waits_s: float = 0.0
     """For so long more its time does not pass while its relay may not close yet."""
+    end_deg: float | None = None
+    """Where it comes to rest before a forbidden sector; None: no sector was near yet."""
 
     def put_off(self, by_s: float) -> JogGoal:
         """Its relay waited for `by_s`."""

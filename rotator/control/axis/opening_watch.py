@@ -21,22 +21,19 @@ from dataclasses import dataclass
 
 from hw.ports import Direction
 from rotator.control.axis.observed_motion import RELAY_S, ObservedMotion
+from rotator.control.axis.seen_run import (
+    END_WINDOWS_S,
+    FED_SHARE,
+    SLOWED_SHARE,
+    STEADY_S,
+    UNSEEN_S,
+    EndedRun,
+    SeenRun,
+)
 from rotator.control.axis.trend import Slope
 from rotator.status import Trust, Trusts
 
 PLUS, MINUS = Direction.PLUS, Direction.MINUS
-SLOWED_SHARE = 0.6
-"""An axis slower than this share of its run's speed has lost its current."""
-FED_SHARE, FED_BELIEVED_SHARE = 0.5, 0.2
-"""A motor with current turns at this share of its speed at least: of the speed measured, or of the one believed."""
-END_WINDOWS_S = (0.25, 0.5, 1.0, 2.0, 4.0)
-"""The end of a run is looked at for so long, in turn, until its speed is certain."""
-MEASURED_AFTER_S = 0.6
-"""A run as long as this shows the motor's speed; in a shorter one it is still gathering it."""
-STEADY_S = 1.5
-"""After this time the motor runs at its full speed, and the run's last second shows it exactly."""
-UNSEEN_S = 0.3
-"""An axis that was held for less than this at the end of a run seems to turn until the end."""
 DOUBTS_AFTER_S = 0.5
 GAP_S = 0.5
 """No command to a relay holds for longer without being renewed."""
@@ -53,23 +50,8 @@ COASTS_NOISES, COASTS_S = 5.0, 1.5
 """Two places that differ by so many times the noise are not the same: each is the mean of three readings."""
 SURE_ERRORS = 4.0
 """Two means of more readings are not the same place if they differ by so many standard errors."""
-EXACT_ERRORS = 6.0
-"""A speed is measured when it is so many times its standard error."""
 SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
 """An axis is looked at for so long before it is taken to stand: longer where the readings scatter more."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Ended:
-    """The latest run, when its relay was switched off."""
-
-    direction: Direction
-    off_s: float
-    lasted_s: float
-    line: Slope | None
-    """How the axis turned when the run ended; None: it was not seen to turn."""
-    angle_deg: float
-    """Where it was then."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +83,7 @@ class OpeningWatch:
         """It went on at its speed after its relay was switched off."""
         self._going = 0
         """How many readings in a row have shown that."""
-        self._ended: _Ended | None = None
+        self._run = SeenRun(seen)
         self._supplied_s: float | None = None
         """Since when the motor would have current if a relay were closed; None: it would not."""
         self._unbroken = False
@@ -113,14 +95,8 @@ class OpeningWatch:
         """Where the axis stands."""
         self._rested_s: float | None = None
         """Since when it stands."""
-        self._line: Slope | None = None
-        """How the present run turns the axis."""
-        self._run_dps = 0.0
-        """The fastest that the axis has turned in this run, for certain."""
         self._seen_s = -math.inf
         """When the latest reading was taken."""
-        self._turned_s = -math.inf
-        """When the axis was last seen to turn."""
         self._from: _Rest | None = None
         """Where it stood when it had last been seen to turn."""
         self._from_here = False
@@ -129,7 +105,6 @@ class OpeningWatch:
         """For how long relays were closed since the axis was last seen to turn."""
         self._lagged_deg: float | None = None
         """Where the axis was when it had fallen behind a motor with current."""
-        self._measured: dict[Direction, float] = {}
         self._held_deg: dict[Direction, float] = {}
         """Where the axis stood while it was driven that way."""
 
@@ -143,14 +118,12 @@ class OpeningWatch:
     @property
     def measured_dps(self) -> float | None:
         """The slower of the speeds that the latest runs have shown; None: there was none yet."""
-        return min(self._measured.values(), default=None)
+        return self._run.measured_dps
 
     @property
     def fed_dps(self) -> float:
         """What a motor with current turns at least."""
-        believed_dps = min(motor.speed_dps for motor in self._seen.motors.values())
-        measured_dps = self.measured_dps
-        return FED_BELIEVED_SHARE * believed_dps if measured_dps is None else FED_SHARE * measured_dps
+        return self._run.fed_dps
 
     @property
     def place(self) -> str:
@@ -163,7 +136,7 @@ class OpeningWatch:
             return True
         # Only now did it begin to turn the other way: what turns it may be the opposite relay.
         slope = self._seen.trend.slope(self._seen.trend.last_s - END_WINDOWS_S[1])
-        fed_dps = FED_SHARE * self._motor_dps
+        fed_dps = FED_SHARE * self._run.motor_dps
         return slope is not None and -slope.speed_dps * direction - 2.0 * slope.rough_dps > fed_dps
 
     def found_closed(self, direction: Direction) -> None:
@@ -173,7 +146,7 @@ class OpeningWatch:
     def checked(self) -> None:
         """A person has looked at both relays: they are open."""
         self._trust = {PLUS: Trust.OPEN, MINUS: Trust.OPEN}
-        self._ended, self._blind_s, self.ran_on = None, 0.0, False
+        self._run.ended, self._blind_s, self.ran_on = None, 0.0, False
         self._held_deg.clear()
 
     def driven(self, now_s: float, direction: Direction, was: Direction, since_s: float) -> None:
@@ -185,8 +158,9 @@ class OpeningWatch:
                 self._trust[direction] = Trust.UNSEEN
             self._resting.clear()
             self._from_here = False
-            self._rest_deg = self._rested_s = self._line = self._ended = self._lagged_deg = None
-            self.ran_on, self._going, self._run_dps = False, 0, 0.0
+            self._rest_deg = self._rested_s = self._lagged_deg = None
+            self._run.begin()
+            self.ran_on, self._going = False, 0
 
     def see(self, at_s: float, angle_deg: float, *, supplied: bool) -> None:
         """A good reading, on the line of the others."""
@@ -194,7 +168,7 @@ class OpeningWatch:
         gap_s, self._seen_s = at_s - self._seen_s, at_s
         if self._seen.relays.direction is not Direction.OFF:
             # After a long gap the guard has opened the relay: how the run went before it is what counts.
-            if gap_s <= GAP_S or self._line is None:
+            if gap_s <= GAP_S or self._run.line is None:
                 self._see_run(at_s)
         elif not supplied:
             self._supplied_s, self._unbroken = None, False
@@ -207,66 +181,30 @@ class OpeningWatch:
     def _place_deg(self) -> float:
         return sum(self._latest) / len(self._latest)
 
-    @property
-    def _motor_dps(self) -> float:
-        return self.measured_dps or min(motor.speed_dps for motor in self._seen.motors.values())
-
     # --- a relay is closed
 
     def _see_run(self, at_s: float) -> None:
-        relays = self._seen.relays
+        relays, run = self._seen.relays, self._run
         self._supplied_s, self._unbroken = relays.since_s, True
-        self._line = self._turning(at_s, relays.since_s)
-        if self._line is not None:
-            if abs(self._line.speed_dps) >= 2.0 * EXACT_ERRORS * self._line.rough_dps:
-                self._run_dps = max(self._run_dps, abs(self._line.speed_dps) - 2.0 * self._line.rough_dps)
-            self._turned_s, self._blind_s, self._from = at_s, 0.0, None
+        run.see(at_s)
+        if run.line is not None:
+            self._blind_s, self._from = 0.0, None
             for way, held_deg in list(self._held_deg.items()):
                 if (self._place_deg - held_deg) * way > 2.0 * BEYOND_DEG:
                     del self._held_deg[way]
-        elif at_s - max(relays.since_s, self._turned_s) > max(BLIND_S, 1.5 * self._unseen_s):
+        elif at_s - max(relays.since_s, run.turned_s) > max(BLIND_S, 1.5 * run.unseen_s):
             self._held_deg[relays.direction] = self._place_deg
             self._from = self._from or _Rest(self._place_deg, len(self._latest))
 
-    def _turning(self, at_s: float, since_s: float) -> Slope | None:
-        """How fast the axis turns just now, for certain."""
-        trend = self._seen.trend
-        for window_s in END_WINDOWS_S:
-            slope = trend.slope(max(since_s, at_s - window_s))
-            if slope is None:
-                continue
-            if abs(slope.speed_dps) + 3.0 * slope.rough_dps < max(self.fed_dps, FED_SHARE * self._run_dps):
-                return None  # it stands, whatever the longer windows still hold
-            if abs(slope.speed_dps) < 3.5 * slope.rough_dps:
-                continue
-            # It may have stopped within this window: then its end is slower than the whole.
-            latest = trend.slope(max(since_s, at_s - max(END_WINDOWS_S[0], window_s / 4.0)))
-            if latest is None:
-                return None
-            going_dps = latest.speed_dps * math.copysign(1.0, slope.speed_dps) + 2.0 * latest.rough_dps
-            return slope if going_dps >= SLOWED_SHARE * abs(slope.speed_dps) else None
-        return None
-
     def _end(self, now_s: float, direction: Direction, lasted_s: float) -> None:
-        line, self._line = self._line, None
-        if line is None:
-            self._blind_s += now_s - max(now_s - lasted_s, self._turned_s)
-        elif lasted_s >= MEASURED_AFTER_S:
-            line = self._exactly(line, now_s) if lasted_s >= STEADY_S else line
-            if abs(line.speed_dps) >= EXACT_ERRORS * line.rough_dps:
-                self._measured[direction] = abs(line.speed_dps)
-        self._ended = _Ended(direction, now_s, lasted_s, line, self._place_deg if self._latest else 0.0)
-
-    def _exactly(self, line: Slope, now_s: float) -> Slope:
-        """The same speed from a longer stretch, where the axis did not change its speed within it."""
-        longer = self._seen.trend.slope(now_s - 1.0)
-        steady = longer is not None and abs(longer.speed_dps - line.speed_dps) <= 3.0 * line.rough_dps
-        return longer if longer is not None and steady and longer.rough_dps < line.rough_dps else line
+        if self._run.line is None:
+            self._blind_s += now_s - max(now_s - lasted_s, self._run.turned_s)
+        self._run.end(now_s, direction, lasted_s, self._place_deg if self._latest else 0.0)
 
     # --- no relay is closed
 
     def _see_rest(self, at_s: float) -> None:
-        ended = self._ended
+        ended = self._run.ended
         if ended is not None and ended.line is not None and self._unbroken:
             self._note_slowing(at_s, ended, ended.line)
         if self._stands(at_s):
@@ -274,7 +212,7 @@ class OpeningWatch:
         elif self._rest_deg is not None and self._moved_from(self._rest_deg):
             self._note_moved(self._rest_deg)
 
-    def _note_slowing(self, at_s: float, ended: _Ended, line: Slope) -> None:
+    def _note_slowing(self, at_s: float, ended: EndedRun, line: Slope) -> None:
         slope = self._seen.trend.slope(ended.off_s + RELAY_S)
         way = PLUS if line.speed_dps > 0 else MINUS
         if slope is None or self.ran_on or self._trust[ended.direction] is Trust.OPEN:
@@ -310,7 +248,7 @@ class OpeningWatch:
         trend, fed_dps = self._seen.trend, self.fed_dps
         window_s = min(max(SHORTEST_WINDOW_S, trend.window_s(fed_dps / 6.0)), LONGEST_WINDOW_S)
         assert self._supplied_s is not None
-        from_s = max(self._supplied_s, self._ended.off_s if self._ended else -math.inf, trend.since_s)
+        from_s = max(self._supplied_s, self._run.ended.off_s if self._run.ended else -math.inf, trend.since_s)
         if at_s - window_s < from_s:
             return False
         slope = trend.slope(at_s - window_s)
@@ -328,7 +266,7 @@ class OpeningWatch:
             self._from, self._from_here = rest, True
         elif rest.differs(self._from, self._seen.trend.noise_deg):
             if self._moved_from(self._from.mean_deg):
-                self._turned_s = -math.inf
+                self._run.turned_s = -math.inf
                 # It has left what held it, or its readings had stood still.
                 for way, held_deg in list(self._held_deg.items()):
                     if self._moved_from(held_deg):
@@ -337,7 +275,7 @@ class OpeningWatch:
         for way in (PLUS, MINUS):
             if self._trust[way] is Trust.OPEN:
                 continue
-            ended = self._ended if self._ended and self._ended.direction is way else None
+            ended = self._run.ended if self._run.ended and self._run.ended.direction is way else None
             shown = self._followed(ended) if ended else self._trust[way] is Trust.UNSEEN and self._blind_s <= BLIND_S
             if self._trust[way] is Trust.WELDED:
                 # The supply may have been switched off by hand: only a run that was seen shows that it opens.
@@ -347,23 +285,18 @@ class OpeningWatch:
             elif self._trust[way] is Trust.UNSEEN and at_s - self._rested_s >= self._doubts_after_s:
                 self._trust[way] = Trust.DOUBTED
 
-    def _followed(self, ended: _Ended) -> bool:
+    def _followed(self, ended: EndedRun) -> bool:
         """Whether the axis turned when its latest run ended; after a short run, whether it may have."""
         if ended.line is not None:
             return True
-        if ended.off_s - ended.lasted_s <= self._turned_s < ended.off_s - self._unseen_s:
+        if ended.off_s - ended.lasted_s <= self._run.turned_s < ended.off_s - self._run.unseen_s:
             return False  # in this run it turned at first, and something held it
-        return self._blind_s <= max(BLIND_S, 1.5 * self._unseen_s)
+        return self._blind_s <= max(BLIND_S, 1.5 * self._run.unseen_s)
 
     @property
     def _doubts_after_s(self) -> float:
         """So long an axis stands before a doubt is raised: more readings may still show that it has moved."""
-        return DOUBTS_AFTER_S + 2.0 * (self._unseen_s - UNSEEN_S)
-
-    @property
-    def _unseen_s(self) -> float:
-        """For so long the noise may hide that a motor with current turns."""
-        return max(UNSEEN_S, self._seen.trend.window_s(self.fed_dps / 3.5))
+        return DOUBTS_AFTER_S + 2.0 * (self._run.unseen_s - UNSEEN_S)
 
     def _moved_from(self, rest_deg: float) -> bool:
         return abs(self._place_deg - rest_deg) > MOVED_DEG + 4.0 * self._seen.trend.noise_deg
@@ -377,7 +310,7 @@ class OpeningWatch:
         against = Direction(-way)
         if self._trust[against] is Trust.DOUBTED:
             # It has been turned away from what may have held it.
-            self._trust[against], self._blind_s, self._ended = Trust.UNSEEN, 0.0, None
+            self._trust[against], self._blind_s, self._run.ended = Trust.UNSEEN, 0.0, None
             self._held_deg.pop(against, None)
 
     def _free(self, way: Direction, place_deg: float) -> bool:

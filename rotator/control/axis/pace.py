@@ -29,8 +29,8 @@ class Pace:
         self._settings = settings
         self._modelled = settings.source is AngleSource.MODELLED
         self._readings: deque[tuple[float, float]] = deque(maxlen=16)
-        self._trailing_deg: float | None = None
-        """Where a modelled axis is at its slowest."""
+        self._behind: Range | None = None
+        """Where a modelled axis may be: at its model, or behind it, on either side where the model has turned back."""
         self._place_deg: float | None = None
         """Where it was sent last, to rest there."""
         self._stops = False
@@ -38,11 +38,9 @@ class Pace:
 
     def see(self, at_s: float, angle_deg: float) -> None:
         """A new good reading."""
-        if self._trailing_deg is None or not self._readings:
-            self._trailing_deg = angle_deg
-        most_deg = SLOWEST * self._settings.speed_dps * (at_s - self._readings[-1][0] if self._readings else 0.0)
-        behind_deg = angle_deg - self._trailing_deg
-        self._trailing_deg += math.copysign(min(abs(behind_deg), most_deg), behind_deg)
+        behind = self._behind or Range(angle_deg, angle_deg)
+        follows_deg = SLOWEST * self._settings.speed_dps * (at_s - self._readings[-1][0] if self._readings else 0.0)
+        self._behind = Range(min(angle_deg, behind.min_deg + follows_deg), max(angle_deg, behind.max_deg - follows_deg))
         self._readings.append((at_s, angle_deg))
 
     def sent(self, now_s: float, place_deg: float | None) -> None:
@@ -65,17 +63,20 @@ class Pace:
         span = self._braking_span(now_s)
         if not self._stops or self._modelled or self._place_deg is None:
             return span
-        angle_deg, near_deg = self._readings[-1][1], self._settings.near_deg
-        if self._place_deg > angle_deg:
-            return Range(span.min_deg, max(angle_deg, min(span.max_deg, self._place_deg + near_deg)))
-        return Range(min(angle_deg, max(span.min_deg, self._place_deg - near_deg)), span.max_deg)
+        angle_deg, near_deg, place_deg = self._readings[-1][1], self._settings.near_deg, self._place_deg
+        least_deg, most_deg = span.min_deg, span.max_deg
+        if place_deg >= angle_deg - near_deg:
+            most_deg = max(angle_deg, min(most_deg, place_deg + near_deg))
+        if place_deg <= angle_deg + near_deg:
+            least_deg = min(angle_deg, max(least_deg, place_deg - near_deg))
+        return Range(least_deg, most_deg)
 
     def _braking_span(self, now_s: float) -> Range:
         at_s, angle_deg = self._readings[-1]
         span = Range(angle_deg, angle_deg)
         if self._modelled:
-            assert self._trailing_deg is not None
-            return span.spanning(self._trailing_deg).widened(self._settings.near_deg)
+            assert self._behind is not None
+            return self._behind.widened(self._settings.near_deg)
         blind_s = now_s - at_s + LATE_S
         for speed_dps in self._speeds_dps(at_s, angle_deg):
             ahead_deg = abs(speed_dps) * blind_s + self.braking_deg(speed_dps)

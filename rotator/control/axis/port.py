@@ -10,7 +10,7 @@ from typing import Protocol
 
 from hw.ports import Direction
 from rotator.control.axis.sensing import Reading
-from rotator.control.commands import Command, Decision
+from rotator.control.commands import Command, Decision, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.pointing import AimGoal
 from rotator.faults import Fault, Missing
@@ -95,6 +95,9 @@ class ControlledAxis(Protocol):
 
     def hold_back(self, now_s: float, why: str) -> None:
         """Its latest command is not carried out, for this reason. A jog and the way to an end stop end with that."""
+
+    def shortened(self, now_s: float, command: Steer) -> None:
+        """This is carried out in place of its latest command, which would lead too far. A jog ends there."""
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """After the cycle: the direction in which its relays are really closed (OFF where there are none)."""

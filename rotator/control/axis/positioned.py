@@ -7,6 +7,7 @@ who gave the order. It does not know how the drive gets to an angle; it sees whe
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.fault_latch import FaultLatch
@@ -165,6 +166,12 @@ class PositionedAxis:
         if isinstance(self._goal, JogGoal):
             self._goal = None
 
+    def shortened(self, now_s: float, command: Steer) -> None:
+        self._steered = (command, now_s)
+        self._pace.sent(now_s, command.angle_deg)
+        if isinstance(self._goal, JogGoal):
+            self._goal = replace(self._goal, end_deg=command.angle_deg)
+
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """There are no relays to be noted."""
 
@@ -209,6 +216,8 @@ class PositionedAxis:
             case JogGoal(_, jog_until_s) if jog_until_s is not None and now_s >= jog_until_s:
                 self._goal = None
                 return HOLD
+            case JogGoal(end_deg=float() as end_deg):
+                return self._jog_to(end_deg, until_s)
             case JogGoal(direction, _):
                 return self._jog(self._sensing.angle_deg, now_s, direction, until_s)
 
@@ -227,6 +236,14 @@ class PositionedAxis:
         if (limit_deg - from_deg) * direction <= self._braking_deg:
             return Steer(limit_deg, 0.0, until_s)
         return self._within(from_deg, self.speed_dps * direction, until_s)
+
+    def _jog_to(self, end_deg: float, until_s: float) -> Steer | Hold:
+        """The end of a jog that may go no further."""
+        steer = self._within(end_deg, 0.0, until_s)
+        if not self._arrived(steer):
+            return steer
+        self._goal = None
+        return HOLD
 
     @property
     def _braking_deg(self) -> float:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.attempts import Attempts
@@ -18,27 +17,21 @@ from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.reach import Reach, Runs, lost
-from rotator.control.axis.relay_trust import WAYS, doubts
-from rotator.control.axis.run_watch import RunWatch
+from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
-from rotator.control.commands import Command, Decision, Feed, Run
+from rotator.control.commands import Command, Decision, Feed, Run, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.status import AxisStatus, LearntMotor, Trust, Trusts
+from rotator.status import AxisStatus, LearntMotor
 
 JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
-SETTLED_AFTER_S = 1.0
-"""A motor counts as moving until it has been off this long."""
-WAITS_TOLD_AFTER_S = 4.0
-WAITS = Notice("waits until it is seen to stand: only then may its relay close")
 BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
 
 
@@ -59,13 +52,11 @@ class SwitchedAxis:
         self._timing = Timing(lease_s=lease_s, period_s=period_s)
         motors = settings.learnt or (settings.motor, settings.motor)
         self._law = self._new_law(dict(zip((Direction.PLUS, Direction.MINUS), motors, strict=True)))
-        self._watch = self._new_watch(settings.trusts, look=settings.look)
+        self._gate = RelayGate(settings, self._law.motion.motors, lease_s=lease_s, placed=self._placed)
         self._astray: Fault | None = None
-        """What the watch made of the latest reading."""
+        """What is wrong with the motion, by the latest reading."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
         self._runs = Runs()
-        self._waits_s = math.inf
-        """Since when a run waits for the opposite relay to be seen open; infinite: none waits."""
         self._reach = Reach(settings)
 
     @property
@@ -135,33 +126,22 @@ class SwitchedAxis:
 
     def see(self, reading: Reading, now_s: float) -> None:
         lost = self._note_condition(reading.condition)
-        unbelievable = self._sensing.take(reading, now_s, self._watch.noise_deg)
+        unbelievable = self._sensing.take(reading, now_s, self._gate.noise_deg)
         for at_s, angle_deg in self._sensing.places:
             if self._sensing.calibration is None:
                 # Without a calibration there is no angle, but a relay that does not open is seen all the same.
-                self._astray = self._watch.see(at_s, angle_deg, reading.condition)
+                self._astray = self._gate.see(at_s, angle_deg, reading.condition)
                 continue
             self._law.see(at_s, angle_deg)
-            found = self._watch.see(at_s, angle_deg, reading.condition)
+            found = self._gate.see(at_s, angle_deg, reading.condition)
             if self.settings.homing is None:
-                found = found or self._attempts.see(at_s, angle_deg, self._watch.noise_deg)
+                found = found or self._attempts.see(at_s, angle_deg, self._gate.noise_deg)
             self._astray = None if self.homing else found
         # The rotor's own report says more than what can be seen of it from here.
-        reported, present = reading.condition.fault, self._blind_to_weld(unbelievable, now_s) or self._astray
+        reported, present = reading.condition.fault, self._gate.blind(unbelievable, self._runs, now_s) or self._astray
         cause = present if reading.condition.latched else reported or present
         if self._attempts.note((None if self.homing else reported) or present or lost, now_s, cause=cause):
             self._law.forget_run()
-
-    def _blind_to_weld(self, unbelievable: Fault | None, now_s: float) -> Fault | None:
-        """A sensor's fault, as it is; where it hides whether the motor has stopped, the master is to stop it."""
-        last = self._runs.last
-        if unbelievable is None or not self.settings.master or last is Direction.OFF:
-            return unbelievable
-        trust = self._watch.trusts[0 if last > 0 else 1]
-        if trust is Trust.OPEN or self.driven or self._runs.off_s(now_s) < SETTLED_AFTER_S:
-            return unbelievable
-        measured = f"{unbelievable.measured}, {WAYS[self.settings.axis, last]} not seen to stop; the master is opened"
-        return replace(unbelievable, measured=measured, cut=True)
 
     def _note_condition(self, condition: Condition) -> Fault | None:
         """What has become of the rotor since the last reading. A count that has just been lost is a fault, once."""
@@ -181,17 +161,16 @@ class SwitchedAxis:
     def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
         acknowledged = self._attempts.acknowledge(now_s, by_person=by_person)
         if acknowledged:
-            self._watch.acknowledge()
+            self._gate.acknowledge()
         return acknowledged
 
     def checked(self) -> None:
         """A person has looked at both relays, and they are open: no doubt is left."""
-        self._watch.checked()
+        self._gate.checked()
 
     def decide(self, now_s: float) -> Decision:
-        if isinstance(self._watch, RunWatch):
-            begun = isinstance(self._goal, HomeGoal) and self._goal.homing.begun
-            self._watch.homes(homing=begun, failed=self.fault is not None)
+        begun = isinstance(self._goal, HomeGoal) and self._goal.homing.begun
+        self._gate.homes(homing=begun, failed=self.fault is not None)
         run = self._safe(self._wish(now_s), now_s)
         if isinstance(self._goal, HomeGoal) and self._goal.homing.homed:
             homed_deg = self._goal.homing.home_deg
@@ -201,28 +180,20 @@ class SwitchedAxis:
 
     def _safe(self, run: Run, now_s: float) -> Run | Feed:
         """The run, unless a relay, a limit or the motor's heat forbids it."""
-        waits_s, self._waits_s = self._waits_s, math.inf
         if run.direction is Direction.OFF:
+            self._gate.rests()
             return run
-        passes = self._passes_doubt(run.direction)
-        if not passes and (suspected := self._watch.accuse(run.direction)) is not None:
+        if (suspected := self._gate.accuse(run.direction)) is not None:
             self.fail(suspected)
         if self._condition and run.direction in self._condition.ends:
             self.fail(limit_reached(self.settings.axis, run.direction))
         if self.fault is not None or self._endurance.resting or self._beyond(run.direction):
+            self._gate.rests()
             return self._law.rest(now_s)
-        if passes or not self._watch.forbids(run.direction):
-            return run
-        self._waits_s = min(waits_s, now_s)
-        if isinstance(self._goal, JogGoal):
+        passed = self._gate.passed(run, now_s)
+        if self._gate.waiting and isinstance(self._goal, JogGoal):
             self._goal = self._goal.put_off(self._timing.period_s)
-        # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
-        return Feed(now_s + self._timing.lease_s) if self.settings.master else Run(Direction.OFF, now_s)
-
-    def _passes_doubt(self, direction: Direction) -> bool:
-        """Whether the opposite relay is only in doubt, and a person watches who has driven the axis to its stop."""
-        plus, minus = self._watch.trusts
-        return self.settings.attended and (minus if direction > 0 else plus) is Trust.DOUBTED
+        return passed
 
     def sweep(self, now_s: float, command: Command | None) -> Range:
         if self.missing or lost(self.fault):
@@ -317,14 +288,14 @@ class SwitchedAxis:
         keeps = self.settings.homing is not None
         motors = self._law.motion.motors if keeps else dict.fromkeys(self._law.motion.motors, self.settings.motor)
         self._law = self._new_law(motors)
-        if isinstance(self._watch, RunWatch):
-            self._watch.rescale(self._law.motion.motors)
-        else:
-            self._watch = self._new_watch(self._watch.trusts, look=self._watch.looks)
+        self._gate.rescale(self._law.motion.motors, placed=self._placed)
+
+    def shortened(self, now_s: float, command: Steer) -> None:
+        """Relays are not steered."""
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         self._law.driven(now_s, driven)
-        self._watch.driven(now_s, driven)
+        self._gate.driven(now_s, driven)
         self._attempts.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
         self._runs.note(now_s, driven)
@@ -346,21 +317,24 @@ class SwitchedAxis:
             fault=self.fault,
             homing=self.homing,
             notices=self._notices(now_s),
-            noise_deg=self._watch.noise_deg,
+            noise_deg=self._gate.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
-            trusts=self._watch.trusts,
-            waiting=self._waits_s < math.inf,
+            trusts=self._gate.trusts,
+            waiting=self._gate.waiting,
         )
 
     def _notices(self, now_s: float) -> tuple[Notice, ...]:
         reported = self._condition.notice if self._condition else None
         blind = BLIND if self.settings.window.blind else None
-        waits = WAITS if now_s - self._waits_s >= WAITS_TOLD_AFTER_S else None
-        single = (reported, self._sensing.notice, self._endurance.notice, blind, waits)
+        single = (reported, self._sensing.notice, self._endurance.notice, blind)
         found = (notice for notice in single if notice is not None)
-        doubted = doubts(self.settings.axis, self._watch.trusts) if self.settings.attended else ()
-        return (*self._watch.notices, *doubted, *self._attempts.notices, *found)
+        return (*self._gate.notices(now_s), *self._attempts.notices, *found)
+
+    @property
+    def _placed(self) -> bool:
+        """Whether its readings are angles, and its limits known."""
+        return self._sensing.calibration is not None and Missing.LIMITS not in self.missing
 
     @property
     def _rests_deg(self) -> tuple[float, float]:
@@ -373,16 +347,6 @@ class SwitchedAxis:
     def _new_law(self, motors: Mapping[Direction, Motor]) -> SwitchedLaw:
         homing = self.settings.homing
         return SwitchedLaw(motors, self._timing, homing.rest_deg if homing else ANYWHERE)
-
-    def _new_watch(self, trusts: Trusts, *, look: bool) -> MotionWatch | RunWatch:
-        settings, motors = self.settings, self._law.motion.motors
-        axis, limits, master, homing = settings.axis, settings.limits, settings.master, settings.homing
-        if homing is not None:
-            return RunWatch(
-                axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look
-            )
-        placed = self._sensing.calibration is not None and Missing.LIMITS not in self.missing
-        return MotionWatch(axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look)
 
     def _learnt(self) -> tuple[LearntMotor, LearntMotor]:
         plus, minus = (self._law.motion.motors[way] for way in (Direction.PLUS, Direction.MINUS))

@@ -1,0 +1,128 @@
+"""Whether a direction relay of one axis may close now: only where its opposite has been seen to open.
+
+Knows the relays, what the readings have shown of them, and whether a person watches. While a run waits, the motor gets
+its supply alone where a master is wired: that shows a welded relay. Knows no goal and no limit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from hw.ports import Direction
+from rotator.control.axis.motion import Motor
+from rotator.control.axis.motion_watch import MotionWatch
+from rotator.control.axis.reach import Runs
+from rotator.control.axis.relay_trust import WAYS, doubts
+from rotator.control.axis.run_watch import RunWatch
+from rotator.control.axis.sensing import Condition
+from rotator.control.axis.settings import SwitchedSettings
+from rotator.control.commands import Feed, Run
+from rotator.faults import Fault, Notice
+from rotator.status import Trust, Trusts
+
+SETTLED_AFTER_S = 1.0
+"""A motor counts as moving until it has been off this long."""
+WAITS_TOLD_AFTER_S = 4.0
+WAITS = Notice("waits until it is seen to stand: only then may its relay close")
+
+
+class RelayGate:
+    """Give it every good reading (`see`) and every change of the relays (`driven`); each run goes through `passed`.
+
+    `placed`: the readings are angles, and the limits are known.
+    """
+
+    def __init__(
+        self, settings: SwitchedSettings, motors: Mapping[Direction, Motor], *, lease_s: float, placed: bool
+    ) -> None:
+        self._settings = settings
+        self._lease_s = lease_s
+        self._watch = self._new_watch(motors, settings.trusts, placed=placed, look=settings.look)
+        self._waits_s = math.inf
+        """Since when a run waits for the opposite relay to be seen open; infinite: none waits."""
+
+    @property
+    def trusts(self) -> Trusts:
+        return self._watch.trusts
+
+    @property
+    def noise_deg(self) -> float:
+        return self._watch.noise_deg
+
+    @property
+    def waiting(self) -> bool:
+        return self._waits_s < math.inf
+
+    def see(self, at_s: float, reading: float, condition: Condition) -> Fault | None:
+        """What is wrong with the motion: a fault, or None."""
+        return self._watch.see(at_s, reading, condition)
+
+    def driven(self, now_s: float, direction: Direction) -> None:
+        self._watch.driven(now_s, direction)
+
+    def homes(self, *, homing: bool, failed: bool) -> None:
+        """Whether it looks for its stop: an axis that counts is then let stand at it."""
+        if isinstance(self._watch, RunWatch):
+            self._watch.homes(homing=homing, failed=failed)
+
+    def rescale(self, motors: Mapping[Direction, Motor], *, placed: bool) -> None:
+        """The readings mean other places than before."""
+        if isinstance(self._watch, RunWatch):
+            self._watch.rescale(motors)
+        else:
+            self._watch = self._new_watch(motors, self._watch.trusts, placed=placed, look=self._watch.looks)
+
+    def acknowledge(self) -> None:
+        self._watch.acknowledge()
+
+    def checked(self) -> None:
+        """A person has looked at both relays, and they are open: no doubt is left."""
+        self._watch.checked()
+
+    def accuse(self, direction: Direction) -> Fault | None:
+        """The fault of an order that way while the opposite relay may be closed; None: there is no such suspicion."""
+        return None if self._passes_doubt(direction) else self._watch.accuse(direction)
+
+    def rests(self) -> None:
+        """No run is wanted."""
+        self._waits_s = math.inf
+
+    def passed(self, run: Run, now_s: float) -> Run | Feed:
+        """The run, or what is done while it waits."""
+        if self._passes_doubt(run.direction) or not self._watch.forbids(run.direction):
+            self._waits_s = math.inf
+            return run
+        self._waits_s = min(self._waits_s, now_s)
+        # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
+        return Feed(now_s + self._lease_s) if self._settings.master else Run(Direction.OFF, now_s)
+
+    def blind(self, fault: Fault | None, runs: Runs, now_s: float) -> Fault | None:
+        """A sensor's fault, as it is; where it hides whether the motor has stopped, the master is to stop it."""
+        if fault is None or not self._settings.master or runs.last is Direction.OFF:
+            return fault
+        trust = self.trusts[0 if runs.last > 0 else 1]
+        if trust is Trust.OPEN or runs.direction is not Direction.OFF or runs.off_s(now_s) < SETTLED_AFTER_S:
+            return fault
+        way = WAYS[self._settings.axis, runs.last]
+        return replace(fault, measured=f"{fault.measured}, {way} not seen to stop; the master is opened", cut=True)
+
+    def notices(self, now_s: float) -> tuple[Notice, ...]:
+        waits = (WAITS,) if now_s - self._waits_s >= WAITS_TOLD_AFTER_S else ()
+        doubted = doubts(self._settings.axis, self.trusts) if self._settings.attended else ()
+        return (*self._watch.notices, *doubted, *waits)
+
+    def _passes_doubt(self, direction: Direction) -> bool:
+        """Whether the opposite relay is only in doubt, and a person watches who has driven the axis to its stop."""
+        plus, minus = self.trusts
+        return self._settings.attended and (minus if direction > 0 else plus) is Trust.DOUBTED
+
+    def _new_watch(
+        self, motors: Mapping[Direction, Motor], trusts: Trusts, *, placed: bool, look: bool
+    ) -> MotionWatch | RunWatch:
+        axis, limits, master = self._settings.axis, self._settings.limits, self._settings.master
+        homing = self._settings.homing
+        if homing is None:
+            return MotionWatch(axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look)
+        return RunWatch(axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look)

@@ -1,0 +1,123 @@
+"""How a motor was seen to turn its axis in the latest run, and how fast it turns by what its runs have shown.
+
+Knows the readings of a run, and that they scatter: a speed counts only where it is certain. Does not know what the
+run shows of the relays.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hw.ports import Direction
+from rotator.control.axis.observed_motion import ObservedMotion
+from rotator.control.axis.trend import Slope
+
+SLOWED_SHARE = 0.6
+"""An axis slower than this share of its run's speed has lost its current."""
+FED_SHARE, FED_BELIEVED_SHARE = 0.5, 0.2
+"""A motor with current turns at this share of its speed at least: of the speed measured, or of the one believed."""
+END_WINDOWS_S = (0.25, 0.5, 1.0, 2.0, 4.0)
+"""The end of a run is looked at for so long, in turn, until its speed is certain."""
+MEASURED_AFTER_S = 0.6
+"""A run as long as this shows the motor's speed; in a shorter one it is still gathering it."""
+STEADY_S = 1.5
+"""After this time the motor runs at its full speed, and the run's last second shows it exactly."""
+UNSEEN_S = 0.3
+"""An axis that was held for less than this at the end of a run seems to turn until the end."""
+EXACT_ERRORS = 6.0
+"""A speed is measured when it is so many times its standard error."""
+
+
+@dataclass(frozen=True, slots=True)
+class EndedRun:
+    """The latest run, when its relay was switched off."""
+
+    direction: Direction
+    off_s: float
+    lasted_s: float
+    line: Slope | None
+    """How the axis turned when the run ended; None: it was not seen to turn."""
+    angle_deg: float
+    """Where it was then."""
+
+
+class SeenRun:
+    """Tell it when a run begins and ends, and of each reading in between, in order of time."""
+
+    def __init__(self, seen: ObservedMotion) -> None:
+        self._seen = seen
+        self.line: Slope | None = None
+        """How the present run turns the axis; None: it is not seen to turn."""
+        self.ended: EndedRun | None = None
+        self.turned_s = -math.inf
+        """When the axis was last seen to turn in a run."""
+        self._fastest_dps = 0.0
+        """The fastest that the axis has turned in this run, for certain."""
+        self._measured: dict[Direction, float] = {}
+
+    @property
+    def measured_dps(self) -> float | None:
+        """The slower of the speeds that the latest runs have shown; None: there was none yet."""
+        return min(self._measured.values(), default=None)
+
+    @property
+    def motor_dps(self) -> float:
+        """The speed as measured, else as believed."""
+        return self.measured_dps or min(motor.speed_dps for motor in self._seen.motors.values())
+
+    @property
+    def fed_dps(self) -> float:
+        """What a motor with current turns at least."""
+        measured_dps = self.measured_dps
+        return FED_BELIEVED_SHARE * self.motor_dps if measured_dps is None else FED_SHARE * measured_dps
+
+    @property
+    def unseen_s(self) -> float:
+        """For so long the noise may hide that a motor with current turns."""
+        return max(UNSEEN_S, self._seen.trend.window_s(self.fed_dps / 3.5))
+
+    def begin(self) -> None:
+        self.line = self.ended = None
+        self._fastest_dps = 0.0
+
+    def see(self, at_s: float) -> None:
+        """A reading was taken while a relay is closed."""
+        self.line = self._turning(at_s, self._seen.relays.since_s)
+        if self.line is not None:
+            if abs(self.line.speed_dps) >= 2.0 * EXACT_ERRORS * self.line.rough_dps:
+                self._fastest_dps = max(self._fastest_dps, abs(self.line.speed_dps) - 2.0 * self.line.rough_dps)
+            self.turned_s = at_s
+
+    def end(self, now_s: float, direction: Direction, lasted_s: float, angle_deg: float) -> None:
+        line, self.line = self.line, None
+        if line is not None and lasted_s >= MEASURED_AFTER_S:
+            line = self._exactly(line, now_s) if lasted_s >= STEADY_S else line
+            if abs(line.speed_dps) >= EXACT_ERRORS * line.rough_dps:
+                self._measured[direction] = abs(line.speed_dps)
+        self.ended = EndedRun(direction, now_s, lasted_s, line, angle_deg)
+
+    def _turning(self, at_s: float, since_s: float) -> Slope | None:
+        """How fast the axis turns just now, for certain."""
+        trend = self._seen.trend
+        for window_s in END_WINDOWS_S:
+            slope = trend.slope(max(since_s, at_s - window_s))
+            if slope is None:
+                continue
+            if abs(slope.speed_dps) + 3.0 * slope.rough_dps < max(self.fed_dps, FED_SHARE * self._fastest_dps):
+                return None  # it stands, though the longer windows still hold its way
+            if abs(slope.speed_dps) < 3.5 * slope.rough_dps:
+                continue
+            # It may have stopped within this window: then its end is slower than the whole.
+            latest = trend.slope(max(since_s, at_s - max(END_WINDOWS_S[0], window_s / 4.0)))
+            if latest is None:
+                return None
+            going_dps = latest.speed_dps * math.copysign(1.0, slope.speed_dps) + 2.0 * latest.rough_dps
+            return slope if going_dps >= SLOWED_SHARE * abs(slope.speed_dps) else None
+        return None
+
+    def _exactly(self, line: Slope, now_s: float) -> Slope:
+        """The same speed from a longer stretch, where the axis did not change its speed within it."""
+        longer = self._seen.trend.slope(now_s - 1.0)
+        steady = longer is not None and abs(longer.speed_dps - line.speed_dps) <= 3.0 * line.rough_dps
+        return longer if longer is not None and steady and longer.rough_dps < line.rough_dps else line

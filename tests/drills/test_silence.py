@@ -1,0 +1,70 @@
+"""A fault that lasts and is seen has to be told within five seconds; what cannot be seen need not be."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import replace
+
+import pytest
+
+from benchmarks.drills.judges import SILENCE
+from benchmarks.drills.silence import Silence, Words
+from benchmarks.drills.world import AxisTruth
+from rotator.faults import Notice
+from rotator.status import AxisStatus, Status
+
+QUIET = Status(0.0, AxisStatus(0.0, 360.0), AxisStatus(0.0, 90.0))
+TOLD = replace(QUIET, azimuth=replace(QUIET.azimuth, notices=(Notice("bad readings now and then"),)))
+
+
+class Room:
+    def __init__(self) -> None:
+        self.now_s = 0.0
+        self.words = Words(lambda: self.now_s)
+        self.silence = Silence(self.words, feels=(True, True), counts=False)
+        self.axes = [AxisTruth("azimuth", 6.0, 0.5), AxisTruth("elevation", 6.0, 0.5)]
+
+    def listen(self, seconds: float, status: Status = QUIET, *, every_s: float = 0.05) -> list[str]:
+        end_s = self.now_s + seconds
+        while self.now_s < end_s:
+            self.now_s += every_s
+            self.silence.look(self.now_s, self.axes, status, ordered=False)
+        return [found.judge for found in self.silence.found]
+
+
+@pytest.mark.parametrize("fault", ["azimuth-pot-open", "azimuth-every:18", "azimuth-pot-crackles:20"])
+def test_what_shows_at_rest_is_told_within_five_seconds(fault: str) -> None:
+    room = Room()
+    room.silence.begin(fault, 0.0)
+    assert room.listen(5.0) == []
+    assert room.listen(0.3) == [SILENCE]
+
+
+def test_a_notice_is_a_word_and_so_is_a_line_in_the_log() -> None:
+    for_notice, for_line = Room(), Room()
+    for room in (for_notice, for_line):
+        room.silence.begin("azimuth-every:18", 0.0)
+    assert for_notice.listen(60.0, TOLD) == []
+    for_line.words.emit(logging.makeLogRecord({"msg": "bad readings"}))
+    assert for_line.listen(60.0) == []
+
+
+def test_a_reading_that_is_bad_now_and_then_need_not_be_told() -> None:
+    room = Room()
+    room.silence.begin("azimuth-every:21", 0.0)
+    assert room.listen(60.0) == []
+
+
+def test_bad_readings_are_counted_so_late_cycles_show_fewer_of_them() -> None:
+    room = Room()
+    room.silence.begin("azimuth-every:18", 0.0)
+    assert room.listen(20.0, every_s=0.25) == []
+    assert room.listen(10.0, every_s=0.25) == [SILENCE]
+
+
+def test_a_motor_that_cannot_turn_shows_only_while_it_is_driven() -> None:
+    room = Room()
+    room.silence.begin("azimuth-motor-stalled", 0.0)
+    assert room.listen(60.0) == []
+    room.axes[0].coil = 1
+    assert room.listen(5.3) == [SILENCE]
