@@ -21,6 +21,10 @@ RELAY_S = 0.05
 """A relay and the cycle in which it closed take this long at most."""
 
 
+BLINK_S = 0.1
+"""A relay that closes again so soon after it opened goes on with its run: a stop and the same order once more."""
+
+
 @dataclass(frozen=True, slots=True)
 class Window:
     """For how long the readings are looked at before a speed is believed, in seconds."""
@@ -42,6 +46,8 @@ class Relays:
     last: Direction = Direction.OFF
     """The direction of the latest run that has ended."""
     since_s: float = -math.inf
+    begun_s: float = -math.inf
+    """When the present or latest run began."""
 
 
 class ObservedMotion:
@@ -59,12 +65,13 @@ class ObservedMotion:
     def driven(self, now_s: float, direction: Direction) -> None:
         """The relays change to `direction`."""
         was = self.relays
-        self.relays = Relays(
-            motor=was.motor if direction is Direction.OFF else self.motors[direction],
-            direction=direction,
-            last=was.last if was.direction is Direction.OFF else was.direction,
-            since_s=now_s,
-        )
+        last = was.last if was.direction is Direction.OFF else was.direction
+        if direction is Direction.OFF:
+            self.relays = Relays(was.motor, direction, last, since_s=now_s, begun_s=was.begun_s)
+            return
+        goes_on = was.direction is Direction.OFF and direction is last and now_s - was.since_s < BLINK_S
+        begun_s = was.begun_s if goes_on else now_s
+        self.relays = Relays(self.motors[direction], direction, last, since_s=begun_s, begun_s=begun_s)
 
     def see(self, at_s: float, angle_deg: float) -> bool:
         """A good reading. Returns whether it lies on the line of the others."""

@@ -96,6 +96,19 @@ def test_a_day_of_standing_is_quiet(noise_deg: float) -> None:
     assert bench.watch.notices == ()
 
 
+@pytest.mark.parametrize(("opens_s", "most_s"), [(0.0, 1.0), (0.05, 1.0), (0.2, 2.0)])
+def test_a_stop_and_the_same_order_at_once_leave_a_stalled_motor_its_first_run(opens_s: float, most_s: float) -> None:
+    bench = Bench()
+    bench.drive(PLUS)
+    assert bench.pass_by(1.0) is None
+    bench.drive(OFF)
+    assert bench.pass_by(opens_s) is None
+    bench.drive(PLUS)
+    name, after_s = bench.time_to_fault(3.0)
+    assert name == "motor runs and pot stands still"
+    assert most_s - 1.0 < after_s < most_s
+
+
 @pytest.mark.parametrize("way", [OFF, PLUS])
 def test_one_spark_is_nothing(way: Direction) -> None:
     bench = Bench()
