@@ -148,12 +148,15 @@ def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
 def _sector(
     chance: random.Random, tables: dict[str, Any], start_deg: tuple[float, float], top_deg: tuple[float, float]
 ) -> None:
-    """A chimney somewhere: neither where the rotor stands, nor where it parks."""
+    """A chimney somewhere, often in the way of one axis: neither where the rotor stands, nor where it parks."""
     for _ in range(20):
         spans = []
-        for top in top_deg:
-            low_deg = float(chance.randrange(round(top - 20.0)))
-            spans.append([low_deg, low_deg + chance.choice((5.0, 10.0, 20.0, 60.0))])
+        beside = chance.choice((None, *BOTH))
+        for axis, top, at_deg in zip(BOTH, top_deg, start_deg, strict=True):
+            low_deg, wide_deg = float(chance.randrange(round(top - 20.0))), chance.choice((5.0, 10.0, 20.0, 60.0))
+            if axis == beside:  # the other axis turns into it
+                low_deg = max(0.0, round(at_deg - chance.random() * wide_deg))
+            spans.append([low_deg, low_deg + wide_deg])
         parks = [(0.0, 0.0), (180.0, 0.0), (90.0, 90.0), start_deg]
         if not any(
             all(low - 4.0 < at < high + 4.0 for at, (low, high) in zip(place, spans, strict=True)) for place in parks

@@ -71,6 +71,8 @@ class AxisCase:
     feels: bool = True
     """Whether anything comes back from this axis: a modelled one cannot know that it stands."""
     counts: bool = False
+    shows_ends: bool = False
+    """Limit switches show its ends, also where it was never set up."""
     patience_s: float = TRY_S
     """How long it may take to see that it stands."""
     beyond_s: float = 0.0
@@ -128,7 +130,7 @@ class Judges:
                 case.tries_s.clear()
         pressed, self._pressed_s = self._orders.pressed_s != self._pressed_s, self._orders.pressed_s
         for truth, case in zip(axes, self.cases, strict=True):
-            if pressed and truth.name == self._orders.lacking:
+            if pressed and truth.name == self._orders.lacking and not case.shows_ends:
                 case.press()
             if truth.shorted_s > case.shorted_s:
                 # Where an axis is pressed against its stop, nothing shows that its relay has welded.
@@ -218,7 +220,9 @@ class Judges:
             case.standing_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
-        if before_s <= START_S < case.standing_s and not case.counts and truth.name != self._orders.lacking:
+        # By a person who watches it: each press counts for itself.
+        pressed = truth.name == self._orders.lacking and not case.shows_ends
+        if before_s <= START_S < case.standing_s and not case.counts and not pressed:
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
                 case.tries_s.popleft()

@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from benchmarks.drills.front_panel import FrontPanel
 from benchmarks.drills.script import PANEL, PEOPLE, Event
 from benchmarks.drills.silenced import Silenced
 from benchmarks.drills.wavering import Wavering
@@ -21,10 +22,6 @@ UNCALIBRATED_S = 2.0
 """A press of an axis that was never set up."""
 PUT_OFF_S = 6.0
 """Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
-SWITCH_S, SWITCHES_AT_MOST_S = 1.0, 1.3
-"""A mode switch acts when it has stood still for a second, at the next cycle."""
-NO_TURN_S = 0.4
-"""Between two looks further apart the program had no turn."""
 PANEL_S = 0.2
 """A jog switch is read twice before it counts, and once when it is let go."""
 ZENITH_DEG = 90.0
@@ -114,15 +111,8 @@ class Orders:
         self.released_s = 0.0
         """When a person last let it go, or began the program anew."""
         self.pressed_s = 0.0
-        """When a person last pressed the axis that was never set up, and watched it."""
-        self._switch: tuple[str, float, float] | None = None
-        """The panel's mode switch was turned to this mode, when, and when that has surely had its effect."""
-        self._mode = "auto"
-        self._pressed = False
-        """The panel's stop button is."""
-        self._pulled_s = -math.inf
-        """When it was last let go."""
-        self._looked_s = 0.0
+        """When the axis that was never set up was last pressed; a person watches it."""
+        self._panel = FrontPanel()
         self.goes_round = False
         """Forbidden sectors lie in the way: an order for one axis may turn both."""
         self._silenced = Silenced()
@@ -142,7 +132,7 @@ class Orders:
 
     @property
     def _held(self) -> bool:
-        return self.latched or self._mode == "park"
+        return self.latched or self._panel.mode == "park"
 
     def ended_s(self, axis: str) -> float:
         """When the last order for this axis ended; the beginning where there has been none."""
@@ -152,39 +142,29 @@ class Orders:
         """The program ends, and all orders with it; a new one begins with no order, and no stop."""
         self._forget(now_s)
         self._release(now_s)
-        self._mode = "auto"
+        self._panel.begin_anew()
 
     def links_lost(self, now_s: float) -> None:
         """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
-        if not self._storm and self._mode == "auto" and PANEL not in self._senders():
+        if not self._storm and self._panel.mode == "auto" and PANEL not in self._senders():
             self._forget(now_s)
 
     def _senders(self) -> set[str]:
         return {sender for orders in self.axes.values() for sender in orders.goals}
 
     def expire(self, now_s: float) -> None:
-        past_s, self._looked_s = now_s - self._looked_s, now_s
         for orders in self.axes.values():
             orders.expire(now_s)
-        if self._pressed and not self.latched:
+        if self._panel.pressed and not self.latched:
             self._forget(now_s)
             self.latched = True
-        if self._switch is not None:
-            mode, turned_s, due_s = self._switch
-            if past_s > NO_TURN_S:
-                self._switch = mode, turned_s, due_s + past_s
-            elif now_s >= due_s:
-                self._switch = None
-                self._switched(now_s, mode, turned_s)
-
-    def _switched(self, now_s: float, mode: str, turned_s: float) -> None:
-        """The mode switch acts: a new mode ends the older orders, and any turn releases a stop."""
-        if mode != self._mode:
-            self._mode = mode
-            self._forget(now_s, turned_s + SWITCH_S)
-            self._silenced.forget()
-        if self._pulled_s <= turned_s:
-            self._release(now_s)
+        before = self._panel.mode
+        if (turned := self._panel.look(now_s)) is not None:
+            if turned.mode != before:
+                self._forget(now_s, turned.since_s)
+                self._silenced.forget()
+            if turned.releases:
+                self._release(now_s)
 
     def note(self, event: Event) -> None:
         self.heard += 1
@@ -224,21 +204,19 @@ class Orders:
                 if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
                     self.axes[event.text(0)].forget(event.at_s)
             case _:
-                if event.what == "jog" and WAYS[event.text(0)][0] == self.lacking:
-                    self.pressed_s = event.at_s
                 self._note_order(event)
 
     def _note_panel(self, event: Event) -> None:
         match event.what:
             case "mode":
-                self._switch = event.text(0), event.at_s, event.at_s + SWITCHES_AT_MOST_S
+                self._panel.turn(event.text(0), event.at_s)
             case "stop" if event.text(0) == "press":
-                self._pressed = True
+                self._panel.press()
             case "stop":
-                self._pressed, self._pulled_s = False, event.at_s
+                self._panel.pull(event.at_s)
             case "knob":
                 self._anywhere(event, event.text(0))
-            case "jog" if self._mode == "jog" and self._switch is None:
+            case "jog" if self._panel.mode == "jog" and self._panel.settled:
                 axis, way = WAYS[event.text(0)]
                 until_s = event.at_s + event.number(1) + PANEL_S
                 self.axes[axis].goals[PANEL] = Goal(way=way, said_s=event.at_s, until_s=until_s)
@@ -272,6 +250,7 @@ class Orders:
                 axis, way = WAYS[event.text(0)]
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
                 if axis == self.lacking:
+                    self.pressed_s = event.at_s
                     seconds = min(seconds, UNCALIBRATED_S)
                 until_s = event.at_s + seconds + (PUT_OFF_S if self.lacking else 0.0)
                 self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds)
@@ -290,7 +269,7 @@ class Orders:
                 self._left(event)
 
     def _release(self, now_s: float) -> None:
-        self.latched = self._pressed
+        self.latched = self._panel.pressed
         self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
 

@@ -54,6 +54,7 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
         shift_deg=build_offsets(config).of(axis),
         feels=source is not AngleSource.MODELLED,
         counts=source is AngleSource.COUNTED,
+        shows_ends=bool(config.limits.switches),
         patience_s=patience_s,
     )
 

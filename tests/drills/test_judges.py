@@ -310,6 +310,16 @@ def test_who_sets_an_axis_up_may_press_it_into_its_stop_again_and_again() -> Non
         mast.run(1.0)
 
 
+def test_limit_switches_show_the_ends_of_an_axis_that_was_never_set_up() -> None:
+    mast = Mast(at_deg=361.0, lacking="azimuth")
+    mast.case.feels, mast.case.shows_ends = False, True
+    mast.order("console", "jog", "cw", 2.0)
+    mast.run(2.0, coil=1)
+    mast.run(1.0)
+    mast.order("console", "jog", "cw", 2.0)
+    assert mast.run(1.0, coil=1) == [judges.BEYOND]
+
+
 def test_opposite_relays_that_meet_at_a_stop_are_excused_only_by_a_weld() -> None:
     for welded, found in ((True, []), (False, [judges.BOTH_FED])):
         mast = Mast(at_deg=362.0, lacking="azimuth")

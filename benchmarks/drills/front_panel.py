@@ -1,0 +1,69 @@
+"""What the front panel's mode switch and stop button mean by now, as the script moves them.
+
+Knows how long a switch must stand still, and that only a turn that begins while the button is out releases a stop. Does
+not know orders.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+STILL_S, STILL_AT_MOST_S = 1.0, 1.3
+"""A mode switch counts when it has stood still for a second, at the next cycle."""
+NO_TURN_S = 0.4
+"""Between two looks further apart the program had no turn."""
+
+
+@dataclass(frozen=True, slots=True)
+class Turned:
+    """The mode switch counts in its new position."""
+
+    mode: str
+    since_s: float
+    """No earlier could it count: an order that came later belongs to the new mode."""
+    releases: bool
+    """It releases a stop."""
+
+
+class FrontPanel:
+    def __init__(self) -> None:
+        self.mode = "auto"
+        self.pressed = False
+        """The stop button is."""
+        self._pulled_s = -math.inf
+        self._turn: Turned | None = None
+        self._due_s = 0.0
+        """When the turn has surely counted."""
+        self._looked_s = 0.0
+
+    @property
+    def settled(self) -> bool:
+        return self._turn is None
+
+    def begin_anew(self) -> None:
+        """The program begins anew, and reads the switch again."""
+        self.mode = "auto"
+
+    def turn(self, mode: str, at_s: float) -> None:
+        releases = not self.pressed and self._pulled_s <= at_s
+        self._turn, self._due_s = Turned(mode, at_s + STILL_S, releases), at_s + STILL_AT_MOST_S
+
+    def press(self) -> None:
+        self.pressed = True
+
+    def pull(self, at_s: float) -> None:
+        self.pressed, self._pulled_s = False, at_s
+
+    def look(self, now_s: float) -> Turned | None:
+        """The turn that has come to count since the last look."""
+        past_s, self._looked_s = now_s - self._looked_s, now_s
+        if self._turn is None:
+            return None
+        if past_s > NO_TURN_S:
+            self._due_s += past_s
+        if now_s < self._due_s:
+            return None
+        turn, self._turn = self._turn, None
+        self.mode = turn.mode
+        return turn
