@@ -78,6 +78,10 @@ class AxisCase:
     idle_s: float = 0.0
     welded_s: float = 0.0
     standing_s: float = 0.0
+    pressed_s: float = 0.0
+    """How long it stood in its latest run, until that ended."""
+    stood_s: float = 0.0
+    """On an axis that counts, short runs in vain count together: so long of them is a try."""
     shorted_s: float = 0.0
     tries_s: deque[float] = field(default_factory=deque)
 
@@ -86,6 +90,7 @@ class AxisCase:
 
         An axis that counts cannot tell from one short run to the next that it stands: each run counts for itself.
         """
+        self.pressed_s = self.standing_s or self.pressed_s
         self.beyond_s = self.beyond_s if at_stop and not self.counts else 0.0
         self.away_s = self.idle_s = self.standing_s = 0.0
 
@@ -124,11 +129,14 @@ class Judges:
                 case.tries_s.clear()
         for truth, case in zip(axes, self.cases, strict=True):
             if truth.shorted_s > case.shorted_s:
-                # Homing presses the axis against its stop: there nothing shows that the relay has opened.
-                if self._master or not (self._orders.axes[truth.name].homes and truth.at_stop):
+                # Pressed against its stop nothing shows that the relay has opened: in homing, or for a moment of a run.
+                unseen = case.counts and not case.trusted and case.pressed_s < case.patience_s / COUNTED_PERIODS
+                homes = self._orders.axes[truth.name].homes
+                if not (truth.at_stop and (unseen or (homes and not self._master))):
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
             if not truth.power:
+                case.welded_s = 0.0
                 case.rest(at_stop=truth.at_stop != 0)
                 continue
             self._welded(truth, case)
@@ -174,7 +182,7 @@ class Judges:
             case.welded_s = 0.0
             return
         case.welded_s += self._past_s
-        if case.welded_s > WELDED_S + LOOK_S:
+        if case.welded_s > (case.patience_s if case.counts else WELDED_S) + LOOK_S:
             self._accuse(AFTER_STOP, truth, f"by a welded relay for {case.welded_s:.2f} s, with a master")
 
     def _beyond(self, truth: AxisTruth, case: AxisCase) -> None:
@@ -208,10 +216,14 @@ class Judges:
 
     def _standing(self, truth: AxisTruth, case: AxisCase) -> None:
         if not case.feels or not truth.stands:
-            case.standing_s = 0.0
+            case.standing_s = case.stood_s = case.pressed_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
-        if before_s <= START_S < case.standing_s and not case.counts:
+        if case.counts and not self._orders.axes[truth.name].homes and case.standing_s > START_S:
+            case.stood_s += self._past_s
+        tried = case.stood_s > case.patience_s if case.counts else before_s <= START_S < case.standing_s
+        if tried:
+            case.stood_s = 0.0
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:
                 case.tries_s.popleft()

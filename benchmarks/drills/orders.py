@@ -15,7 +15,9 @@ from benchmarks.drills.wavering import Wavering
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
-TURN_DEG = 360.0
+TURN_DEG, ZENITH_DEG = 360.0, 90.0
+NEAR_DEG = 5.0
+"""An elevation axis so near to the zenith may be read as beyond it."""
 UNCALIBRATED_S = 2.0
 PUT_OFF_S = 6.0
 """Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
@@ -87,6 +89,8 @@ class Orders:
         self._lacking = lacking
         self._parks_idle = parks_idle
         self._confirms = confirms
+        self.raised_deg = 0.0
+        """Where the elevation axis stands."""
         self.latched = False
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
@@ -155,7 +159,9 @@ class Orders:
                 self._release(event.at_s)
             case "storm":
                 if not self._held:
-                    self._forget(event.at_s)
+                    # Refused on an axis that must be homed first: a homing under way then goes on.
+                    if not any(orders.homes for orders in self.axes.values()):
+                        self._forget(event.at_s)
                     self._storm = True
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
@@ -199,8 +205,12 @@ class Orders:
                 self._aim_azimuth(event, event.number(1))
                 self._aim(event, "elevation", self._elevations(event.number(1)))
             case "aim-azimuth":
+                if self._joins:
+                    self._anywhere(event, "elevation")
                 self._aim_azimuth(event, 0.0)
             case "aim-elevation":
+                if self._joins:
+                    self._anywhere(event, "azimuth")
                 self._aim(event, "elevation", self._elevations(event.number(0)))
             case "jog":
                 axis, way = WAYS[event.text(0)]
@@ -224,6 +234,12 @@ class Orders:
             case "leave":
                 self._left(event)
 
+    @property
+    def _joins(self) -> bool:
+        """Whether an order for one axis changes both: over the top the boom is on the other side."""
+        goals_deg = [angle_deg for goal in self.axes["elevation"].goals.values() for angle_deg in goal.angles_deg]
+        return self._ranges["azimuth"].flips or max(self.raised_deg, *goals_deg, 0.0) > ZENITH_DEG - NEAR_DEG
+
     def _release(self, now_s: float) -> None:
         self.latched = False
         self._silenced.forget()
@@ -231,7 +247,7 @@ class Orders:
 
     def _left(self, event: Event) -> None:
         for orders in self.axes.values():
-            if (goal := orders.goals.get(event.who)) is not None and goal.way and goal.until_s == math.inf:
+            if (goal := orders.goals.get(event.who)) is not None and goal.way and event.who not in PEOPLE:
                 orders.goals[event.who].until_s = event.at_s
                 orders.expire(event.at_s)
 

@@ -73,6 +73,7 @@ class _Play:
         self._troubles = Troubles(self._box.world, self._clock, drill.seed)
         self._cases = axis_cases(self._config, self._world.axes)
         self._orders = build_orders(self._config, lacking=drill.commissioning)
+        self._orders.raised_deg = self._world.axes[1].shaft_deg
         has_master = self._config.rotor.switched and self._config.relays.master is not None
         self._judges = Judges(self._cases, self._orders, master=has_master)
         feels, counts = tuple(case.feels for case in self._cases), any(case.counts for case in self._cases)
@@ -148,6 +149,7 @@ class _Play:
         self._troubles.look()
         self._world.look()
         self._orders.expire(now_s)
+        self._orders.raised_deg = self._world.axes[1].shaft_deg
         self._judges.look(now_s, self._world.axes)
         self._judges.count(self._world.relay_starts)
         self._sectors.look(now_s, self._world.axes)

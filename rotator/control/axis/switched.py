@@ -86,8 +86,8 @@ class SwitchedAxis:
         return self._goal is not None
 
     @property
-    def jogs_without_end(self) -> bool:
-        return isinstance(self._goal, JogGoal) and self._goal.until_s is None
+    def jogs(self) -> bool:
+        return isinstance(self._goal, JogGoal)
 
     @property
     def homing(self) -> bool:
@@ -221,6 +221,8 @@ class SwitchedAxis:
 
     def _passes_doubt(self, direction: Direction) -> bool:
         """Whether the opposite relay is only in doubt, and a person watches who has driven the axis to its stop."""
+        if isinstance(self._watch, RunWatch) and self._watch.turns:
+            return False
         plus, minus = self._watch.trusts
         return self.settings.attended and (minus if direction > 0 else plus) is Trust.DOUBTED
 
