@@ -171,7 +171,7 @@ class Orders:
             case "confirm":
                 # It has no effect in a storm park, while an axis homes, and where the sensor measures.
                 if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
-                    self.axes[event.text(0)].forget(event.at_s)
+                    self._end(event.text(0), event.at_s)
             case _:
                 self._note_order(event)
 
@@ -224,7 +224,7 @@ class Orders:
                 self._forget(event.at_s)
                 self.acknowledged_s = event.at_s
             case "stop-axis":
-                self.axes[event.text(0)].forget(event.at_s)
+                self._end(event.text(0), event.at_s)
             case "park":
                 for axis in AXES:
                     self._aim(event, axis, (self._park_deg[axis],))
@@ -254,10 +254,14 @@ class Orders:
     def _forget(self, now_s: float) -> None:
         self._storm = False
         self._wavering.forget()
-        for axis, orders in self.axes.items():
-            orders.forget(now_s)
-            if self._parks_idle:
-                orders.goals["idle"] = Goal((self._park_deg[axis],), said_s=now_s)
+        for axis in self.axes:
+            self._end(axis, now_s)
+
+    def _end(self, axis: str, now_s: float) -> None:
+        """The orders for this axis end; later an idle antenna may park."""
+        self.axes[axis].forget(now_s)
+        if self._parks_idle:
+            self.axes[axis].goals["idle"] = Goal((self._park_deg[axis],), said_s=now_s)
 
     def _anywhere(self, event: Event, axis: str) -> None:
         self.axes[axis].goals[event.who] = Goal(said_s=event.at_s)
