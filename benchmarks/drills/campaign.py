@@ -20,6 +20,7 @@ from benchmarks.drills.play import FAILS, play
 from benchmarks.drills.scene import spoils_readings
 from benchmarks.drills.script import Drill
 from benchmarks.drills.shrink import Budget, shrink
+from rotator.config.load import ConfigError
 
 HOUR_S = 3600.0
 STARTS_SHARE = 4.0
@@ -68,8 +69,11 @@ def verdict(drill: Drill) -> list[Violation]:
 
 
 def shows(wanted: Violation, drill: Drill) -> Violation | None:
-    """The same violation in this drill; of an exception, the same one."""
-    alike = (each for each in verdict(drill) if each.judge == wanted.judge)
+    """The same violation in this drill; of an exception, the same one. A box that cannot be built shows nothing."""
+    try:
+        alike = [each for each in verdict(drill) if each.judge == wanted.judge]
+    except ConfigError:
+        return None
     return next((each for each in alike if wanted.judge != FAILS or each.measured == wanted.measured), None)
 
 

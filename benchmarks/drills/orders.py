@@ -192,7 +192,9 @@ class Orders:
                 self._release(event.at_s)
             case "storm":
                 if not self._held:
-                    self._forget(event.at_s)
+                    # Refused on an axis that must be homed first: a homing under way then goes on.
+                    if not any(orders.homes for orders in self.axes.values()):
+                        self._forget(event.at_s)
                     self._storm = True
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
@@ -202,7 +204,7 @@ class Orders:
             case "confirm":
                 # It has no effect in a storm park, while an axis homes, and where the sensor measures.
                 if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
-                    self.axes[event.text(0)].forget(event.at_s)
+                    self._end(event.text(0), event.at_s)
             case _:
                 self._note_order(event)
 
@@ -258,7 +260,7 @@ class Orders:
                 self._forget(event.at_s)
                 self.acknowledged_s = event.at_s
             case "stop-axis":
-                self.axes[event.text(0)].forget(event.at_s)
+                self._end(event.text(0), event.at_s)
             case "park":
                 for axis in AXES:
                     self._aim(event, axis, (self._park_deg[axis],))
@@ -275,15 +277,19 @@ class Orders:
 
     def _left(self, event: Event) -> None:
         for orders in self.axes.values():
-            if (goal := orders.goals.get(event.who)) is not None and goal.way and goal.until_s == math.inf:
+            if (goal := orders.goals.get(event.who)) is not None and goal.way and event.who not in PEOPLE:
                 orders.goals[event.who].until_s = event.at_s
                 orders.expire(event.at_s)
 
     def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
         self._storm = False
         self._wavering.forget()
-        for orders in self.axes.values():
-            orders.forget(now_s, said_before_s)
+        for axis in self.axes:
+            self._end(axis, now_s, said_before_s)
+
+    def _end(self, axis: str, now_s: float, said_before_s: float = math.inf) -> None:
+        """The orders for this axis end; later an idle antenna may park."""
+        self.axes[axis].forget(now_s, said_before_s)
         self._may_idle(now_s)
 
     def _anywhere(self, event: Event, axis: str) -> None:
@@ -301,9 +307,10 @@ class Orders:
 
     @property
     def _shows_over_top(self) -> bool:
-        """Whether the antenna stands over the top, or may have to go there."""
+        """Whether the antenna stands over the top, or may go there."""
         goals = self.axes["elevation"].goals.values()
-        return self._over_top() or any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
+        over = any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
+        return over or self._ranges["azimuth"].flips or self._over_top()
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""

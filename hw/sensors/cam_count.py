@@ -40,6 +40,9 @@ TURNING_CHANGES = 4
 """So many changes at rest, as far apart as at full speed, show a motor that is still fed."""
 FASTER = 2.0
 """The measured speed may be this many times faster, or slower, than the configured speed."""
+SLOWEST, EVEN = 0.3, 1.5
+"""A motor at this share of its configured speed at least, whose measured speeds differ by this factor at most, turns
+evenly."""
 
 
 class CamCount:
@@ -95,12 +98,14 @@ class CamCount:
         if not self.at_rest or len(self._undriven) < TURNING_CHANGES:
             return False
         # Wind that rocks an antenna about an edge of the contact changes it as often, but never at a motor's pace.
-        spans = [
-            (later_s - earlier_s, self._crossing_s(closed=closed))
+        shares = [
+            self._crossing_s(closed=closed) / max(later_s - earlier_s, 1e-6)
             for (earlier_s, closed), (later_s, _) in pairwise([*self._undriven, (self._shaft.at_s, False)])
         ]
-        paced = all(expected_s / FASTER <= span_s <= expected_s * FASTER for span_s, expected_s in spans[:-1])
-        return paced and spans[-1][0] <= spans[-1][1] * FASTER
+        *crossed, present = shares
+        slowest, fastest = min(crossed), max(crossed)
+        even = slowest >= SLOWEST and fastest <= EVEN * slowest
+        return fastest <= FASTER and (even or slowest >= 1 / FASTER) and present >= min(1.0, slowest) / FASTER
 
     @property
     def at_rest(self) -> bool:

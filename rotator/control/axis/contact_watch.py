@@ -61,6 +61,8 @@ class ContactWatch:
         """The latest changes of the present or latest run."""
         self._blind_s = 0.0
         """For how long relays were closed since the contact last changed."""
+        self.turns = False
+        """The contact has changed though the relays are off, and it has not been silent since."""
         self._ran_since = {PLUS: False, MINUS: False}
         """Whether a relay has been closed again since it was doubted."""
 
@@ -84,7 +86,11 @@ class ContactWatch:
 
     def checked(self) -> None:
         """A person has looked at both relays: they are open."""
-        self._trust, self._blind_s = {PLUS: Trust.OPEN, MINUS: Trust.OPEN}, 0.0
+        self._trust, self._blind_s, self.turns = {PLUS: Trust.OPEN, MINUS: Trust.OPEN}, 0.0, False
+
+    def silent(self) -> None:
+        """Driven, and its contact did not change: a fault has ended the run."""
+        self._blind_s = math.inf
 
     def driven(self, now_s: float, direction: Direction) -> None:
         if direction is self._driven:
@@ -136,6 +142,16 @@ class ContactWatch:
             return SURE * (self._moments_s[-1] - self._moments_s[0])
         return self._period_s / SLOWEST_SHARE
 
+    def _turned(self, *, lost: bool) -> bool:
+        """Whether the axis turned when the latest run ended, as far as its contact can show."""
+        if self.homing:
+            return True
+        if not lost:
+            return self._blind_s <= BLIND_PERIODS * self._period_s
+        measured = len(self._moments_s) == self._moments_s.maxlen
+        # It may have met its stop at any place: it must have changed as lately as one that turns.
+        return self._blind_s <= (self._moments_s[-1] - self._moments_s[0] if measured else self._period_s)
+
     @property
     def _room_deg(self) -> float:
         """From where it is counted to the stop in the direction of the latest run."""
@@ -144,6 +160,7 @@ class ContactWatch:
 
     def _turns_by_itself(self) -> None:
         """The contact changes, and does not say which way the axis turns."""
+        self.turns = True
         for way in (PLUS, MINUS):
             if self._trust[way] is not Trust.OPEN and way is self._last:
                 self._trust[way], self._ran_since[way] = Trust.DOUBTED, False
@@ -151,13 +168,13 @@ class ContactWatch:
                 self._trust[way] = Trust.UNSEEN
 
     def _note_standing(self, condition: Condition) -> None:
-        self.looked = True
+        self.looked, self.turns = True, False
         ahead = BOTH_WAYS if condition.lost or self.homing else condition.ahead
         if self._turned_back and not self.homing and self._room_deg < UNSURE_PERIODS * self._period_deg:
             ahead -= {self._last}
         for way in (PLUS, MINUS):
             own = way is self._last and self._ran_since[way]
-            followed = self.homing or self._blind_s <= BLIND_PERIODS * self._period_s
+            followed = self._turned(lost=bool(condition.lost))
             if self._trust[way] is Trust.DOUBTED:
                 # Only a run of its own shows that it opens.
                 followed = followed and own and bool(self._moments_s)

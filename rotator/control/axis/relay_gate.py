@@ -115,6 +115,8 @@ class RelayGate:
 
     def _passes_doubt(self, direction: Direction) -> bool:
         """Whether the opposite relay is only in doubt, and a person watches who has driven the axis to its stop."""
+        if isinstance(self._watch, RunWatch) and self._watch.turns:
+            return False
         plus, minus = self.trusts
         return self._settings.attended and (minus if direction > 0 else plus) is Trust.DOUBTED
 

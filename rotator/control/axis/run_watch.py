@@ -1,8 +1,8 @@
 """The watch over an axis that counts: how long its motor may run in one go, and when its opposite relay may close.
 
-Knows what the relays do and how long the travel takes; `contact_watch` says what its contact shows. A count cannot run
-the wrong way, for the counter takes the direction from the relays. The counter itself sees missing pulses, and pulses
-at rest.
+Knows what the relays do and how long the travel takes; `contact_watch` and `silent_runs` say what its contact shows. A
+count cannot run the wrong way, for the counter takes the direction from the relays. The counter itself sees pulses that
+are missing in one long run, and pulses at rest.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from rotator.control.axis.contact_watch import ContactWatch
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.relay_trust import WAYS, accusation
 from rotator.control.axis.sensing import NORMAL, Condition
+from rotator.control.axis.silent_runs import SilentRuns
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, FaultKind, Notice
 from rotator.status import ALL_OPEN, Trusts
@@ -58,8 +59,9 @@ class RunWatch:
         self._limits = limits
         self._motors = motors
         self._master = master
-        period_deg = period_s * max(motor.speed_dps for motor in motors.values())
-        self._contact = ContactWatch(trusts, limits, period_s, period_deg, coast_s, look=look)
+        self._period_deg = period_s * max(motor.speed_dps for motor in motors.values())
+        self._contact = ContactWatch(trusts, limits, period_s, self._period_deg, coast_s, look=look)
+        self._silent = SilentRuns(axis)
         self._direction = Direction.OFF
         self._since_s = 0.0
         self._angle_deg: float | None = None
@@ -74,8 +76,14 @@ class RunWatch:
         """Nothing has been seen of the axis yet."""
         return not self._contact.looked
 
+    @property
+    def turns(self) -> bool:
+        """The axis turns though its relays are off."""
+        return self._contact.turns
+
     def driven(self, now_s: float, direction: Direction) -> None:
         self._contact.driven(now_s, direction)
+        self._silent.driven(now_s, direction)
         if direction is not self._direction:
             self._direction, self._since_s = direction, now_s
 
@@ -83,10 +91,13 @@ class RunWatch:
         """A reading, and what the rotor says of its contact."""
         self._angle_deg = angle_deg
         self._contact.see(at_s, angle_deg, condition)
+        speed_dps = self._motors[self._direction or Direction.PLUS].speed_dps
+        silent = self._silent.see(at_s, condition.changes, self._period_deg / speed_dps)
+        if silent or (condition.fault and condition.fault.kind is FaultKind.NO_PULSES):
+            self._contact.silent()
         if self._direction is Direction.OFF:
             return None
-        speed_dps = self._motors[self._direction].speed_dps
-        return endless(self._axis, self._direction, at_s - self._since_s, self._limits, speed_dps)
+        return silent or endless(self._axis, self._direction, at_s - self._since_s, self._limits, speed_dps)
 
     def rescale(self, motors: Mapping[Direction, Motor]) -> None:
         """The count means other places than before. What is known of the relays stays."""
@@ -94,6 +105,8 @@ class RunWatch:
 
     def homes(self, *, homing: bool, failed: bool) -> None:
         """Whether it looks for its stop, and a person watches: also until it is seen to stand there."""
+        if homing:
+            self._silent.forget()
         self._contact.homing = homing or (self._contact.homing and not failed and self._contact.settles)
 
     def forbids(self, direction: Direction) -> bool:

@@ -77,8 +77,8 @@ class SwitchedAxis:
         return self._goal is not None
 
     @property
-    def jogs_without_end(self) -> bool:
-        return isinstance(self._goal, JogGoal) and self._goal.until_s is None
+    def jogs(self) -> bool:
+        return isinstance(self._goal, JogGoal)
 
     @property
     def homing(self) -> bool:
@@ -140,7 +140,9 @@ class SwitchedAxis:
         # The rotor's own report says more than what can be seen of it from here.
         reported, present = reading.condition.fault, self._gate.blind(unbelievable, self._runs, now_s) or self._astray
         cause = present if reading.condition.latched else reported or present
-        if self._attempts.note((None if self.homing else reported) or present or lost, now_s, cause=cause):
+        # Looking for its stop an axis is silent there; but one that turns by itself is told all the same.
+        told = None if self.homing and reported and not reported.cut else reported
+        if self._attempts.note(told or present or lost, now_s, cause=cause):
             self._law.forget_run()
 
     def _note_condition(self, condition: Condition) -> Fault | None:

@@ -1,4 +1,4 @@
-"""How long a motor may run where nothing else can be seen of it: from end to end, and a third more."""
+"""How long a motor may run: from end to end and a third more, and less where its contact does not change."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.relay_trust import WAYS
 from rotator.control.axis.run_watch import RunWatch
+from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
 
@@ -31,7 +32,7 @@ def first_fault(watch: RunWatch, from_s: float, seconds: float) -> tuple[float, 
     """The readings of a run that goes on and on."""
     for cycle in range(round(seconds / 0.05)):
         at_s = from_s + cycle * 0.05
-        fault = watch.see(at_s, 6.0 * (at_s - from_s))
+        fault = watch.see(at_s, 6.0 * (at_s - from_s), Condition(changes=round(at_s / PERIOD_S)))
         if fault:
             return at_s - from_s, fault
     return None
@@ -89,3 +90,64 @@ def test_it_accuses_nothing_by_itself(watch: RunWatch) -> None:
     assert watch.accuse(MINUS) is None
     watch.acknowledge()
     assert watch.notices == ()
+
+
+class Presses:
+    """A motor that is pressed on for a moment, again and again; the contact changes when the test says so."""
+
+    def __init__(self, watch: RunWatch) -> None:
+        self._watch = watch
+        self._now_s = 0.0
+        self.changes = 0
+
+    def press(self, way: Direction, seconds: float) -> Fault | None:
+        """The fault that ends this press. A pause follows."""
+        self._watch.driven(self._now_s, way)
+        fault = next(filter(None, (self._see() for _ in range(round(seconds / 0.05)))), None)
+        self._watch.driven(self._now_s, OFF)
+        for _ in range(20):
+            assert self._see() is None
+        return fault
+
+    def _see(self) -> Fault | None:
+        self._now_s += 0.05
+        return self._watch.see(self._now_s, 0.0, Condition(changes=self.changes))
+
+
+@pytest.mark.parametrize("press_s", [0.4, 1.0, 2.0])
+def test_presses_without_a_change_of_the_contact_count_together(watch: RunWatch, press_s: float) -> None:
+    presses, pressed_s, told = Presses(watch), 0.0, None
+    while told is None:
+        told = presses.press(MINUS, press_s)
+        pressed_s += press_s
+        watch.acknowledge()
+        assert pressed_s < 6.0
+    assert pressed_s >= 2.5
+    assert told.name == "no pulses"
+    assert presses.press(MINUS, press_s) is None, "the next try has its own time"
+
+
+def test_presses_that_change_the_contact_now_and_then_are_none(watch: RunWatch) -> None:
+    presses = Presses(watch)
+    for press in range(60):
+        assert presses.press(PLUS, 1.0) is None
+        presses.changes += press % 2
+
+
+def test_presses_to_and_fro_are_none(watch: RunWatch) -> None:
+    presses = Presses(watch)
+    for press in range(60):
+        assert presses.press((PLUS, MINUS)[press % 2], 1.0) is None
+
+
+def test_taps_that_hardly_start_the_motor_are_none(watch: RunWatch) -> None:
+    presses = Presses(watch)
+    for _ in range(100):
+        assert presses.press(PLUS, 0.15) is None
+
+
+def test_an_axis_that_looks_for_its_stop_may_press_against_it(watch: RunWatch) -> None:
+    presses = Presses(watch)
+    for _ in range(10):
+        assert presses.press(MINUS, 2.0) is None
+        watch.homes(homing=True, failed=False)

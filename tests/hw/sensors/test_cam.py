@@ -223,6 +223,28 @@ def test_turning_with_no_relay_on_is_noticed() -> None:
     assert count.trouble == "it turns with no relay on"
 
 
+@pytest.mark.parametrize(
+    ("pauses_s", "turns"),
+    [
+        ((0.17, 0.67, 0.17), True),
+        ((0.28, 1.1, 0.28), True),  # a motor at six tenths of its speed
+        ((0.42, 1.7, 0.42), True),  # at four tenths
+        ((0.42, 0.5, 0.42), False),  # wind
+        ((0.05, 2.0, 0.05), False),  # wind, which trembles on an edge
+        ((0.9, 3.5, 0.9), False),  # slower than any motor
+    ],
+)
+def test_changes_with_no_relay_on_at_the_even_pace_of_a_motor(pauses_s: tuple[float, ...], turns: bool) -> None:
+    count = at(3.0, closed=False)
+    at_s = 10.0
+    count.advance(at_s)
+    for place, pause_s in enumerate((0.0, *pauses_s)):
+        at_s += pause_s
+        count.change(at_s, closed=place % 2 == 0)
+    count.advance(at_s + 0.05)
+    assert count.turning is turns
+
+
 def test_a_contact_that_trembles_at_rest_is_not() -> None:
     count = at(4.98, closed=False)
     for second in range(10, 30, 2):

@@ -1,0 +1,64 @@
+"""Whether an axis that counts turns at all when it is driven, from one short run to the next.
+
+Knows when the motor was driven and when its contact changed. A run that is too short to be judged by itself counts with
+those before it in the same direction, until the contact changes. Decides nothing: it returns a fault, and the axis
+stops.
+"""
+
+from __future__ import annotations
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.relay_trust import WAYS
+from rotator.faults import Fault, FaultKind
+
+SILENT_PERIODS = 3.0
+"""Driven one way for so many periods in all without a change of its contact, an axis does not turn."""
+START_S = 0.15
+"""So much of each run passes before the motor turns at its speed."""
+
+
+class SilentRuns:
+    """Give it every change of the relays (`driven`) and every reading (`see`), in order of time."""
+
+    def __init__(self, axis: Axis) -> None:
+        self._axis = axis
+        self._changes: int | None = None
+        self._direction = self._last = Direction.OFF
+        """What the relays do, and the direction of the present or latest run."""
+        self._turns_s = 0.0
+        """From when on the present run counts."""
+        self._silent_s = 0.0
+        """How long the runs before it were, that count with it."""
+
+    def forget(self) -> None:
+        """A person watches the axis press against its stop."""
+        self._silent_s = 0.0
+
+    def driven(self, now_s: float, direction: Direction) -> None:
+        """What the relays do from now on."""
+        if direction is self._direction:
+            return
+        if self._direction is not Direction.OFF:
+            self._silent_s += max(0.0, now_s - self._turns_s)
+        if direction is not Direction.OFF:
+            if direction is not self._last:
+                self._silent_s = 0.0
+            self._last, self._turns_s = direction, now_s + START_S
+        self._direction = direction
+
+    def see(self, at_s: float, changes: int, period_s: float) -> Fault | None:
+        """So many changes of the contact there were so far. `period_s`: from pulse to pulse, at the motor's speed.
+
+        Returns the fault that this shows, if any.
+        """
+        if changes != self._changes:
+            self._changes, self._silent_s = changes, 0.0
+            self._turns_s = max(self._turns_s, at_s)
+        if self._direction is Direction.OFF:
+            return None
+        silent_s = self._silent_s + max(0.0, at_s - self._turns_s)
+        if silent_s <= SILENT_PERIODS * period_s:
+            return None
+        self._silent_s, self._turns_s = 0.0, at_s
+        measured = f"driven {WAYS[self._axis, self._direction]} for {silent_s:.1f} s in all, its contact did not change"
+        return Fault(FaultKind.NO_PULSES, self._axis, measured)
