@@ -182,7 +182,8 @@ class World:
     def _can_reach(self, began: Place, place: Place) -> bool:
         """Whether there is a way with much room to every sector, on any turn and with no flip."""
         azimuth, elevation = self.config.azimuth, self.config.elevation
-        wide = Detours(self.mount, (CLEAR_DEG - 4.0,) * 2, Speeds(azimuth.speed_dps, elevation.speed_dps))
+        room_deg = CLEAR_DEG - 4.0, CLEAR_DEG - 4.0
+        wide = Detours(self.mount, room_deg, (0.0, 0.0), Speeds(azimuth.speed_dps, elevation.speed_dps))
         return any(
             math.isfinite(wide.seconds(box_at(began), (azimuth_deg, elevation_deg)))
             for azimuth_deg, elevation_deg, over in self.mount.places(*place)

@@ -156,7 +156,8 @@ class GoingRound:
 
 def detours(mount: Mount, axes: Mapping[Axis, ControlledAxis]) -> Detours:
     azimuth, elevation = axes[Axis.AZIMUTH], axes[Axis.ELEVATION]
-    return Detours(mount, (azimuth.room_deg, elevation.room_deg), Speeds(azimuth.speed_dps, elevation.speed_dps))
+    room_deg, about_deg = (azimuth.room_deg, elevation.room_deg), (azimuth.about_deg, elevation.about_deg)
+    return Detours(mount, room_deg, about_deg, Speeds(azimuth.speed_dps, elevation.speed_dps))
 
 
 def _place_deg(goal: AimGoal, now_s: float) -> float:

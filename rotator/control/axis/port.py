@@ -93,6 +93,10 @@ class ControlledAxis(Protocol):
     def room_deg(self) -> float:
         """How far it may go on, at its first start too, before a command can end that."""
 
+    @property
+    def about_deg(self) -> float:
+        """So far from a place where it stands it may be, as far as is known."""
+
     def hold_back(self, now_s: float, why: str) -> None:
         """Its latest command is not carried out, for this reason. A jog and the way to an end stop end with that."""
 

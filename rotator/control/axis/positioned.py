@@ -161,6 +161,10 @@ class PositionedAxis:
     def room_deg(self) -> float:
         return 2.0 * self.settings.near_deg
 
+    @property
+    def about_deg(self) -> float:
+        return 1.1 * self.settings.near_deg
+
     def hold_back(self, now_s: float, why: str) -> None:
         self._steered = None
         if isinstance(self._goal, JogGoal):

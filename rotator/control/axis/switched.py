@@ -30,6 +30,8 @@ from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Missing, Notice
 from rotator.status import AxisStatus, LearntMotor
 
+ABOUT_DEG = 0.5
+"""What readings scatter of an axis at rest."""
 JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
 BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
@@ -206,6 +208,10 @@ class SwitchedAxis:
     @property
     def room_deg(self) -> float:
         return self._reach.room_deg(self._law.motion)
+
+    @property
+    def about_deg(self) -> float:
+        return ABOUT_DEG
 
     def hold_back(self, now_s: float, why: str) -> None:
         self._law.rest(now_s)

@@ -18,6 +18,8 @@ from rotator.control.sky.sectors import Box, Kept, Place, box_at, kept, ways_out
 
 BESIDE_DEG = 0.6
 """The lines beside a sector lie this much further out: a motor stops about there, not exactly there."""
+CLEAR_DEG = 0.1
+"""Where an axis is known less exactly than that, its lines lie this much beyond what it may be off."""
 OTHER_SIDE_DEG = 5.0
 """Beside a target inside a sector the antenna changes sides only where it comes this much nearer."""
 
@@ -34,20 +36,22 @@ class Detour:
 
 
 class Detours:
-    """`room_deg`: how much room each axis needs before a sector, beside the sector's margin."""
+    """`room_deg`: how much room each axis needs before a sector, beside the sector's margin. `about_deg`: so far from a
+    place where it stands each axis may be."""
 
-    def __init__(self, mount: Mount, room_deg: Place, speeds: Speeds) -> None:
+    def __init__(self, mount: Mount, room_deg: Place, about_deg: Place, speeds: Speeds) -> None:
         self.limits = Box(mount.azimuth, mount.elevation)
         self._speeds = speeds
         self._kept = [kept(sector) for sector in mount.sectors]
         self._zones = [kept(sector, *room_deg) for sector in mount.sectors]
+        self._about_deg = about_deg
         self._lines = {axis: self._beside(axis) for axis in Axis}
 
     def _beside(self, axis: Axis) -> list[float]:
-        limits = self.limits.of(axis)
+        limits, about_deg = self.limits.of(axis), self._about_deg[0 if axis is Axis.AZIMUTH else 1]
         edges_deg = {limits.min_deg, limits.max_deg}
         for zone in self._zones:
-            beside = zone.box.of(axis).widened(BESIDE_DEG)
+            beside = zone.box.of(axis).widened(max(BESIDE_DEG, about_deg + CLEAR_DEG))
             edges_deg |= {beside.min_deg, beside.max_deg}
         return sorted(edge_deg for edge_deg in edges_deg if limits.holds(edge_deg))
 
@@ -78,7 +82,7 @@ class Detours:
             axis: sorted({*self._lines[axis], here.of(axis).middle_deg, self.limits.of(axis).nearest(target_deg)})
             for axis, target_deg in zip(Axis, target, strict=True)
         }
-        grid = _Grid(here, lines, zones, self._speeds)
+        grid = _Grid(here, lines, zones, self._about_deg, self._speeds)
         reached = grid.reached()
         sides = set(enumerate(before)) if before is not None else set()
 
@@ -121,7 +125,7 @@ class Detours:
         while places:
             at = self.further(here, places) or 0
             pulled.append(places[at])
-            here, places = box_at(places[at]), places[at + 1 :]
+            here, places = box_about(places[at], self._about_deg), places[at + 1 :]
         return pulled
 
     def _inside(self, here: Box) -> str:
@@ -156,11 +160,19 @@ def _shrunk(zone: Kept, core: Box, here: Box) -> Kept:
     return Kept(zone.name, box)
 
 
+def box_about(place: Place, about_deg: Place) -> Box:
+    """Where the antenna may be when it has come to rest at this place."""
+    azimuth, elevation = (Range(deg - off_deg, deg + off_deg) for deg, off_deg in zip(place, about_deg, strict=True))
+    return Box(azimuth, elevation)
+
+
 class _Grid:
     """Every crossing of the lines beside the sectors, and of those through start and target, and the ways between."""
 
-    def __init__(self, here: Box, lines: dict[Axis, list[float]], zones: Sequence[Kept], speeds: Speeds) -> None:
-        self._here, self._zones = here, zones
+    def __init__(
+        self, here: Box, lines: dict[Axis, list[float]], zones: Sequence[Kept], about_deg: Place, speeds: Speeds
+    ) -> None:
+        self._here, self._zones, self._about_deg = here, zones, about_deg
         self._start = here.middle
         self._azimuths_deg, self._elevations_deg = lines[Axis.AZIMUTH], lines[Axis.ELEVATION]
         self._dps = speeds.azimuth_dps, speeds.elevation_dps
@@ -187,7 +199,7 @@ class _Grid:
         return found
 
     def _free(self, place: Place, then: Place) -> bool:
-        swept = (self._here if place == self._start else box_at(place)).stretched(then)
+        swept = (self._here if place == self._start else box_about(place, self._about_deg)).stretched(then)
         return not any(zone.box.meets(swept) for zone in self._zones)
 
     def way_to(self, end: Place) -> list[Place]:

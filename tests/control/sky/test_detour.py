@@ -8,19 +8,19 @@ from collections import deque
 
 import pytest
 
-from rotator.control.sky.detour import Detours
+from rotator.control.sky.detour import Detours, box_about
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.route import Speeds
 from rotator.control.sky.sectors import Place, box_at
 
 SPEEDS = Speeds(6.0, 2.7)
-ROOM_DEG = (3.0, 1.5)
+ROOM_DEG, ABOUT_DEG = (3.0, 1.5), (0.5, 0.4)
 CHIMNEY = Sector("the chimney", Range(100, 130), Range(0, 35), 2.0)
 WORLDS = 10_000
 
 
 def detours(*sectors: Sector) -> Detours:
-    return Detours(Mount(Range(0, 450), Range(0, 180), sectors=sectors), ROOM_DEG, SPEEDS)
+    return Detours(Mount(Range(0, 450), Range(0, 180), sectors=sectors), ROOM_DEG, ABOUT_DEG, SPEEDS)
 
 
 def test_straight_on_where_nothing_is_in_the_way() -> None:
@@ -81,7 +81,7 @@ def drawn(seed: int) -> tuple[Detours, list[Sector], random.Random, Mount]:
         span = Range(west, west + draw.uniform(1, 120)), Range(low, low + draw.uniform(1, 90))
         sectors.append(Sector(f"{number}", *span, margin_deg=draw.choice([0.0, 2.0])))
     mount = Mount(*limits, sectors=tuple(sectors))
-    return Detours(mount, ROOM_DEG, SPEEDS), sectors, draw, mount
+    return Detours(mount, ROOM_DEG, ABOUT_DEG, SPEEDS), sectors, draw, mount
 
 
 def room(sector: Sector) -> tuple[Range, Range]:
@@ -134,6 +134,7 @@ def test_no_way_enters_a_sector_whatever_the_motors_paces() -> None:
         for place in way.places:
             for between in walked(draw, at, place):
                 assert not any(inside(spans, between) for spans in rooms), f"world {seed}: {between} on {way}"
+            assert at == here or finder.free(box_about(at, ABOUT_DEG), place), f"world {seed}: {at} on {way}"
             at = place
         free = not any(inside(spans, target) for spans in rooms)
         assert free or at != target
