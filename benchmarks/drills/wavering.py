@@ -1,7 +1,8 @@
 """A target that wavers across the end of the azimuth range, or moves across it: the antenna may wait at that end.
 
 Knows the rule of docs/pointing.md: the first swing right round begins at once, each further one within two minutes
-waits, up to 96 s, for a target that stays. A target that moves is followed on the turn on which it began. Knows axis angles alone, and no order but those that it is given.
+waits, up to 96 s, for a target that stays. A target that moves is followed on the turn on which it began. Knows axis
+angles alone, and no order but those that it is given.
 """
 
 from __future__ import annotations
