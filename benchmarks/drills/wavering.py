@@ -1,7 +1,8 @@
-"""A target that wavers across the end of the azimuth range: for a while the antenna may wait for it at that end.
+"""A target that wavers across the end of the azimuth range, or moves across it: the antenna may wait at that end.
 
 Knows the rule of docs/pointing.md: the first swing right round begins at once, each further one within two minutes
-waits, up to 96 s, for a target that stays. Knows axis angles alone, and no order but those that it is given.
+waits, up to 96 s, for a target that stays. A target that moves is followed on the turn on which it began. Knows axis
+angles alone, and no order but those that it is given.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ WAVERS_DEG = 90.0
 """No nearer to its predecessor than this, an order is another target."""
 REMEMBERS_S = 120.0 + 96.0
 """So long after the last wish for a swing, the next one may have to wait."""
+STREAM_ORDERS, STREAM_GAP_S, STREAM_STEP_DEG = 4, 5.0, 10.0
+"""So many orders, no further apart than both, and not all for one place, are a target that moves."""
 
 
 class Wavering:
@@ -18,10 +21,13 @@ class Wavering:
         self._before_deg: tuple[float, ...] = ()
         """Where the order before could be met, also beyond the range."""
         self._swung_s = float("-inf")
+        self._stream: list[tuple[float, float]] = []
+        """The latest orders that may belong to one moving target: when, and an angle that shows there."""
 
     def forget(self) -> None:
         """Nothing is ordered any more; the swings made count on."""
         self._before_deg = ()
+        self._stream.clear()
 
     def ends(self, now_s: float, turns_deg: list[float]) -> tuple[float, ...]:
         """The ends of the range where the target may be waited for. `turns_deg`: all angles that show there, on every
@@ -33,10 +39,23 @@ class Wavering:
         ]
         beyond_deg = [angle_deg for angle_deg in near_deg if not self._low_deg <= angle_deg <= self._high_deg]
         within_deg = [angle_deg for angle_deg in turns_deg if self._low_deg <= angle_deg <= self._high_deg]
-        may_wait = bool(beyond_deg) and now_s - self._swung_s <= REMEMBERS_S
+        moves = self._moves(now_s, turns_deg)
+        may_wait = bool(beyond_deg) and (moves or now_s - self._swung_s <= REMEMBERS_S)
         if beyond_deg:
             self._swung_s = now_s
         self._before_deg = (*within_deg, *(beyond_deg if may_wait else ()))
         if not may_wait:
             return ()
         return tuple({min(max(angle_deg, self._low_deg), self._high_deg) for angle_deg in beyond_deg})
+
+    def _moves(self, now_s: float, turns_deg: list[float]) -> bool:
+        """Whether this order belongs to a target that moves."""
+        if not self._stream:
+            near_deg = turns_deg[0]
+        else:
+            before_s, before_deg = self._stream[-1]
+            near_deg = min(turns_deg, key=lambda angle_deg: abs(angle_deg - before_deg))
+            if now_s - before_s > STREAM_GAP_S or abs(near_deg - before_deg) > STREAM_STEP_DEG:
+                self._stream.clear()
+        self._stream.append((now_s, near_deg))
+        return len(self._stream) >= STREAM_ORDERS and any(angle_deg != near_deg for _, angle_deg in self._stream)

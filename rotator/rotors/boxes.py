@@ -38,18 +38,28 @@ class BoxRotor(PositionedRotor):
 class FollowedBox:
     """The pot of the rotor, or another sensor, on an axis for which the drive has only a modelled angle.
 
-    `calibration` turns the sensor's readings into degrees on the rotor's own scale.
+    `calibration` turns the sensor's readings into degrees on the rotor's own scale; a reading that is not within
+    `healthy`, as of a broken wire, shows no place.
     """
 
-    def __init__(self, drive: DigipotDrive, axis: Axis, sensor: AngleSensor, calibration: Calibration) -> None:
+    def __init__(
+        self,
+        drive: DigipotDrive,
+        axis: Axis,
+        sensor: AngleSensor,
+        calibration: Calibration,
+        healthy: tuple[float, float],
+    ) -> None:
         self.source = sensor.source
         self._drive = drive
         self._axis = axis
         self._sensor = sensor
         self._calibration = calibration
+        self._healthy = healthy
 
     def read(self) -> float:
-        """The sensor's reading, in the sensor's own unit; the model takes over its angle. Raises HardwareError."""
+        """The sensor's reading, in the sensor's own unit; the model takes over its place. Raises HardwareError."""
         raw = self._sensor.read()
-        self._drive.found(self._axis, self._calibration.degrees(raw))
+        if self._healthy[0] <= raw <= self._healthy[1]:
+            self._drive.found(self._axis, self._calibration.degrees(raw))
         return raw

@@ -372,3 +372,12 @@ def test_a_person_who_gives_an_angle_ends_an_aim_but_neither_a_storm_park_nor_a_
             mast.order("console", before)
     mast.order("console", "confirm", "azimuth", 0.0)
     assert mast.orders.holds("azimuth") is holds
+
+
+def test_a_target_that_moves_across_the_end_is_followed_to_that_end_and_no_jump_is() -> None:
+    for steps_deg, found in (([340.0, 345.0, 350.0, 355.0, 2.0], []), ([300.0, 20.0, 20.0], [judges.AWAY])):
+        mast = Mast(at_deg=200.0)
+        for azimuth_deg in steps_deg:
+            mast.order("rotctld", "aim", azimuth_deg, 0.0)
+            assert mast.run(1.0, coil=1) == []
+        assert mast.run(3.0, coil=1) == found

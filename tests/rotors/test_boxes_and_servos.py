@@ -99,10 +99,13 @@ class Pot:
 
 def test_a_sensor_beside_a_model_corrects_it_and_is_what_is_read(drive: Journal) -> None:
     pot = Pot()
-    sensor = FollowedBox(cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))))
+    sensor = FollowedBox(cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))), (0.02, 0.98))
     assert sensor.source is AngleSource.MEASURED
     assert sensor.read() == 0.5
     assert drive.models == {EL: 90.0}
+    pot.reading = 0.0
+    assert sensor.read() == 0.0
+    assert drive.models == {EL: 90.0}, "a broken wire shows no place"
     pot.reading = None
     with pytest.raises(HardwareError, match="the converter"):
         sensor.read()

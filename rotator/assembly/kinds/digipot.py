@@ -5,6 +5,8 @@ Part of the composition root: names drivers and simulated parts, and passes them
 
 from __future__ import annotations
 
+import math
+
 from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
 from hw.chips.mcp41010 import STEPS, Mcp41010
 from hw.drives.control_box import BoxSpec
@@ -40,7 +42,10 @@ def build(parts: Assembly, lines: OutputLines | None) -> BoxRotor:
     sensors: dict[Axis, AngleSensor] = {}
     for axis, sensor in parts.sensors({axis: drive.sensor(axis) for axis in Axis}).items():
         points = None if isinstance(sensor, DriveAngle) else own_points(config, axis)
-        sensors[axis] = FollowedBox(drive, axis, sensor, Calibration(points)) if points else sensor
+        table = config.axis(axis)
+        anything = (-math.inf, math.inf)
+        healthy = anything if config.in_degrees(axis) else (table.lowest_reading, table.highest_reading)
+        sensors[axis] = FollowedBox(drive, axis, sensor, Calibration(points), healthy) if points else sensor
     return BoxRotor(drive, sensors, parts.shift, parts.ends)
 
 
