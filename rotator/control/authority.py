@@ -5,11 +5,15 @@ Knows sources and moments. Of an order it knows whether it stops, releases or mo
 
 from __future__ import annotations
 
+import math
+
 from rotator.control.rights import AT_MODE, Deed, State, hindrance
 from rotator.control.senders import PAUSE_S, Pair, Senders
 from rotator.orders import Mode, Source
 
 AGREE_DEG = 4.0
+LET_GO_S = 0.5
+"""A jog switch that is held sends orders closer together than this: a stop ends them until it was let go."""
 MOST_SHOWN = 4
 """So many ignored sources are named at a time, the latest first."""
 
@@ -26,6 +30,8 @@ class Authority:
         self.controlled_by: Source | None = None
         self._panel: Source | None = None
         """The panel that switched to this mode. In MANUAL and JOG it alone moves the antenna."""
+        self._held_on_s = -math.inf
+        """When the panel's jog switch last sent an order, held on since before a stop."""
         self._senders = Senders(agree_deg)
         self._ignored: dict[str, tuple[str, float]] = {}
         """By the name of a source: why its latest order had no effect, and when that was. The latest is the last."""
@@ -33,6 +39,8 @@ class Authority:
     def stopped(self, source: Source, now_s: float, *, latch: bool) -> None:
         """`source` stopped the antenna. Other sources that send have no effect until they pause or reconnect."""
         self._senders.stop(source, now_s)
+        if source != self._panel:
+            self._held_on_s = now_s
         self.controlled_by = None
         self.end_storm(source)
         if latch:
@@ -79,6 +87,8 @@ class Authority:
         """
         self._senders.note(source, now_s, aims)
         if not self.allows(source, now_s, deed, homing=homing):
+            if source == self._panel and self._holds_on(now_s):
+                self._held_on_s = now_s
             return False
         self._senders.take(source, now_s)
         self.controlled_by = source
@@ -87,7 +97,7 @@ class Authority:
     def allows(self, source: Source, now_s: float, deed: Deed, *, homing: bool = False) -> bool:
         """Whether this order from `source` has an effect now; if not, `ignored` tells why."""
         self._ignored.pop(str(source), None)
-        held = self._holds(source) | ({State.HOMING: "an axis looks for its end stop"} if homing else {})
+        held = self._holds(source, now_s) | ({State.HOMING: "an axis looks for its end stop"} if homing else {})
         if (state := hindrance(held, deed)) is None:
             return True
         self._ignored.pop(source.link, None)
@@ -100,7 +110,10 @@ class Authority:
         self._ignored = {name: self._ignored[name] for name, _ in lately}
         return tuple(f"orders from {name} are ignored: {why}" for name, why in reversed(lately[-MOST_SHOWN:]))
 
-    def _holds(self, source: Source) -> dict[State, str]:
+    def _holds_on(self, now_s: float) -> bool:
+        return self.mode is Mode.JOG and now_s - self._held_on_s < LET_GO_S
+
+    def _holds(self, source: Source, now_s: float) -> dict[State, str]:
         """The states that hold the antenna back from `source`, the strongest first, and the words for each."""
         held = {}
         if self.latched:
@@ -108,7 +121,9 @@ class Authority:
         at_panel = source == self._panel and self.mode in (Mode.MANUAL, Mode.JOG)
         if self.mode is not Mode.AUTO and not at_panel:
             held[AT_MODE[self.mode]] = f"the panel's switch is at {self.mode.name}"
-        # A stop that comes over a link never silences the person at the panel.
+        if at_panel and self._holds_on(now_s):
+            held[State.SILENCED] = "a stop came while its switch was held: let it go first"
+        # A stop that comes over a link does not silence the person at the panel for longer.
         if self.mode is Mode.AUTO and (silence := self._senders.silence(source)):
             held[State.SILENCED] = silence
         return held

@@ -68,6 +68,29 @@ def test_a_stream_that_went_on_meanwhile_moves_again_on_auto() -> None:
     assert authority.may_move(LINK, 20.5)
 
 
+def held(authority: Authority, from_s: float, to_s: float) -> list[bool]:
+    """The orders of a jog switch that is held: whether each has an effect."""
+    return [authority.may_move(PANEL, tick / 20) for tick in range(round(20 * from_s), round(20 * to_s))]
+
+
+@pytest.mark.parametrize("source", [LINK, Source("console")])
+def test_a_stop_ends_the_jog_of_a_held_switch_until_it_was_let_go(source: Source) -> None:
+    authority = Authority()
+    authority.switch(PANEL, Mode.JOG)
+    assert all(held(authority, 0.0, 2.0))
+    authority.stopped(source, 2.0, latch=False)
+    assert not any(held(authority, 2.0, 60.0))
+    assert all(held(authority, 61.0, 62.0))
+
+
+def test_a_switch_that_is_let_go_and_pressed_at_once_jogs_again() -> None:
+    authority = Authority()
+    authority.switch(PANEL, Mode.JOG)
+    assert all(held(authority, 0.0, 2.0))
+    authority.stopped(PANEL, 2.0, latch=False)
+    assert all(held(authority, 2.1, 3.0))
+
+
 # --- the whole controller
 
 
