@@ -84,7 +84,7 @@ class Orders:
     """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
 
     `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes. `confirms`: a person
-    may tell the box where an axis stands.
+    may tell the box where an axis stands. `counts`: the axes count, and may not be homed.
     """
 
     def __init__(
@@ -96,6 +96,7 @@ class Orders:
         parks_idle: bool = False,
         over_top: Callable[[], bool] = lambda: False,
         confirms: bool = True,
+        counts: bool = False,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
         self._ranges = dict(zip(AXES, ranges, strict=True))
@@ -104,6 +105,7 @@ class Orders:
         self._parks_idle = parks_idle
         self._over_top = over_top
         self._confirms = confirms
+        self._counts = counts
         self.latched = False
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
@@ -276,9 +278,12 @@ class Orders:
         self.acknowledged_s = self.released_s = now_s
 
     def _left(self, event: Event) -> None:
-        for orders in self.axes.values():
-            if (goal := orders.goals.get(event.who)) is not None and goal.way and event.who not in PEOPLE:
-                orders.goals[event.who].until_s = event.at_s
+        for axis, orders in self.axes.items():
+            goal = orders.goals.get(event.who)
+            if goal is not None and goal.way and event.who not in PEOPLE:
+                # A press of an axis that was not set up, or not homed, ends by itself.
+                lasts_s = UNCALIBRATED_S if self._counts or axis == self.lacking else 0.0
+                goal.until_s = min(goal.until_s, max(event.at_s, goal.said_s + lasts_s))
                 orders.expire(event.at_s)
 
     def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:

@@ -72,6 +72,7 @@ def build_orders(config: Config, truths: list[AxisTruth], cases: tuple[AxisCase,
         lacking=lacking,
         over_top=lambda: truths[1].shaft_deg + shift.elevation_deg + cases[1].slack_deg > ZENITH_DEG,
         parks_idle=config.mount.park_after_s > 0,
+        counts=config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
         confirms=config.kind.confirmable or config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
     )
 

@@ -23,8 +23,8 @@ REST_SHARE = 0.4
 class Jogs:
     def __init__(self, axes: Mapping[Axis, ControlledAxis]) -> None:
         self._axes = axes
-        self._by: dict[Axis, Source | None] = {}
-        """The source of the last jog; None: it was ordered with a time."""
+        self._by: dict[Axis, Source] = {}
+        """The source of the last jog."""
         self._turned_s = dict.fromkeys(axes, 0.0)
         """How long each axis has turned, less what it has rested since."""
         self._noted_s: float | None = None
@@ -38,7 +38,7 @@ class Jogs:
                 return
             seconds = left_s if seconds is None else min(seconds, left_s)
         axis.jog(jog.direction, seconds, now_s)
-        self._by[jog.axis] = source if jog.seconds is None else None
+        self._by[jog.axis] = source
 
     def note_driven(self, now_s: float) -> None:
         """After the cycle: how long each axis has turned and rested since the last one."""
@@ -51,5 +51,5 @@ class Jogs:
     def end(self, source: Source) -> None:
         """The connection of `source` has ended: halt what it still jogs. A jog with a time ends by itself."""
         for axis, by in self._by.items():
-            if by == source and self._axes[axis].jogs:
+            if by == source and self._axes[axis].jogs_without_end:
                 self._axes[axis].halt()

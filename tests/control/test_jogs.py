@@ -22,16 +22,16 @@ class TurningAxis:
 
     def __init__(self) -> None:
         self.begun: list[tuple[Direction, float | None, float]] = []
-        self.jogs = False
+        self.jogs_without_end = False
         self.missing: tuple[Missing, ...] = ()
         self.driven = False
 
     def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
         self.begun.append((direction, seconds, now_s))
-        self.jogs = True
+        self.jogs_without_end = seconds is None
 
     def halt(self) -> None:
-        self.jogs = False
+        self.jogs_without_end = False
         self.begun.clear()
 
 
@@ -85,7 +85,7 @@ def test_both_axes_of_one_connection_end(jogs: Jogs, axes: dict[Axis, TurningAxi
 
 def test_an_axis_that_does_something_else_by_now_goes_on(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
     jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
-    axes[AZ].jogs = False  # it aims
+    axes[AZ].jogs_without_end = False  # it aims
     jogs.end(LINK)
     assert axes[AZ].begun
 

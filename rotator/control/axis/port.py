@@ -35,8 +35,8 @@ class ControlledAxis(Protocol):
         """Whether the axis has a goal: it aims, jogs or homes."""
 
     @property
-    def jogs(self) -> bool:
-        """Whether it jogs."""
+    def jogs_without_end(self) -> bool:
+        """Whether the axis turns until it is stopped, or at its limit: a jog without a time."""
 
     @property
     def driven(self) -> bool:

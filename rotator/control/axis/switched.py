@@ -79,8 +79,8 @@ class SwitchedAxis:
         return self._goal is not None
 
     @property
-    def jogs(self) -> bool:
-        return isinstance(self._goal, JogGoal)
+    def jogs_without_end(self) -> bool:
+        return isinstance(self._goal, JogGoal) and self._goal.until_s is None
 
     @property
     def homing(self) -> bool:
