@@ -219,7 +219,9 @@ class Orders:
             case "stop":
                 self._panel.pull(event.at_s)
             case "knob":
-                self._anywhere(event, event.text(0))
+                turned = self.axes if self._shows_over_top or self.goes_round else (event.text(0),)
+                for axis in turned:
+                    self._anywhere(event, axis)
             case "jog" if self._panel.mode == "jog" and self._panel.settled:
                 axis, way = WAYS[event.text(0)]
                 until_s = event.at_s + event.number(1) + PANEL_S

@@ -77,8 +77,7 @@ class _Play:
         self._orders = build_orders(self._config, self._world.axes, self._cases, lacking=drill.commissioning)
         has_master = self._config.rotor.switched and self._config.relays.master is not None
         self._judges = Judges(self._cases, self._orders, master=has_master)
-        feels, counts = tuple(case.feels for case in self._cases), any(case.counts for case in self._cases)
-        self._silence = Silence(self._words, feels=(feels[0], feels[1]), counts=counts)
+        self._silence = Silence(self._words, self._cases)
         self._sectors = Sectors(self._config, self._cases)
         self._judges.goes_round = self._orders.goes_round = bool(self._sectors)
         self._period_s = 1 / self._config.control.rate_hz
@@ -238,7 +237,7 @@ class _Play:
             case "late":
                 self._pass(seconds, dead=False)
             case "hung":
-                self._blind_until_s = self._now_s + seconds
+                self._blind, self._blind_until_s = True, self._now_s + seconds
                 self._silence.begin("hung", self._now_s)
             case "stalled":
                 self._stalled_s = self._now_s, self._now_s + seconds

@@ -10,7 +10,7 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from benchmarks.drills.judges import LOOK_S, SILENCE, Violation
+from benchmarks.drills.judges import LOOK_S, SILENCE, AxisCase, Violation
 from benchmarks.drills.world import AxisTruth
 from rotator.status import Status
 
@@ -54,10 +54,9 @@ class _Lasting:
 class Silence:
     """Tell it when a fault begins and ends; `look` after every cycle."""
 
-    def __init__(self, words: Words, *, feels: tuple[bool, bool], counts: bool) -> None:
+    def __init__(self, words: Words, cases: tuple[AxisCase, AxisCase]) -> None:
         self._words = words
-        self._feels = dict(zip(("azimuth", "elevation"), feels, strict=True))
-        self._counts = counts
+        self._cases = dict(zip(("azimuth", "elevation"), cases, strict=True))
         self._lasting: list[_Lasting] = []
         self._looked_s = 0.0
         self.found: list[Violation] = []
@@ -65,10 +64,10 @@ class Silence:
     def begin(self, name: str, now_s: float) -> None:
         axis = "elevation" if name.startswith("elevation") else "azimuth"
         plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
-        seen = plain in (*AT_ONCE, *ORDERED) or (plain in DRIVEN and self._feels[axis])
+        seen = plain in (*AT_ONCE, *ORDERED) or (plain in DRIVEN and self._cases[axis].feels)
         seen = seen or (plain in CRACKLES and int(name.partition(":")[2] or 0) <= GAP)
         # A count that is lost already cannot be lost once more by a hand.
-        if seen or plain.startswith("relay-welded") or (plain == "hand-turns" and not self._counts):
+        if seen or plain.startswith("relay-welded") or (plain == "hand-turns" and not self._cases[axis].counts):
             self._lasting.append(_Lasting(plain, axis, now_s))
 
     def end(self, name: str) -> None:
@@ -95,9 +94,14 @@ class Silence:
             # Bad readings are counted: of those that come late there are fewer.
             more_s = min(past_s, PERIOD_S) if each.name in CRACKLES else past_s
             each.seen_s = each.seen_s + more_s if self._to_be_seen(each, truth, ordered=ordered) else 0.0
-            if each.seen_s > SILENT_S + LOOK_S:
+            if each.seen_s > self._most_s(each) + LOOK_S:
                 self.found.append(Violation(now_s, SILENCE, each.axis, f"{each.name} for {each.seen_s:.2f} s"))
                 self._lasting.remove(each)
+
+    def _most_s(self, fault: _Lasting) -> float:
+        """A contact that stands still shows nothing before three of its periods."""
+        case = self._cases[fault.axis]
+        return max(SILENT_S, case.patience_s) if case.counts and fault.name in DRIVEN else SILENT_S
 
     @staticmethod
     def _to_be_seen(fault: _Lasting, truth: AxisTruth, *, ordered: bool) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from benchmarks.drills.judges import SILENCE
+from benchmarks.drills.judges import SILENCE, AxisCase
 from benchmarks.drills.silence import Silence, Words
 from benchmarks.drills.world import AxisTruth
 from rotator.faults import Notice
@@ -21,7 +21,7 @@ class Room:
     def __init__(self) -> None:
         self.now_s = 0.0
         self.words = Words(lambda: self.now_s)
-        self.silence = Silence(self.words, feels=(True, True), counts=False)
+        self.silence = Silence(self.words, (AxisCase(0.0, 360.0, 4.0), AxisCase(0.0, 90.0, 4.0)))
         self.axes = [AxisTruth("azimuth", 6.0, 0.5), AxisTruth("elevation", 6.0, 0.5)]
 
     def listen(self, seconds: float, status: Status = QUIET, *, every_s: float = 0.05) -> list[str]:
@@ -68,3 +68,13 @@ def test_a_motor_that_cannot_turn_shows_only_while_it_is_driven() -> None:
     assert room.listen(60.0) == []
     room.axes[0].coil = 1
     assert room.listen(5.3) == [SILENCE]
+
+
+@pytest.mark.parametrize(("counts", "most_s"), [(False, 5.0), (True, 10.5)])
+def test_a_contact_that_stands_still_shows_after_three_of_its_periods(counts: bool, most_s: float) -> None:
+    room = Room()
+    room.silence = Silence(room.words, (AxisCase(0.0, 360.0, 4.0, counts=counts, patience_s=10.5),) * 2)
+    room.axes[0].coil = 1
+    room.silence.begin("azimuth-contact-stuck-closed", 0.0)
+    assert room.listen(most_s) == []
+    assert room.listen(0.3) == [SILENCE]
