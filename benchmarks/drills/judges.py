@@ -195,6 +195,8 @@ class Judges:
             self._accuse(AFTER_STOP, truth, f"by a welded relay for {case.welded_s:.2f} s, with a master")
 
     def _beyond(self, truth: AxisTruth, case: AxisCase) -> None:
+        if case.astray:
+            return
         over_deg = case.slack_deg + case.tolerance_deg
         beyond_deg = truth.shaft_deg - case.high_deg if truth.power > 0 else case.low_deg - truth.shaft_deg
         if truth.at_stop != truth.power and not (case.trusted and beyond_deg > over_deg):

@@ -24,7 +24,7 @@ PUT_OFF_S = 6.0
 """Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
 PANEL_S = 0.2
 """A jog switch is read twice before it counts, and once when it is let go."""
-ZENITH_DEG = 90.0
+ZENITH_DEG, OVERHEAD_DEG = 90.0, 4.0
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -200,13 +200,15 @@ class Orders:
                     self._storm = True
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
-            case "home":
+            case "home" if not self._storm:
                 self._anywhere(event, event.text(0))
                 self.axes[event.text(0)].homes = True
             case "confirm":
                 # It has no effect in a storm park, while an axis homes, and where the sensor measures.
                 if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
                     self._end(event.text(0), event.at_s)
+            case _ if self._storm:
+                pass  # a storm park holds every other order back
             case _:
                 self._note_order(event)
 
@@ -322,7 +324,10 @@ class Orders:
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
         turns_deg = self._turns(event.number(0), elevation_deg)
-        span, ends_deg = self._ranges["azimuth"], self._wavering.ends(event.at_s, turns_deg)
+        span, ends_deg = (
+            self._ranges["azimuth"],
+            self._wavering.ends(event.at_s, turns_deg, overhead=abs(elevation_deg - ZENITH_DEG) < OVERHEAD_DEG),
+        )
         angles_deg = tuple(angle for angle in turns_deg if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
         before = self.axes["azimuth"].goals.get(event.who)
         if before and (event.number(0) > TURN_DEG or not angles_deg):

@@ -20,6 +20,8 @@ KEEP_THEIR_ORDER = ("digipot", "servo")
 NOISE_SIGMAS = 5.0
 NOISY_DEG, NOISY_TRY_S = 0.2, 2.4
 SLOW_DPS, SLOW_TRY_S = 2.0, 4.0
+ROUGH_S, ROUGH_TRY_S = 0.08, 3.0
+"""Readings that scatter by what the motor turns in this time, and how long it then takes to see that it stands."""
 """Noise hides a slow motor: these are docs/safety.md's."""
 READINGS = ("every", "burst", "noise", "drift", "stands")
 SENSORS = ("pot-", "adc-", "contact-", "pulses-", "replies-")
@@ -41,6 +43,8 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
         patience_s = COUNTED_PERIODS * config.pulses.of(axis).spacing_deg / slowest_dps + 0.5
     elif truth.full_dps < SLOW_DPS:
         patience_s = SLOW_TRY_S
+    elif sim.pot_noise_deg > ROUGH_S * truth.full_dps:
+        patience_s = ROUGH_TRY_S
     elif sim.pot_noise_deg > NOISY_DEG:
         patience_s = NOISY_TRY_S
     elif config.rotor.type == "moteus":
@@ -118,6 +122,8 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.patience_s = max(case.patience_s, NOISY_TRY_S)
             case "drift":
                 case.slack_deg += abs(event.number(2))
+                # A control box follows its own pot: where the other one drifts, it is held beside its place.
+                case.feels = case.feels and config.rotor.type != "digipot"
             case "pace" | "push" | "weld" if not case.feels:
                 case.trusted, case.astray = False, True
             case "push" | "weld" | "sticks" if case.counts:

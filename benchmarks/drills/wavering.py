@@ -29,9 +29,9 @@ class Wavering:
         self._before_deg = ()
         self._stream.clear()
 
-    def ends(self, now_s: float, turns_deg: list[float]) -> tuple[float, ...]:
+    def ends(self, now_s: float, turns_deg: list[float], *, overhead: bool = False) -> tuple[float, ...]:
         """The ends of the range where the target may be waited for. `turns_deg`: all angles that show there, on every
-        turn, also beyond the range."""
+        turn, also beyond the range. `overhead`: at the zenith each azimuth shows it, and the antenna may stay."""
         near_deg = [
             angle_deg
             for angle_deg in turns_deg
@@ -43,7 +43,8 @@ class Wavering:
         may_wait = bool(beyond_deg) and (moves or now_s - self._swung_s <= REMEMBERS_S)
         if beyond_deg:
             self._swung_s = now_s
-        self._before_deg = (*within_deg, *(beyond_deg if may_wait else ()))
+        stays_deg = self._before_deg if overhead else ()
+        self._before_deg = (*within_deg, *(beyond_deg if may_wait else ()), *stays_deg)
         if not may_wait:
             return ()
         return tuple({min(max(angle_deg, self._low_deg), self._high_deg) for angle_deg in beyond_deg})

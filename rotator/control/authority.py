@@ -39,10 +39,8 @@ class Authority:
     def stopped(self, source: Source, now_s: float, *, latch: bool) -> None:
         """`source` stopped the antenna. Other sources that send have no effect until they pause or reconnect."""
         self._senders.stop(source, now_s)
-        if source != self._panel:
-            self._held_on_s = now_s
         self.controlled_by = None
-        self.end_storm(source)
+        self.stopped_axis(source, now_s)
         if latch:
             self.latched = str(source)
 
@@ -51,8 +49,14 @@ class Authority:
         self.latched, self.storm = f"{source}: storm park", True
         self.controlled_by = source
 
-    def end_storm(self, source: Source) -> None:
-        """`source` has stopped an axis. What a storm park has latched stays so, and says that it is no park now."""
+    def stopped_axis(self, source: Source, now_s: float) -> None:
+        """`source` stopped an axis or both. A jog switch that is held has no effect until it is let go."""
+        if source != self._panel:
+            self._held_on_s = now_s
+        self._end_storm(source)
+
+    def _end_storm(self, source: Source) -> None:
+        """What a storm park has latched stays so, and says that it is no park now."""
         if self.storm:
             self.latched, self.storm = f"{source}, in a storm park", False
 
@@ -66,7 +70,7 @@ class Authority:
         """A person turns the mode switch."""
         self.mode, self._panel = mode, panel
         self.controlled_by = None
-        self.end_storm(panel)
+        self._end_storm(panel)
 
     def left(self, source: Source, now_s: float) -> bool:
         """The connection of `source` has ended. Returns whether the stream that moved the antenna ended with it."""

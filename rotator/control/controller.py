@@ -289,7 +289,7 @@ class Controller:
     def _stop(self, source: Source, axes: tuple[Axis, ...], *, latch: bool, now_s: float) -> None:
         self._homing.clear()
         self._halt(BOTH if self._authority.storm else axes)
-        self._authority.end_storm(source)
+        self._authority.stopped_axis(source, now_s)
         if len(axes) == len(self._axes):
             self._authority.stopped(source, now_s, latch=latch)
             if not latch and not self._authority.latched:

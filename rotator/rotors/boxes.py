@@ -16,6 +16,10 @@ from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.positioned import PositionedRotor
 
 ASSUMED = Notice("angle assumed until a full travel is over")
+NEAR_DEG = 10.0
+"""No control box turns its rotor further from one reading to the next."""
+MOVED_READINGS = 20
+"""A place further off is believed when so many readings in a row have shown it: a spark on the wire lasts less long."""
 
 
 class BoxRotor(PositionedRotor):
@@ -39,7 +43,7 @@ class FollowedBox:
     """The pot of the rotor, or another sensor, on an axis for which the drive has only a modelled angle.
 
     `calibration` turns the sensor's readings into degrees on the rotor's own scale; a reading that is not within
-    `healthy`, as of a broken wire, shows no place.
+    `healthy`, as of a broken wire, shows no place, and neither do a few that jump.
     """
 
     def __init__(
@@ -56,10 +60,24 @@ class FollowedBox:
         self._sensor = sensor
         self._calibration = calibration
         self._healthy = healthy
+        self._place_deg: float | None = None
+        """Where the model was put last."""
+        self._before_deg = 0.0
+        self._alike = 0
+        """So many readings in a row have shown about the same place."""
 
     def read(self) -> float:
         """The sensor's reading, in the sensor's own unit; the model takes over its place. Raises HardwareError."""
         raw = self._sensor.read()
-        if self._healthy[0] <= raw <= self._healthy[1]:
-            self._drive.found(self._axis, self._calibration.degrees(raw))
+        if not self._healthy[0] <= raw <= self._healthy[1]:
+            self._alike = 0
+        elif self._believable(angle_deg := self._calibration.degrees(raw)):
+            self._place_deg = angle_deg
+            self._drive.found(self._axis, angle_deg)
         return raw
+
+    def _believable(self, angle_deg: float) -> bool:
+        self._alike = self._alike + 1 if abs(angle_deg - self._before_deg) <= NEAR_DEG else 1
+        self._before_deg = angle_deg
+        near = self._place_deg is None or abs(angle_deg - self._place_deg) <= NEAR_DEG
+        return near or self._alike >= MOVED_READINGS

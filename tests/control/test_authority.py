@@ -330,7 +330,7 @@ def test_a_stop_ends_a_storm_park_and_what_it_latched_stays(authority: Authority
     assert (authority.latched, authority.storm) == ("console: storm park", True)
     authority.stopped(PST, 1.0, latch=False)
     assert (authority.latched, authority.storm) == ("gs232b#1, in a storm park", False)
-    authority.end_storm(GPREDICT)
+    authority.stopped_axis(GPREDICT, 1.0)
     assert authority.latched == "gs232b#1, in a storm park", "there is no storm park any more"
     assert not authority.may_move(PST, 2.0)
 

@@ -110,3 +110,17 @@ def test_a_sensor_beside_a_model_corrects_it_and_is_what_is_read(drive: Journal)
     with pytest.raises(HardwareError, match="the converter"):
         sensor.read()
     assert drive.models == {EL: 90.0}
+
+
+def test_a_model_is_put_elsewhere_only_by_readings_that_stay(drive: Journal) -> None:
+    pot = Pot()
+    sensor = FollowedBox(cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))), (0.02, 0.98))
+    sensor.read()
+    for pot.reading in (0.9, 0.1, 0.9) * 20 + (0.9,) * 18:
+        sensor.read()
+    assert drive.models == {EL: 90.0}, "sparks on the wire"
+    sensor.read()
+    assert drive.models == {EL: pytest.approx(162.0)}, "it has stayed there for a second"
+    for pot.reading in (0.86, 0.82, 0.78):
+        sensor.read()
+    assert drive.models == {EL: pytest.approx(140.4)}, "and turns from there"

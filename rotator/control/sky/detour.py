@@ -18,8 +18,6 @@ from rotator.control.sky.sectors import Box, Kept, Place, box_at, kept, ways_out
 
 BESIDE_DEG = 0.6
 """The lines beside a sector lie this much further out: a motor stops about there, not exactly there."""
-CLEAR_DEG = 0.1
-"""Where an axis is known less exactly than that, its lines lie this much beyond what it may be off."""
 OTHER_SIDE_DEG = 5.0
 """Beside a target inside a sector the antenna changes sides only where it comes this much nearer."""
 
@@ -51,7 +49,7 @@ class Detours:
         limits, about_deg = self.limits.of(axis), self._about_deg[0 if axis is Axis.AZIMUTH else 1]
         edges_deg = {limits.min_deg, limits.max_deg}
         for zone in self._zones:
-            beside = zone.box.of(axis).widened(max(BESIDE_DEG, about_deg + CLEAR_DEG))
+            beside = zone.box.of(axis).widened(about_deg + BESIDE_DEG)
             edges_deg |= {beside.min_deg, beside.max_deg}
         return sorted(edge_deg for edge_deg in edges_deg if limits.holds(edge_deg))
 
