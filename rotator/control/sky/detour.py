@@ -75,12 +75,14 @@ class Detours:
             return Detour((out,), " and ".join(sorted(way.through)), leaves=True)
         if inside := self._inside(here):
             return Detour((here.middle,), inside, leaves=True)
-        zones = self._seen_from(here)
         lines = {
             axis: sorted({*self._lines[axis], here.of(axis).middle_deg, self.limits.of(axis).nearest(target_deg)})
             for axis, target_deg in zip(Axis, target, strict=True)
         }
-        grid = _Grid(here, lines, zones, self._about_deg, self._speeds)
+        # Nearer to a sector than it should be, it keeps that distance until it is out.
+        first = self._seen_from(here)
+        zones = [near if zone.box.meets(here) else zone for near, zone in zip(first, self._zones, strict=True)]
+        grid = _Grid(here, lines, (first, zones), self._about_deg, self._speeds)
         reached = grid.reached()
         sides = set(enumerate(before)) if before is not None else set()
 
@@ -139,9 +141,9 @@ class Detours:
         return self._zones[0].name
 
     def _seen_from(self, here: Box) -> list[Kept]:
-        """The sectors with the room before them: less of it where the antenna stands nearer already."""
+        """The sectors with the room before them: less of it on each side where the antenna stands nearer already."""
         return [
-            _shrunk(zone, each.box, here) if zone.box.meets(here) and not each.box.meets(here) else zone
+            zone if each.box.meets(here) else _shrunk(zone, each.box, here)
             for zone, each in zip(self._zones, self._kept, strict=True)
         ]
 
@@ -168,9 +170,16 @@ class _Grid:
     """Every crossing of the lines beside the sectors, and of those through start and target, and the ways between."""
 
     def __init__(
-        self, here: Box, lines: dict[Axis, list[float]], zones: Sequence[Kept], about_deg: Place, speeds: Speeds
+        self,
+        here: Box,
+        lines: dict[Axis, list[float]],
+        zones: tuple[Sequence[Kept], Sequence[Kept]],
+        about_deg: Place,
+        speeds: Speeds,
     ) -> None:
-        self._here, self._zones, self._about_deg = here, zones, about_deg
+        self._here, self._about_deg = here, about_deg
+        self._first, self._zones = zones
+        """The sectors with their room, as seen from the start, and from everywhere else."""
         self._start = here.middle
         self._azimuths_deg, self._elevations_deg = lines[Axis.AZIMUTH], lines[Axis.ELEVATION]
         self._dps = speeds.azimuth_dps, speeds.elevation_dps
@@ -197,7 +206,9 @@ class _Grid:
         return found
 
     def _free(self, place: Place, then: Place) -> bool:
-        swept = (self._here if place == self._start else box_about(place, self._about_deg)).stretched(then)
+        if place == self._start:
+            return not any(zone.box.meets(self._here.stretched(then)) for zone in self._first)
+        swept = box_about(place, self._about_deg).stretched(then)
         return not any(zone.box.meets(swept) for zone in self._zones)
 
     def way_to(self, end: Place) -> list[Place]:
