@@ -141,7 +141,7 @@ class Judges:
                 # Pressed against its stop nothing shows that its relay has welded: while it homes, for a moment of a
                 # run of a counting axis, and in a calibration, where a person watches.
                 unseen = case.counts and not case.trusted and case.pressed_s < case.patience_s / COUNTED_PERIODS
-                homes = self._orders.axes[truth.name].homes and not self._master
+                homes = self._orders.axes[truth.name].homes
                 excused = truth.welded and truth.at_stop and (homes or unseen or self._orders.attended)
                 if not excused:
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")

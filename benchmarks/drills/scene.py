@@ -124,6 +124,8 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.slack_deg += abs(event.number(2))
                 # A control box follows its own pot: where the other one drifts, it is held beside its place.
                 case.feels = case.feels and config.rotor.type != "digipot"
+            case "stands" if config.rotor.type == "digipot":
+                case.trusted = False
             case "pace" | "push" | "weld" if not case.feels:
                 case.trusted, case.astray = False, True
             case "push" | "weld" | "sticks" if case.counts:
