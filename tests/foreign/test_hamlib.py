@@ -220,7 +220,8 @@ def test_a_stop_on_one_link_silences_the_stream_on_another(start_box: Start, rot
         stopped = position(rotctl(2, tcp, "p"))
         for _ in range(3):
             program.write(b"W200 020\r")
-            assert position(rotctl(2, tcp, "p")) == pytest.approx(stopped, abs=1)
+            # It may have been stopped at its full speed, and coasts a little.
+            assert position(rotctl(2, tcp, "p")) == pytest.approx(stopped, abs=4)
         rotctl(2, tcp, "P", "120", "20")
         arrive(rotctl, 2, tcp, (120, 20))
     rotctl(603, box.pty, "P", "200", "20")
