@@ -88,7 +88,7 @@ class Fence:
                 return []
 
     def _last_places(self, now_s: float, axis: Axis, command: Steer, swept: Box) -> list[float]:
-        """Where an axis that moves on may still come to rest: before the nearest sector ahead. None: it is there."""
+        """Where an axis that moves on may still come to rest: before the nearest sector ahead. Empty: it is there."""
         angle_deg, room_deg = self._axes[axis].angle_deg, self._axes[axis].room_deg
         there = swept.but(axis, self._axes[axis].sweep(now_s, command))
         edges = [each.box.of(axis) for each in self._sectors if each.box.meets(there)]

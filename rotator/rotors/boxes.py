@@ -9,7 +9,7 @@ from __future__ import annotations
 from hw.drives.digipot import DigipotDrive
 from hw.ports import AngleSensor, Axis
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.sensing import Condition, Window
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import Notice
 from rotator.rotors.common import BlockedDirections, no_switches
@@ -52,7 +52,7 @@ class FollowedBox:
         axis: Axis,
         sensor: AngleSensor,
         calibration: Calibration,
-        healthy: tuple[float, float],
+        healthy: Window,
     ) -> None:
         self.source = sensor.source
         self._drive = drive
@@ -69,7 +69,7 @@ class FollowedBox:
     def read(self) -> float:
         """The sensor's reading, in the sensor's own unit; the model takes over its place. Raises HardwareError."""
         raw = self._sensor.read()
-        if not self._healthy[0] <= raw <= self._healthy[1]:
+        if not self._healthy.low_raw <= raw <= self._healthy.high_raw:
             self._alike = 0
         elif self._believable(angle_deg := self._calibration.degrees(raw)):
             self._place_deg = angle_deg

@@ -10,6 +10,7 @@ from hw.drives.digipot import DigipotDrive
 from hw.drives.servo import ServoDrive
 from hw.ports import AngleSource, Axis, Direction, HardwareError
 from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.sensing import Window
 from rotator.control.commands import Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import FaultKind
@@ -85,6 +86,9 @@ def test_servos_are_let_go_when_the_box_ends_even_after_a_failure(servos: ServoR
     assert drive.said[-1] == "finish"
 
 
+HALF_TURN = Calibration(((0.0, 0.0), (1.0, 180.0)))
+
+
 class Pot:
     source = AngleSource.MEASURED
 
@@ -99,7 +103,9 @@ class Pot:
 
 def test_a_sensor_beside_a_model_corrects_it_and_is_what_is_read(drive: Journal) -> None:
     pot = Pot()
-    sensor = FollowedBox(cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))), (0.02, 0.98))
+    sensor = FollowedBox(
+        cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))), Window(0.02, 0.98)
+    )
     assert sensor.source is AngleSource.MEASURED
     assert sensor.read() == 0.5
     assert drive.models == {EL: 90.0}
@@ -114,7 +120,9 @@ def test_a_sensor_beside_a_model_corrects_it_and_is_what_is_read(drive: Journal)
 
 def test_a_model_is_put_elsewhere_only_by_readings_that_stay(drive: Journal) -> None:
     pot = Pot()
-    sensor = FollowedBox(cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))), (0.02, 0.98))
+    sensor = FollowedBox(
+        cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))), Window(0.02, 0.98)
+    )
     sensor.read()
     for pot.reading in (0.9, 0.1, 0.9) * 20 + (0.9,) * 18:
         sensor.read()

@@ -5,8 +5,6 @@ Part of the composition root: names drivers and simulated parts, and passes them
 
 from __future__ import annotations
 
-import math
-
 from firmware_sim.rotors.digipot import DigipotAxisSpec, SimDigipotRotor
 from hw.chips.mcp41010 import STEPS, Mcp41010
 from hw.drives.control_box import BoxSpec
@@ -17,6 +15,7 @@ from rotator.assembly.rotors import Assembly
 from rotator.assembly.settings import own_points
 from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.sensing import ANYTHING, Window
 from rotator.rotors.boxes import BoxRotor, FollowedBox
 
 
@@ -43,8 +42,7 @@ def build(parts: Assembly, lines: OutputLines | None) -> BoxRotor:
     for axis, sensor in parts.sensors({axis: drive.sensor(axis) for axis in Axis}).items():
         points = None if isinstance(sensor, DriveAngle) else own_points(config, axis)
         table = config.axis(axis)
-        anything = (-math.inf, math.inf)
-        healthy = anything if config.in_degrees(axis) else (table.lowest_reading, table.highest_reading)
+        healthy = ANYTHING if config.in_degrees(axis) else Window(table.lowest_reading, table.highest_reading)
         sensors[axis] = FollowedBox(drive, axis, sensor, Calibration(points), healthy) if points else sensor
     return BoxRotor(drive, sensors, parts.shift, parts.ends)
 
