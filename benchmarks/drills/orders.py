@@ -194,20 +194,20 @@ class Orders:
                 self._release(event.at_s)
             case "storm":
                 if not self._held:
-                    # Refused on an axis that must be homed first: a homing under way then goes on.
-                    if not any(orders.homes for orders in self.axes.values()):
+                    # An antenna that must be homed first cannot park: what goes on then goes on.
+                    if not self._counts:
                         self._forget(event.at_s)
                     self._storm = True
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
-            case "home" if not self._storm:
+            case "home":
                 self._anywhere(event, event.text(0))
                 self.axes[event.text(0)].homes = True
             case "confirm":
                 # It has no effect in a storm park, while an axis homes, and where the sensor measures.
                 if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
                     self._end(event.text(0), event.at_s)
-            case _ if self._storm:
+            case _ if self._storm and not self._counts:
                 pass  # a storm park holds every other order back
             case _:
                 self._note_order(event)
@@ -277,7 +277,7 @@ class Orders:
                 self._left(event)
 
     def _release(self, now_s: float) -> None:
-        self.latched = self._panel.pressed
+        self.latched, self._storm = self._panel.pressed, False
         self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
 
