@@ -28,6 +28,9 @@ from rotator.links.udp import Report, UdpLink
 from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import Way
+from rotator.orbits.celestial import Sky
+from rotator.orbits.earth import Site
+from rotator.orbits.locator import from_locator
 from rotator.orders import Source
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
@@ -35,7 +38,6 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session
-from rotator.protocols.locator import from_locator
 from rotator.protocols.lx200_session import Lx200Session
 from rotator.protocols.macdoppler import MacDopplerSession
 from rotator.protocols.move_report import MoveReport
@@ -48,7 +50,6 @@ from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Inquiry, Session
-from rotator.protocols.sky import Site, Sky
 from rotator.protocols.spid import Model
 from rotator.protocols.spid_session import SpidSession
 from rotator.protocols.stellarium import StellariumSession

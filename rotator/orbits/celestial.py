@@ -13,6 +13,8 @@ from enum import Enum
 
 import astronomy
 
+from rotator.orbits.earth import Site
+
 J2000_S = 946_728_000.0
 """Noon of 1 January 2000 UTC, in seconds since 1970."""
 DAY_S = 86_400.0
@@ -24,15 +26,6 @@ class Equinox(Enum):
 
     J2000 = "J2000"
     OF_DATE = "JNow"
-
-
-@dataclass(frozen=True, slots=True)
-class Site:
-    """A place on the earth: latitude north, longitude east, metres above the sea."""
-
-    latitude_deg: float
-    longitude_deg: float
-    altitude_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,8 +6,7 @@ Knows the ellipsoid of WGS 84, and straight lines without refraction. Does not k
 from __future__ import annotations
 
 import math
-
-from rotator.protocols.sky import Site
+from dataclasses import dataclass
 
 AXIS_M = 6_378_137.0
 FLATTENING = 1 / 298.257223563
@@ -16,6 +15,15 @@ NEAREST_M = 1.0
 """A place nearer than this has no direction."""
 
 Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """A place on the earth: latitude north, longitude east, metres above the sea."""
+
+    latitude_deg: float
+    longitude_deg: float
+    altitude_m: float = 0.0
 
 
 def direction(station: Site, place: Site) -> tuple[float, float] | None:
