@@ -9,8 +9,9 @@ from typing import get_args
 import pytest
 
 from firmware_sim.clock import SimClock
-from rotator.assembly.links import build_links, build_sky, session_maker
+from rotator.assembly.links import build_links, session_maker
 from rotator.assembly.settings import build_controller, build_mount
+from rotator.assembly.sky import build_sky
 from rotator.assembly.station import Station
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.config.load import parse
