@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -208,7 +209,8 @@ def main() -> None:
     try:
         cli(standalone_mode=True)
     except ConfigError as fault:
-        click.echo(str(fault), err=True)
+        terminal = sys.stderr.isatty()
+        click.echo(fault.wrapped(shutil.get_terminal_size().columns) if terminal else str(fault), err=True)
         sys.exit(2)
     except (HardwareError, LinkError, SetupError) as fault:
         click.echo(f"rotator: {fault}", err=True)
