@@ -30,11 +30,15 @@ class Mistake:
         return rows.replace(NO_BREAK, " ")
 
     def _said(self) -> str:
+        text = "".join(
+            mark if mark.isprintable() or mark == NO_BREAK else mark.encode("unicode_escape").decode()
+            for mark in self.text
+        )
         if not self.lines:
-            return self.text
+            return text
         *first, last = self.lines
         where = f"lines {', '.join(map(str, first))} and {last}" if first else f"line {last}"
-        return f"{where}: {self.text}"
+        return f"{where}: {text}"
 
     @property
     def place(self) -> int:
