@@ -15,7 +15,7 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from rotator.config import toml_text
+from rotator.config import migrations, toml_text
 from rotator.config.model import Config
 
 _KINDS = {
@@ -76,7 +76,7 @@ def profiles() -> list[str]:
 def parse(text: str, name: str) -> Config:
     """The checked configuration in a TOML text. `name` stands in the errors. Raises ConfigError."""
     try:
-        values = toml_text.values(text)
+        values = migrations.values(text)
     except ValueError as fault:
         raise ConfigError(name, [str(fault)]) from fault
     faults: list[str] = []

@@ -15,6 +15,7 @@ from tomlkit.items import Array
 
 from rotator.config import toml_text
 from rotator.config.load import ConfigError, parse
+from rotator.config.migrations import brought_up
 from rotator.store.whole import write_whole
 
 Points = Sequence[tuple[float, float]]
@@ -30,8 +31,8 @@ def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **val
     try:
         before = toml_text.read(path)
         text = changed(before, axis, calibration=calibration, **values)
-    except (TOMLKitError, UnicodeDecodeError) as fault:
-        raise ConfigError(str(path), [f"is not TOML any more: {fault}"]) from fault
+    except (TOMLKitError, ValueError) as fault:
+        raise ConfigError(str(path), [f"cannot be changed: {fault}"]) from fault
     # A text that the next start would refuse is not written.
     parse(text, str(path))
     write_whole(path.with_name(path.name + ".bak"), before)
@@ -40,7 +41,7 @@ def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **val
 
 def changed(text: str, axis: str, *, calibration: Points | None = None, **values: float | bool) -> str:
     """The file's text with these keys in the table `[axis]`; everything else as it was."""
-    document = tomlkit.parse(text)
+    document = tomlkit.parse(brought_up(text))
     if axis not in document and text and not text.endswith("\n\n"):
         document.add(tomlkit.nl())
     table = document.setdefault(axis, tomlkit.table())
