@@ -55,8 +55,11 @@ class Source:
                     (folder / name).parent.mkdir(parents=True, exist_ok=True)
                     shutil.copy2(self.folder / name, folder / name)
         else:
-            unkept = shutil.ignore_patterns(".venv", "dist", "run", "__pycache__", ".*_cache", ".hypothesis")
-            shutil.copytree(self.folder, folder, dirs_exist_ok=True, ignore=unkept)
+            made = shutil.ignore_patterns("__pycache__", ".venv", ".*_cache", ".hypothesis")
+            shutil.copytree(self.folder, folder, dirs_exist_ok=True, ignore=made)
+            for name in ("dist", "run"):
+                shutil.rmtree(folder / name, ignore_errors=True)
+            (folder / "PKG-INFO").unlink(missing_ok=True)  # the sdist's own, made anew
         settle(folder, self.epoch_s)
 
 
