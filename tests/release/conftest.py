@@ -34,7 +34,8 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Archives:
 def python_of(minor: int) -> str:
     """A Python 3.MINOR of this machine. Skips where there is none: Debian 12 and 13 have one each, not all three."""
     pyenv = Path(os.environ.get("PYENV_ROOT") or Path.home() / ".pyenv") / "versions"
-    places = [shutil.which(f"python3.{minor}"), "/usr/bin/python3", sys.executable]
+    # The system's first: an ordinary user can reach it, even where root runs the tests.
+    places = ["/usr/bin/python3", shutil.which(f"python3.{minor}"), sys.executable]
     places += [str(path) for path in pyenv.glob(f"3.{minor}.*/bin/python3.{minor}")]
     for place in places:
         if place is not None and _minor(place) == minor:
