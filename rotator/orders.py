@@ -29,6 +29,38 @@ class Aim:
 
 
 @dataclass(frozen=True, slots=True)
+class Step:
+    """At this moment a motor on relays leaves for this place on the axis's own scale."""
+
+    leave_s: float
+    place_deg: float
+
+
+PLAN_STEP_S = 0.5
+"""The time between two angles of an `AxisPlan`."""
+
+
+@dataclass(frozen=True, slots=True)
+class AxisPlan:
+    """How one axis flies a pass: its angles every `PLAN_STEP_S` from `begin_s` on, and the steps of a motor on relays."""
+
+    begin_s: float
+    angles_deg: tuple[float, ...]
+    steps: tuple[Step, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Fly:
+    """Fly a pass that is known to its end, as planned. Moments are on the control loop's clock."""
+
+    name: str
+    path: tuple[tuple[float, float, float], ...]
+    """The target's directions: (moment in s, azimuth, elevation), rising, two or more."""
+    azimuth: AxisPlan
+    elevation: AxisPlan
+
+
+@dataclass(frozen=True, slots=True)
 class Jog:
     """Turn one axis until stopped, until its limit, or for `seconds`."""
 
@@ -169,7 +201,9 @@ class Leave:
 Personal = SetMode | Nudge | Home | Confirm | RelaysChecked | LetGo | Remark
 """Orders that only a person at the panel or on the console may give."""
 
-Order = Aim | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal
+Order = (
+    Aim | Fly | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal
+)
 
 
 PERSONS = ("console", "panel", "calibrate")

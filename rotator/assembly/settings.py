@@ -21,6 +21,7 @@ from rotator.control.axis.sensing import ANYTHING, Window
 from rotator.control.axis.settings import NEAR_DEG, AxisSettings, PositionedSettings, SwitchedSettings
 from rotator.control.controller import Controller
 from rotator.control.settings import Settings
+from rotator.control.sky.flight_plan import PlannedMotor
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.faults import Missing
@@ -219,3 +220,12 @@ def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | None:
         switch=f"{axis.value}_low" in config.limits.switches,
         rest_deg=(stop.rest_deg[0] + shift.of(axis), stop.rest_deg[1] + shift.of(axis)),
     )
+
+
+def planned_motors(config: Config) -> tuple[PlannedMotor, PlannedMotor]:
+    """What a plan of a whole pass has to know of azimuth and elevation, as the file has it."""
+    azimuth, elevation = (
+        PlannedMotor(table.speed_dps, table.coast_s, table.tolerance_deg, switched=config.rotor.switched)
+        for table in (config.azimuth, config.elevation)
+    )
+    return azimuth, elevation

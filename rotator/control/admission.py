@@ -9,7 +9,7 @@ from __future__ import annotations
 from hw.ports import AngleSource, Axis
 from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount, Unreachable
-from rotator.orders import Aim, Calibrate, Confirm, Home, Jog, LoadTimed, Order, Park, Refusal, RelaysChecked
+from rotator.orders import Aim, Calibrate, Confirm, Fly, Home, Jog, LoadTimed, Order, Park, Refusal, RelaysChecked
 from rotator.status import Status
 
 SENT_DEG = {Axis.AZIMUTH: (-180.0, 540.0), Axis.ELEVATION: (-90.0, 180.0)}
@@ -24,7 +24,7 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return _uncalibrated(order, status) or _unreachable(((aim.azimuth_deg, aim.elevation_deg),), mount)
         case LoadTimed(_, points):
             return _uncalibrated(order, status) or _unreachable(points, mount)
-        case Park():
+        case Park() | Fly():
             return _uncalibrated(order, status)
         case Calibrate(axis) if status.moving:
             return Refusal(f"{axis.value} cannot be calibrated while the antenna moves")
@@ -70,7 +70,7 @@ def _axes_of(order: Order) -> tuple[Axis, ...]:
             return (Axis.ELEVATION,)
         case LoadTimed(_, points) if all(elevation_deg is None for _, elevation_deg in points):
             return (Axis.AZIMUTH,)
-        case Aim() | LoadTimed() | Park():
+        case Aim() | Fly() | LoadTimed() | Park():
             return (Axis.AZIMUTH, Axis.ELEVATION)
         case Jog(axis):
             return (axis,)

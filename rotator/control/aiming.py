@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
+from rotator.control.flight import Flight
 from rotator.control.going_round import GoingRound
 from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount
@@ -17,7 +18,7 @@ from rotator.control.sky.nudges import Nudges
 from rotator.control.sky.pointing import Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
-from rotator.orders import BOTH, Aim
+from rotator.orders import BOTH, Aim, Fly
 
 
 class Aiming:
@@ -30,6 +31,8 @@ class Aiming:
         self._round = GoingRound(mount, axes)
         self._asked: Aim | None = None
         """The order in force, without the nudges; None: there is none."""
+        self._flight: Flight | None = None
+        """The pass that is flown as planned; None: there is none."""
 
     @property
     def wanted(self) -> Aim:
@@ -38,6 +41,7 @@ class Aiming:
 
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
+        self._flight = None
         wanted = self._pointing.wanted
         asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
         aim = self._nudges.applied(asked)
@@ -56,6 +60,12 @@ class Aiming:
             self.forget((Axis.ELEVATION,))
             self._round.aim(Axis.ELEVATION, self._pointing.raise_to(aim.elevation_deg, self._azimuth.angle_deg or 0.0))
             self._asked = asked
+
+    def fly(self, order: Fly, now_s: float) -> None:
+        """Fly a planned pass from now on."""
+        self.forget(BOTH)
+        self._flight = Flight(order)
+        self._fly_on(now_s)
 
     def park(self, now_s: float) -> None:
         """Go to the park position. Raises Unreachable."""
@@ -93,12 +103,16 @@ class Aiming:
 
     def forget(self, axes: tuple[Axis, ...]) -> None:
         """Nothing is asked of these axes any more. A path needs both, so the other axis stays where it is."""
-        self._asked = None
+        self._asked = self._flight = None
         self._pointing.forget(azimuth=Axis.AZIMUTH in axes, elevation=Axis.ELEVATION in axes)
         self._round.forget_paths()
 
     def look_ahead(self, now_s: float) -> None:
         """Keep the goals up with a target that moves, on the axes that still aim at it, and round the sectors."""
+        if self._flight is not None:
+            self._fly_on(now_s)
+            self._round.lead(now_s)
+            return
         aims = {axis: wish for axis in self._axes if (wish := self._round.wish(axis)) is not None}
         if aims:
             speeds = Speeds(self._azimuth.speed_dps, self._elevation.speed_dps)
@@ -108,6 +122,14 @@ class Aiming:
                 if goal is not None and axis in aims:
                     self._round.aim(axis, goal)
         self._round.lead(now_s)
+
+    def _fly_on(self, now_s: float) -> None:
+        assert self._flight is not None
+        for axis, goal in self._flight.goals(now_s).items():
+            self._round.aim(axis, goal)
+        self._pointing.show(self._flight.wanted(now_s))
+        if self._flight.ended(now_s):
+            self._flight = None
 
     def notices(self, axis: Axis) -> tuple[Notice, ...]:
         """What a forbidden sector keeps this axis from."""

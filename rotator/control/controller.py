@@ -35,6 +35,7 @@ from rotator.orders import (
     Calibrate,
     ClearTimed,
     Confirm,
+    Fly,
     Home,
     Jog,
     Leave,
@@ -218,6 +219,8 @@ class Controller:
         match order:
             case Aim():
                 self._point_at(order, now_s)
+            case Fly():
+                self._aiming.fly(order, now_s)
             case Park():
                 self._park(now_s)
                 return

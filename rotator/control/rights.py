@@ -11,6 +11,7 @@ from enum import Enum
 from rotator.orders import (
     Aim,
     Confirm,
+    Fly,
     Home,
     Jog,
     LetGo,
@@ -103,7 +104,7 @@ def hindrance(states: Iterable[State], deed: Deed) -> State | None:
 def deed_of(order: Order) -> Deed | None:
     """The table's column for an order; None: it neither moves nor stops an axis, nor releases it."""
     match order:
-        case Aim() | LoadTimed() | RunTimed():
+        case Aim() | Fly() | LoadTimed() | RunTimed():
             return Deed.AIM
         case Jog():
             return Deed.JOG

@@ -14,10 +14,12 @@ from typing import Protocol
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from rotator.assembly.arduino import arduino_station
-from rotator.assembly.settings import build_controller, build_mount, build_offsets
+from rotator.assembly.settings import build_controller, build_mount, build_offsets, planned_motors
 from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.control.sky.angles import great_circle_deg
+from rotator.control.sky.flight_plan import plan_flight
+from rotator.control.sky.known_path import KnownPath
 from rotator.orders import Order, Source
 from rotator.protocols.gs232 import Command, Dialect, encode
 from rotator.protocols.gs232_session import Gs232Session
@@ -31,6 +33,10 @@ from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
 
 SAMPLE_S = 0.05
+KNOWN_S = 120.0
+"""So long before its beginning the box knows a pass that it tracks by itself."""
+FIRST_LOOK_S = 1.0
+"""After this the box has read its sensors."""
 SETTLING_S = 5.0
 """Pointing errors in the first seconds of the pass do not count: the antenna has to start and catch up first."""
 
@@ -95,7 +101,9 @@ class BoxPlant:
         assert station.world is not None, "a rehearsal is always simulated"
         self.world: SimRotor = station.world
         self._loop = ControlLoop(build_controller(config), station.rotor, clock, self._period_s)
-        client = Client(self._loop, build_mount(config), Source(via), clock=clock)
+        self._mount = build_mount(config)
+        self._motors = planned_motors(config)
+        client = Client(self._loop, self._mount, Source(via), clock=clock)
         self._session: Session = RotctldSession(client) if via == "rotctld" else Gs232Session(client, Dialect.B)
         self._encode = _rotctld_order if via == "rotctld" else _gs232_order
 
@@ -119,6 +127,13 @@ class BoxPlant:
 
     def order(self, azimuth_deg: float, elevation_deg: float) -> None:
         self._session.receive(self._encode(azimuth_deg, elevation_deg))
+
+    def announce(self, flown: Pass, begin_s: float) -> None:
+        """Let the box know the whole pass, which begins at that moment."""
+        path = KnownPath(tuple((begin_s + t_s, azimuth_deg, elevation_deg) for t_s, azimuth_deg, elevation_deg in flown.rows))
+        stands = self.status.azimuth.angle_deg or 0.0, self.status.elevation.angle_deg or 0.0
+        plan = plan_flight(self._mount, flown.name, path, self._clock(), stands, *self._motors)
+        self._loop.post(Source("track"), plan.order)
 
     def run_until(self, moment_s: float) -> None:
         first, last = (math.ceil(at_s / self._period_s - 1e-9) for at_s in (self._clock(), moment_s + self._period_s))
@@ -184,6 +199,24 @@ def plant_maker(
         return box
 
     return make
+
+
+def fly_known(flown: Pass, make: Callable[[SimClock, Pass], BoxPlant]) -> tuple[list[Sample], Summary]:
+    """Follow a pass that the box knows from `KNOWN_S` before it begins. Returns the trace and its summary."""
+    clock = SimClock()
+    plant = make(clock, flown)
+    trace: list[Sample] = []
+    begin_s = clock() + KNOWN_S
+
+    def sample(now_s: float) -> None:
+        t_s = now_s - begin_s
+        trace.append(Sample(t_s, *flown.at(t_s), *plant.pointing()))
+
+    clock.every(SAMPLE_S, sample)
+    plant.run_until(begin_s - KNOWN_S + FIRST_LOOK_S)
+    plant.announce(flown, begin_s)
+    plant.run_until(begin_s + flown.end_s)
+    return trace, summarise(trace, plant.relay_starts())
 
 
 def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Sample], Summary]:

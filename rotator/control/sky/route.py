@@ -47,7 +47,7 @@ def best_way(mount: Mount, directions: Sequence[Direction], present: Way, speeds
 
     `directions`: where the target will be, `STEP_S` apart, from now to where it sets.
     """
-    here = _Flown(mount, directions, present)
+    here = Flown(mount, directions, present)
     best_s, change = here.lost_s[-1] - WORTH_S, None
     if best_s <= 0.0:  # no other way can lose so much less
         return present
@@ -56,7 +56,7 @@ def best_way(mount: Mount, directions: Sequence[Direction], present: Way, speeds
         ways += [Way(present.azimuth_deg + turn, not present.flipped) for turn in (-180.0, 180.0)]
     plans = []
     for way in ways:
-        there = _Flown(mount, directions, way)
+        there = Flown(mount, directions, way)
         plans += [(there.lost_after_change_s(here, look, speeds), look, way) for look in range(len(directions))]
     if plans:
         least_s = min(plan[0] for plan in plans)
@@ -65,10 +65,11 @@ def best_way(mount: Mount, directions: Sequence[Direction], present: Way, speeds
     return change[2] if change is not None and change[1] == 0 else present
 
 
-class _Flown:
+class Flown:
     """A way flown to the end: where the axes are, and the seconds lost up to each look."""
 
     def __init__(self, mount: Mount, directions: Sequence[Direction], way: Way) -> None:
+        self.way = way
         self.azimuths_deg: list[float] = []
         self.elevations_deg: list[float] = []
         losses_s = [0.0]
@@ -89,13 +90,21 @@ class _Flown:
             self.elevations_deg.append(kept_el_deg)
         self.lost_s = list(accumulate(losses_s))
 
-    def lost_after_change_s(self, before: _Flown, look: int, speeds: Speeds) -> float:
-        """Seconds lost in all, if the antenna changes from `before` to this way at that look."""
+    def loss_s(self, look: int) -> float:
+        """What is lost from this look to the next."""
+        return self.lost_s[look + 1] - self.lost_s[look]
+
+    def change(self, to: Flown, look: int, speeds: Speeds) -> tuple[int, float]:
+        """At which look the antenna is on the other way, if it leaves at this one, and the seconds that are lost."""
         travel_s = max(
-            abs(self.azimuths_deg[look] - before.azimuths_deg[look]) / speeds.azimuth_dps,
-            abs(self.elevations_deg[look] - before.elevations_deg[look]) / speeds.elevation_dps,
+            abs(to.azimuths_deg[look] - self.azimuths_deg[look]) / speeds.azimuth_dps,
+            abs(to.elevations_deg[look] - self.elevations_deg[look]) / speeds.elevation_dps,
         )
         arrival = min(look + math.ceil(travel_s / STEP_S), len(self.lost_s) - 1)
         # A change that the end of the pass cuts short costs no more than what was left of the pass.
-        spent_s = min(travel_s, (arrival - look) * STEP_S)
+        return arrival, min(travel_s, (arrival - look) * STEP_S)
+
+    def lost_after_change_s(self, before: Flown, look: int, speeds: Speeds) -> float:
+        """Seconds lost in all, if the antenna changes from `before` to this way at that look."""
+        arrival, spent_s = before.change(self, look, speeds)
         return before.lost_s[look] + spent_s + self.lost_s[-1] - self.lost_s[arrival]

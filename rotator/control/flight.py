@@ -1,0 +1,72 @@
+"""A planned pass while it is flown: the goal of each axis at this moment, and the direction to show.
+
+Knows the plan as ordered. Knows nothing of how it was made, of the sender, or of faults.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+
+from hw.ports import Axis
+from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.plan import OFFSETS_S, Path
+from rotator.control.sky.pointing import EVEN, AimGoal
+from rotator.orders import PLAN_STEP_S, Aim, AxisPlan, Fly
+
+STEP_TOLERANCE_DEG = 0.3
+"""How near to the place of a step the axis comes to rest. A step is longer."""
+AGAIN_S = 0.5
+"""How often an axis without relays is given the next piece of its path."""
+
+
+class Flight:
+    def __init__(self, order: Fly) -> None:
+        self._path = KnownPath(order.path)
+        self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
+        self._given: dict[Axis, int] = {}
+        """The number of the step, or of the piece of path, that each axis has."""
+
+    def wanted(self, now_s: float) -> Aim:
+        """The target's direction, for the display."""
+        return Aim(*self._path.direction(now_s))
+
+    def ended(self, now_s: float) -> bool:
+        """Whether the target stands still from now on."""
+        return now_s >= self._path.end_s and all(now_s >= _end_s(plan) for plan in self._plans.values())
+
+    def goals(self, now_s: float) -> dict[Axis, AimGoal]:
+        """The goals that begin now."""
+        found = {}
+        for axis, plan in self._plans.items():
+            number = _number(plan, now_s)
+            if self._given.get(axis) != number:
+                self._given[axis] = number
+                found[axis] = _goal(plan, number, now_s)
+        return found
+
+
+def _number(plan: AxisPlan, now_s: float) -> int:
+    if plan.steps:
+        return max(0, bisect_right(plan.steps, now_s, key=lambda step: step.leave_s) - 1)
+    return int(now_s // AGAIN_S)
+
+
+def _goal(plan: AxisPlan, number: int, now_s: float) -> AimGoal:
+    if plan.steps:
+        return AimGoal(plan.steps[number].place_deg, STEP_TOLERANCE_DEG)
+    angles_deg = [_angle_deg(plan, now_s + offset_s) for offset_s in OFFSETS_S]
+    return AimGoal(angles_deg[0], STEP_TOLERANCE_DEG, Path(now_s, angles_deg, EVEN))
+
+
+def _angle_deg(plan: AxisPlan, at_s: float) -> float:
+    """Before the plan begins, its first angle; after it has ended, its last one."""
+    place = (at_s - plan.begin_s) / PLAN_STEP_S
+    index = min(max(int(place), 0), len(plan.angles_deg) - 1)
+    after = min(index + 1, len(plan.angles_deg) - 1)
+    share = min(max(place - index, 0.0), 1.0)
+    return plan.angles_deg[index] * (1 - share) + plan.angles_deg[after] * share
+
+
+def _end_s(plan: AxisPlan) -> float:
+    steps_s = plan.steps[-1].leave_s if plan.steps else 0.0
+    return max(steps_s, plan.begin_s + PLAN_STEP_S * len(plan.angles_deg))

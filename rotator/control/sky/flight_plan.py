@@ -1,0 +1,107 @@
+"""A whole pass planned before it begins: the way through it, and each axis's steps, or its path where it has no relays.
+
+Knows the mount, the target's path and the motors. It computes for up to a second, so it has no place in the control
+loop: what it returns is an order. Knows nothing of who asks, nor of sensors.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rotator.control.sky.angles import turn_deg
+from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.mount import Mount
+from rotator.control.sky.pointing import LEAST_WEIGHT
+from rotator.control.sky.route import STEP_S, Speeds
+from rotator.control.sky.steps import GRID_S, Trail, best_steps
+from rotator.control.sky.ways import Leg, Route, best_route
+from rotator.orders import AxisPlan, Fly, Step
+
+PRICE = 2.9
+"""Degrees squared times seconds that a start is worth, for a tolerance of one degree; it grows with the cube."""
+DOWN_WEIGHT = 1e-3
+"""Below the horizon the antenna may be anywhere; it shall be right when the target rises."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedMotor:
+    """What the plan has to know of an axis. `speed_dps`, `coast_s`: as learnt."""
+
+    speed_dps: float
+    coast_s: float
+    tolerance_deg: float
+    play_deg: float = 0.0
+    switched: bool = True
+    """By relays; else the motor goes to every angle by itself, and follows the path without steps."""
+
+
+@dataclass(frozen=True, slots=True)
+class FlightPlan:
+    route: Route
+    order: Fly
+
+
+def plan_flight(
+    mount: Mount,
+    name: str,
+    path: KnownPath,
+    now_s: float,
+    from_deg: tuple[float, float],
+    azimuth: PlannedMotor,
+    elevation: PlannedMotor,
+) -> FlightPlan:
+    """The plan for an antenna that stands at `from_deg` on its axes now. A path that has begun is flown from now on."""
+    begin_s = max(path.begin_s, now_s)
+    speeds = Speeds(azimuth.speed_dps, elevation.speed_dps)
+    route = best_route(mount, path.directions(begin_s, STEP_S), from_deg, begin_s - now_s, speeds)
+    directions = path.directions(begin_s, GRID_S)
+    azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs)
+    up = [1.0 if elevation_deg > 0 else DOWN_WEIGHT for _, elevation_deg in directions]
+    flat = [
+        max(LEAST_WEIGHT, math.cos(math.radians(direction[1]))) ** 2 * weight
+        for direction, weight in zip(directions, up, strict=True)
+    ]
+    return FlightPlan(
+        route,
+        Fly(
+            name,
+            path.rows,
+            _axis_plan(Trail(begin_s, azimuths_deg, flat), azimuth, now_s),
+            _axis_plan(Trail(begin_s, elevations_deg, up), elevation, now_s),
+        ),
+    )
+
+
+def _axis_plan(trail: Trail, motor: PlannedMotor, now_s: float) -> AxisPlan:
+    steps = _steps(trail, motor, now_s) if motor.switched else ()
+    return AxisPlan(trail.begin_s, tuple(trail.angles_deg), steps)
+
+
+def _steps(trail: Trail, motor: PlannedMotor, now_s: float) -> tuple[Step, ...]:
+    first, *others = best_steps(trail, motor.speed_dps, PRICE * motor.tolerance_deg**3, motor.play_deg)
+    # The antenna follows its motor later by as long as it coasts.
+    return Step(now_s, first.place_deg), *(Step(each.leave_s - motor.coast_s, each.place_deg) for each in others)
+
+
+def _axis_angles(
+    mount: Mount, directions: Sequence[tuple[float, float]], legs: Sequence[Leg]
+) -> tuple[list[float], list[float]]:
+    """Within the limits, every `GRID_S`, on the way that is in force at each moment."""
+    per_look = round(STEP_S / GRID_S)
+    azimuths_deg, elevations_deg = [], []
+    for index, leg in enumerate(legs):
+        begin = leg.look * per_look
+        end = legs[index + 1].look * per_look if index + 1 < len(legs) else len(directions)
+        azimuth_deg, before_deg = leg.flown.way.azimuth_deg, directions[0][0]
+        for moment, (direction_deg, elevation_deg) in enumerate(directions[:end]):
+            azimuth_deg += turn_deg(before_deg, direction_deg)
+            before_deg = direction_deg
+            if moment < begin:
+                continue
+            kept_deg = mount.azimuth.nearest(azimuth_deg)
+            azimuths_deg.append(kept_deg)
+            flipped_deg = 180.0 - elevation_deg if leg.flown.way.flipped else elevation_deg
+            elevations_deg.append(mount.clear_deg(kept_deg, flipped_deg))
+    return azimuths_deg, elevations_deg

@@ -1,0 +1,49 @@
+"""The path of a target that is known to its end: directions at moments, and between them.
+
+Knows the short way round in azimuth. Knows nothing of axes or motors. Moments are on the control loop's clock.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from rotator.control.sky.angles import turn_deg
+
+Row = tuple[float, float, float]
+"""A moment in seconds; azimuth and elevation in degrees."""
+
+
+@dataclass(frozen=True, slots=True)
+class KnownPath:
+    """Two rows or more, at rising moments. Raises ValueError."""
+
+    rows: tuple[Row, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.rows) < 2:
+            raise ValueError("a path has two rows or more")
+        if any(after[0] <= before[0] for before, after in pairwise(self.rows)):
+            raise ValueError("the moments of a path rise from row to row")
+
+    @property
+    def begin_s(self) -> float:
+        return self.rows[0][0]
+
+    @property
+    def end_s(self) -> float:
+        return self.rows[-1][0]
+
+    def direction(self, at_s: float) -> tuple[float, float]:
+        """Azimuth from 0 to below 360, and elevation; before the first row and after the last one, that row's."""
+        after = min(max(bisect_right(self.rows, at_s, key=lambda row: row[0]), 1), len(self.rows) - 1)
+        (a_s, az_a, el_a), (b_s, az_b, el_b) = self.rows[after - 1], self.rows[after]
+        share = min(max((at_s - a_s) / (b_s - a_s), 0.0), 1.0)
+        return (az_a + share * turn_deg(az_a, az_b)) % 360.0, el_a + share * (el_b - el_a)
+
+    def directions(self, from_s: float, every_s: float) -> Sequence[tuple[float, float]]:
+        """From a moment on to the end, every so often."""
+        count = max(1, int((self.end_s - from_s) / every_s) + 1)
+        return [self.direction(from_s + index * every_s) for index in range(count)]
