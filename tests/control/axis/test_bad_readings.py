@@ -42,6 +42,22 @@ def test_the_notice_ends_long_after_the_last_bad_reading() -> None:
     assert after([True] * NOTICED + [False] * LOOKED_AT).notice is None
 
 
+@pytest.mark.parametrize(("bad", "noticed"), [(1, False), (2, True), (3, True)])
+def test_once_noticed_they_stay_so_until_all_but_one_are_over(bad: int, noticed: bool) -> None:
+    rate = after([True] * NOTICED + [False] * (LOOKED_AT - bad) + [True] * bad)
+    assert (rate.notice is not None) is noticed
+
+
+@pytest.mark.parametrize(("bad", "noticed"), [(3, False), (4, True)])
+def test_four_of_a_hundred_are_noticed(bad: int, noticed: bool) -> None:
+    assert (after([False] * 50 + [True] * bad).notice is not None) is noticed
+
+
+@pytest.mark.parametrize(("bad", "too_many"), [(7, False), (8, True)])
+def test_eight_of_a_hundred_are_too_many(bad: int, too_many: bool) -> None:
+    assert after(([True, False] * bad)).too_many(2.0 * bad * STEP_S) is too_many
+
+
 def test_too_many_stay_too_many_until_a_while_after_the_last_one() -> None:
     rate = after([True] * TOO_MANY)
     last_s = (TOO_MANY - 1) * STEP_S

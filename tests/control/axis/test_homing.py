@@ -280,6 +280,19 @@ def test_after_three_ways_up_that_do_not_agree_it_gives_up() -> None:
     assert hand.homing.failure == "2 edges came on the way up and 7 on the way back, in the last of 3 tries"
 
 
+def test_it_has_begun_once_its_motor_was_driven() -> None:
+    """Before that the contact's silence has its own meaning: no run of homing has ended yet."""
+    homing = ordered()
+    for driven, begun in (
+        (Direction.OFF, False),
+        (Direction.OFF, False),
+        (Direction.MINUS, True),
+        (Direction.OFF, True),
+    ):
+        homing.step(10.0, driven, Condition())
+        assert homing.begun is begun
+
+
 def test_while_it_still_coasts_nothing_is_judged() -> None:
     hand = ByHand()
     hand.step(CYCLE_S)
