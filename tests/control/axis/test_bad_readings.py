@@ -55,7 +55,7 @@ def test_four_of_a_hundred_are_noticed(bad: int, noticed: bool) -> None:
 
 @pytest.mark.parametrize(("bad", "too_many"), [(7, False), (8, True)])
 def test_eight_of_a_hundred_are_too_many(bad: int, too_many: bool) -> None:
-    assert after(([True, False] * bad)).too_many(2.0 * bad * STEP_S) is too_many
+    assert after([True, False] * bad).too_many(2.0 * bad * STEP_S) is too_many
 
 
 def test_too_many_stay_too_many_until_a_while_after_the_last_one() -> None:

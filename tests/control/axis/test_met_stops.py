@@ -76,14 +76,11 @@ def test_each_stop_is_told_with_its_way_and_its_cure(stops: MetStops) -> None:
     ]
 
 
-@given(
-    st.lists(
-        st.tuples(st.sampled_from([STANDS, END]), st.sampled_from([PLUS, MINUS]), st.floats(-5.0, 455.0)), max_size=8
-    )
-)
-def test_wherever_it_stood_its_limits_only_shrink_and_stay_a_range(
-    met: list[tuple[FaultKind, Direction, float]],
-) -> None:
+STOOD = st.tuples(st.sampled_from([STANDS, END]), st.sampled_from([PLUS, MINUS]), st.floats(-5.0, 455.0))
+
+
+@given(st.lists(STOOD, max_size=8))
+def test_wherever_it_stood_its_limits_shrink_and_stay_a_range(met: list[tuple[FaultKind, Direction, float]]) -> None:
     stops = MetStops(Axis.AZIMUTH, LIMITS)
     for kind, way, angle_deg in met:
         stops.stood_still(kind, way, angle_deg)
