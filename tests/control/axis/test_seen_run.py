@@ -21,11 +21,11 @@ BELIEVED_DPS = 6.0
 class Runs:
     """An axis that turns as the test says, and the run that is seen of it."""
 
-    def __init__(self, noise_deg: float = 0.05, at_deg: float = 200.0) -> None:
+    def __init__(self, noise_deg: float = 0.05, at_deg: float = 200.0, seed: int = 4) -> None:
         motor = Motor(BELIEVED_DPS, 0.9)
         self._observed = ObservedMotion(Axis.AZIMUTH, Range(0.0, 450.0), {PLUS: motor, MINUS: motor})
         self.seen = SeenRun(self._observed)
-        self._noise_deg, self._chance = noise_deg, random.Random(4)
+        self._noise_deg, self._chance = noise_deg, random.Random(seed)
         self._at_deg, self.now_s, self._began_s, self._way = at_deg, 50.0, 0.0, OFF
         self.turn(2.0, 0.0)
 
@@ -124,6 +124,44 @@ def test_held_at_the_end_of_a_run_it_was_not_seen_to_turn(stood_s: float, dps: f
     assert runs.seen.ended is not None
     assert runs.seen.ended.line is None
     assert held_s - 0.1 <= runs.seen.turned_s <= held_s + 0.35
+
+
+@pytest.mark.parametrize("noise_deg", [0.02, 0.1, 0.3])
+@pytest.mark.parametrize("dps", [4.0, 12.0, 40.0])
+def test_held_for_a_second_it_is_not_taken_for_turning_in_any_noise(dps: float, noise_deg: float) -> None:
+    for seed in range(12):
+        runs = Runs(noise_deg, 20.0, seed)
+        runs.begin(PLUS)
+        runs.turn(2.0, dps)
+        runs.turn(1.0, 0.0)
+        assert runs.seen.line is None, seed
+
+
+def test_a_fast_motor_is_seen_to_turn_within_a_third_of_a_second_and_to_stand_as_soon() -> None:
+    runs = Runs(noise_deg=0.02)
+    runs.begin(PLUS)
+    runs.turn(0.3, 12.0)
+    assert runs.seen.line is not None
+    runs.turn(0.2, 0.0)
+    assert runs.seen.line is None
+
+
+def test_a_motor_that_drags_at_the_end_has_the_speed_of_its_end() -> None:
+    runs = Runs(noise_deg=0.03)
+    runs.begin(PLUS)
+    runs.turn(3.0, 6.0)
+    runs.turn(0.5, 4.5)
+    runs.end()
+    assert runs.seen.measured_dps == pytest.approx(4.5, rel=0.1)
+
+
+def test_a_sensor_that_is_silent_for_the_last_second_leaves_the_speed_of_before() -> None:
+    runs = Runs()
+    runs.begin(PLUS)
+    runs.turn(3.0, 6.0)
+    runs.now_s += 1.2
+    runs.end()
+    assert runs.seen.measured_dps == pytest.approx(6.0, rel=0.2)
 
 
 def test_a_motor_that_never_starts_is_not_seen_to_turn() -> None:

@@ -75,6 +75,14 @@ def test_gusts_apart_from_each_other_do_not_add_up() -> None:
         assert rotor.look(2.0) is None
 
 
+def test_gusts_between_which_it_hardly_rests_are_noticed_and_no_fault() -> None:
+    rotor = known(noise_deg=0.02)
+    for _ in range(10):
+        assert rotor.push(1.0, 0.55) is None
+        assert rotor.look(0.6) is None
+    assert notices(rotor) == [BY_HAND]
+
+
 @BOTH_WAYS
 @pytest.mark.parametrize("noise_deg", [0.02, 0.1, 0.4])
 def test_it_is_told_within_two_seconds(way: Direction, noise_deg: float) -> None:
