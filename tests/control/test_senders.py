@@ -22,7 +22,7 @@ def stream(
 ) -> float:
     """One order a second. Returns the moment of the last."""
     for count in range(orders):
-        on.note(source, from_s + count, aims)
+        senders.note(source, from_s + count, aims)
     return from_s + orders - 1
 
 
