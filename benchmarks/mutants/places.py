@@ -120,7 +120,8 @@ def _never_run(source: str) -> Iterator[tuple[Position, Position]]:
                 # The star of keyword arguments is no multiplication.
                 yield (node.lineno, node.col_offset), (said.lineno, said.col_offset)
             case ast.ClassDef(bases=[ast.Name(id="Protocol")]):
-                said = node
+                yield (node.lineno, node.col_offset), (node.end_lineno or 0, node.end_col_offset or 0)
+                continue
             case ast.keyword(arg="strict" | "frozen" | "slots", value=said):
                 pass
             case _:
