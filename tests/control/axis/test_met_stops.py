@@ -35,8 +35,8 @@ def test_an_axis_ends_two_degrees_before_an_end_stop_that_it_met(
 def test_ice_in_mid_travel_is_a_stop_only_when_it_holds_the_axis_there_again(stops: MetStops) -> None:
     stops.stood_still(STANDS, PLUS, 200.0)
     assert (stops.limits, stops.notices) == (LIMITS, ())
-    stops.stood_still(STANDS, PLUS, 202.9)
-    assert stops.limits == Range(0.0, 200.9)
+    stops.stood_still(STANDS, PLUS, 203.0)
+    assert stops.limits == Range(0.0, 201.0)
 
 
 @pytest.mark.parametrize("again_deg", [196.9, 203.1])
