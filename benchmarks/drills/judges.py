@@ -254,11 +254,15 @@ class Judges:
             self._accuse(STANDING_CURRENT, truth, f"for {case.standing_s:.2f} s")
 
     def _is_there(self, truth: AxisTruth, case: AxisCase) -> bool:
-        """Whether a control box of its own drives it where the box sees it arrived: nothing shows the current."""
+        """Whether a control box of its own drives it where the box sees it arrived: nothing shows the current.
+
+        Round a sector it is sent to places that no order names.
+        """
         near_deg, here_deg = case.tolerance_deg + case.slack_deg, truth.shaft_deg + case.shift_deg
         goals = self._orders.axes[truth.name].goals.values()
         places_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
-        return not truth.relayed and any(abs(place_deg - here_deg) < near_deg for place_deg in places_deg)
+        there = self.goes_round or any(abs(place_deg - here_deg) < near_deg for place_deg in places_deg)
+        return not truth.relayed and there
 
     def _accuse(self, judge: str, truth: AxisTruth, measured: str) -> None:
         if (judge, truth.name) not in self._told:
