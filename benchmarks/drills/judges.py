@@ -10,7 +10,8 @@ import math
 from collections import deque
 from dataclasses import dataclass, field
 
-from benchmarks.drills.orders import AxisOrders, Goal, Orders
+from benchmarks.drills.goals import AxisOrders, Goal
+from benchmarks.drills.orders import Orders
 from benchmarks.drills.world import AxisTruth
 
 BOTH_FED = "both directions of a motor fed, welds included"
