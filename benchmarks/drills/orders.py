@@ -183,7 +183,8 @@ class Orders:
     def _note_order(self, event: Event) -> None:
         match event.what:
             case "aim":
-                if self._silenced.aim(event):
+                # Orders that were refused, before it was homed, make no sender that a stop silences.
+                if self._silenced.aim(event) and not self._counts:
                     return
             case "stop":
                 self._silenced.stop(event)
