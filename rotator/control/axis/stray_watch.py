@@ -68,5 +68,5 @@ class StrayWatch:
         patience_s = max(self._stray_s, coming_deg / (SLOW_SHARE * self._speed_dps))
         if near or self._strayed_s < patience_s:
             return None
-        measured = f"stands at {angle_deg:.1f}°, {abs(ahead_deg):.1f}° from where it was told to be"
+        measured = f"it is at {angle_deg:.1f}°, {abs(ahead_deg):.1f}° from where it should be"
         return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{STRAY_DEG:g}° for {patience_s:.2g} s")
