@@ -136,7 +136,8 @@ def _shape(cell: Cell) -> str:
         case "░" | "▒":
             return _block(cell, 0.0, CELL_W, SHADES[cell.text])
         case text if text in PARTS:
-            return _block(cell, 0.0, CELL_W * (PARTS.index(text) + 1) / 8)
+            # A little wider than the part: else a seam shows between two cells.
+            return _block(cell, 0.0, CELL_W * (PARTS.index(text) + 1) / 8 + 0.4)
         case "●":
             return f'<circle cx="{x:g}" cy="{y:g}" r="4.5" fill="{colour}"/>'
         case "○":

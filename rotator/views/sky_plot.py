@@ -26,6 +26,8 @@ LEAST_CELLS = 24, 12
 _BRAILLE = 0x2800
 _DOTS = ((0x01, 0x02, 0x04, 0x40), (0x08, 0x10, 0x20, 0x80))
 """The bit of each dot of a cell: by column, then by row from the top."""
+_ROUNDED = 0.4999
+"""Half a dot, and no more: what lies between two dots, but for the last digit, is always the same one."""
 _TRAIL_STEP_DEG, _TRAIL_S = 1.5, 1200.0
 
 Way = tuple[float, float]
@@ -98,7 +100,8 @@ class _Canvas:
     def place(self, way: Way) -> tuple[int, int]:
         out = self.radius * (90.0 - max(way[1], 0.0)) / 90.0
         angle = math.radians(way[0])
-        return round(self.centre[0] + out * math.sin(angle)), round(self.centre[1] - out * math.cos(angle))
+        x, y = self.centre[0] + out * math.sin(angle), self.centre[1] - out * math.cos(angle)
+        return math.floor(x + _ROUNDED), math.floor(y + _ROUNDED)
 
     def dot(self, way: Way, style: str) -> None:
         x, y = self.place(way)
