@@ -20,7 +20,7 @@ from rotator import __version__
 from rotator.app import App
 from rotator.cli.faults import parse_faults
 from rotator.cli.output import LINES, PICTURES, Output
-from rotator.cli.run_keys import RunKeys
+from rotator.cli.run_keys import NEXT, RunKeys
 from rotator.cli.screen import LogRows, draw, has_ascii_only, keys_to, log_to, print_lines, terminal_console
 from rotator.config.load import load
 from rotator.runtime.signals import SignalThread
@@ -75,12 +75,12 @@ async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
 
     def greeting() -> list[str]:
         lines = plain_lines.greeting(__version__, app.config.rotor.hardware, wires)
-        return [*lines, "  keys: " + ", ".join(terminal.KEYS)] if sys.stdin.isatty() else lines
+        return [*lines, "  keys: " + ", ".join(terminal.KEYS).replace("   ", ", ")] if sys.stdin.isatty() else lines
 
     def key(pressed: str) -> None:
         if keys.key(pressed):
             stop.set()
-        elif keys.line:
+        elif keys.line and not keys.line.endswith(NEXT):
             screen.write(f"{keys.line}\n")
 
     with keys_to(key):

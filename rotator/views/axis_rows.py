@@ -22,7 +22,6 @@ WIDE = 60
 """From this width on, the numbers stand beside the bars."""
 _NUMBERS, _LAMPS = 18, 10
 """Cells for the numbers at the left of a bar, and for the lamps at its right."""
-_LAST_SEEN = "last seen"
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +53,8 @@ def lamps(drives: Mapping[Axis, Direction], axis: Axis) -> list[Text]:
 
 def _wide(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]:
     one, other = lamps({axis: each.drive}, axis)
+    if not each.seen and each.drive is Direction.OFF:
+        one = _unseen(each)
     rows = (
         (axis.value, each.shown_deg, _filled(bar, each), one, ranks.numbers),
         ("target", each.target_deg, bar.filled_to(each.target_deg, TARGET_STYLE, names=True), other, ranks.bars),
@@ -62,14 +63,13 @@ def _wide(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]
         text = Text(f"{name:<9} {degrees(angle_deg):>7} ", style="bold" if name == axis.value else "")
         yield Row(Text.assemble(text, "▕", filled, "│ ", lamp), row_rank)
     off = Text(f"{'off by':<9} {degrees(_off_deg(each), sign=True) if each.target_deg is not None else '':>7} ")
-    known = Text(each.source.value, style="dim") if each.seen else Text(_LAST_SEEN, style=ALARMS)
-    yield Row(Text.assemble(off, " ", bar.scale(), "  ", known), ranks.scales if each.seen else ranks.bars)
+    yield Row(Text.assemble(off, " ", bar.scale(), "  ", Text(each.source.value, style="dim")), ranks.scales)
 
 
 def _narrow(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]:
     words = Text(f"{axis.value[:2] if axis is Axis.ELEVATION else 'az'} {degrees(each.shown_deg)}", style="bold")
     if not each.seen:
-        words.append(" ").append(_LAST_SEEN, style=ALARMS)
+        words.append(" ").append_text(_unseen(each))
     elif each.target_deg is not None:
         words.append(f" → {degrees(each.target_deg)}").append(f" off {degrees(_off_deg(each), sign=True)}")
     if each.drive is not Direction.OFF:
@@ -78,6 +78,11 @@ def _narrow(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Ro
     yield Row(Text.assemble("▕", _filled(bar, each), "│"), ranks.bars)
     yield Row(Text.assemble("▕", bar.filled_to(each.target_deg, TARGET_STYLE, names=True), "│"), ranks.scales)
     yield Row(Text.assemble(" ", bar.scale()), ranks.scales)
+
+
+def _unseen(each: AxisStatus) -> Text:
+    """What an angle is worth while the sensor is out."""
+    return Text("no signal") if each.shown_deg is None else Text("last seen", style=ALARMS)
 
 
 def _filled(bar: Bar, each: AxisStatus) -> Text:

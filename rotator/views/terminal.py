@@ -139,7 +139,7 @@ def _plot_beside(width: int, height: int) -> tuple[int, int]:
 def _keys(width: int) -> Iterator[Row]:
     """What each key does, in one row where there is room."""
     line = "   ".join(KEYS)
-    narrow = KEYS[0], "then Enter: park (storm), resume"
+    narrow = KEYS[0], "park + Enter   resume + Enter"
     for text in (line,) if len(line) <= width else narrow:
         yield Row(Text(text, style="bold"), _KEYS)
 
