@@ -177,10 +177,11 @@ STATION = click.option(
 @ROOT
 @STATION
 @click.option("--usb-id", default="1d6b:0104", metavar="VENDOR:PRODUCT", show_default=True, help="The USB id.")
+@click.option("--pi", "model", metavar="NAME", help="The Pi that takes the card in --root, such as zero2w or 4b.")
 @click.option("--up", "gadget", flag_value="up", help="Build the USB device now, as the unit does.")
 @click.option("--down", "gadget", flag_value="down", help="Remove the USB device now.")
 def usb_serial(  # noqa: PLR0917 - click calls it by keyword
-    undo: bool, yes: bool, root: Path, path: Path | None, usb_id: str, gadget: str | None
+    undo: bool, yes: bool, root: Path, path: Path | None, usb_id: str, model: str | None, gadget: str | None
 ) -> None:
     """Make the Pi a serial port of the PC, over USB."""
     from rotator.cli.setup import lower_gadget, raise_gadget, usb_serial_port
@@ -191,7 +192,7 @@ def usb_serial(  # noqa: PLR0917 - click calls it by keyword
         case "down":
             lower_gadget(root)
         case _:
-            usb_serial_port(root, path, undo=undo, yes=yes, usb_id=usb_id)
+            usb_serial_port(root, path, undo=undo, yes=yes, usb_id=usb_id, model=model)
 
 
 @set_up.command()

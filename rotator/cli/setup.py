@@ -18,6 +18,7 @@ import click
 
 from rotator.config.load import load
 from rotator.setup import gadget, pins, tree, usb_serial
+from rotator.setup.pi import SHORT_NAMES, Pi, known
 from rotator.setup.plan import ChangeSet, SetupError, diff
 
 SETTINGS = Path("etc/rotator/rotator.toml")
@@ -27,7 +28,9 @@ CONFIGFS, CONTROLLERS = Path("sys/kernel/config"), Path("sys/class/udc")
 SERIALS = (Path("proc/device-tree/serial-number"), Path("sys/firmware/devicetree/base/serial-number"))
 
 
-def usb_serial_port(root: Path, settings: Path | None, *, undo: bool, yes: bool, usb_id: str) -> None:
+def usb_serial_port(
+    root: Path, settings: Path | None, *, undo: bool, yes: bool, usb_id: str, model: str | None
+) -> None:
     identity("", usb_id)
     boot = tree.boot_config(root)
     places = usb_serial.Places(root, boot, settings or root / SETTINGS)
@@ -36,10 +39,10 @@ def usb_serial_port(root: Path, settings: Path | None, *, undo: bool, yes: bool,
     files = tree.read(*ours, *theirs, *tree.matching(root, usb_serial.MODULES))
     _refuse_overlay(str(files[places.command_line] or ""))
     if undo:
-        _propose(usb_serial.undone(files, places), yes=yes)
+        _propose(usb_serial.undone(files, places), yes=yes, root=root)
     else:
-        plan = usb_serial.plan(files, places, tree.pi(root), command=_command(root), usb_id=usb_id)
-        _propose(plan, yes=yes)
+        plan = usb_serial.plan(files, places, _pi(root, model, yes=yes), command=_command(root), usb_id=usb_id)
+        _propose(plan, yes=yes, root=root)
 
 
 def relay_pins(root: Path, settings: Path | None, *, undo: bool, yes: bool) -> None:
@@ -48,12 +51,36 @@ def relay_pins(root: Path, settings: Path | None, *, undo: bool, yes: bool) -> N
     files = tree.read(boot, command_line, root / pins.I2C_MODULE)
     _refuse_overlay(str(files[command_line] or ""))
     if undo:
-        _propose(pins.undone(files, root, boot), yes=yes)
+        _propose(pins.undone(files, root, boot), yes=yes, root=root)
     else:
         path = settings or root / SETTINGS
         if not path.exists():
             raise SetupError(f"there is no {path}: say with --config which file names your relay pins")
-        _propose(pins.plan(files, root, boot, load(path), tree.pi(root)), yes=yes)
+        _propose(pins.plan(files, root, boot, load(path), tree.pi(root)), yes=yes, root=root)
+
+
+def _pi(root: Path, model: str | None, *, yes: bool) -> Pi | None:
+    """The Pi of these files: this one; for a card in another computer the one that `model` or the person names."""
+    if model is None and (here := tree.pi(root)):
+        return here
+    if model is None and not tree.is_card(root):
+        return None
+    names = list(SHORT_NAMES)
+    if model is None and yes:
+        raise SetupError(f"say which Pi takes this card: --pi NAME, one of {', '.join(names)}")
+    if model is None:
+        click.echo("Which Pi takes this card?")
+        for number, name in enumerate(names, 1):
+            click.echo(f"{number:>4}  {SHORT_NAMES[name]}")
+        try:
+            model = names[click.prompt("Number", type=click.IntRange(1, len(names))) - 1]
+        except click.Abort:
+            raise SetupError("nothing was changed") from None
+    short = model.lower().replace(" ", "")
+    full = SHORT_NAMES.get(short) or SHORT_NAMES.get(f"{short}b")
+    if full is None:
+        raise SetupError(f"--pi {model}: no such Pi; there are {', '.join(names)}")
+    return known(f"Raspberry Pi {full}")
 
 
 def raise_gadget(root: Path, usb_id: str) -> None:
@@ -107,7 +134,7 @@ def _refuse_overlay(command_line: str) -> None:
         )
 
 
-def _propose(plan: ChangeSet, *, yes: bool, today: Callable[[], date] = date.today) -> None:
+def _propose(plan: ChangeSet, *, yes: bool, root: Path, today: Callable[[], date] = date.today) -> None:
     for note in plan.notes:
         click.echo(note)
     if not plan.changes:
@@ -125,4 +152,9 @@ def _propose(plan: ChangeSet, *, yes: bool, today: Callable[[], date] = date.tod
             raise SetupError("nothing was changed (--yes does it without asking)") from None
     for copy in tree.carry_out(plan, today()):
         click.echo(f"The file as it was: {copy}")
-    click.echo("Done. It takes effect after a reboot: sudo reboot")
+    if not tree.is_card(root):
+        click.echo("Done. It takes effect after a reboot: sudo reboot")
+        return
+    click.echo("Done. It takes effect when the Pi starts from this card.")
+    if not (root / INSTALLED).is_symlink() and not (root / INSTALLED).exists():
+        click.echo("The program is not on this card yet: run sudo ./install.sh on the Pi.")
