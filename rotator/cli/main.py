@@ -12,6 +12,7 @@ import click
 from hw.ports import HardwareError
 from rotator import __version__
 from rotator.cli.console_commands import CONFIG, CONSOLE_COMMANDS, YES
+from rotator.cli.sky_commands import sky
 from rotator.config.load import SIMULATED, ConfigError, profiles, shipped
 from rotator.links.wire import LinkError
 from rotator.setup.plan import SetupError
@@ -33,6 +34,7 @@ def cli() -> None:
 
 for command in CONSOLE_COMMANDS:
     cli.add_command(command)
+cli.add_command(sky)
 
 
 @cli.command()

@@ -29,6 +29,7 @@ from rotator.config.places import STATE
 from rotator.config.rotors import Rotor, with_usual
 from rotator.config.sensors import CompassTable
 from rotator.config.sim import Sim
+from rotator.config.sky import SkyTable
 from rotator.config.spi import SpiUse, spi_lines
 from rotator.config.station import StationTable
 from rotator.config.table import Point, Table
@@ -100,7 +101,10 @@ class Config(Table):
     elevation: Elevation = Elevation()
     """The elevation axis."""
     station: StationTable = StationTable()
-    """Where the antenna stands on the earth: for telescope programs (`lx200`, `stellarium`) and PstRotator's `LLH`."""
+    """Where the antenna stands on the earth: for satellites, Sun and Moon, telescope programs (`lx200`, `stellarium`)
+    and PstRotator's `LLH`."""
+    sky: SkyTable = SkyTable()
+    """What is known of the sky."""
     mount: MountTable = MountTable()
     """How the two axes carry the antenna."""
     control: Control = Control()
