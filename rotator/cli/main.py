@@ -209,6 +209,19 @@ def pins(undo: bool, yes: bool, root: Path, path: Path | None) -> None:
     relay_pins(root, path, undo=undo, yes=yes)
 
 
+@set_up.command()
+@UNDO
+@YES
+@ROOT
+@STATION
+@click.option("--allow", metavar="NETWORK", help="Who may: a network such as 192.168.1.0/24, an address, or all.")
+def network(undo: bool, yes: bool, root: Path, path: Path | None, allow: str | None) -> None:
+    """Open rotctld to the local network. Says what to type on the PC, and waits for it."""
+    from rotator.cli.network import open_network
+
+    open_network(root, path, allow, undo=undo, yes=yes)
+
+
 def _draws() -> bool:
     """Whether the output is a terminal that a picture can be drawn on."""
     return sys.stdout.isatty() and os.environ.get("TERM") not in ("dumb", "unknown")

@@ -39,10 +39,10 @@ def usb_serial_port(
     files = tree.read(*ours, *theirs, *tree.matching(root, usb_serial.MODULES))
     _refuse_overlay(str(files[places.command_line] or ""))
     if undo:
-        _propose(usb_serial.undone(files, places), yes=yes, root=root)
+        propose(usb_serial.undone(files, places), yes=yes, done=_then(root))
     else:
         plan = usb_serial.plan(files, places, _pi(root, model, yes=yes), command=_command(root), usb_id=usb_id)
-        _propose(plan, yes=yes, root=root)
+        propose(plan, yes=yes, done=_then(root))
 
 
 def relay_pins(root: Path, settings: Path | None, *, undo: bool, yes: bool) -> None:
@@ -51,12 +51,12 @@ def relay_pins(root: Path, settings: Path | None, *, undo: bool, yes: bool) -> N
     files = tree.read(boot, command_line, root / pins.I2C_MODULE)
     _refuse_overlay(str(files[command_line] or ""))
     if undo:
-        _propose(pins.undone(files, root, boot), yes=yes, root=root)
+        propose(pins.undone(files, root, boot), yes=yes, done=_then(root))
     else:
         path = settings or root / SETTINGS
         if not path.exists():
             raise SetupError(f"there is no {path}: say with --config which file names your relay pins")
-        _propose(pins.plan(files, root, boot, load(path), tree.pi(root)), yes=yes, root=root)
+        propose(pins.plan(files, root, boot, load(path), tree.pi(root)), yes=yes, done=_then(root))
 
 
 def _pi(root: Path, model: str | None, *, yes: bool) -> Pi | None:
@@ -134,12 +134,13 @@ def _refuse_overlay(command_line: str) -> None:
         )
 
 
-def _propose(plan: ChangeSet, *, yes: bool, root: Path, today: Callable[[], date] = date.today) -> None:
+def propose(plan: ChangeSet, *, yes: bool, done: str, today: Callable[[], date] = date.today) -> bool:
+    """Show the changes, ask, and make them, all or none. `done` is said then. Returns whether there were any."""
     for note in plan.notes:
         click.echo(note)
     if not plan.changes:
         click.echo("Nothing to change: everything is as it should be.")
-        return
+        return False
     for change in plan.changes:
         for line in diff(change):
             click.echo(line.encode("utf-8", "replace").decode())
@@ -152,9 +153,14 @@ def _propose(plan: ChangeSet, *, yes: bool, root: Path, today: Callable[[], date
             raise SetupError("nothing was changed (--yes does it without asking)") from None
     for copy in tree.carry_out(plan, today()):
         click.echo(f"The file as it was: {copy}")
+    click.echo(done)
+    return True
+
+
+def _then(root: Path) -> str:
+    """What makes a change of config.txt take effect."""
     if not tree.is_card(root):
-        click.echo("Done. It takes effect after a reboot: sudo reboot")
-        return
-    click.echo("Done. It takes effect when the Pi starts from this card.")
-    if not (root / INSTALLED).is_symlink() and not (root / INSTALLED).exists():
-        click.echo("The program is not on this card yet: run sudo ./install.sh on the Pi.")
+        return "Done. It takes effect after a reboot: sudo reboot"
+    done = "Done. It takes effect when the Pi starts from this card."
+    installed = (root / INSTALLED).is_symlink() or (root / INSTALLED).exists()
+    return done if installed else f"{done}\nThe program is not on this card yet: run sudo ./install.sh on the Pi."
