@@ -1,7 +1,7 @@
 """`rotator setup network`: opens rotctld to the local network, says what to type on the PC, and waits for it to ask.
 
-Knows the questions and the test. `rotator.setup.network` plans the changes; the monitor of the running box and the
-kernel's list of connections say who has asked.
+Knows the questions and the test. `rotator.setup.network` plans the changes; the monitor of the running box
+says who has asked.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 import select
 import socket
-import struct
 import subprocess
 import sys
 import time
@@ -22,13 +21,13 @@ import click
 from rotator.cli.reach import monitors, reach
 from rotator.cli.setup import SETTINGS, propose
 from rotator.links.wire import LinkError
-from rotator.monitor.transcript import LinkNote, NotATranscript, Piece, Way, parse
+from rotator.monitor.transcript import LinkNote, Peer, Piece, Way, parse
+from rotator.orders import Source
 from rotator.setup import network, tree
 from rotator.setup.machine import Machine, this_machine
 from rotator.setup.plan import SetupError
 from rotator.setup.questions import network as network_of
 
-CONNECTIONS = Path("/proc/net/tcp")
 PATIENCE_S = 300.0
 _POSITION = re.compile(rb"\s*[+;|,]?\s*(?:p|\\get_pos)\s*")
 
@@ -119,12 +118,10 @@ def wait_for_the_pc(path: Path, port: int, patience_s: float = PATIENCE_S) -> bo
         raise SetupError(f"{fault}; then type the line for Hamlib on the PC") from fault
     click.echo("Waiting for the PC (Ctrl-C ends) ...")
     with box, suppress(KeyboardInterrupt):
-        for asking in _questions(box, port, time.monotonic() + patience_s):
-            for peer in sorted(_peers(port)):
-                if not peer.startswith("127."):
-                    click.echo(f"{peer} has just asked for the position: it works." if asking else f"{peer} is there.")
-                    if asking:
-                        return True
+        for host in _asking(box, port, time.monotonic() + patience_s):
+            if not host.startswith(("127.", "::1")):
+                click.echo(f"{host} has just asked for the position: it works.")
+                return True
     click.echo(
         "No computer has asked. Is the PC in the same network (no guest Wi-Fi), and in the one that may?\n"
         "`journalctl -u rotator` says who was turned away."
@@ -132,9 +129,10 @@ def wait_for_the_pc(path: Path, port: int, patience_s: float = PATIENCE_S) -> bo
     return False
 
 
-def _questions(box: socket.socket, port: int, deadline_s: float) -> Iterator[bool]:
-    """For each piece that came in on the link with this port: whether it asks for the position."""
+def _asking(box: socket.socket, port: int, deadline_s: float) -> Iterator[str]:
+    """The address of each machine that asks for the position on the link with this port."""
     names: set[str] = set()
+    hosts: dict[Source, str] = {}
     rest = b""
     while (left_s := deadline_s - time.monotonic()) > 0:
         ready, _, _ = select.select([box], [], [], left_s)
@@ -143,25 +141,14 @@ def _questions(box: socket.socket, port: int, deadline_s: float) -> Iterator[boo
             return
         *lines, rest = (rest + data).split(b"\n")
         for line in lines:
-            try:
-                entry = parse(line.decode("utf-8", "replace"))
-            except NotATranscript:
-                continue
-            match entry:
+            match parse(line.decode("ascii", "replace")):
                 case LinkNote(name, keys) if str(keys.get("tcp", "")).endswith(f":{port}"):
                     names.add(name)
-                case Piece(source=source, way=Way.IN, data=asked) if source.link in names:
-                    yield any(_POSITION.fullmatch(each) for each in asked.split(b"\n"))
-
-
-def _peers(port: int) -> set[str]:
-    """The addresses that are connected to this port of the machine now."""
-    found = set()
-    for row in CONNECTIONS.read_text().splitlines()[1:]:
-        _, local, remote, *_ = row.split()
-        if int(local.partition(":")[2], 16) == port and int(remote.partition(":")[2], 16):
-            found.add(socket.inet_ntoa(struct.pack("=I", int(remote.partition(":")[0], 16))))
-    return found
+                case Peer(source, host):
+                    hosts[source] = host
+                case Piece(source=source, way=Way.IN, data=asked) if source.link in names and source in hosts:
+                    if any(_POSITION.fullmatch(each) for each in asked.split(b"\n")):
+                        yield hosts[source]
 
 
 def _service_runs() -> bool:

@@ -14,12 +14,13 @@ from hypothesis import strategies as st
 
 from rotator.cli.network import wait_for_the_pc
 from rotator.config.load import SIMULATED, parse, profiles, shipped
-from rotator.monitor.transcript import LinkNote, Way, encode_link, encode_piece
+from rotator.monitor.transcript import LinkNote, Peer, Way, encode_link, encode_peer, encode_piece
 from rotator.orders import Source
 from rotator.setup.machine import addresses
 from rotator.setup.network import BEGIN, END, closed, open_to
 from tests.setup.conftest import ROTATOR, Card
 
+PORT = 4533
 ANNOUNCED = "etc/avahi/services/rotator.service"
 BLOCK = f"""\
 {BEGIN}
@@ -145,8 +146,6 @@ class Box:
         self.monitor = socket.socket(socket.AF_UNIX)
         self.monitor.bind(f"{folder}/monitor")
         self.monitor.listen()
-        self.links = socket.create_server(("0.0.0.0", 0))
-        self.port = self.links.getsockname()[1]
 
 
 @pytest.fixture
@@ -154,33 +153,34 @@ def box(tmp_path: Path) -> Iterator[Box]:
     made = Box(tmp_path)
     yield made
     made.monitor.close()
-    made.links.close()
 
 
-def test_the_first_question_is_told_with_the_address_of_the_pc(box: Box, capsys: pytest.CaptureFixture[str]) -> None:
-    here = next((str(address.ip) for address in addresses()), None)
-    if here is None:
-        pytest.skip("this machine has no address in a local network")
-    pc = socket.create_connection((here, box.port))
-    source = Source("rotctld", 1)
+@pytest.mark.parametrize("question", [b"p\n", b"+p\n", b"\\get_pos\n", b"\\dump_state\np\n"])
+def test_the_first_question_is_told_with_the_address_of_the_pc(
+    box: Box, capsys: pytest.CaptureFixture[str], question: bytes
+) -> None:
+    here, there = Source("rotctld", 1), Source("rotctld", 2)
 
     def show() -> None:
         watcher, _ = box.monitor.accept()
         lines = [
             "# rotator",
-            encode_link(LinkNote("rotctld", {"tcp": f"0.0.0.0:{box.port}"})),
-            encode_piece(datetime.now(), source, Way.IN, b"\\dump_state\n", text=True),
-            encode_piece(datetime.now(), source, Way.IN, b"p\n", text=True),
+            encode_link(LinkNote("rotctld", {"tcp": f"0.0.0.0:{PORT}"})),
+            encode_peer(Peer(here, "127.0.0.1")),
+            encode_peer(Peer(there, "192.168.1.20")),
+            encode_piece(datetime.now(), there, Way.IN, b"\\dump_state\n", text=True),
+            encode_piece(datetime.now(), here, Way.IN, b"p\n", text=True),
+            encode_piece(datetime.now(), there, Way.IN, question, text=True),
         ]
         watcher.sendall("".join(f"{line}\n" for line in lines).encode())
         watcher.close()
 
     shower = threading.Thread(target=show)
     shower.start()
-    assert wait_for_the_pc(box.config, box.port, 20.0)
+    assert wait_for_the_pc(box.config, PORT, 20.0)
     shower.join()
-    pc.close()
-    assert f"{here} has just asked for the position: it works." in capsys.readouterr().out
+    said = capsys.readouterr().out.splitlines()
+    assert said[-1] == "192.168.1.20 has just asked for the position: it works."
 
 
 def test_a_box_that_ends_is_no_answer(box: Box, capsys: pytest.CaptureFixture[str]) -> None:
@@ -190,6 +190,6 @@ def test_a_box_that_ends_is_no_answer(box: Box, capsys: pytest.CaptureFixture[st
 
     shower = threading.Thread(target=end)
     shower.start()
-    assert not wait_for_the_pc(box.config, box.port, 20.0)
+    assert not wait_for_the_pc(box.config, PORT, 20.0)
     shower.join()
     assert "No computer has asked" in capsys.readouterr().out
