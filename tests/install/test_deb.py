@@ -156,7 +156,8 @@ def test_from_install_sh_to_the_package_and_back(installed: Root, debs: Debs) ->
     assert ones_own(installed) == before
     assert installed.run("readlink", "-f", "/usr/local/bin/rotator").text.startswith("/opt/rotator/versions/")
     assert installed.run("systemctl", "is-enabled", "rotator.service").text == "enabled\n"
-    installed.run("/src/install.sh", "--remove", "--yes").check()
+    apt(installed, "purge", "gs232-rotator").check()
+    assert ones_own(installed) == before, "it is install.sh's by now"
 
 
 def test_a_service_that_was_switched_off_stays_off(installed: Root, debs: Debs) -> None:
