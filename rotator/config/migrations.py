@@ -7,13 +7,12 @@ the model knows. The file itself changes only when a calibration is saved in it.
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable, Sequence
 from typing import Any
 
 import tomlkit
 from tomlkit import TOMLDocument
-
-from rotator.config import toml_text
 
 Step = Callable[[TOMLDocument], None]
 """Changes a document of one format into the next."""
@@ -23,23 +22,27 @@ KEY = "format"
 """A number above all tables. Left out, it is 1."""
 
 
+class FormatError(ValueError):
+    """The number is none, or a later version's. The text says what to do."""
+
+
 def values(text: str, steps: Sequence[Step] = STEPS) -> dict[str, Any]:
-    """The keys of the file as today's model knows them, without the number. Raises ValueError like `brought_up`."""
-    found = toml_text.values(brought_up(text, steps))
+    """The keys of the file as today's model knows them, without the number. Raises like `brought_up`."""
+    found = tomllib.loads(brought_up(text, steps))
     found.pop(KEY, None)
     return found
 
 
 def brought_up(text: str, steps: Sequence[Step] = STEPS) -> str:
-    """The text in today's format. Raises ValueError where it is no TOML, or a later version's."""
-    number = toml_text.values(text).get(KEY, 1)
+    """The text in today's format. Raises FormatError, and TOMLDecodeError where it is no TOML."""
+    number = tomllib.loads(text).get(KEY, 1)
     today = 1 + len(steps)
     if not isinstance(number, int) or isinstance(number, bool) or number < 1:
-        raise ValueError(
+        raise FormatError(
             f"{KEY} = {number!r}: must be a whole number from 1 to {today}; a file without it is of format 1"
         )
     if number > today:
-        raise ValueError(
+        raise FormatError(
             f"{KEY} = {number}: a later version of the program wrote this file, and this one reads {KEY}s up to "
             f"{today}: update the program, or take the file from before the update (.bak)"
         )

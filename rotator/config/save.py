@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from tomllib import TOMLDecodeError
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import Array
 
 from rotator.config import toml_text
-from rotator.config.load import ConfigError, parse
-from rotator.config.migrations import brought_up
+from rotator.config.load import ConfigError, Mistake, parse
+from rotator.config.migrations import FormatError, brought_up
 from rotator.store.whole import write_whole
 
 Points = Sequence[tuple[float, float]]
@@ -31,8 +32,12 @@ def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **val
     try:
         before = toml_text.read(path)
         text = changed(before, axis, calibration=calibration, **values)
-    except (TOMLKitError, ValueError) as fault:
-        raise ConfigError(str(path), [f"cannot be changed: {fault}"]) from fault
+    except (TOMLKitError, TOMLDecodeError) as fault:
+        raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault
+    except FormatError as fault:
+        raise ConfigError(str(path), [Mistake(str(fault))]) from fault
+    except toml_text.NoTextError as none:
+        raise ConfigError(str(path), [none.mistake]) from none
     # A text that the next start would refuse is not written.
     parse(text, str(path))
     write_whole(path.with_name(path.name + ".bak"), before)

@@ -125,7 +125,7 @@ def test_a_later_configuration_is_refused_in_one_sentence(tmp_path: Path) -> Non
     path.write_text(LATER_STATION)
     with pytest.raises(ConfigError) as refused:
         load(path)
-    assert refused.value.faults == [
+    assert [mistake.text for mistake in refused.value.mistakes] == [
         "format = 2: a later version of the program wrote this file, and this one reads formats up to 1: "
         "update the program, or take the file from before the update (.bak)"
     ]
