@@ -59,7 +59,7 @@ def test_a_box_that_a_person_stopped_stays_stopped(running: Booted, debs: Debs) 
     running.run("systemctl", "stop", "rotator.service").check()
     for package in (debs.today, debs.later):
         running.run(*APT, "install", f"/root/{package.name}").check()
-        assert state(running) == "inactive", "somebody may stand at the mast"
+        assert state(running) == "inactive", "a person may stand at the mast"
 
 
 def test_an_upgrade_that_fails_leaves_the_old_box_running(running: Booted, debs: Debs) -> None:
