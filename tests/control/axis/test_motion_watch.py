@@ -211,7 +211,7 @@ def test_slower_than_that_it_is_a_notice_that_goes_again(share: float) -> None:
     bench = Bench()
     assert bench.pass_by(10.0, share * 6.0) is None
     assert [str(notice) for notice in bench.watch.notices] == [
-        "turning with no relay on: a hand may be on the control box's switch"
+        "turning with no relay on: wind, or a hand at the control box's switch"
     ]
     assert bench.pass_by(5.0) is None
     assert bench.watch.notices == ()
@@ -260,7 +260,9 @@ def test_what_still_turns_with_the_master_open_is_said() -> None:
     bench, _ = welded(master=True)
     for _ in range(100):
         bench.pass_by(STEP_S, 6.0)
-    assert [str(notice) for notice in bench.watch.notices] == [f"still turning with the master open: {CUT_BY_HAND}"]
+    assert [str(notice) for notice in bench.watch.notices] == [
+        f"still turning, though the motors' supply should be off: {CUT_BY_HAND}"
+    ]
 
 
 # --- never the opposite relay
