@@ -25,13 +25,12 @@ from rotator.assembly.station import Station
 from rotator.calibrating.rig import Rig
 from rotator.calibrating.session import CalibrationSession
 from rotator.calibrating.typed_ahead import TypedAhead
+from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
-from rotator.cli.reach import monitors, reach
+from rotator.cli.reach import connected, consoles
 from rotator.cli.screen import draw, log_to, stop_on_signals
 from rotator.config.load import load
 from rotator.config.model import Config
-from rotator.config.places import console_path
-from rotator.links.wire import LinkError
 
 
 def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None, *, plain: bool) -> int:
@@ -114,13 +113,13 @@ def _inject(faults: tuple[str, ...], station: Station) -> None:
 
 
 def _refuse_beside_running_box(path: Path | None) -> None:
-    """Raises LinkError if the box is running: two programs could open the same serial port or I2C chip."""
-    try:
-        box = reach([console_path(place) for place in monitors(path)], "console")
-    except LinkError:
-        return
-    box.close()
-    raise LinkError("the box is running, and two programs cannot have the motors: end it (sudo systemctl stop rotator)")
+    """Raises CommandFailed if the box is running: two programs could open the same serial port or I2C chip."""
+    for place in consoles(path):
+        if box := connected(place):
+            box.close()
+            raise CommandFailed(
+                "the box is running, and two programs cannot have the motors: end it (sudo systemctl stop rotator)"
+            )
 
 
 def _read_lines(typed: TypedAhead, events: asyncio.AbstractEventLoop) -> None:
