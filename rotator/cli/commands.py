@@ -5,6 +5,7 @@ Knows click. Does not know what a command does.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -31,25 +32,27 @@ ANY_WORDS = {"ignore_unknown_options": True}
 
 MINUS = "\u2212"
 """The minus sign of typography. A number that begins with it is not taken for an option; copied texts have it too."""
-_NUMBER = re.compile(rf"[-+{MINUS}]?[0-9]{{1,9}}(?:[.,][0-9]{{0,9}})?")
+_NUMBER = re.compile(r"[-+]?[0-9]{1,9}(?:[.,][0-9]{0,9})?")
 _NEGATIVE = re.compile(r"-[0-9.,].*")
 
 
 class Number(click.ParamType[float]):
-    """A number as a person types it: a decimal comma is a decimal point. `what`: its unit, with its article."""
+    """A number as a person types it: a decimal comma is a decimal point. `what`: its unit."""
 
-    def __init__(self, what: str, *, positive: bool = False) -> None:
+    def __init__(self, what: str, least: float = -math.inf, most: float = math.inf) -> None:
         self.name = self._what = what
-        self._positive = positive
+        self._least, self._most = least, most
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         if isinstance(value, float):
             return value
-        number = float(value.replace(",", ".").replace(MINUS, "-")) if _NUMBER.fullmatch(value) else None
-        if number is None or (self._positive and number <= 0):
-            above = " above 0" if self._positive else ""
-            value = value.replace(MINUS, "-")
-            self.fail(f"{value!r} is no number of {self._what}{above}; write it like 38.5 or 38,5", param, ctx)
+        text = value.replace(MINUS, "-")
+        if not _NUMBER.fullmatch(text):
+            self.fail(f"{text[:40]!r} is no number of {self._what}; write it like 38.5 or 38,5", param, ctx)
+        number = float(text.replace(",", "."))
+        if not self._least <= number <= self._most:
+            most = "" if math.isinf(self._most) else f", {self._most:g} at most"
+            self.fail(f"{text} {self._what}: {self._least:g} at least{most}", param, ctx)
         return number
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import click
 
-from rotator.cli.ask import agree
+from rotator.cli.agree import agree
 from rotator.cli.box import OK, BoxStatus, RunningBox, faults, stands
 from rotator.cli.failed import FAULTY, CommandFailed
 

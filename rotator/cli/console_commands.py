@@ -48,7 +48,7 @@ def point(path: Path | None, wait: bool, azimuth: float, elevation: float) -> No
 @CONFIG
 @WAIT
 @click.argument("direction", type=click.Choice(["cw", "ccw", "up", "down"]), metavar="cw|ccw|up|down")
-@click.argument("seconds", type=Number("seconds", positive=True))
+@click.argument("seconds", type=Number("seconds", 0.05))
 def jog(path: Path | None, wait: bool, direction: str, seconds: float) -> None:
     """Turn one axis for some SECONDS, 5 at most.
 

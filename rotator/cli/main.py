@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from rotator import __version__
 from rotator.cli import console_commands as console
 from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples
 from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
+from rotator.cli.sky_commands import sky
 
 START = """Start here: `rotator run` begins a simulated box; `rotator point 180 45` in another terminal turns it.
 `rotator COMMAND --help` has an example of each command."""
@@ -116,7 +118,7 @@ def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, what: str
 @click.option("--link", "links", multiple=True, metavar="NAME", help="Show only this link; may be given several times.")
 @click.option(
     "--limit-mb",
-    type=Number("megabytes", positive=True),
+    type=Number("megabytes", 0.001),
     default=10.0,
     metavar="MB",
     help="Size limit of the file, 10 MB by default.",
@@ -156,21 +158,35 @@ def doctor(path: Path | None, as_json: bool) -> None:
     sys.exit(examine_box(path, as_json=as_json))
 
 
-@click.command(name="config", epilog=examples("rotator config --list", "rotator config g5500 > station.toml"))
+@click.command(
+    name="config",
+    epilog=examples("rotator config --ask", "rotator config --list", "rotator config g5500 > station.toml"),
+)
 @click.argument("name", required=False, metavar="[NAME]")
 @click.option("--list", "listed", is_flag=True, help="List the shipped configurations.")
-def show_config(name: str | None, listed: bool) -> None:
-    """Print a shipped configuration, as a start for your own.
+@click.option("--ask", "asked", is_flag=True, help="Ask a few questions, and write your file.")
+@click.option("--to", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="--ask: the file to write.")
+def show_config(name: str | None, listed: bool, asked: bool, to: Path | None) -> None:
+    """Print a shipped configuration, or ask for your own.
 
     NAME is one of those that --list shows; without NAME it is the simulated rotor's.
     """
     from rotator.config.load import SIMULATED, profiles, shipped
 
+    name = name or SIMULATED
+    if asked:
+        from rotator.cli.ask import ask
+
+        shipped(name)
+        ask(name, to)
+        return
+    if to is not None:
+        raise click.UsageError("--to goes with --ask; without it: rotator config NAME > FILE")
     if listed:
         for each in (SIMULATED, *profiles()):
             click.echo(f"{each:<10} {shipped(each).splitlines()[0].removeprefix('# ')}")
         return
-    click.echo(shipped(name or SIMULATED), nl=False)
+    click.echo(shipped(name), nl=False)
 
 
 @click.group(name="setup", epilog=examples("sudo rotator setup pins --help"))
@@ -236,6 +252,7 @@ def _draws() -> bool:
 cli.under("The antenna", console.where, console.point, console.jog, console.park, console.stop, console.resume)
 cli.under("An axis that asks for a person", console.home, console.confirm, console.relays_checked, console.let_go)
 cli.under("The box", run, doctor, monitor, console.tell, off)
+cli.under("The sky", sky)
 cli.under("Setting up", show_config, calibrate, set_up)
 cli.under("Without a rotor", rehearse, arduino, console.panel)
 
@@ -262,7 +279,8 @@ def _explained(fault: Exception) -> tuple[str, int]:
 
     match fault:
         case ConfigError():
-            return str(fault), MISTAKEN
+            width = shutil.get_terminal_size().columns
+            return fault.wrapped(width) if sys.stderr.isatty() else str(fault), MISTAKEN
         case HardwareError() | LinkError() | SetupError():
             return f"rotator: {fault}", NOT_DONE
         case _:

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import click
 
-from rotator.cli.ask import agree
+from rotator.cli.agree import agree
 from rotator.cli.box import AXES, BoxStatus, Refused, RunningBox, faults, stands
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.reach import consoles
