@@ -10,6 +10,7 @@ import asyncio
 import logging
 import os
 import sys
+import textwrap
 import threading
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
@@ -60,8 +61,9 @@ class PlainLines:
         self._console = Console(highlight=False, soft_wrap=True)
         self._reads = False
 
-    def show(self, text: str) -> None:
-        self._console.print(text, markup=False)
+    def show(self, *lines: str) -> None:
+        for line in lines:
+            self._console.print(_wrapped(line, self._console), markup=False)
 
     def ask(self, prompt: str) -> None:
         self.show(f"> {prompt}" if prompt else "")
@@ -76,14 +78,26 @@ class PlainLines:
 
 
 class LivePicture:
-    """A terminal: single keys, and the state of the rig below the lines."""
+    """A terminal: single keys, and the state of the rig below the lines.
+
+    A key that is held makes the guide say the same thirty times a second: it is shown once, and counted.
+    """
 
     def __init__(self) -> None:
         self.typed = TypedAhead()
         self._console = Console(highlight=False, soft_wrap=True)
+        self._shown: tuple[str, ...] = ()
+        self._times = 1
 
-    def show(self, text: str) -> None:
-        self._console.print(text, markup=False)
+    def show(self, *lines: str) -> None:
+        if lines == self._shown:
+            self._times += 1
+            return
+        if self._times > 1:
+            self._console.print(self._count, style="dim", markup=False)
+        for line in lines:
+            self._console.print(_wrapped(line, self._console), markup=False)
+        self._shown, self._times = lines, 1
 
     def ask(self, prompt: str) -> None:
         """The picture shows the prompt all the time."""
@@ -96,13 +110,33 @@ class LivePicture:
         finally:
             drawing.cancel()
             await asyncio.gather(drawing, return_exceptions=True)
+            # The last picture stays, with its count.
+            self._shown, self._times = (), 1
+
+    @property
+    def _count(self) -> str:
+        return f"  ({self._times} times)"
 
     def _picture(self, rig: Rig) -> RenderableType:
         state, turns = rig.picture()
+        count = [Text(self._count, style="dim")] if self._times > 1 else []
         return Group(
+            *count,
             Text(state, style="green" if turns else "dim"),
             Text(f"> {rig.guide.prompt} {self.typed.keyboard.typed}", style="bold"),
         )
+
+
+def _wrapped(line: str, console: Console) -> str:
+    """Broken between words where a terminal is narrower. The rows below the first have its indent."""
+    if not console.is_terminal:
+        return line
+    indent = " " * (len(line) - len(line.lstrip()))
+    rows = [
+        textwrap.wrap(row, console.width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+        for row in line.split("\n")
+    ]
+    return "\n".join("\n".join(each) for each in rows)
 
 
 def _inject(faults: tuple[str, ...], station: Station) -> None:

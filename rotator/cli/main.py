@@ -173,7 +173,7 @@ def show_config(name: str | None, listed: bool, asked: bool, to: Path | None) ->
     """
     from rotator.config.load import SIMULATED, profiles, shipped
 
-    name = name or SIMULATED
+    name = SIMULATED if name is None else name
     if asked:
         from rotator.cli.ask import ask
 
