@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import shutil
 import sys
+from io import TextIOWrapper
 from pathlib import Path
 
 import click
@@ -259,6 +260,10 @@ cli.under("Without a rotor", rehearse, arduino, console.panel)
 
 def main() -> None:
     """Run the command. An error that the user can repair is printed as a sentence; exit codes: `rotator.cli.failed`."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            # A terminal without ° or a file name that is no text must not end the command.
+            stream.reconfigure(errors="backslashreplace")
     try:
         cli(standalone_mode=True)
     except CommandFailed as fault:

@@ -138,19 +138,3 @@ def test_a_reader_that_has_gone_is_no_traceback(tmp_path: Path) -> None:
         )
     os.close(full)
     assert (done.returncode, done.stderr) == (0, b"")
-
-
-def test_it_loads_neither_the_model_nor_the_command_line(tmp_path: Path) -> None:
-    """Both take most of a second on a Pi."""
-    config = tmp_path / "rotator.toml"
-    config.write_text(f'[monitor]\npath = "{tmp_path}/monitor"\n')
-    with console(tmp_path / "console", b"ok\n"):
-        done = subprocess.run(
-            [sys.executable, "-X", "importtime", "-m", "rotator", "stop", "--config", str(config)],
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-    assert done.stdout == f"{stop.STOPPED}\n"
-    loaded = {line.rpartition("|")[2].strip() for line in done.stderr.splitlines() if "import time:" in line}
-    assert loaded & {"pydantic", "click", "asyncio", "rich", "rotator.config.model", "rotator.orders"} == set()
