@@ -286,7 +286,8 @@ class Controller:
     def _park_when_idle(self, now_s: float) -> None:
         """Long after the last order, where the configuration asks for it; never before a first order."""
         after_s = self._settings.park_after_s
-        if after_s <= 0 or self._moved_s is None or self._authority.latched or self._timed.running:
+        held = self._authority.latched or self._authority.mode is Mode.PARK
+        if after_s <= 0 or self._moved_s is None or held or self._timed.running:
             return
         if now_s - self._moved_s >= after_s:
             self._park(now_s)

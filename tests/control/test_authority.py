@@ -295,6 +295,16 @@ def test_many_connections_are_not_all_named(authority: Authority) -> None:
     assert len(authority.ignored(1.0)) == 4
 
 
+def test_a_program_that_connects_anew_is_named_once_with_its_latest_connection(authority: Authority) -> None:
+    authority.stopped(CONSOLE, 0.0, latch=True)
+    for number in range(1, 4):
+        source = Source("rotctld", number)
+        authority.may_move(source, float(number))
+        if number < 3:
+            authority.left(source, number + 0.5)
+    assert [line.split()[2] for line in authority.ignored(4.0)] == ["rotctld#3"]
+
+
 @pytest.mark.parametrize(("stops_on", "goes_on"), [("rotctld", True), ("gs232b", False)])
 def test_a_script_that_connects_for_every_order_may_stop_and_go_on(stops_on: str, *, goes_on: bool) -> None:
     """A stop on another link holds it; its own must not, for it could never move the antenna again."""
@@ -313,6 +323,39 @@ def test_a_script_that_connects_for_every_order_may_stop_and_go_on(stops_on: str
 
 
 PANEL = Source("panel")
+
+
+@pytest.mark.parametrize("let_go_s", [0.4, 0.6])
+def test_a_jog_switch_held_through_a_stop_counts_again_when_it_was_let_go(let_go_s: float) -> None:
+    """A held switch sends an order in each cycle."""
+    authority = Authority()
+    authority.switch(PANEL, Mode.JOG)
+    now_s = 10.0
+    authority.stopped(CONSOLE, now_s, latch=False)
+    for _ in range(40):
+        now_s += 0.05
+        assert not authority.may_move(PANEL, now_s)
+    assert authority.ignored(now_s) == (
+        "orders from panel are ignored: a stop came while its switch was held: let it go first",
+    )
+    assert authority.may_move(PANEL, now_s + let_go_s) is (let_go_s > 0.5)
+
+
+def test_the_panel_s_own_stop_does_not_silence_its_switch() -> None:
+    authority = Authority()
+    authority.switch(PANEL, Mode.JOG)
+    authority.stopped_axis(PANEL, 10.0)
+    assert authority.may_move(PANEL, 10.05)
+
+
+def test_a_switch_of_the_panel_ends_a_storm_park_and_who_moved_the_antenna_moves_it_no_more() -> None:
+    authority = Authority()
+    authority.may_move(PST, 0.0)
+    authority.begin_storm(CONSOLE)
+    assert authority.controlled_by == CONSOLE
+    authority.switch(PANEL, Mode.AUTO)
+    assert (authority.latched, authority.storm) == ("panel, in a storm park", False)
+    assert authority.controlled_by is None
 
 
 @pytest.mark.parametrize(

@@ -280,6 +280,19 @@ def test_after_three_ways_up_that_do_not_agree_it_gives_up() -> None:
     assert hand.homing.failure == "its contact changed 2 times on the way up, 7 times on the way back, also in try 3"
 
 
+def test_it_has_begun_once_its_motor_was_driven() -> None:
+    """Before that the contact's silence has its own meaning: no run of homing has ended yet."""
+    homing = ordered()
+    for driven, begun in (
+        (Direction.OFF, False),
+        (Direction.OFF, False),
+        (Direction.MINUS, True),
+        (Direction.OFF, True),
+    ):
+        homing.step(10.0, driven, Condition())
+        assert homing.begun is begun
+
+
 def test_while_it_still_coasts_nothing_is_judged() -> None:
     hand = ByHand()
     hand.step(CYCLE_S)
