@@ -74,7 +74,7 @@ class App:
         self.station = station or open_station(config)
         self._service_manager = ServiceManager(os.environ, time.monotonic)
         self._events = EventWatch(time.monotonic)
-        mount = build_mount(config)
+        self.mount = mount = build_mount(config)
         learnt, relays_file = build_learnt(config), open_relays(config)
         self.loop = ControlLoop(
             build_controller(config, learnt.load(), trusts=relays_file.load() if relays_file else None, panel=True),

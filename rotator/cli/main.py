@@ -230,10 +230,15 @@ def _draws() -> bool:
 def main() -> None:
     """Run the command. An error that the user can repair is printed as a sentence.
 
-    The exit code is 2 for a fault in the configuration, 1 for the others.
+    The exit code is 2 for a fault in the configuration, 1 for the others. Raises KeyboardInterrupt.
     """
     try:
-        cli(standalone_mode=True)
+        sys.exit(cli(standalone_mode=False))
+    except click.ClickException as mistake:
+        mistake.show()
+        sys.exit(mistake.exit_code)
+    except click.Abort:
+        raise KeyboardInterrupt from None
     except ConfigError as fault:
         terminal = sys.stderr.isatty()
         click.echo(fault.wrapped(shutil.get_terminal_size().columns) if terminal else str(fault), err=True)
