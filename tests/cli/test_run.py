@@ -74,8 +74,8 @@ def test_every_fault_of_the_file_at_once_and_nothing_touched(rotator: Rotator, c
     assert first == f"{config}: 5 mistakes"
     keys = [fault.strip().split(" ")[2] for fault in faults]
     assert keys == [
-        "rotor.hardware",
         "rotor.hardwear",
+        "rotor.hardware",
         "azimuth.tolerance_deg",
         "relays.azimuth_cw",
         "link[0].protocol",
