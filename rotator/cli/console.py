@@ -62,7 +62,8 @@ def confirm(path: Path | None, axis: str, angle_deg: float) -> None:
         until_s = time.monotonic() + CONFIRMED_S
         while not (taken := _is_near(after := box.status(), axis, angle_deg)) and time.monotonic() < until_s:
             time.sleep(LOOK_S)
-    if not taken and after[axis]["angle_deg"] == before[axis]["angle_deg"]:
+    before_deg = before[axis]["angle_deg"]
+    if not taken and (before_deg is None or _is_near(after, axis, before_deg)):
         raise CommandFailed(f"{angle_deg:g}° had no effect: {stands(after, axis)}")
     if not taken:
         raise CommandFailed(
