@@ -62,8 +62,14 @@ def confirm(path: Path | None, axis: str, angle_deg: float) -> None:
         until_s = time.monotonic() + CONFIRMED_S
         while not (taken := _is_near(after := box.status(), axis, angle_deg)) and time.monotonic() < until_s:
             time.sleep(LOOK_S)
-    if not taken:
+    before_deg = before[axis]["angle_deg"]
+    if not taken and (before_deg is None or _is_near(after, axis, before_deg)):
         raise CommandFailed(f"{angle_deg:g}° had no effect: {stands(after, axis)}")
+    if not taken:
+        raise CommandFailed(
+            f"not {angle_deg:g}°: the box now has {stands(after, axis)}, the nearest that fits its sensor. Before: "
+            f"{stands(before, axis)}. Look at the antenna, and confirm it again"
+        )
     click.echo(f"Taken: {stands(after, axis)}. Before: {stands(before, axis)}.")
 
 

@@ -41,7 +41,8 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
     It prints where programs connect. Ctrl-C ends it, with every relay off.
     """
     # Before the program is loaded, which takes seconds on a small Pi.
-    click.echo(f"rotator {__version__} starts with {path or 'a simulated G-5500'}")
+    if "list" not in faults:
+        click.echo(f"rotator {__version__} starts with {path or 'a simulated G-5500'}")
     from rotator.cli.run import run_box
 
     run_box(path, faults, plain=plain or not _draws())

@@ -239,6 +239,15 @@ def test_a_confirmation_without_effect_is_no_success(scripted: Any, rotator: Rot
     assert why(done) == "rotator: 300° had no effect: azimuth 20.0° counted\n"
 
 
+def test_a_gear_allows_only_some_angles(scripted: Any, rotator: Rotator, config: Path) -> None:
+    scripted(counted(0), counted(0), counted(36))
+    done = rotator("confirm", "azimuth", "20", "--config", config)
+    assert why(done) == (
+        "rotator: not 20°: the box now has azimuth 36.0° counted, the nearest that fits its sensor. "
+        "Before: azimuth 0.0° counted. Look at the antenna, and confirm it again\n"
+    )
+
+
 def test_homing_ends_when_the_axis_stands(scripted: Any, rotator: Rotator, config: Path) -> None:
     # Between its turns it stands for a moment.
     turns = [counted(angle_deg, turns=True) for angle_deg in (20, 10)]
