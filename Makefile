@@ -66,6 +66,7 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.mount
 	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
+	$(BIN)/python -m benchmarks.startup
 	$(BIN)/python -m benchmarks.clients
 
 # Hostile bytes on every link of two running boxes, for ten minutes or as long as MINUTES says.
