@@ -80,7 +80,7 @@ def test_beside_the_sector_a_jog_into_it_does_not_begin_and_one_away_does(
     steered = Steered(edge_deg - 0.8 * way)
     steered.axes[AZ].jog(way, None, steered.now_s)
     assert steered.step()[AZ] is HOLD
-    assert steered.notices(AZ) == ["held before the tower"]
+    assert steered.notices(AZ) == ["stopped before the tower"]
     assert not steered.axes[AZ].busy
     steered.axes[AZ].jog(Direction(-way), None, steered.now_s)
     assert isinstance(steered.step()[AZ], Steer)
@@ -99,7 +99,7 @@ def test_what_holds_a_jog_back_is_said_for_three_seconds() -> None:
     steered.axes[AZ].jog(PLUS, None, steered.now_s)
     steered.step()
     steered.step(2.8)
-    assert steered.notices(AZ) == ["held before the tower"]
+    assert steered.notices(AZ) == ["stopped before the tower"]
     assert steered.notices(EL) == []
     steered.step(0.3)
     assert steered.notices(AZ) == []
@@ -127,7 +127,9 @@ def test_an_axis_whose_angle_is_not_known_holds_the_other_back_and_is_named() ->
     steered.step(1.0)
     steered.axes[AZ].jog(PLUS, None, steered.now_s)
     steered.step()
-    assert steered.notices(AZ) == ["held back: the angle of elevation is not known, and the tower may be in the way"]
+    assert steered.notices(AZ) == [
+        "does not turn: the angle of elevation is not known, and the tower may be in the way"
+    ]
 
 
 def test_from_inside_one_axis_leads_out_and_the_other_stands() -> None:
