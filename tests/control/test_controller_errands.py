@@ -8,7 +8,6 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.commands import Acknowledge, Place
-from rotator.control.commands import LetGo as LetGoErrand
 from rotator.faults import FaultKind, Notice
 from rotator.orders import (
     Aim,
@@ -107,7 +106,7 @@ def test_other_orders_acknowledge_nothing_at_the_rotor(desk: Any, order: Order) 
 def test_a_person_s_let_go_stops_latches_and_is_passed_on(desk: Any) -> None:
     desk.step(Aim(235, 60))
     assert desk.step(LetGo(), by=CONSOLE) == RESTING
-    assert desk.controller.errands == [LetGoErrand()]
+    assert desk.controller.errands == [LetGo()]
     assert desk.status.latched == "console"
 
 
