@@ -103,7 +103,8 @@ def _rotor() -> list[str]:
 
 def _yagi(middle: Point, away: Point) -> list[str]:
     """A boom with crossed elements: those behind it first, the boom, those before it."""
-    behind, before = [], []
+    behind: list[str] = []
+    before: list[str] = []
     along = [-1.0, -0.72, -0.45, -0.12, 0.22, 0.56, 0.9]
     for place, share in enumerate(along):
         x, y = middle[0] + away[0] * 132 * share, middle[1] + away[1] * 132 * share

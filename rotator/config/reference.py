@@ -1,4 +1,4 @@
-"""Makes the key tables of docs/configuration.md from the model, so that page and program agree.
+"""Makes the key tables of docs/reference/keys.md from the model, so that page and program agree.
 
 Knows Markdown, the legend of the tables, and the short name of each type of value. The keys and their meanings come
 from the model.
