@@ -18,9 +18,10 @@ from typing import Any
 
 from rotator.assembly.calibration import compass_path, open_compass
 from rotator.assembly.hands import hands
-from rotator.assembly.links import build_links, build_sky
+from rotator.assembly.links import build_links
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
+from rotator.assembly.sky import build_sky
 from rotator.assembly.station import Station
 from rotator.calibrating.at_start import CompassAtStart, watch
 from rotator.calibrating.compass import CompassReader

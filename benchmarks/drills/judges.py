@@ -73,6 +73,8 @@ class AxisCase:
     counts: bool = False
     shows_ends: bool = False
     """Limit switches show its ends, also where it was never set up."""
+    deaf: bool = False
+    """The chip of its control box does not hear: only its supply stops it, as the master a welded relay."""
     patience_s: float = TRY_S
     """How long it may take to see that it stands."""
     beyond_s: float = 0.0
@@ -86,6 +88,11 @@ class AxisCase:
     """On an axis that counts, short runs in vain count together: so long of them is a try."""
     shorted_s: float = 0.0
     tries_s: deque[float] = field(default_factory=deque)
+
+    @property
+    def deaf_s(self) -> float:
+        """How long it may take to cut the supply of a box that does not hear."""
+        return max(WELDED_S, self.patience_s) if self.deaf else 0.0
 
     def rest(self, *, at_stop: bool) -> None:
         """The box feeds it no more; only at its stop does it stay where it was driven.
@@ -147,7 +154,7 @@ class Judges:
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
             self._welded(truth, case)
-            if not (truth.power and truth.coil):
+            if not (truth.power and truth.coil) or (case.deaf and truth.at_stop):
                 case.rest(at_stop=truth.at_stop != 0)
                 continue
             orders = self._orders.axes[truth.name]
@@ -172,7 +179,7 @@ class Judges:
             self.found.append(Violation(self._now_s, STARTS, "both axes", measured))
 
     def _unordered(self, truth: AxisTruth, case: AxisCase) -> None:
-        winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s)
+        winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s) + case.deaf_s
         excused = self._now_s < self.excused_until_s or case.astray
         if self._now_s > self.unattended_s + LEASE_S + winds_down_s and self.ends_at_once and not excused:
             self._accuse(AFTER_STOP, truth, f"driven {self._now_s - self.unattended_s:.2f} s after the last lease")
@@ -212,7 +219,7 @@ class Judges:
             case.away_s = 0.0
             return
         case.away_s += self._past_s
-        if case.away_s > AWAY_S + LOOK_S:
+        if case.away_s > max(AWAY_S, case.deaf_s) + LOOK_S:
             angles_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
             nearest_deg = min(angles_deg, key=lambda angle_deg: abs(angle_deg - here_deg))
             measured = f"for {case.away_s:.2f} s, at {here_deg:.1f}°, the target is {nearest_deg:.1f}°"

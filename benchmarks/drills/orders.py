@@ -21,7 +21,7 @@ TURN_DEG = 360.0
 UNCALIBRATED_S = 2.0
 """A press of an axis that was never set up."""
 PUT_OFF_S = 6.0
-"""Where a person sets the box up and watches, a press may begin so late: when the axis has been seen to stand."""
+"""A jog with a time may begin so late: when the axis has been seen to stand."""
 PANEL_S = 0.2
 """A jog switch is read twice before it counts, and once when it is let go."""
 ZENITH_DEG, OVERHEAD_DEG = 90.0, 4.0
@@ -194,20 +194,20 @@ class Orders:
                 self._release(event.at_s)
             case "storm":
                 if not self._held:
-                    # Refused on an axis that must be homed first: a homing under way then goes on.
-                    if not any(orders.homes for orders in self.axes.values()):
+                    # An antenna that must be homed first cannot park: what goes on then goes on.
+                    if not self._counts:
                         self._forget(event.at_s)
                     self._storm = True
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
-            case "home" if not self._storm:
+            case "home":
                 self._anywhere(event, event.text(0))
                 self.axes[event.text(0)].homes = True
             case "confirm":
                 # It has no effect in a storm park, while an axis homes, and where the sensor measures.
                 if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
                     self._end(event.text(0), event.at_s)
-            case _ if self._storm:
+            case _ if self._storm and not self._counts:
                 pass  # a storm park holds every other order back
             case _:
                 self._note_order(event)
@@ -260,7 +260,7 @@ class Orders:
                 if axis == self.lacking:
                     self.pressed_s = event.at_s
                     seconds = min(seconds, UNCALIBRATED_S)
-                until_s = event.at_s + seconds + (PUT_OFF_S if self.lacking else 0.0)
+                until_s = event.at_s + seconds + PUT_OFF_S
                 self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds)
             case "stop":
                 self._forget(event.at_s)
@@ -277,7 +277,7 @@ class Orders:
                 self._left(event)
 
     def _release(self, now_s: float) -> None:
-        self.latched = self._panel.pressed
+        self.latched, self._storm = self._panel.pressed, False
         self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
 
@@ -286,7 +286,7 @@ class Orders:
             goal = orders.goals.get(event.who)
             if goal is not None and goal.way and event.who not in PEOPLE:
                 # A press of an axis that was not set up, or not homed, ends by itself.
-                lasts_s = UNCALIBRATED_S if self._counts or axis == self.lacking else 0.0
+                lasts_s = UNCALIBRATED_S + PUT_OFF_S if self._counts or axis == self.lacking else 0.0
                 goal.until_s = min(goal.until_s, max(event.at_s, goal.said_s + lasts_s))
                 orders.expire(event.at_s)
 

@@ -134,6 +134,8 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.patience_s /= min(1.0, max(event.number(1), 0.3))
             case "fault" if not case.feels and plain not in ("bus-hung",):
                 case.trusted, case.astray = False, True
+            case "fault" if plain == "select-broken":
+                case.deaf = True
             case "fault" if case.counts:
                 case.trusted = False
 

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 from functools import partial
 
 from benchmarks.fuzz_words import SPOKEN
+from rotator.orbits.celestial import Equinox, Sky
+from rotator.orbits.earth import Site
 from rotator.protocols import stellarium
 from rotator.protocols.pstrotatoraz import encode as request
-from rotator.protocols.sky import Equinox, Site, Sky
 from rotator.protocols.spid import Command, Frame, Model, encode
 from rotator.protocols.stellarium import Goto
 from rotator.protocols.wsjtx import BodyDirection

@@ -26,6 +26,7 @@ CAPTIONS = {
     "rotator.rotors": "one file a kind",
     "rotator.config": "the TOML file",
     "rotator.control": "decides; pure",
+    "rotator.orbits": "the sky; pure",
     "rotator.panel": "switches, knobs",
     "rotator.protocols": "bytes ⇄ orders",
     "rotator.store": "files kept",

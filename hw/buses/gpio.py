@@ -29,6 +29,10 @@ class LinesBusyError(HardwareError):
     """Another program holds the line."""
 
 
+class NoHeaderError(HardwareError):
+    """This computer has no 40-pin header of a Raspberry Pi."""
+
+
 def real_gpiod() -> Any:
     """The gpiod package. Raises HardwareError where it is missing, or where another package has its name."""
     try:
@@ -58,7 +62,7 @@ def find_chip(api: Any, label: str = PI_HEADER_LABEL, paths: list[str] | None = 
             return path
         found.append(f"{path} ({name})")
     seen = ", ".join(found) if found else "none at all"
-    raise HardwareError(f"GPIO: no chip labelled {label}; found {seen}")
+    raise NoHeaderError(f"GPIO: no chip labelled {label}; found {seen}")
 
 
 def holders(api: Any, path: str, offsets: Iterable[int]) -> dict[int, str]:

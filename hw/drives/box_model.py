@@ -1,4 +1,5 @@
-"""Where a control box has turned its rotor, as far as it can be known: a model, its bounds, and the lead at rest.
+"""Where a control box has turned its rotor, as far as it can be known: a model, its bounds, the lead at rest, and
+whether the box obeys.
 
 Knows the box's speed and that it stands still within its dead band. Does not know the chip, nor a bus. All angles are
 degrees on the rotor's own scale; a direction is -1 or 1.
@@ -83,6 +84,24 @@ class BoxModel:
         if below and above:
             return before or 1
         return 1 if below else -1 if above else before
+
+
+class Obedience:
+    """Whether a box turns as its step says, by where its rotor is measured while it has its supply."""
+
+    def __init__(self) -> None:
+        self._nearest_deg: float | None = None
+        """Where the rotor had last come nearer to its step."""
+
+    def forget(self) -> None:
+        self._nearest_deg = None
+
+    def astray_deg(self, angle_deg: float, wiper_deg: float) -> float:
+        """How far it has turned otherwise, measured at `angle_deg` now."""
+        before_deg = angle_deg if self._nearest_deg is None else self._nearest_deg
+        nearer = (wiper_deg - angle_deg) * (angle_deg - before_deg) > 0
+        self._nearest_deg = angle_deg if nearer else before_deg
+        return abs(angle_deg - self._nearest_deg)
 
 
 @dataclass(slots=True)

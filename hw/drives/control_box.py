@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.chips.mcp41010 import STEPS, Mcp41010
-from hw.drives.box_model import BoxModel, RestLead
+from hw.drives.box_model import BoxModel, Obedience, RestLead
 from hw.drives.scale import CommandScale
 from hw.ports import HardwareError
 
@@ -52,6 +52,7 @@ class ControlBox:
         """When the present command expires; None: there is no command."""
         self.deaf = False
         """The supply was cut under its command by a stop of the other axis: no aim counts before its own stop."""
+        self._obedience = Obedience()
         self._chip = chip
         self._range_deg = spec.range_deg or ends_deg
         self._way = 0
@@ -93,6 +94,10 @@ class ControlBox:
         self.model.found(angle_deg)
         self.lead.seen(angle_deg, now_s)
 
+    def astray_deg(self, angle_deg: float) -> float:
+        """How far it has turned otherwise than its step says, measured at `angle_deg` now."""
+        return 0.0 if self._step is None else self._obedience.astray_deg(angle_deg, self.scale.angle_deg(self._step))
+
     def order(self, angle_deg: float) -> None:
         """Go to the angle: the wiper leads in the direction of the move, within the axis's limits.
 
@@ -127,6 +132,11 @@ class ControlBox:
     def end(self) -> None:
         """There is no command any more."""
         self.until_s, self.deaf = None, False
+
+    def unfed(self) -> None:
+        """Its supply is cut."""
+        self.end()
+        self._obedience.forget()
 
     def repeat(self) -> None:
         """Send the last step again. Raises HardwareError."""

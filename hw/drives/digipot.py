@@ -9,6 +9,7 @@ a stop then opens the relay of the supply.
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Callable, Iterable
 
@@ -18,9 +19,13 @@ from hw.drives.positioned import DriveAngle, wait_until
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 
+log = logging.getLogger(__name__)
+
 ENABLE = "box_enable"
 """The relay of the boxes' supply. A chip starts in the middle: a box with supply from power-on turns there."""
 
+LOST_STEP_DEG, ASTRAY_DEG = 2.5, 4.0
+"""A box that was measured to turn so far otherwise than its step says gets it again, and loses its supply."""
 REFRESH_S = 1.0
 """Seconds until the steps are sent again: a dip of its supply erases a chip's step without a report."""
 
@@ -130,9 +135,24 @@ class DigipotDrive:
             return self._boxes[axis].angle_deg
 
     def found(self, axis: Axis, angle_deg: float) -> None:
-        """The rotor was measured at `angle_deg` now; the model goes on from there."""
+        """The rotor was measured at `angle_deg` now; the model goes on from there.
+
+        A box that turns otherwise than its step says has lost that step, or does not hear its chip: it gets the step
+        again, and then loses its supply. After that no aim counts before a stop.
+        """
         with self._changed:
-            self._boxes[axis].found(angle_deg, self._advance())
+            box = self._boxes[axis]
+            box.found(angle_deg, self._advance())
+            if not self._powered:
+                return
+            astray_deg = box.astray_deg(angle_deg)
+            if astray_deg > LOST_STEP_DEG:
+                box.repeat()
+            if astray_deg > ASTRAY_DEG and self._enable is not None:
+                log.warning("%s: the box turns otherwise than it is told: its supply is off", axis.value)
+                self._cut()
+                for each in self._boxes.values():
+                    each.deaf = True
 
     def position_known(self, axis: Axis) -> bool:
         """Whether the rotor must be where the model has it: a full travel is over, or it was measured."""
@@ -185,7 +205,7 @@ class DigipotDrive:
         self._enable.set({ENABLE: False})
         self._powered = False
         for box in self._boxes.values():
-            box.end()
+            box.unfed()
 
     def _each(self, boxes: Iterable[ControlBox], act: Callable[[ControlBox], None]) -> None:
         """Call `act` for every box, also after a failure. Raises the first HardwareError."""

@@ -13,6 +13,10 @@ from hw.ports import HardwareError
 LINE_S = 0.05
 """The adapter's time limit for one line, in seconds. The library's default is longer than the other axis's watchdog."""
 
+WRITE_S = 0.25
+"""An adapter that stops reading holds the thread up for so long, in seconds. pyserial takes a write that has succeeded
+for a failure when the thread had no turn for longer, as on a busy machine."""
+
 
 def library() -> Any:
     """The moteus package. Raises HardwareError where it is missing."""
@@ -36,7 +40,7 @@ class SerialPort:
         """Open it with the library `moteus`. Raises OSError."""
         transport = moteus.Fdcanusb(self.path, command_timeout=LINE_S, response_timeout=LINE_S, max_retries=0)
         for device in transport._transport.devices():
-            device._serial.serial.write_timeout = LINE_S  # without it, an adapter that stops reading blocks the thread
+            device._serial.serial.write_timeout = WRITE_S
         return transport
 
     def __str__(self) -> str:

@@ -10,11 +10,16 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from typing import Any
 
-from hw.buses.gpio import PI_HEADER_LABEL, GpioContact, GpioInputs, GpioOutputs, find_chip
+from hw.buses.gpio import PI_HEADER_LABEL, GpioContact, GpioInputs, GpioOutputs, NoHeaderError, find_chip
 from hw.buses.i2c import SmbusI2C
 from hw.buses.spi import SO, KernelSpi, LineSpi, SpiBus
 from hw.ports import HardwareError
 from rotator.config.spi import KERNEL_SELECTS, SpiUse
+
+_ELSEWHERE = (
+    "This computer is no Raspberry Pi, or its GPIO driver is not loaded. "
+    'To try the box here, write hardware = "sim" under [rotor]: the rotor is then simulated'
+)
 
 
 class Buses:
@@ -54,7 +59,10 @@ class Buses:
     def chip(self) -> str:
         """The path of the chip with the lines of the header: what the file says, or found by its label."""
         if self._chip is None:
-            self._chip = find_chip(self.gpio, PI_HEADER_LABEL, self._paths)
+            try:
+                self._chip = find_chip(self.gpio, PI_HEADER_LABEL, self._paths)
+            except NoHeaderError as fault:
+                raise HardwareError(f"{fault}. {_ELSEWHERE}") from fault
         return self._chip
 
     def outputs(self, consumer: str, pins: Mapping[str, int], *, active_low: bool = False) -> GpioOutputs:

@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Protocol
 
 from rotator.config.links import FOLLOW, Link, ProtocolName, address
-from rotator.config.station import StationTable
 from rotator.control.sky.mount import Mount
 from rotator.links.allowed import Allowed
 from rotator.links.asking import AskingLink
@@ -28,6 +27,7 @@ from rotator.links.udp import Report, UdpLink
 from rotator.links.wire import Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
 from rotator.monitor.transcript import Way
+from rotator.orbits.celestial import Sky
 from rotator.orders import Source
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
@@ -35,7 +35,6 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session
-from rotator.protocols.locator import from_locator
 from rotator.protocols.lx200_session import Lx200Session
 from rotator.protocols.macdoppler import MacDopplerSession
 from rotator.protocols.move_report import MoveReport
@@ -48,7 +47,6 @@ from rotator.protocols.rc2800 import Rc2800Session
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Box, Inquiry, Session
-from rotator.protocols.sky import Site, Sky
 from rotator.protocols.spid import Model
 from rotator.protocols.spid_session import SpidSession
 from rotator.protocols.stellarium import StellariumSession
@@ -143,16 +141,6 @@ def session_maker(
 
 
 _BINARY: tuple[ProtocolName, ...] = ("rot1prog", "rot2prog", "md01", "stellarium")
-
-
-def build_sky(station: StationTable) -> Sky | None:
-    """The sky over the station, by the system's clock; None where its place is not known."""
-    longitude_deg, latitude_deg = station.longitude_deg, station.latitude_deg
-    if station.locator is not None:
-        longitude_deg, latitude_deg = from_locator(station.locator)
-    if longitude_deg is None or latitude_deg is None:
-        return None
-    return Sky(Site(latitude_deg, longitude_deg, station.altitude_m), time.time)
 
 
 def build_links(

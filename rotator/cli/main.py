@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import click
 from hw.ports import HardwareError
 from rotator import __version__
 from rotator.cli.console_commands import CONFIG, CONSOLE_COMMANDS, YES
+from rotator.cli.sky_commands import sky
 from rotator.config.load import SIMULATED, ConfigError, profiles, shipped
 from rotator.links.wire import LinkError
 from rotator.setup.plan import SetupError
@@ -32,6 +34,7 @@ def cli() -> None:
 
 for command in CONSOLE_COMMANDS:
     cli.add_command(command)
+cli.add_command(sky)
 
 
 @cli.command()
@@ -131,8 +134,18 @@ def doctor(path: Path | None, as_json: bool) -> None:
 @cli.command(name="config")
 @click.argument("name", default=SIMULATED, metavar="[NAME]")
 @click.option("--list", "listed", is_flag=True, help="List the shipped configurations.")
-def show_config(name: str, listed: bool) -> None:
+@click.option("--ask", "asked", is_flag=True, help="Ask a few questions, and write your file.")
+@click.option("--to", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="--ask: the file to write.")
+def show_config(name: str, listed: bool, asked: bool, to: Path | None) -> None:
     """Print the shipped configuration NAME, as a start for your own. Without NAME: the simulated rotor's."""
+    if asked:
+        from rotator.cli.ask import ask
+
+        shipped(name)
+        ask(name, to)
+        return
+    if to is not None:
+        raise click.UsageError("--to goes with --ask; without it: rotator config NAME > FILE")
     if listed:
         for each in (SIMULATED, *profiles()):
             click.echo(f"{each:<10} {shipped(each).splitlines()[0].removeprefix('# ')}")
@@ -208,7 +221,8 @@ def main() -> None:
     try:
         cli(standalone_mode=True)
     except ConfigError as fault:
-        click.echo(str(fault), err=True)
+        terminal = sys.stderr.isatty()
+        click.echo(fault.wrapped(shutil.get_terminal_size().columns) if terminal else str(fault), err=True)
         sys.exit(2)
     except (HardwareError, LinkError, SetupError) as fault:
         click.echo(f"rotator: {fault}", err=True)

@@ -44,7 +44,7 @@ class AxisTable(Table):
     @model_validator(mode="after")
     def _make_sense(self) -> AxisTable:
         if self.min_deg >= self.max_deg:
-            raise ValueError(f"min_deg ({self.min_deg:g}) must be below max_deg ({self.max_deg:g})")
+            raise ValueError(f"min_deg ({self.min_deg:g}) must be below max_deg ({self.max_deg:g}): swap the two")
         if self.lowest_reading >= self.highest_reading:
             raise ValueError("lowest_reading must be below highest_reading")
         points = self.calibration

@@ -152,6 +152,19 @@ class Link(Table):
             raise ValueError(f"{text!r} must be printable characters, and none of < > #")
         return text
 
+    @field_validator("serial", "pty", "file")
+    @classmethod
+    def _a_path_of_this_machine(cls, text: str | None) -> str | None:
+        if text is not None and not text.isprintable():
+            raise ValueError(f"{text!r} has a character that cannot be seen: write / in place of each \\")
+        if text is not None and re.fullmatch(r"(?i)com\d+:?", text):
+            raise ValueError(
+                f'"{text}" is a port of a Windows PC, and belongs in the program there; on this machine ports are '
+                "called /dev/ttyGS0 (the USB cable to the PC), /dev/ttyUSB0 or /dev/ttyACM0 (an adapter): "
+                "ls /dev/serial/by-id"
+            )
+        return text
+
     @field_validator("allow")
     @classmethod
     def _networks(cls, texts: list[str] | None) -> list[str] | None:

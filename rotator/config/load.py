@@ -1,49 +1,36 @@
-"""Reads a configuration file, or a shipped one, and lists all its faults at once.
+"""Reads a configuration file, or a shipped one, and lists all its mistakes at once, in the order of the file.
 
-Knows TOML, the wording of a fault, and harmless values with which it goes on to find further faults. The keys are in
-the model.
+Knows harmless values with which it goes on to find further mistakes, and the lines of each. The keys are in the model,
+the words in `wording`, what is no TOML in `toml_text`.
 """
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from rotator.config import toml_text
+from rotator.config.mistake import ConfigError, Mistake
 from rotator.config.model import Config
+from rotator.config.statements import Place, places
+from rotator.config.wording import explain, tables
 
-_KINDS = {
-    "float": "a number",
-    "int": "a whole number",
-    "bool": "true or false",
-    "string": "text in quotes",
-    "list": "a list in brackets",
-    "tuple": "a pair of numbers in brackets",
-    "model": "a table",
-}
-"""The first word of a pydantic error type, in words for the user."""
+__all__ = ["SIMULATED", "ConfigError", "Mistake", "load", "parse", "profiles", "shipped"]
+
+_PATHS = re.compile(r"[a-z_0-9]+(?:\[\d+\])?(?:\.[a-z_0-9]+)*")
+"""What may be a key in the words of a mistake."""
 
 SIMULATED = "simulated"
 """The name of the configuration that runs without a file."""
-
-
-class ConfigError(Exception):
-    """The file cannot be used. `faults`: one line for each thing to change."""
-
-    def __init__(self, name: str, faults: list[str]) -> None:
-        super().__init__(name, faults)
-        self.name = name
-        self.faults = faults
-
-    def __str__(self) -> str:
-        count = "1 fault" if len(self.faults) == 1 else f"{len(self.faults)} faults"
-        return "\n".join((f"{self.name}: {count}", *(f"  {fault}" for fault in self.faults)))
+_NAMES = "`rotator config --list` has the other rotors"
 
 
 def load(path: Path | None) -> Config:
@@ -52,8 +39,12 @@ def load(path: Path | None) -> Config:
         return parse(shipped(), "the shipped configuration")
     try:
         text = toml_text.read(path)
-    except (OSError, UnicodeDecodeError) as fault:
-        raise ConfigError(str(path), [f"cannot be read: {fault}"]) from fault
+    except OSError as fault:
+        raise ConfigError(str(path), [Mistake(_unreadable(path, fault))]) from fault
+    except toml_text.NoTextError as none:
+        raise ConfigError(str(path), [none.mistake]) from none
+    if not any(row.strip() and not row.strip().startswith("#") for row in text.splitlines()):
+        raise ConfigError(str(path), [Mistake(f"is empty: `rotator config g5500 > {path}` fills it; {_NAMES}")])
     return parse(text, str(path))
 
 
@@ -63,7 +54,9 @@ def shipped(name: str = SIMULATED) -> str:
         return files("rotator.config").joinpath("simulated.toml").read_text(encoding="utf-8")
     if name not in profiles():
         known = [SIMULATED, *profiles()]
-        raise ConfigError(name, [f"no such configuration{_meant(name, known)}; there are: {', '.join(known)}"])
+        near = difflib.get_close_matches(name.lower(), known, n=1, cutoff=0.6)
+        meant = f"; did you mean {near[0]}?" if near else ""
+        raise ConfigError(name, [Mistake(f"no such configuration{meant}; there are: {', '.join(known)}")])
     return files("rotator.config").joinpath("profiles", f"{name}.toml").read_text(encoding="utf-8")
 
 
@@ -76,25 +69,82 @@ def profiles() -> list[str]:
 def parse(text: str, name: str) -> Config:
     """The checked configuration in a TOML text. `name` stands in the errors. Raises ConfigError."""
     try:
-        values = toml_text.values(text)
-    except ValueError as fault:
-        raise ConfigError(name, [str(fault)]) from fault
-    faults: list[str] = []
-    while True:
+        return Config.model_validate(tomllib.loads(text))
+    except (tomllib.TOMLDecodeError, RecursionError, ValidationError) as first:
+        raise ConfigError(name, _mistakes(text)) from first
+
+
+def _mistakes(text: str) -> list[Mistake]:
+    """Everything that is wrong with a text that is no configuration."""
+    several = {name for name, _, many in tables() if many}
+    mended = toml_text.mended(text, {name for name, *_ in tables()} - several, several)
+    values = {key: value for key, value in tomllib.loads(mended.text).items() if key[:1] != toml_text.SCRATCH}
+    lines = places(mended.text)
+    found = list(mended.mistakes)
+    for _ in range(toml_text.MOST):
         try:
-            config = Config.model_validate(values)
+            Config.model_validate(values)
             break
         except ValidationError as invalid:
             errors = invalid.errors()
-        faults += [_explain(error) for error in errors]
-        if any(not error["loc"] for error in errors):
+        # A line that could not be read may hold just what is missing.
+        told = [error for error in errors if mended.whole or error["type"] not in ("missing", "value_error")]
+        new = [mistake for error in told for mistake in _located(error, lines) if mistake not in found]
+        found += new
+        if any(not error["loc"] for error in errors) or (told and not new):
             break
-        # One fault can hide another: limits are compared only if both are numbers. Mend the faults, and check again.
+        # One mistake can hide another: limits are compared only if both are numbers. Mend the values, and check again.
         for error in errors:
             _mend(values, list(error["loc"]))
-    if faults:
-        raise ConfigError(name, list(dict.fromkeys(faults)))
-    return config
+    return found
+
+
+def _located(error: ErrorDetails, lines: Mapping[Place, tuple[int, ...]]) -> Iterable[Mistake]:
+    """The mistake with its lines: those of the keys that it names, else that of its table. The rules across tables
+    may have found several at once."""
+    place = tuple(error["loc"])
+    for words in explain(error).split("\n"):
+        if error["type"] != "value_error":
+            yield Mistake(words, _line_of(place, lines))
+            continue
+        said = words.removeprefix(f"{_dotted(place)}:") if place else words
+        named = [line for path in _PATHS.findall(said) for line in lines.get((*place, *_place(path)), ())]
+        yield Mistake(words, tuple(sorted(set(named))) or _line_of(place, lines))
+
+
+def _line_of(place: Place, lines: Mapping[Place, tuple[int, ...]]) -> tuple[int, ...]:
+    """The line of the key at `place`, or of the nearest table around it."""
+    around = (lines[place[:length]] for length in range(len(place), 0, -1) if place[:length] in lines)
+    return next(around, ())[:1]
+
+
+def _place(path: str) -> Place:
+    return tuple(int(part) if part.isdigit() else part for part in re.split(r"[.\[\]]+", path) if part)
+
+
+def _dotted(place: Place) -> str:
+    return ".".join(str(part) for part in place)
+
+
+def _unreadable(path: Path, fault: OSError) -> str:
+    match fault:
+        case FileNotFoundError():
+            near = difflib.get_close_matches(path.name, _names_in(path.parent), n=1, cutoff=0.6)
+            meant = f"did you mean {path.with_name(near[0])}? " if near else ""
+            return f"there is no such file: {meant}`rotator config g5500 > {path}` makes one; {_NAMES}"
+        case IsADirectoryError():
+            return f"is a folder: name the file in it, such as {path / 'rotator.toml'}"
+        case PermissionError():
+            return "you may not read it: put sudo before the command, or let its owner give you the right (chmod +r)"
+        case _:
+            return f"cannot be read: {fault.strerror or fault}"
+
+
+def _names_in(folder: Path) -> list[str]:
+    try:
+        return [each.name for each in folder.iterdir() if each.suffix == ".toml"]
+    except OSError:
+        return []
 
 
 def _mend(values: dict[str, Any], place: list[int | str]) -> None:
@@ -122,64 +172,3 @@ def _mend(values: dict[str, Any], place: list[int | str]) -> None:
             parent[last] = {"protocol": "rotctld", "pty": f"mended-{last}"}
         case _:
             _mend(values, way)
-
-
-def _explain(error: ErrorDetails) -> str:
-    """One fault in words: the key, its value, the allowed values, and the likely intended one."""
-    place = list(error["loc"])
-    key = _key(place)
-    value = error["input"]
-    context: Mapping[str, Any] = error.get("ctx", {})
-    match error["type"]:
-        case "extra_forbidden":
-            known = list(_known_keys(place[:-1]))
-            return f"{key} = {_show(value)}: no such key{_meant(str(place[-1]), known)}; known here: {', '.join(known)}"
-        case "missing":
-            return f"{key}: must be given"
-        case "literal_error":
-            allowed = [str(choice) for choice in _choices(context)]
-            return f"{key} = {_show(value)}: must be one of {', '.join(allowed)}{_meant(str(value), allowed)}"
-        case "value_error" if not place:
-            return str(context["error"])
-        case "value_error":
-            return f"{key}: {context['error']}"
-        case kind:
-            expected = _KINDS.get(kind.split("_")[0]) if kind.endswith(("_type", "_parsing")) else None
-            expected = expected or error["msg"].removeprefix("Input should be ")
-            return f"{key} = {_show(value)}: must be {expected}"
-
-
-def _key(place: list[int | str]) -> str:
-    text = ""
-    for part in place:
-        text += f"[{part}]" if isinstance(part, int) else f".{part}"
-    return text.removeprefix(".")
-
-
-def _show(value: object) -> str:
-    text = f'"{value}"' if isinstance(value, str) else f"{value!r}"
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
-def _choices(context: Mapping[str, Any]) -> list[str]:
-    return [choice.strip().strip("'") for choice in str(context["expected"]).replace(" or ", ", ").split(",")]
-
-
-def _meant(word: str, known: list[str]) -> str:
-    close = difflib.get_close_matches(word, known, n=1, cutoff=0.6)
-    return f"; did you mean {close[0]}?" if close else ""
-
-
-def _known_keys(place: list[int | str]) -> list[str]:
-    """The keys of the table at `place` in the model."""
-    table: type[BaseModel] = Config
-    for part in place:
-        if isinstance(part, int):
-            continue
-        annotation = table.model_fields[part].annotation
-        inner = [kind for kind in (annotation, *get_args(annotation)) if isinstance(kind, type)]
-        tables = [kind for kind in inner if issubclass(kind, BaseModel)]
-        if not tables:
-            break
-        table = tables[0]
-    return list(table.model_fields)

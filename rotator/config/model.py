@@ -29,6 +29,7 @@ from rotator.config.places import STATE
 from rotator.config.rotors import Rotor, with_usual
 from rotator.config.sensors import CompassTable
 from rotator.config.sim import Sim
+from rotator.config.sky import SkyTable
 from rotator.config.spi import SpiUse, spi_lines
 from rotator.config.station import StationTable
 from rotator.config.table import Point, Table
@@ -100,7 +101,10 @@ class Config(Table):
     elevation: Elevation = Elevation()
     """The elevation axis."""
     station: StationTable = StationTable()
-    """Where the antenna stands on the earth: for telescope programs (`lx200`, `stellarium`) and PstRotator's `LLH`."""
+    """Where the antenna stands on the earth: for satellites, Sun and Moon, telescope programs (`lx200`, `stellarium`)
+    and PstRotator's `LLH`."""
+    sky: SkyTable = SkyTable()
+    """What is known of the sky."""
     mount: MountTable = MountTable()
     """How the two axes carry the antenna."""
     control: Control = Control()
@@ -154,7 +158,7 @@ class Config(Table):
         if self.mount.tolerance == "axis" and not self.rotor.switched:
             faults.append('mount.tolerance = "axis" is for motors on relays: these go to every angle, however near')
         if faults:
-            raise ValueError("; ".join(faults))
+            raise ValueError("\n".join(faults))
         return self
 
     @property
@@ -271,11 +275,14 @@ class Config(Table):
         ]
 
     def _places_twice(self) -> list[str]:
-        users: dict[tuple[str, str | None, str | None], int] = {}
-        for link in self.link:
-            place = (link.where, link.connect, link.udp)
-            users[place] = users.get(place, 0) + 1
-        return [f"{count} links use {where}" for (where, *_), count in users.items() if count > 1]
+        users: dict[tuple[str, str | None, str | None], list[int]] = {}
+        for number, link in enumerate(self.link):
+            users.setdefault((link.where, link.connect, link.udp), []).append(number)
+        return [
+            f"{len(numbers)} links use {where}: {' and '.join(f'link[{number}]' for number in numbers)}"
+            for (where, *_), numbers in users.items()
+            if len(numbers) > 1
+        ]
 
     def _needs_station(self) -> list[str]:
         return [

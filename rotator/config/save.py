@@ -14,7 +14,7 @@ from tomlkit.exceptions import TOMLKitError
 from tomlkit.items import Array
 
 from rotator.config import toml_text
-from rotator.config.load import ConfigError, parse
+from rotator.config.load import ConfigError, Mistake, parse
 from rotator.store.whole import write_whole
 
 Points = Sequence[tuple[float, float]]
@@ -30,8 +30,10 @@ def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **val
     try:
         before = toml_text.read(path)
         text = changed(before, axis, calibration=calibration, **values)
-    except (TOMLKitError, UnicodeDecodeError) as fault:
-        raise ConfigError(str(path), [f"is not TOML any more: {fault}"]) from fault
+    except TOMLKitError as fault:
+        raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault
+    except toml_text.NoTextError as none:
+        raise ConfigError(str(path), [none.mistake]) from none
     # A text that the next start would refuse is not written.
     parse(text, str(path))
     write_whole(path.with_name(path.name + ".bak"), before)

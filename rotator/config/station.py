@@ -1,6 +1,6 @@
 """The `[station]` table of the configuration file: where on the earth the antenna stands.
 
-Knows the two ways to name a place, and how exact it must be. Does not compute with it.
+Knows the two ways to name a place, how exact it must be, and the antenna's beam. Does not compute with them.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ class StationTable(Table):
     """Metres above the sea."""
     locator: str | None = None
     """In place of the two: a Maidenhead locator of 6 to 12 characters. 4 would leave a star 1° in doubt."""
+    beam_deg: float = Field(20.0, gt=0, le=180)
+    """The antenna's beam, from edge to edge at half power: beyond half of it a pointing error is warned of."""
 
     @model_validator(mode="after")
     def _one_place(self) -> StationTable:

@@ -26,7 +26,7 @@ def configuration(path: Path | None) -> Iterator[Finding]:
     except ConfigError as fault:
         readable = path is None or os.access(path, os.R_OK)
         advice = "Change that in the file; docs/reference/keys.md has every key." if readable else NO_FILE
-        yield from (wrong(f"{fault.name}: {each}", advice) for each in fault.faults)
+        yield from (wrong(f"{fault.name}: {each}", advice) for each in fault.mistakes)
     else:
         rotor = "a simulated rotor" if config.rotor.hardware == "sim" else "a real rotor"
         yield fine(f"{path or 'the shipped one, because no file is given'}: {rotor}")

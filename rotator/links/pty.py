@@ -11,6 +11,7 @@ import fcntl
 import grp
 import logging
 import os
+import re
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -23,6 +24,11 @@ from rotator.protocols.session import Session
 log = logging.getLogger(__name__)
 
 SERIAL_GROUP = "dialout"
+_ORDER = re.compile(rb"\S{0,4}|[A-Za-z]{1,2}[-+.\d]+(?: [A-Za-z]{0,2}[-+.\d]+){0,3}|[PMWpmw](?: [-+.\d]+){1,4}")
+"""A line that was written to the port while no box was running: a shell makes a file of it then."""
+SMALL = 4096
+ASIDE = ".was-a-file"
+"""The ending of the name under which it is kept."""
 LOOK_EVERY_S = 0.25
 """The time between two looks for a program, where the kernel does not say when one opens the terminal."""
 
@@ -42,6 +48,7 @@ class PtyLink:
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
             self._lock()
+            self._clear_the_place()
             self._make()
         except BlockingIOError as fault:
             self._close_fds()
@@ -126,6 +133,20 @@ class PtyLink:
                 loop.remove_reader(fd)
             conversation.close()
 
+    def _clear_the_place(self) -> None:
+        """Move a file of orders away from the port's place. Raises LinkError where something else is, and OSError."""
+        if self._path.is_symlink() or not self._path.exists():
+            return
+        kind = "folder" if self._path.is_dir() else "file" if self._path.is_file() else "device"
+        if kind != "file" or self._path.stat().st_size > SMALL or not _are_orders(self._path.read_bytes()):
+            advice = 'for a real port write serial = "..."' if kind == "device" else "move it, or name another path"
+            self._close_fds()
+            raise LinkError(f"{self._path}: there is a {kind} already, where pty makes a port: {advice}")
+        aside = self._path.with_name(self._path.name + ASIDE)
+        self._path.replace(aside)
+        log.warning("%s: %s was a plain file with orders, written while no box was running; it is now %s",
+                    self.wire.name, self._path, aside)  # fmt: skip
+
     def _make(self) -> None:
         """A terminal, and the symlink to it. Raises OSError."""
         self._terminal = Terminal()
@@ -163,3 +184,7 @@ class PtyLink:
         if self._locked >= 0:
             os.close(self._locked)
             self._locked = -1
+
+
+def _are_orders(data: bytes) -> bool:
+    return all(_ORDER.fullmatch(row) for row in re.split(rb"[\r\n]+", data))

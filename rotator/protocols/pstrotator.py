@@ -12,11 +12,10 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
+from rotator.orbits.earth import Site, direction
 from rotator.orders import Order, Park, Stop
 from rotator.protocols.aiming import aim, degrees
-from rotator.protocols.earth import direction
 from rotator.protocols.session import Box
-from rotator.protocols.sky import Site
 
 ANSWERS_ABOVE = 1
 """Answers go to the sender's address, to the port this much above the box's own."""

@@ -5,7 +5,7 @@ Knows their arguments and the labels of their answers. Does not know the calcula
 
 from __future__ import annotations
 
-from rotator.protocols import locator
+from rotator.orbits import locator
 from rotator.protocols.rotctld import INVALID_PARAMETER, Answer, BadRequest, Request, number, whole_number
 
 NAMES = frozenset((

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from rotator.control.sky.joining import direction
+from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.protocols.session import Box
-from rotator.protocols.sky import Equinox, Sky, Star
 from rotator.protocols.star_follower import StarFollower
 
 POSITION_EVERY_S = 0.5

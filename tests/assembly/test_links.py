@@ -9,19 +9,21 @@ from typing import get_args
 import pytest
 
 from firmware_sim.clock import SimClock
-from rotator.assembly.links import build_links, build_sky, session_maker
+from rotator.assembly.links import build_links, session_maker
 from rotator.assembly.settings import build_controller, build_mount
+from rotator.assembly.sky import build_sky
 from rotator.assembly.station import Station
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.config.load import parse
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount, Range
 from rotator.monitor.tap import Tap
+from rotator.orbits.celestial import Sky
+from rotator.orbits.earth import Site
 from rotator.orders import Aim, Order, Refusal
 from rotator.protocols import pstrotatoraz
 from rotator.protocols.pstrotatoraz import response
 from rotator.protocols.reference.gs232 import Example
-from rotator.protocols.sky import Site, Sky
 from rotator.runtime.loop import ControlLoop
 
 SKY = Sky(Site(52.5, 13.4), lambda: 1.8e9)

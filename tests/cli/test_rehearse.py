@@ -170,7 +170,7 @@ def test_a_bad_pass(rotator: Rotator, tmp_path: Path, text: str | None, said: st
         (("--via", "telepathy"), "'telepathy' is not one of", 2),
         (("--fault", "gremlins"), "no fault called gremlins", 2),
         (("--arduino", "--fault", "adc-gone"), "--fault is for the box", 2),
-        (("--config", "nowhere.toml"), "nowhere.toml: 1 fault", 2),
+        (("--config", "nowhere.toml"), "nowhere.toml: 1 mistake", 2),
         (("--trace", "nowhere/trace.csv"), "nowhere/trace.csv: cannot be written: No such file or directory", 1),
     ],
 )

@@ -71,8 +71,8 @@ def test_every_fault_of_the_file_at_once_and_nothing_touched(rotator: Rotator, c
     assert done.returncode == 2
     assert done.stdout == ""
     first, *faults = done.stderr.splitlines()
-    assert first == f"{config}: 5 faults"
-    keys = [fault.strip().split(" ")[0] for fault in faults]
+    assert first == f"{config}: 5 mistakes"
+    keys = [fault.strip().split(" ")[2] for fault in faults]
     assert keys == [
         "rotor.hardware",
         "rotor.hardwear",
@@ -91,7 +91,7 @@ def test_a_file_that_cannot_be_read(rotator: Rotator, tmp_path: Path, content: b
         path.write_bytes(content)
     done = rotator("run", "--config", path)
     assert done.returncode == 2
-    assert done.stderr.startswith(f"{path}: 1 fault\n  ")
+    assert done.stderr.startswith(f"{path}: 1 mistake\n  ")
     assert "Traceback" not in done.stderr
 
 

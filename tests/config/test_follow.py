@@ -11,7 +11,7 @@ def faults(text: str) -> list[str]:
     try:
         parse(text, "x")
     except ConfigError as refused:
-        return refused.faults
+        return [mistake.text for mistake in refused.mistakes]
     return []
 
 
@@ -52,7 +52,7 @@ def test_it_has_a_place_and_a_pace() -> None:
             link("rotctld-follow", connect="a:1") + "poll_s = 0\n",
             "link[0].poll_s = 0: must be greater than or equal to 0.02",
         ),
-        (link("rotctld-follow", connect="a:1") * 2, "2 links use a:1"),
+        (link("rotctld-follow", connect="a:1") * 2, "2 links use a:1: link[0] and link[1]"),
     ],
 )
 def test_one_fault(text: str, said: str) -> None:

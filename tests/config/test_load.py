@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import get_args
 
@@ -18,7 +19,7 @@ def faults(text: str) -> list[str]:
     with pytest.raises(ConfigError) as refused:
         parse(text, "station.toml")
     assert refused.value.name == "station.toml"
-    return refused.value.faults
+    return [mistake.text for mistake in refused.value.mistakes]
 
 
 # --- a good file
@@ -102,11 +103,14 @@ def test_it_may_be_read_by_path(tmp_path: Path) -> None:
         ("[azimuth]\ntolerance_deg = 0\n", "azimuth.tolerance_deg = 0: must be greater than 0"),
         ("[azimuth]\ntolerance_deg = 46\n", "azimuth.tolerance_deg = 46: must be less than or equal to 45"),
         ("[azimuth]\nmin_deg = nan\n", "azimuth.min_deg = nan: must be a finite number"),
-        ("[azimuth]\nmin_deg = true\n", "azimuth.min_deg = True: must be a number"),
+        ("[azimuth]\nmin_deg = true\n", "azimuth.min_deg = true: must be a number"),
         ("[relays]\nazimuth_cw = 2.5\n", "relays.azimuth_cw = 2.5: must be a whole number"),
         ("[relays]\nazimuth_cw = 58\n", "relays.azimuth_cw = 58: must be less than or equal to 57"),
-        ("[azimuth]\ndirection_checked = 'yes'\n", 'azimuth.direction_checked = "yes": must be true or false'),
-        ("[relays]\nchip = 0\n", "relays.chip = 0: must be text in quotes"),
+        (
+            "[azimuth]\ndirection_checked = 'yes'\n",
+            'azimuth.direction_checked = "yes": must be true or false; write true without quotes',
+        ),
+        ("[relays]\nchip = 0\n", 'relays.chip = 0: must be text in quotes; write "0"'),
         ("azimuth = 4\n", "azimuth = 4: must be a table"),
         ("link = 4\n", "link = 4: must be a list in brackets"),
         ("[azimuth]\ncalibration = 1\n", "azimuth.calibration = 1: must be a list in brackets"),
@@ -125,7 +129,7 @@ def test_it_may_be_read_by_path(tmp_path: Path) -> None:
             "[[link]]\nprotocol = 'rotctld'\ntcp = '4533'\n",
             'link[0].tcp: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
         ),
-        ("[azimuth]\nmin_deg = 360\nmax_deg = 0\n", "azimuth: min_deg (360) must be below max_deg (0)"),
+        ("[azimuth]\nmin_deg = 360\nmax_deg = 0\n", "azimuth: min_deg (360) must be below max_deg (0): swap the two"),
         (
             "[azimuth]\ncalibration = [[0.1, 0]]\n",
             "azimuth: calibration needs two points or more, each [reading, degrees]",
@@ -144,9 +148,9 @@ def test_one_fault(text: str, said: str) -> None:
     assert faults(text) == [said]
 
 
-def test_a_misspelt_key_gets_a_suggestion_and_the_list() -> None:
+def test_a_misspelt_key_gets_a_suggestion() -> None:
     (fault,) = faults('[rotor]\nhardwear = "pi"\n')
-    assert fault == 'rotor.hardwear = "pi": no such key; did you mean hardware?; known here: type, hardware'
+    assert fault == 'rotor.hardwear = "pi": no such key; did you mean hardware?'
 
 
 @pytest.mark.parametrize(
@@ -161,7 +165,7 @@ def test_a_misspelt_key_gets_a_suggestion_and_the_list() -> None:
 def test_wherever_it_is_misspelt(text: str, key: str, meant: str) -> None:
     (fault,) = faults(text)
     assert fault.startswith(f"{key} = ")
-    assert f": no such key; did you mean {meant}?; known here: " in fault
+    assert fault.endswith(f": no such key; did you mean {meant}?")
 
 
 def test_a_key_like_no_other_gets_no_suggestion() -> None:
@@ -178,32 +182,37 @@ def test_a_long_value_is_not_shown_whole() -> None:
 # --- files that are none
 
 
-def test_not_toml() -> None:
-    (fault,) = faults("[azimuth\nmin_deg = 0\n")
-    assert fault.startswith("is not TOML: ")
-    assert "line 1" in fault
-
-
-def test_a_key_twice_is_not_toml() -> None:
-    (fault,) = faults("[azimuth]\nmin_deg = 0\nmin_deg = 1\n")
-    assert fault.startswith("is not TOML: ")
-    assert "line 3" in fault
-
-
 def test_not_there(tmp_path: Path) -> None:
     path = tmp_path / "none.toml"
-    with pytest.raises(ConfigError) as refused:
+    with pytest.raises(ConfigError, match=r"there is no such file: `rotator config g5500 > .*none\.toml` makes one"):
         load(path)
-    assert str(refused.value) == (f"{path}: 1 fault\n  cannot be read: [Errno 2] No such file or directory: '{path}'")
+
+
+def test_not_there_but_one_like_it(tmp_path: Path) -> None:
+    (tmp_path / "rotator.toml").write_text(LINK)
+    with pytest.raises(ConfigError, match=r"did you mean .*/rotator\.toml\?"):
+        load(tmp_path / "rotater.toml")
 
 
 def test_a_folder(tmp_path: Path) -> None:
-    with pytest.raises(ConfigError, match=r"cannot be read: .*Is a directory"):
+    with pytest.raises(ConfigError, match="is a folder: name the file in it"):
         load(tmp_path)
 
 
-def test_not_utf_8(tmp_path: Path) -> None:
-    path = tmp_path / "latin.toml"
-    path.write_bytes("# Grüße\n".encode("latin-1"))
-    with pytest.raises(ConfigError, match="cannot be read: 'utf-8' codec can't decode"):
+def test_another_persons_file(tmp_path: Path) -> None:
+    path = tmp_path / "secret.toml"
+    path.write_text(LINK)
+    path.chmod(0)
+    if os.access(path, os.R_OK):
+        pytest.skip("root may read every file")
+    with pytest.raises(ConfigError, match="you may not read it: put sudo before the command"):
+        load(path)
+
+
+@pytest.mark.parametrize("text", ["", "\n\n", "# all of it is a remark\n"])
+def test_a_file_without_a_key(tmp_path: Path, text: str) -> None:
+    """As a shell leaves it when the command before `>` has failed: it is no simulated rotor that somebody wants."""
+    path = tmp_path / "empty.toml"
+    path.write_text(text)
+    with pytest.raises(ConfigError, match="is empty: `rotator config g5500 > "):
         load(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from typing import Any
 
@@ -20,7 +21,7 @@ def faults(text: str) -> list[str]:
     with pytest.raises(ConfigError) as refused:
         parse(text, "station.toml")
     assert refused.value.name == "station.toml"
-    return refused.value.faults
+    return [mistake.text for mistake in refused.value.mistakes]
 
 
 # --- several at once
@@ -48,14 +49,16 @@ def test_every_fault_at_once() -> None:
     with pytest.raises(ConfigError) as refused:
         parse(text, "station.toml")
     first, *rest = str(refused.value).splitlines()
-    assert first == "station.toml: 7 faults"
+    assert first == "station.toml: 7 mistakes"
     assert all(line.startswith("  ") for line in rest)
-    found = {line.strip() for line in rest if "no such key" not in line}
+    numbers = [int(line.split(":")[0].split()[-1]) for line in rest]
+    assert numbers == sorted(numbers), "in the order of the file"
+    found = {re.sub(r"^ *lines? [\d and]+: ", "", line) for line in rest if "no such key" not in line}
     assert found == {
         'rotor.hardware = "pie": must be one of sim, pi; did you mean pi?',
         "azimuth.tolerance_deg = -1: must be greater than 0",
-        "elevation: min_deg (90) must be below max_deg (0)",
-        'relays.azimuth_cw = "22": must be a whole number',
+        "elevation: min_deg (90) must be below max_deg (0): swap the two",
+        'relays.azimuth_cw = "22": must be a whole number; write 22 without quotes',
         'link[0].protocol = "gs232": must be one of gs232a, gs232b, gs232-f1efw, rotctld, rotctld-follow, easycomm1, '
         "easycomm2, easycomm3, rot1prog, rot2prog, md01, dcu1, pstrotator, n1mm, macdoppler, wsjtx, "
         "lx200, stellarium, pstrotatoraz, prosistel-d, prosistel-c, rc2800; "
@@ -63,14 +66,14 @@ def test_every_fault_at_once() -> None:
         'link[1].tcp: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
     }
     assert any(
-        line.startswith("  azimuth.tolerence_deg = 4: no such key; did you mean tolerance_deg?") for line in rest
+        line.endswith("  line 6: azimuth.tolerence_deg = 4: no such key; did you mean tolerance_deg?") for line in rest
     )
 
 
 def test_a_single_fault_is_one_fault() -> None:
     with pytest.raises(ConfigError) as refused:
         parse("[azimuth]\ntolerance_deg = -1\n", "a.toml")
-    assert str(refused.value) == "a.toml: 1 fault\n  azimuth.tolerance_deg = -1: must be greater than 0"
+    assert str(refused.value) == "a.toml: 1 mistake\n  line 2: azimuth.tolerance_deg = -1: must be greater than 0"
 
 
 def test_one_fault_does_not_hide_another() -> None:
@@ -111,8 +114,8 @@ def test_no_fault_is_told_twice() -> None:
         ("[lcd]\nkind = 'gpio'\nrs = 22\n", "GPIO 22 is used by relays.azimuth_cw and lcd.rs"),
         ("[lcd]\nkind = 'gpio'\nd4 = 6\n", "GPIO 6 is used by lcd.d4 and lcd.d5"),
         ("[lcd]\nkind = 'pcf8574'\naddress = 0x48\n", "lcd.address and adc.address are both 0x48 on bus 1"),
-        (LINK * 2, "2 links use run/gs232"),
-        (LINK * 3, "3 links use run/gs232"),
+        (LINK * 2, "2 links use run/gs232: link[0] and link[1]"),
+        (LINK * 3, "3 links use run/gs232: link[0] and link[1] and link[2]"),
         (
             "[adc]\nelevation_channel = 0\n",
             "adc: azimuth_channel, elevation_channel and reference_channel must differ",
@@ -168,7 +171,7 @@ def test_it_loads_or_says_what_is_wrong(said: dict[str, Any], linked: list[Any])
     try:
         parse(text, "any.toml")
     except ConfigError as refused:
-        found = refused.faults
+        found = [mistake.text for mistake in refused.mistakes]
     else:
         found = ["none"]
     assert found

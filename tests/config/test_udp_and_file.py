@@ -11,7 +11,7 @@ def faults(text: str) -> list[str]:
     try:
         parse(text, "x")
     except ConfigError as refused:
-        return refused.faults
+        return [mistake.text for mistake in refused.mistakes]
     return []
 
 
@@ -39,7 +39,9 @@ def test_a_file_link() -> None:
 def test_tcp_and_udp_are_different_places() -> None:
     both = link("rotctld", tcp="127.0.0.1:12000") + link("pstrotator", udp="127.0.0.1:12000")
     assert faults(both) == []
-    assert faults(link("n1mm", udp="0.0.0.0:1") + link("macdoppler", udp="0.0.0.0:1")) == ["2 links use 0.0.0.0:1"]
+    assert faults(link("n1mm", udp="0.0.0.0:1") + link("macdoppler", udp="0.0.0.0:1")) == [
+        "2 links use 0.0.0.0:1: link[0] and link[1]"
+    ]
 
 
 @pytest.mark.parametrize(

@@ -92,8 +92,34 @@ def test_a_file_of_the_user_s_is_refused_and_left_alone(link: PtyLink, path: Pat
     path.write_text("a log of mine\n")
     with pytest.raises(LinkError) as refused:
         asyncio.run(link.open())
-    assert str(refused.value) == f"{path}: cannot be made a link to a terminal: File exists"
+    assert str(refused.value) == (
+        f"{path}: there is a file already, where pty makes a port: move it, or name another path"
+    )
     assert path.read_text() == "a log of mine\n"
+
+
+@pytest.mark.parametrize("orders", ["W180 045\r", "S\r", "C2\nS\n", "P 180 45\n", "AZ10.5 EL2.0\n", "", "p\np\np\n"])
+def test_orders_written_while_no_box_ran_are_moved_aside(
+    link: PtyLink, path: Path, running: Running, orders: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    """A shell makes a plain file of `printf 'W180 045\\r' > run/gs232` then: it must not keep the box from starting."""
+    path.parent.mkdir()
+    path.write_bytes(orders.encode())
+
+    async def look() -> None:
+        async with running(link):
+            assert os.readlink(path).startswith("/dev/pts/")
+
+    asyncio.run(look())
+    assert path.with_name("gs232.was-a-file").read_bytes() == orders.encode()
+    assert "written while no box was running" in caplog.text
+
+
+def test_a_device_in_its_place_is_a_serial_port(wire: Wire, bench: Any) -> None:
+    link = PtyLink(wire, Path("/dev/null"), bench.gs232)
+    with pytest.raises(LinkError, match="there is a device already") as refused:
+        link._clear_the_place()
+    assert 'write serial = "..."' in str(refused.value)
 
 
 def test_a_place_that_cannot_be_is_refused(link: PtyLink, path: Path) -> None:

@@ -14,10 +14,11 @@ from hypothesis import strategies as st
 from hw.ports import Axis
 from rotator.assembly.links import session_maker
 from rotator.config.links import FOLLOW, Link, ProtocolName
+from rotator.orbits.celestial import Sky
+from rotator.orbits.earth import Site
 from rotator.orders import Calibrate
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import NotUnderstood
-from rotator.protocols.sky import Site, Sky
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from rotator.faults import Missing
+from rotator.orbits.earth import Site
 from rotator.orders import Aim, Order, Park, Stop
 from rotator.protocols.pstrotator import TAGS, Item, PstRotatorSession, encode, parse
-from rotator.protocols.sky import Site
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox

@@ -14,9 +14,10 @@ import pytest
 from rotator.assembly.links import session_maker
 from rotator.config.links import FOLLOW, Link, ProtocolName
 from rotator.monitor.transcript import At, LinkNote, Piece, Way, parse
+from rotator.orbits.celestial import Sky
+from rotator.orbits.earth import Site
 from rotator.orders import Order, Refusal
 from rotator.protocols.session import Session
-from rotator.protocols.sky import Site, Sky
 from rotator.status import Status
 
 if TYPE_CHECKING:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis
+from rotator.orbits.celestial import Equinox, Sky, Star
+from rotator.orbits.earth import Site
 from rotator.orders import Aim, Park, Source, Stop
-from rotator.protocols.sky import Equinox, Site, Sky, Star
 from rotator.protocols.star_follower import LATE_BEATS, StarFollower
 
 if TYPE_CHECKING:

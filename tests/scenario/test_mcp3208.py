@@ -73,7 +73,7 @@ def test_a_converter_that_goes_stops_the_motors(text: str, name: str) -> None:
 def test_a_table_that_cannot_be(text: str, said: str) -> None:
     with pytest.raises(ConfigError) as refused:
         parse(text, "box")
-    assert [fault.startswith(said) for fault in refused.value.faults] == [True], refused.value.faults
+    assert [mistake.text.startswith(said) for mistake in refused.value.mistakes] == [True], refused.value.mistakes
 
 
 def test_beside_digital_pots_it_shares_the_kernels_wires() -> None:

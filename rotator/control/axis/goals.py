@@ -23,7 +23,7 @@ class JogGoal:
     direction: Direction
     until_s: float | None
     """None: until it is halted, or at its limit."""
-    waits_s: float = 0.0
+    waits_s: float = LONGEST_WAIT_S
     """For so long more its time does not pass while its relay may not close yet."""
     end_deg: float | None = None
     """Where it comes to rest before a forbidden sector; None: no sector was near yet."""
@@ -47,16 +47,10 @@ def limit_reached(axis: Axis, direction: Direction) -> Fault:
     return Fault(FaultKind.LIMIT_SWITCH, axis, measured)
 
 
-def jog(
-    direction: Direction, seconds: float | None, now_s: float, *, commissioned: bool, attended: bool = False
-) -> JogGoal | None:
-    """The goal of an order to jog; None: to stop. An axis that is not commissioned obeys short presses only.
-
-    `attended`: the one who presses watches the antenna; the press is as long though its relay waits first.
-    """
+def jog(direction: Direction, seconds: float | None, now_s: float, *, commissioned: bool) -> JogGoal | None:
+    """The goal of an order to jog; None: to stop. An axis that is not commissioned obeys short presses only."""
     if direction is Direction.OFF:
         return None
     if not commissioned:
         seconds = UNCALIBRATED_JOG_S if seconds is None else min(seconds, UNCALIBRATED_JOG_S)
-    waits_s = LONGEST_WAIT_S if attended else 0.0
-    return JogGoal(direction, None if seconds is None else now_s + seconds, waits_s)
+    return JogGoal(direction, None if seconds is None else now_s + seconds)

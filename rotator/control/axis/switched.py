@@ -111,7 +111,7 @@ class SwitchedAxis:
         self._goal = goal
 
     def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
-        self._goal = jog(direction, seconds, now_s, commissioned=not self.missing, attended=self.settings.attended)
+        self._goal = jog(direction, seconds, now_s, commissioned=not self.missing)
 
     def home(self) -> None:
         """Find the end stop. Raises ValueError where the axis does not count."""

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import itertools
 
+from rotator.orbits.celestial import Equinox, Sky, Star
+from rotator.orbits.earth import Site
 from rotator.protocols import lx200, stellarium
 from rotator.protocols.lx200_session import Lx200Session
 from rotator.protocols.reference.gs232 import Example, shown, table
-from rotator.protocols.sky import Equinox, Site, Sky, Star
 from rotator.protocols.stellarium import Goto, StellariumSession
 
 AT_S = 1_798_761_600.0

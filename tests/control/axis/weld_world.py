@@ -100,7 +100,7 @@ class WeldWorld:
                 self._strike()
             pause_s = self.now_s + self.chance.choice(PAUSES_S)
             while self.now_s < pause_s:
-                self._cycle()
+                self.cycle()
 
     def _program(self, trusts: Trusts) -> SwitchedAxis:
         line = Calibration(((0.05, 0.0), (0.95, self.high_deg))) if self._calibrated else None
@@ -152,7 +152,7 @@ class WeldWorld:
             self.motor.advance(self.now_s)
             self.motor.welded, self._weld = 0, None
 
-    def _cycle(self) -> None:
+    def cycle(self) -> None:
         self._relays.expire(self.now_s + CYCLE_S, self.now_s)
         self.now_s += CYCLE_S
         self.motor.advance(self.now_s)

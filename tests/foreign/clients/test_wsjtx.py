@@ -13,7 +13,7 @@ from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 
-from rotator.protocols.locator import from_locator, to_locator
+from rotator.orbits.locator import from_locator, to_locator
 from tests.gpredict.sky import Station, apart_deg
 from tests.gpredict.window import screen
 from tests.machines.shack import Shack

@@ -226,6 +226,43 @@ def test_a_broken_select_leaves_the_chip_in_the_middle() -> None:
     assert bench.antenna(AZ) == pytest.approx(180.0, abs=BAND_DEG)
 
 
+def watched(bench: Bench, seconds: float, *, aim_deg: float | None = None) -> None:
+    """Its pot is read 20 times a second, while it is aimed, or held."""
+    for _ in range(round(seconds / CYCLE_S)):
+        if aim_deg is None:
+            bench.drive.hold(AZ)
+        else:
+            bench.drive.aim(AZ, aim_deg, 0.0, bench.clock() + 0.25)
+        bench.clock.sleep(CYCLE_S)
+        bench.drive.found(AZ, bench.antenna(AZ))
+
+
+def test_a_measured_box_that_does_not_hear_its_chip_loses_its_supply_after_4_degrees() -> None:
+    bench = Bench()
+    bench.rotor.inject("azimuth-select-broken")
+    watched(bench, 0.3, aim_deg=20.0)
+    watched(bench, 10.0)
+    assert bench.antenna(AZ) == pytest.approx(40.0, abs=6.0)
+
+
+def test_it_gets_no_supply_from_an_aim_before_it_was_held() -> None:
+    bench = Bench()
+    bench.rotor.inject("azimuth-select-broken")
+    watched(bench, 10.0, aim_deg=20.0)
+    assert bench.antenna(AZ) == pytest.approx(40.0, abs=6.0)
+
+
+def test_a_measured_box_whose_chip_forgot_turns_back_before_the_next_refresh() -> None:
+    bench = Bench()
+    watched(bench, 15.0, aim_deg=100.0)
+    bench.clock.sleep(0.05)
+    bench.rotor.inject("azimuth-chip-dips")
+    watched(bench, 0.6, aim_deg=100.0)
+    assert bench.rotor.azimuth.chip.step == pytest.approx(71, abs=3)
+    watched(bench, 5.0, aim_deg=100.0)
+    assert bench.antenna(AZ) == pytest.approx(100.0, abs=BAND_DEG)
+
+
 @pytest.mark.parametrize("steps", [((0.0, 0.0), (360.0, 300.0)), ((0.0, -5.0), (360.0, 255.0))])
 def test_steps_that_are_none(steps: tuple[tuple[float, float], ...]) -> None:
     bench = Bench()

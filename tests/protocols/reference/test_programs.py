@@ -9,9 +9,10 @@ import pytest
 
 from rotator.assembly.links import session_maker
 from rotator.config.links import Link, ProtocolName
+from rotator.orbits.celestial import Sky
+from rotator.orbits.earth import Site
 from rotator.orders import Order
 from rotator.protocols.reference.programs import PROGRAMS, Program, programs_table
-from rotator.protocols.sky import Site, Sky
 from rotator.status import AxisStatus, Status
 
 PAGE = Path(__file__).parents[3] / "docs" / "reference" / "programs.md"

@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.protocols.earth import direction
-from rotator.protocols.sky import Site
+from rotator.orbits.earth import Site, direction
 
 BERLIN = Site(52.52, 13.405, 34)
 PLACES = st.builds(Site, st.floats(-89, 89), st.floats(-180, 180), st.floats(0, 40_000))

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.protocols.locator import (
+from rotator.orbits.locator import (
     KM_PER_DEG,
     distance_and_bearing,
     from_dms,

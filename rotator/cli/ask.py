@@ -1,0 +1,156 @@
+"""`rotator config --ask`: asks for rotor, link, display, network and place, and writes the file that comes of it.
+
+Knows the dialogue: numbers, Enter, back, help, and that an interrupted one writes nothing. `rotator.setup.questions`
+has the questions, `new_file` makes the text.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import textwrap
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from datetime import date
+from pathlib import Path
+
+import click
+
+from rotator.config.load import SIMULATED, parse
+from rotator.setup import tree
+from rotator.setup.machine import Machine, this_machine
+from rotator.setup.new_file import for_the_service, new_file
+from rotator.setup.plan import Change, ChangeSet, SetupError
+from rotator.setup.questions import Question, questions
+
+SERVICE_FILE = Path("/etc/rotator/rotator.toml")
+BACK, HELP = ("b", "back", "<"), ("?", "h", "help")
+
+
+class Dialogue:
+    """Questions and answers in a terminal, or on lines in and out. An end of the input ends it: nothing is written."""
+
+    def __init__(self, read: Callable[[], str], columns: int) -> None:
+        self._read = read
+        self._columns = max(30, min(columns, 100))
+
+    def say(self, text: str, indent: str = "", hanging: str = "") -> None:
+        rows = textwrap.wrap(text, self._columns - 1, initial_indent=indent, subsequent_indent=hanging or indent,
+                             break_on_hyphens=False)  # fmt: skip
+        click.echo("\n".join(rows))
+
+    def answer(self, question: Question, number: str) -> str | None:
+        """The answer, None for back. Asks until it is one."""
+        click.echo()
+        self.say(f"{number}{question.text}", hanging=" " * len(number))
+        for at, choice in enumerate(question.choices, 1):
+            self.say(choice.words, f"{at:>4}  ", " " * 6)
+        self.say(question.help, "    ")
+        offered = [choice.answer for choice in question.choices]
+        default = str(offered.index(question.default) + 1) if question.default in offered else question.default
+        while True:
+            click.echo(f"  [{default or 'Enter: leave it out'}] > ", nl=False)
+            typed = self._read().strip()
+            if typed.lower() in BACK:
+                return None
+            if typed in HELP:
+                self.say("Enter takes what is in brackets; b goes back; Ctrl-C ends and writes nothing.", "    ")
+                continue
+            if not typed:
+                return question.default
+            if typed.isdigit() and 1 <= int(typed) <= len(offered):
+                return self._echoed(offered[int(typed) - 1], question)
+            if typed in offered:
+                return self._echoed(typed, question)
+            if offered and question.understood is str.strip:
+                self.say(f'"{typed}": type a number from 1 to {len(offered)}, or Enter for {default}', "    ")
+                continue
+            try:
+                return self._echoed(question.understood(typed), question)
+            except ValueError as fault:
+                self.say(str(fault), "    ")
+
+    def _echoed(self, answer: str, question: Question) -> str:
+        """What was understood, where it is not what was typed."""
+        if not question.choices:
+            click.echo(f"    = {answer}")
+        return answer
+
+
+def ask(name: str, to: Path | None, *, today: Callable[[], date] = date.today, machine: Machine | None = None) -> None:
+    """Ask, show where the file goes, and write it. Raises SetupError; then nothing is written."""
+    path = to or (SERVICE_FILE if SERVICE_FILE.parent.is_dir() else Path("rotator.toml"))
+    dialogue = Dialogue(_line, shutil.get_terminal_size().columns)
+    try:
+        dialogue.say("A few questions, and your configuration file is written. Enter takes the answer in brackets, "
+                     "b goes back, ? helps, Ctrl-C ends and writes nothing.")  # fmt: skip
+        answers = _answers(dialogue, machine or this_machine(), name)
+        text = f"# Written by `rotator config --ask` on {today().isoformat()}.\n{new_file(answers)}"
+        if path == SERVICE_FILE:
+            text = for_the_service(text)
+        parse(text, str(path))
+        click.echo()
+        _write(dialogue, path, text, today())
+    except (click.Abort, KeyboardInterrupt, EOFError):
+        click.echo()
+        raise SetupError("nothing was written") from None
+    _what_next(dialogue, path, answers)
+
+
+def _answers(dialogue: Dialogue, machine: Machine, name: str) -> dict[str, str]:
+    answers: dict[str, str] = {}
+    given: list[str] = []
+    while question := next((each for each in questions(answers, machine) if each.name not in answers), None):
+        if question.name == "rotor" and name != SIMULATED:
+            question = replace(question, default=name)
+        answer = dialogue.answer(question, f"{len(given) + 1}. ")
+        if answer is not None:
+            answers[question.name] = answer
+            given.append(question.name)
+        elif given:
+            # Later questions depend on this answer: they are asked again.
+            answers.pop(given.pop())
+        else:
+            dialogue.say("This is the first question.", "    ")
+    return answers
+
+
+def _write(dialogue: Dialogue, path: Path, text: str, today: date) -> None:
+    before = tree.read(path)[path]
+    if before is None:
+        click.echo(f"Write {path}? [Y/n] ", nl=False)
+    else:
+        dialogue.say(f"{path} is there already. It can be replaced; a copy of it is kept beside it.")
+        click.echo("Replace it? [y/N] ", nl=False)
+    if (_line().strip().lower() or ("y" if before is None else "n")) not in ("y", "yes"):
+        raise click.Abort
+    plan = ChangeSet((Change(path, before, text, copied=True),))
+    if reason := tree.hindrance(plan):
+        raise SetupError(f"{reason}. Nothing was written")
+    for copy in tree.carry_out(plan, today):
+        dialogue.say(f"The file as it was: {copy}")
+    if before is None:
+        folder = path.resolve().parent.stat()
+        with suppress(PermissionError):  # the service saves calibrations in it
+            os.chown(path, folder.st_uid, folder.st_gid)
+
+
+def _what_next(dialogue: Dialogue, path: Path, answers: dict[str, str]) -> None:
+    dialogue.say(f"{path} is written. Next:")
+    if path == SERVICE_FILE:
+        click.echo("  sudo systemctl restart rotator")
+    else:
+        click.echo(f"  rotator run --config {path}")
+    if answers["hardware"] == "pi":
+        click.echo(f"  rotator doctor --config {path}\n  rotator calibrate --config {path}")
+    if answers["network"] != "here":
+        click.echo("  sudo rotator setup network      # its name, and a test from the PC")
+
+
+def _line() -> str:
+    text = sys.stdin.readline()
+    if not text:
+        raise EOFError
+    return text

@@ -1,0 +1,66 @@
+"""A mistake in a configuration file: what is wrong there, what to write instead, and its lines; and all of one file.
+
+Knows how a mistake is shown. Finds none.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+NO_BREAK = "\u00a0"
+"""A space in a text at which no line ends."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    text: str
+    lines: tuple[int, ...] = ()
+    """The lines of the file that it is about, from 1; empty where no line is to blame."""
+
+    def __str__(self) -> str:
+        return self._said().replace(NO_BREAK, " ")
+
+    def wrapped(self, columns: int) -> str:
+        """No word is broken unless it is longer than a line, and what is to be written stays together."""
+        rows = textwrap.fill(
+            self._said(), columns, initial_indent="  ", subsequent_indent="    ", break_on_hyphens=False
+        )
+        return rows.replace(NO_BREAK, " ")
+
+    def _said(self) -> str:
+        text = "".join(
+            mark if mark.isprintable() or mark == NO_BREAK else mark.encode("unicode_escape").decode()
+            for mark in self.text
+        )
+        if not self.lines:
+            return text
+        *first, last = self.lines
+        where = f"lines {', '.join(map(str, first))} and {last}" if first else f"line {last}"
+        return f"{where}: {text}"
+
+    @property
+    def place(self) -> int:
+        """For the order of the file: first what concerns the whole of it."""
+        return self.lines[0] if self.lines else 0
+
+
+class ConfigError(Exception):
+    """The file cannot be used. `mistakes`: one for each thing to change, in the order of the file."""
+
+    def __init__(self, name: str, mistakes: Sequence[Mistake]) -> None:
+        super().__init__(name, mistakes)
+        self.name = name
+        self.mistakes = sorted(dict.fromkeys(mistakes), key=lambda mistake: mistake.place)
+
+    def __str__(self) -> str:
+        return "\n".join((self._heading, *(f"  {mistake}" for mistake in self.mistakes)))
+
+    def wrapped(self, columns: int) -> str:
+        """As `str`, for a terminal of this width."""
+        return "\n".join((self._heading, *(mistake.wrapped(columns) for mistake in self.mistakes)))
+
+    @property
+    def _heading(self) -> str:
+        return f"{self.name}: {'1 mistake' if len(self.mistakes) == 1 else f'{len(self.mistakes)} mistakes'}"

@@ -1,0 +1,181 @@
+"""Words for a value that the model refuses: the key, what was found, and what to write instead.
+
+Knows the errors of pydantic, and the slips that a value shows: a number in quotes, a unit, a key of another table. Does
+not know lines.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterator, Mapping
+from functools import cache
+from typing import Any, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic_core import ErrorDetails
+
+from rotator.config.model import Config
+from rotator.config.rotor_names import type_of
+
+_KINDS = {
+    "float": "a number",
+    "int": "a whole number",
+    "bool": "true or false",
+    "string": "text in quotes",
+    "list": "a list in brackets",
+    "tuple": "a pair of numbers in brackets",
+    "model": "a table",
+}
+"""The first word of a pydantic error type, in words for the user."""
+_SYNONYMS = {
+    "port": ("serial", "tcp"), "com": ("serial",), "comport": ("serial",), "device": ("serial",), "tty": ("serial",),
+    "host": ("tcp",), "listen": ("tcp",), "address": ("tcp",), "ip": ("tcp",), "speed": ("speed_dps", "baud"),
+    "lat": ("latitude_deg",), "lon": ("longitude_deg",), "long": ("longitude_deg",), "height": ("altitude_m",),
+    "grid": ("locator",), "gridsquare": ("locator",), "qth": ("locator",), "model": ("type",), "name": ("type",),
+    "tolerance": ("tolerance_deg",), "cw": ("azimuth_cw",), "ccw": ("azimuth_ccw",), "left": ("azimuth_ccw",),
+    "right": ("azimuth_cw",), "up": ("elevation_up",), "down": ("elevation_down",), "min": ("min_deg",),
+    "max": ("max_deg",), "offset": ("offset_deg",),
+}  # fmt: skip
+_YES, _NO = ("yes", "on", "true", "1", "ja", "oui"), ("no", "off", "false", "0", "nein", "non")
+
+
+def explain(error: ErrorDetails) -> str:
+    """One mistake: the key, its value, what is allowed, and what was probably meant."""
+    place = list(error["loc"])
+    key = written(place)
+    value = error["input"]
+    context: Mapping[str, Any] = error.get("ctx", {})
+    match error["type"]:
+        case "extra_forbidden":
+            return f"{key} = {show(value)}: no such key{_right_key(place)}"
+        case "missing":
+            return f"{key}: must be given"
+        case "literal_error":
+            allowed = [str(choice) for choice in _choices(context)]
+            said = f"{key} = {show(value)}: must be one of {', '.join(allowed)}"
+            return said + (_right_choice(value, allowed) or (_right_type(value) if key == "rotor.type" else ""))
+        case "value_error" if not place:
+            return str(context["error"])
+        case "value_error":
+            return f"{key}: {context['error']}"
+        case "too_long" | "too_short" if isinstance(value, (list, tuple)) and len(place) > 1:
+            return f"{key} = {show(value)}: {_right_pair(value, error['msg'])}"
+        case kind:
+            sort = kind.split("_")[0]
+            expected = _KINDS.get(sort) if kind.endswith(("_type", "_parsing")) else None
+            expected = expected or error["msg"].removeprefix("Input should be ")
+            return f"{key} = {show(value)}: must be {expected}{_right_value(sort, value)}"
+
+
+def written(place: list[int | str]) -> str:
+    """As the page names a key: `link[0].pty`."""
+    text = ""
+    for part in place:
+        text += f"[{part}]" if isinstance(part, int) else f".{part}"
+    return text.removeprefix(".")
+
+
+def show(value: object) -> str:
+    """A value as TOML writes it, if that is short."""
+    match value:
+        case bool():
+            text = "true" if value else "false"
+        case str():
+            text = f'"{value}"'
+        case dict():
+            text = "{ " + ", ".join(f"{key} = {show(each)}" for key, each in value.items()) + " }"
+        case list() | tuple():
+            text = f"[{', '.join(show(each) for each in value)}]"
+        case _:
+            text = f"{value}"
+    text = text if text.isprintable() else ascii(text)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+@cache
+def tables() -> tuple[tuple[str, type[BaseModel], bool], ...]:
+    """Each table of the file by its name, and whether there may be several."""
+    return tuple(_tables_in("", Config))
+
+
+def _tables_in(prefix: str, table: type[BaseModel]) -> Iterator[tuple[str, type[BaseModel], bool]]:
+    for name, field in table.model_fields.items():
+        several = get_origin(field.annotation) is list
+        for kind in (field.annotation, *get_args(field.annotation)):
+            if isinstance(kind, type) and issubclass(kind, BaseModel):
+                yield f"{prefix}{name}", kind, several
+                yield from _tables_in(f"{prefix}{name}.", kind)
+
+
+def _right_key(place: list[int | str]) -> str:
+    """What was meant by a key that the table at `place` does not have."""
+    name = str(place[-1])
+    here = ".".join(str(part) for part in place[:-1] if isinstance(part, str))
+    models = {table: model for table, model, _ in tables()}
+    known = list(models.get(here, Config).model_fields)
+    if meant := [key for key in _SYNONYMS.get(name.lower(), ()) if key in known]:
+        return f"; did you mean {' or '.join(meant)}?"
+    if near := _near(name.lower(), known, 0.75):
+        return f"; did you mean {near}?"
+    elsewhere = [table for table, model in models.items() if name in model.model_fields and table != here]
+    if elsewhere:
+        return f"; it belongs below {_or([_heading(table) for table in elsewhere[:4]])}"
+    near = _near(name.lower(), known, 0.6)
+    return f"; did you mean {near}?" if near else f"; known here: {', '.join(known)}"
+
+
+def _heading(name: str) -> str:
+    return f"[[{name}]]" if next(several for table, _, several in tables() if table == name) else f"[{name}]"
+
+
+def _right_type(value: object) -> str:
+    advice = type_of(value) if isinstance(value, str) else None
+    return f"; {advice}" if advice else ""
+
+
+def _right_choice(value: object, allowed: list[str]) -> str:
+    if isinstance(value, str) and value in allowed:
+        return f"; write {value} without quotes"
+    near = _near(str(value).lower(), allowed, 0.6)
+    return f"; did you mean {near}?" if near else ""
+
+
+def _right_pair(value: list[Any] | tuple[Any, ...], reason: str) -> str:
+    if len(value) in (3, 4) and all(isinstance(each, int | float) for each in value):
+        return "a pair of numbers belongs here; write decimals with a point, not with a comma"
+    return reason[0].lower() + reason[1:]
+
+
+def _right_value(sort: str, value: object) -> str:
+    """What to write for a value of the wrong kind: `"4,5"` where a number belongs."""
+    match sort, value:
+        case "float" | "int", str(text):
+            number = re.match(r"\s*([-+]?\d+(?:[.,]\d+)?)", text)
+            if number and (sort == "float" or number[1].lstrip("+-").isdigit()):
+                return f"; write {number[1].replace(',', '.')} without quotes{'' if _bare(text) else ' and unit'}"
+        case "bool", str(text) if text.lower() in _YES + _NO:
+            return f"; write {'true' if text.lower() in _YES else 'false'} without quotes"
+        case "bool", 0 | 1:
+            return f"; write {'true' if value else 'false'}"
+        case "string", int() | float() if not isinstance(value, bool):
+            return f'; write "{value}"'
+        case "list", str(text):
+            return f'; write ["{text}"]'
+    return ""
+
+
+def _bare(text: str) -> bool:
+    return re.fullmatch(r"\s*[-+]?\d+(?:[.,]\d+)?\s*", text) is not None
+
+
+def _choices(context: Mapping[str, Any]) -> list[str]:
+    return [choice.strip().strip("'") for choice in str(context["expected"]).replace(" or ", ", ").split(",")]
+
+
+def _near(word: str, known: list[str], cutoff: float) -> str | None:
+    return next(iter(difflib.get_close_matches(word, known, n=1, cutoff=cutoff)), None)
+
+
+def _or(words: list[str]) -> str:
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"

@@ -1,0 +1,140 @@
+"""The sky over the station: where Sun, Moon, planets and stars stand, and which place among the stars a direction is.
+
+Knows the station's place, and asks the clock that it is given. Precession, nutation and sidereal time are
+astronomy-engine's. Does not know the rotor, or bytes. Angles are in degrees, without refraction: at elevation 5° a star
+seems 0.15° higher, at the horizon 0.5°.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+
+import astronomy
+
+from rotator.orbits.earth import Site
+from rotator.orbits.sight import Sight
+
+J2000_S = 946_728_000.0
+"""Noon of 1 January 2000 UTC, in seconds since 1970."""
+DAY_S = 86_400.0
+DEG_PER_H = 15.0
+
+
+class Equinox(Enum):
+    """Whose equator and equinox right ascension and declination are counted from."""
+
+    J2000 = "J2000"
+    OF_DATE = "JNow"
+
+
+@dataclass(frozen=True, slots=True)
+class Star:
+    """A place among the stars. It moves over the horizon as the earth turns."""
+
+    right_ascension_deg: float
+    declination_deg: float
+    equinox: Equinox
+
+
+BODIES = {
+    body.name.casefold(): body
+    for body in (
+        *(astronomy.Body.Sun, astronomy.Body.Moon, astronomy.Body.Mercury, astronomy.Body.Venus, astronomy.Body.Mars),
+        *(
+            astronomy.Body.Jupiter,
+            astronomy.Body.Saturn,
+            astronomy.Body.Uranus,
+            astronomy.Body.Neptune,
+            astronomy.Body.Pluto,
+        ),
+    )
+}
+RADIO_SOURCES = {
+    "Cas A": Star(350.850, 58.815, Equinox.J2000),
+    "Cyg A": Star(299.868, 40.734, Equinox.J2000),
+    "Tau A": Star(83.633, 22.0145, Equinox.J2000),
+    "Vir A": Star(187.706, 12.391, Equinox.J2000),
+    "Sgr A*": Star(266.417, -29.008, Equinox.J2000),
+}
+"""The strongest sources of radio noise, by their usual names; places from the 3C catalogue's counterparts."""
+
+
+class Body:
+    """Sun, Moon or a planet as a target. Raises ValueError for another name."""
+
+    def __init__(self, name: str, site: Site) -> None:
+        if name.casefold() not in BODIES:
+            raise ValueError(f'"{name}" is no body of the sky; there are: {", ".join(BODIES)}')
+        self._body = BODIES[name.casefold()]
+        self._observer = astronomy.Observer(site.latitude_deg, site.longitude_deg, site.altitude_m)
+
+    @property
+    def name(self) -> str:
+        return str(self._body.name)
+
+    def sight(self, utc_s: float) -> Sight:
+        now = _time(utc_s)
+        place = astronomy.Equator(self._body, now, self._observer, True, True)
+        seen = astronomy.Horizon(now, self._observer, place.ra, place.dec, astronomy.Refraction.Airless)
+        return Sight(seen.azimuth % 360.0, seen.altitude, place.dist * astronomy.KM_PER_AU)
+
+    def late_s(self, _utc_s: float) -> float:
+        """Known for centuries."""
+        return 0.0
+
+
+class RadioSource:
+    """One of `RADIO_SOURCES`, so far away that its range is told as infinite."""
+
+    def __init__(self, name: str, site: Site) -> None:
+        self.name = name
+        self._sky = Sky(site, lambda: 0.0)
+        self._star = RADIO_SOURCES[name]
+
+    def sight(self, utc_s: float) -> Sight:
+        return Sight(*self._sky.direction(self._star, utc_s), math.inf)
+
+    def late_s(self, _utc_s: float) -> float:
+        return 0.0
+
+
+class Sky:
+    """The sky over `site` at the moment that `utc` gives, in seconds since 1970."""
+
+    def __init__(self, site: Site, utc: Callable[[], float]) -> None:
+        self.site = site
+        self.utc = utc
+        self._observer = astronomy.Observer(site.latitude_deg, site.longitude_deg, site.altitude_m)
+
+    def direction(self, star: Star, utc_s: float | None = None) -> tuple[float, float]:
+        """Azimuth from 0 to below 360, and elevation, below zero under the horizon; now, or at that moment."""
+        now = _time(self.utc() if utc_s is None else utc_s)
+        sphere = astronomy.Spherical(star.declination_deg, star.right_ascension_deg, 1.0)
+        turned = astronomy.RotateVector(self._to_horizon(now, star.equinox), astronomy.VectorFromSphere(sphere, now))
+        seen = astronomy.HorizonFromVector(turned, astronomy.Refraction.Airless)
+        return seen.lon % 360.0, seen.lat
+
+    def star(self, azimuth_deg: float, elevation_deg: float, equinox: Equinox) -> Star:
+        """The place among the stars to which an antenna at this azimuth and elevation points."""
+        now = _time(self.utc())
+        sphere = astronomy.Spherical(elevation_deg, azimuth_deg, 1.0)
+        vector = astronomy.VectorFromHorizon(sphere, now, astronomy.Refraction.Airless)
+        back = astronomy.InverseRotation(self._to_horizon(now, equinox))
+        place = astronomy.EquatorFromVector(astronomy.RotateVector(back, vector))
+        return Star(place.ra * DEG_PER_H % 360.0, place.dec, equinox)
+
+    def sidereal_h(self) -> float:
+        """The local apparent sidereal time in hours."""
+        return float((astronomy.SiderealTime(_time(self.utc())) + self.site.longitude_deg / DEG_PER_H) % 24.0)
+
+    def _to_horizon(self, now: astronomy.Time, equinox: Equinox) -> astronomy.RotationMatrix:
+        if equinox is Equinox.J2000:
+            return astronomy.Rotation_EQJ_HOR(now, self._observer)
+        return astronomy.Rotation_EQD_HOR(now, self._observer)
+
+
+def _time(utc_s: float) -> astronomy.Time:
+    return astronomy.Time((utc_s - J2000_S) / DAY_S)

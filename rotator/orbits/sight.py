@@ -1,0 +1,77 @@
+"""Where something in the sky is, as a station sees it at one moment; and what every target has in common.
+
+Knows directions and how fast they change. Does not know orbits.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+FULL_TURN_DEG = 360.0
+RATE_OVER_S = 1.0
+"""Rates are the change over this time, half before and half after."""
+
+
+class NotThere(Exception):  # noqa: N818 - a sentence about a target
+    """There is no such place at that moment: a satellite whose elements say that it has come down. The text tells."""
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """Azimuth from 0 to below 360 from true north; elevation without air, below zero under the horizon."""
+
+    azimuth_deg: float
+    elevation_deg: float
+    range_km: float
+
+    def apart_deg(self, other: Sight) -> float:
+        """The angle between the two directions."""
+        el_a, el_b = math.radians(self.elevation_deg), math.radians(other.elevation_deg)
+        turn = math.radians(other.azimuth_deg - self.azimuth_deg)
+        half = math.sin((el_b - el_a) / 2) ** 2 + math.cos(el_a) * math.cos(el_b) * math.sin(turn / 2) ** 2
+        return math.degrees(2 * math.asin(math.sqrt(min(1.0, half))))
+
+
+class Target(Protocol):
+    """Something that has a place in the sky of a station at every moment."""
+
+    @property
+    def name(self) -> str: ...
+
+    def sight(self, utc_s: float) -> Sight:
+        """Raises NotThere."""
+        ...
+
+    def late_s(self, utc_s: float) -> float:
+        """By how much it may be early or late on its way, in seconds, from the age of what is known of it."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """A sight, and how fast it changes."""
+
+    sight: Sight
+    azimuth_dps: float
+    elevation_dps: float
+
+
+def motion(target: Target, utc_s: float) -> Motion:
+    """Raises NotThere."""
+    before, after = target.sight(utc_s - RATE_OVER_S / 2), target.sight(utc_s + RATE_OVER_S / 2)
+    turned_deg = (after.azimuth_deg - before.azimuth_deg + 180.0) % FULL_TURN_DEG - 180.0
+    return Motion(
+        target.sight(utc_s), turned_deg / RATE_OVER_S, (after.elevation_deg - before.elevation_deg) / RATE_OVER_S
+    )
+
+
+def expected_error_deg(target: Target, utc_s: float, clock_s: float = 0.0) -> float:
+    """How far the target may be from where it is computed: an error along its way is an error of time.
+
+    `clock_s`: by how much the clock may be wrong. Raises NotThere.
+    """
+    off_s = math.hypot(target.late_s(utc_s), clock_s)
+    here = target.sight(utc_s)
+    return max(here.apart_deg(target.sight(utc_s - off_s)), here.apart_deg(target.sight(utc_s + off_s)))

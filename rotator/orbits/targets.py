@@ -1,0 +1,91 @@
+"""What a person names: a satellite, Sun or Moon, a planet, a radio source, another station, or a direction.
+
+Knows which words mean what. Does not know files or the rotor.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from rotator.orbits.catalogue import Catalogue, Unknown
+from rotator.orbits.celestial import BODIES, RADIO_SOURCES, Body, RadioSource
+from rotator.orbits.earth import Site, direction
+from rotator.orbits.locator import distance_and_bearing, from_locator, long_path_km
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import Sight, Target
+
+_LOCATOR = re.compile(r"[A-R]{2}[0-9]{2}(?:[A-X]{2}(?:[0-9]{2})?)?", re.IGNORECASE)
+_LONG_PATH = ("long", "lp")
+_SHORT_PATH = ("short", "sp")
+
+
+@dataclass(frozen=True, slots=True)
+class Fixed:
+    """A direction that does not move."""
+
+    name: str
+    where: Sight
+
+    def sight(self, _utc_s: float) -> Sight:
+        return self.where
+
+    def late_s(self, _utc_s: float) -> float:
+        return 0.0
+
+
+def find(words: str, site: Site, catalogue: Catalogue) -> Target:
+    """The target that these words name. Raises Unknown, NotThere.
+
+    `sun`, `cas a`, `25544`, `so50`, `JN58td`, `JN58td long`, `180 45`; a comma is a decimal point, too.
+    """
+    words = " ".join(words.split())
+    there = _direction(words)
+    if there is not None:
+        return Fixed(words, there)
+    plain = _plain(words)
+    if plain in BODIES:
+        return Body(plain, site)
+    source = next((name for name in RADIO_SOURCES if _plain(name) == plain), None)
+    if source is not None:
+        return RadioSource(source, site)
+    # A satellite may be called as a locator is written: SO50 is one, and a field with the squares 50.
+    try:
+        return Satellite(catalogue.find(words), site)
+    except Unknown:
+        station = _station(words, site)
+        if station is None:
+            raise
+        return station
+
+
+def _direction(words: str) -> Sight | None:
+    """Azimuth and elevation. Raises Unknown for numbers that are none."""
+    parts = words.replace(",", ".").split(" ")
+    try:
+        azimuth_deg, elevation_deg = (float(part) for part in parts)
+    except ValueError:
+        return None
+    if not (0 <= azimuth_deg <= 360 and -90 <= elevation_deg <= 90):
+        raise Unknown(f'"{words}": azimuth is from 0 to 360, elevation from -90 to 90')
+    return Sight(azimuth_deg % 360.0, elevation_deg, math.inf)
+
+
+def _station(words: str, site: Site) -> Fixed | None:
+    """Another station on the earth, at the horizon."""
+    locator, _, path = words.partition(" ")
+    if not _LOCATOR.fullmatch(locator) or path.casefold() not in ("", *_LONG_PATH, *_SHORT_PATH):
+        return None
+    longitude_deg, latitude_deg = from_locator(locator)
+    seen = direction(site, Site(latitude_deg, longitude_deg))
+    if seen is None:
+        raise Unknown(f'"{words}" is where the antenna stands')
+    km, _ = distance_and_bearing((site.longitude_deg, site.latitude_deg), (longitude_deg, latitude_deg))
+    if path.casefold() in _LONG_PATH:
+        return Fixed(words, Sight((seen[0] + 180.0) % 360.0, 0.0, long_path_km(km)))
+    return Fixed(words, Sight(seen[0], 0.0, km))
+
+
+def _plain(name: str) -> str:
+    return "".join(each for each in name.casefold() if each.isalnum())

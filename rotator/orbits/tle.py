@@ -1,0 +1,119 @@
+"""Two-line elements: text ⇄ nothing but `Elements`. With names or without, catalogue numbers in Alpha-5 too.
+
+Knows the columns, the checksum and the year 1957. Does not know files.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from datetime import UTC, datetime, timedelta
+
+from rotator.orbits.elements import Elements
+
+LENGTH = 69
+FIRST_YEAR = 57
+"""Two digits from here on are of the last century: Sputnik flew in 1957."""
+ALPHA5 = "ABCDEFGHJKLMNPQRSTUVWXYZ"
+"""A stands for 10, Z for 33. I and O are left out, for they look like digits."""
+_LINE = re.compile(r"([12]) [ 0-9A-Z][ 0-9]{4}")
+
+
+def looks_like_tle(text: str) -> bool:
+    """Whether a line of the text begins as a TLE's does."""
+    return any(_LINE.match(line) for line in text.splitlines())
+
+
+def read(text: str) -> Iterator[Elements | str]:
+    """Each set of a text, in its order; in place of a set that is wrong a sentence with its line."""
+    name = ""
+    first: tuple[int, str] | None = None
+    for number, line in enumerate((line.rstrip() for line in text.splitlines()), 1):
+        if not line:
+            continue
+        if line.startswith("1 ") and _LINE.match(line):
+            if first is not None:
+                yield f"line {first[0]}: its second line is missing"
+            first = (number, line)
+        elif line.startswith("2 ") and _LINE.match(line) and first is not None:
+            try:
+                yield _elements(name, first[1], line)
+            except ValueError as fault:
+                yield f"line {first[0]}: {fault}"
+            first, name = None, ""
+        elif line.startswith("2 ") and _LINE.match(line):
+            yield f"line {number}: its first line is missing"
+            name = ""
+        else:
+            if first is not None:
+                yield f"line {first[0]}: its second line is missing"
+            elif name:
+                yield f'line {number}: "{line[:24]}" is no element set'
+            first, name = None, line.removeprefix("0 ").strip()
+    if first is not None:
+        yield f"line {first[0]}: its second line is missing"
+    elif name:
+        yield f'the end: "{name[:24]}" has no element set'
+
+
+def catalogue_number(text: str) -> int:
+    """Five characters, the first perhaps a letter. Raises ValueError."""
+    text = text.strip()
+    head = ALPHA5.find(text[:1]) if text else -1
+    digits = text if head < 0 else f"{head + 10}{text[1:]}"
+    if not digits.isdecimal():
+        raise ValueError(f'"{text}" is no catalogue number')
+    return int(digits)
+
+
+def _elements(name: str, one: str, two: str) -> Elements:
+    for place, line in (("first", one), ("second", two)):
+        if len(line) != LENGTH:
+            raise ValueError(f"its {place} line has {len(line)} characters in place of {LENGTH}")
+        if line[68] != str(_checksum(line)):
+            raise ValueError(f"the checksum of its {place} line is {_checksum(line)}, not {line[68]}")
+    number = catalogue_number(one[2:7])
+    if catalogue_number(two[2:7]) != number:
+        raise ValueError(f"its lines are of {one[2:7].strip()} and {two[2:7].strip()}")
+    return Elements(
+        name=name or str(number),
+        catalogue_number=number,
+        epoch_utc_s=_epoch_utc_s(one[18:32]),
+        mean_motion_dot=_number(one[33:43]),
+        mean_motion_ddot=_with_exponent(one[44:52]),
+        drag_per_earth_radius=_with_exponent(one[53:61]),
+        inclination_deg=_number(two[8:16]),
+        ascending_node_deg=_number(two[17:25]),
+        eccentricity=_number("0." + two[26:33].strip().replace(" ", "0")),
+        perigee_argument_deg=_number(two[34:42]),
+        mean_anomaly_deg=_number(two[43:51]),
+        mean_motion_rev_per_day=_number(two[52:63]),
+    )
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(f'"{text.strip()}" is no number') from None
+
+
+def _checksum(line: str) -> int:
+    """The digits of the first 68 columns added up, a minus as 1, modulo 10."""
+    return sum(int(each) if each.isdecimal() else each == "-" for each in line[:68]) % 10
+
+
+def _epoch_utc_s(text: str) -> float:
+    """Year in two digits, then the day of the year with its fraction: `25059.54152977`."""
+    year, day = int(_number(text[:2])), _number(text[2:])
+    if not 1 <= day < 367:
+        raise ValueError(f"its epoch has the day {day:g} of a year")
+    begin = datetime(year + (1900 if year >= FIRST_YEAR else 2000), 1, 1, tzinfo=UTC)
+    return (begin + timedelta(days=day - 1)).timestamp()
+
+
+def _with_exponent(text: str) -> float:
+    """`-12345-3` is -0.12345e-3: the point is assumed."""
+    mantissa, exponent = text[:-2].strip() or "0", text[-2:]
+    sign = "-" if mantissa.startswith("-") else ""
+    return _number(f"{sign}.{mantissa.lstrip('+-').strip()}e{exponent.replace(' ', '+')}")

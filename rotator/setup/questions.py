@@ -1,0 +1,190 @@
+"""The questions of `rotator config --ask`: their words, the offered answers, and which question comes next.
+
+Pure: the answers so far and the machine come in, a question comes out. Does not know the terminal, nor the file.
+"""
+
+from __future__ import annotations
+
+import ipaddress
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+
+from rotator.config.station import StationTable
+from rotator.setup.machine import Machine
+
+Answers = Mapping[str, str]
+"""By the name of the question."""
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    answer: str
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    name: str
+    text: str
+    help: str
+    default: str
+    """The answer of Enter."""
+    choices: tuple[Choice, ...] = ()
+    """Answers with a number; none: a value is typed."""
+    understood: Callable[[str], str] = str.strip
+    """The answer that a typed value means. Raises ValueError, which says what to type."""
+
+
+ROTORS = (
+    Choice("g5500", "Yaesu G-5500, G-5400 and the like, on their control box"),
+    Choice("f1efw", "another rotor with a pot on each axis, on four relays"),
+    Choice("spid", "360° × 180° like a Spid, with pots put in"),
+    Choice("u100", "TV rotors that count contacts (Alliance U-100)"),
+    Choice("isel", "two moteus controllers (ISEL's rotary axes)"),
+    Choice("servos", "two hobby servos on a PCA9685"),
+    Choice("orbit360", "control boxes with a knob (ORBIT-360), a digital pot in its place"),
+)
+"""The shipped configurations for real rotors."""
+ON_RELAYS = ("g5500", "f1efw", "spid", "u100")
+TURNS = {"g5500": ("450", "180"), "f1efw": ("360", "90"), "spid": ("360", "180"), "u100": ("360", "180")}
+
+NETWORK_PROGRAM, NONE_YET = "rotctld", "none"
+PROGRAMS = (
+    Choice("rotctld", "Gpredict, Look4Sat, SatDump, Hamlib: by network (rotctld)"),
+    Choice("gs232b", "PstRotator, SatPC32, OscarWatch, SDRangel, Termite: GS-232"),
+    Choice("gs232-f1efw", "Orbitron or SDR Console, or what steered the Arduino: W orders"),
+    Choice("easycomm2", "SatTrack, predict and others: EasyComm II"),
+    Choice("macdoppler", "MacDoppler, by UDP"),
+    Choice("n1mm", "N1MM Logger+, by UDP"),
+    Choice(NONE_YET, "none yet"),
+)
+"""By the protocol of each group of programs."""
+UDP = {"macdoppler": "0.0.0.0:9932", "n1mm": "0.0.0.0:12040"}
+USB_CABLE, ON_THIS_MACHINE = "/dev/ttyGS0", "pty"
+
+
+def questions(answers: Answers, machine: Machine) -> Iterator[Question]:
+    """All questions that these answers lead to, in their order; later ones depend on earlier answers."""
+    yield Question(
+        "rotor", "Which rotor?", "The file begins as the shipped one of this rotor. docs/wiring.md shows each.",
+        "g5500", ROTORS,
+    )  # fmt: skip
+    yield Question(
+        "hardware", "Is the rotor wired to this machine?",
+        'A simulated one shows the whole box without hardware: hardware = "pi" in the file changes it later.',
+        "pi" if machine.is_pi else "sim",
+        (Choice("sim", "not yet: simulate it"), Choice("pi", "yes, this is the Raspberry Pi")),
+    )  # fmt: skip
+    rotor = answers.get("rotor", "")
+    if rotor in ON_RELAYS:
+        azimuth, elevation = TURNS[rotor]
+        yield Question(
+            "azimuth", "How many degrees does azimuth turn, from stop to stop?",
+            "360, or 450 for a rotor with overlap. The box never turns beyond.", azimuth, (), _degrees(90, 720),
+        )  # fmt: skip
+        yield Question(
+            "elevation", "How many degrees does elevation turn?",
+            "90, or 180 for a rotor that goes over the top.", elevation, (), _degrees(20, 200),
+        )  # fmt: skip
+    yield Question(
+        "program", "Which program turns the antenna?",
+        "One is enough to begin; a [[link]] more in the file for each other one. docs/reference/programs.md lists them all.",
+        NETWORK_PROGRAM, PROGRAMS,
+    )  # fmt: skip
+    if answers.get("program") not in (NETWORK_PROGRAM, NONE_YET, *UDP, None):
+        yield _port(answers, machine)
+    yield Question(
+        "display", "A 16×2 display on the box?", "It shows where the satellite and the antenna are.",
+        "none",
+        (
+            Choice("none", "none"),
+            Choice("gpio", "on six lines of the Pi"),
+            Choice("0x27", "with an I2C backpack, address 0x27"),
+            Choice("0x3f", "with an I2C backpack, address 0x3f"),
+        ),
+    )  # fmt: skip
+    yield _network(machine)
+    yield Question(
+        "place", "Where does the antenna stand?",
+        "A locator such as JN18du, or latitude and longitude such as 48,85 2,35 (south and west with a minus). "
+        "Only some programs need it; Enter leaves it out.", "", (), place,
+    )  # fmt: skip
+
+
+def _port(answers: Answers, machine: Machine) -> Question:
+    adapters = tuple(Choice(port, f"the adapter {port}") for port in machine.ports)
+    return Question(
+        "port", "How is the PC with this program connected?",
+        "The Pi can be a COM port of the PC: `sudo rotator setup usb-serial` makes it one.",
+        adapters[0].answer if adapters else USB_CABLE if answers.get("hardware") == "pi" else ON_THIS_MACHINE,
+        (
+            Choice(USB_CABLE, "a USB cable from the PC to the Pi"),
+            *(adapters or (Choice("/dev/ttyUSB0", "a USB serial adapter in this machine"),)),
+            Choice(ON_THIS_MACHINE, "not at all: it runs on this machine"),
+            Choice("0.0.0.0:4534", "by network, TCP port 4534"),
+        ),
+    )  # fmt: skip
+
+
+def _network(machine: Machine) -> Question:
+    return Question(
+        "network", "Which computers may reach the box over the network (rotctld, port 4533)?",
+        "There is no password: whoever reaches it turns the antenna. A network is written 192.168.1.0/24.",
+        "here",
+        (
+            Choice("here", "only programs on this machine"),
+            *(Choice(network, f"those of {network}") for network in machine.networks),
+        ),
+        network,
+    )  # fmt: skip
+
+
+def network(text: str) -> str:
+    """`192.168.1.5/24` as its network. Raises ValueError."""
+    try:
+        return str(ipaddress.ip_network(text.strip(), strict=False))
+    except ValueError:
+        raise ValueError(f'"{text.strip()}" is no network: type one such as 192.168.1.0/24') from None
+
+
+def place(text: str) -> str:
+    """A locator, or `latitude longitude` with points; empty for none. Raises ValueError."""
+    bare = text.strip().replace("°", " ").replace("−", "-")
+    if not bare:
+        return ""
+    if re.fullmatch(r"[A-Za-z]{2}\d{2}.*", bare):
+        try:
+            StationTable(locator=bare)
+        except ValueError:
+            raise ValueError(f'"{bare}" is no locator of 6 to 12 characters, such as JN18du') from None
+        return bare
+    found = re.fullmatch(
+        r"([NS]?)\s*([-+]?\d+(?:[.,]\d+)?)\s*([NS]?)(?:\s*[;/]\s*|\s*,\s+|\s+|(?<=[.]\d),|,)\s*"
+        r"([EWO]?)\s*([-+]?\d+(?:[.,]\d+)?)\s*([EWO]?)",
+        bare.upper(),
+    )
+    # "48,85" and "48,85,2,35" may be cut in several ways.
+    unclear = "," in bare and not re.search(r"[\s;/.]", bare)
+    if not found or unclear:
+        raise ValueError("type a locator such as JN18du, or two numbers with a space between them: 48.85 2.35")
+    latitude, longitude = (float(number.replace(",", ".")) for number in (found[2], found[5]))
+    latitude = -latitude if "S" in found[1] + found[3] else latitude
+    longitude = -longitude if "W" in found[4] + found[6] else longitude
+    if abs(latitude) > 90 or abs(longitude) > 180:
+        raise ValueError("latitude goes from -90 to 90, longitude from -180 to 180: latitude comes first")
+    return f"{latitude:.6g} {longitude:.6g}"
+
+
+def _degrees(least: float, most: float) -> Callable[[str], str]:
+    def understood(text: str) -> str:
+        bare = re.sub(r"\s*(?:°|deg(?:rees)?)\s*$", "", text.strip()).replace(",", ".")
+        try:
+            angle_deg = float(bare)
+        except ValueError:
+            raise ValueError(f'"{text.strip()}" is no number: type degrees, such as {least * 2:g}') from None
+        if not least <= angle_deg <= most:
+            raise ValueError(f"{angle_deg:g}° cannot be: from {least:g} to {most:g}")
+        return f"{angle_deg:g}"
+
+    return understood

@@ -1,0 +1,93 @@
+"""`rotator sky where` and `rotator sky passes`, as a person types them."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from rotator.cli.main import cli
+from rotator.orbits.earth import Site
+from tests.orbits import skyfield_oracle
+
+EVENING = "2025-03-01T00:00:00Z"
+EVENING_S = 1_740_787_200.0
+
+
+def told(folder: Path, *words: str, place: str = 'locator = "JN18eu"', elements: Path = skyfield_oracle.TLE) -> Result:
+    config = folder / "rotator.toml"
+    config.write_text(f'[station]\n{place}\n[sky]\nelements = ["{elements}"]\n', encoding="utf-8")
+    return CliRunner().invoke(cli, ["sky", *words, "--config", str(config)])
+
+
+def read(result: Result) -> Any:
+    assert result.exit_code == 0, result.output
+    return json.loads(result.stdout)
+
+
+def test_where_as_json(tmp_path: Path) -> None:
+    seen = read(told(tmp_path, "where", "iss", "--at", "2025-03-01T00:05:00Z", "--json"))
+    expected = skyfield_oracle.of_satellite("ISS", Site(48.854167, 2.375), EVENING_S + 300)
+    assert (seen["az_deg"], seen["el_deg"]) == pytest.approx((expected.azimuth_deg, expected.elevation_deg), abs=0.01)
+    assert seen["range_km"] == pytest.approx(expected.range_km, abs=1)
+    assert 0 < seen["expected_error_deg"] < 1
+    assert list(seen) == ["name", "at", "az_deg", "el_deg", "az_dps", "el_dps", "range_km", "expected_error_deg"]
+    assert seen["at"] == "2025-03-01T00:05:00.000Z"
+
+
+@pytest.mark.parametrize("at", ["2025-03-01T01:05:00+01:00", "2025-03-01 00:05", "20250301T000500Z"])
+def test_moments_may_be_written_in_other_ways(tmp_path: Path, at: str) -> None:
+    assert read(told(tmp_path, "where", "sun", "--at", at, "--json"))["at"] == "2025-03-01T00:05:00.000Z"
+
+
+def test_where_for_a_person(tmp_path: Path) -> None:
+    text = told(tmp_path, "where", "cas", "a", "--at", EVENING).stdout
+    assert text.startswith("Cas A at 01 Mar 00:00:00 UTC (")
+    assert "azimuth 354.75°, elevation 18.10°" in text
+
+
+def test_passes_as_json(tmp_path: Path) -> None:
+    found = read(told(tmp_path, "passes", "--from", EVENING, "--hours", "6", "--json"))
+    assert [each["name"] for each in found] == ["ISS", "SO-50", "ISS", "SO-50", "ISS", "SO-50", "ISS"]
+    first = found[0]
+    assert first["aos"] == "2025-03-01T00:00:10.565Z"
+    assert list(first) == ["name", "aos", "los", "tca", "aos_az_deg", "los_az_deg", "max_el_deg", "plan"]
+
+
+def test_passes_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:
+    text = told(tmp_path, "passes", "iss", "so50", "--from", EVENING, "--least", "10").stdout
+    assert "ISS    01 Mar 00:00:11" in text
+    assert max(len(line) for line in text.splitlines()) < 80
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("where", "isx"), '"isx" is not among the 3 satellites known; perhaps ISS?'),
+        (("where", "sun", "--at", "tomorrow"), '"tomorrow" is no date and time such as 2026-11-22T18:30:00Z'),
+        (("where", "sun", "--at", "9999-01-01T00:00:00Z"), "is not in the years 1957 to 2100"),
+        (("passes", "JN58td", "nothing"), '"nothing" is not among'),
+        (("passes", "iss", "--hours", "0"), "0.0 is not in the range"),
+    ],
+)
+def test_mistakes(tmp_path: Path, words: tuple[str, ...], said: str) -> None:
+    result = told(tmp_path, *words)
+    assert result.exit_code != 0
+    assert said in result.output
+
+
+def test_without_a_place_the_keys_are_named(tmp_path: Path) -> None:
+    result = told(tmp_path, "where", "sun", place="")
+    assert result.exit_code == 1
+    assert "[station]" in result.output
+    assert "latitude_deg and longitude_deg, or locator" in result.output
+
+
+def test_a_file_that_cannot_be_read_is_named_and_the_sun_still_found(tmp_path: Path) -> None:
+    result = told(tmp_path, "where", "sun", "--json", elements=tmp_path / "gone.tle")
+    assert "gone.tle: no such file" in result.stderr
+    assert math.isfinite(json.loads(result.stdout)["az_deg"])

@@ -1,0 +1,146 @@
+"""Files of elements come, change, break and go; names as people say them."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from rotator.orbits.catalogue import Catalogue, Unknown
+from tests.orbits.skyfield_oracle import TLE
+from tests.orbits.test_omm import MESSAGE, as_csv
+from tests.orbits.test_tle import ISS, sums_up
+
+NEWER = {"EPOCH": "2025-03-02T00:00:00"}
+
+
+def write(path: Path, text: str, moment_s: int) -> None:
+    path.write_text(text, encoding="utf-8")
+    os.utime(path, (moment_s, moment_s))
+
+
+def test_files_folders_and_patterns(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "folder" / "all.TXT").write_text(TLE.read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "folder" / "picture.png").write_bytes(b"\xff\xd8")
+    (tmp_path / "one.json").write_text(json.dumps([MESSAGE | {"NORAD_CAT_ID": 799_501_234}]), encoding="utf-8")
+    (tmp_path / "two.csv").write_text("\ufeff" + as_csv(MESSAGE | {"NORAD_CAT_ID": 7}), encoding="utf-8")
+    catalogue = Catalogue([str(tmp_path / "folder"), str(tmp_path / "*.json"), str(tmp_path / "two.csv")])
+    assert [each.catalogue_number for each in catalogue.satellites] == [25544, 7, 799_501_234, 44909, 27607]
+    assert catalogue.faults == ()
+
+
+@pytest.mark.parametrize("said", ["ISS", "iss", " Iss (Zarya) ", "zarya", "25544", "ISS-ZARYA"])
+def test_a_satellite_is_found_by_every_name_that_people_say(tmp_path: Path, said: str) -> None:
+    (tmp_path / "iss.tle").write_text(ISS, encoding="utf-8")
+    assert Catalogue([str(tmp_path)]).find(said).catalogue_number == 25544
+
+
+@pytest.mark.parametrize("said", ["SO-50", "so50", "So 50", "27607"])
+def test_capitals_hyphens_and_blanks_do_not_count(said: str) -> None:
+    assert Catalogue([str(TLE)]).find(said).name == "SO-50"
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("so51", '"so51" is not among the 3 satellites known; perhaps SO-50?'),
+        ("qqq", '"qqq" is not among the 3 satellites known$'),
+        ("", '"" is not among the 3'),
+    ],
+)
+def test_a_wrong_name_is_told_with_what_is_near(said: str, told: str) -> None:
+    with pytest.raises(Unknown, match=told):
+        Catalogue([str(TLE)]).find(said)
+
+
+def test_a_name_of_two_satellites_is_asked_about(tmp_path: Path) -> None:
+    one = MESSAGE | {"OBJECT_NAME": "DEB", "NORAD_CAT_ID": 1}
+    (tmp_path / "a.json").write_text(json.dumps([one, one | {"NORAD_CAT_ID": 2}]), encoding="utf-8")
+    with pytest.raises(Unknown, match=r'"deb" may be DEB \(1\), DEB \(2\): name one by its number'):
+        Catalogue([str(tmp_path)]).find("deb")
+
+
+def test_without_elements_the_key_is_named() -> None:
+    with pytest.raises(Unknown, match=r"\[sky\] elements"):
+        Catalogue([]).find("iss")
+
+
+def test_the_newest_set_of_a_satellite_counts(tmp_path: Path) -> None:
+    for name, message in (("a.json", MESSAGE | NEWER), ("b.json", MESSAGE)):
+        (tmp_path / name).write_text(json.dumps([message]), encoding="utf-8")
+    (found,) = Catalogue([str(tmp_path)]).satellites
+    assert found.epoch_utc_s == 1_740_873_600.0
+
+
+def test_a_file_is_read_again_when_it_changes(tmp_path: Path) -> None:
+    path = tmp_path / "elements.json"
+    write(path, json.dumps([MESSAGE]), 1000)
+    catalogue = Catalogue([str(tmp_path)])
+    assert not catalogue.refresh()
+    write(path, json.dumps([MESSAGE | NEWER]), 2000)
+    assert catalogue.refresh()
+    assert catalogue.find("iss").epoch_utc_s == 1_740_873_600.0
+
+
+@pytest.mark.parametrize(
+    ("broken", "told"),
+    [
+        ("[{", "line 1: no JSON"),
+        ("", "holds no elements"),
+        ("hello", "neither TLE nor OMM"),
+        (
+            json.dumps([MESSAGE | {"NORAD_CAT_ID": 5}, MESSAGE | {"MEAN_MOTION": 0}]),
+            "message 2 .ISS .ZARYA..: a mean motion of 0",
+        ),
+        (ISS.replace("9996", "9990"), "line 2: the checksum"),
+    ],
+)
+def test_a_file_that_breaks_is_named_and_its_last_good_set_stays(tmp_path: Path, broken: str, told: str) -> None:
+    path = tmp_path / "elements.json"
+    write(path, json.dumps([MESSAGE]), 1000)
+    catalogue = Catalogue([str(tmp_path)])
+    write(path, broken, 2000)
+    assert catalogue.refresh()
+    assert [each.catalogue_number for each in catalogue.satellites] == [25544]
+    (fault,) = catalogue.faults
+    assert fault.startswith(f"{path}: ")
+    with pytest.raises(AssertionError, match=told):
+        raise AssertionError(fault)
+
+
+def test_what_is_good_of_a_new_file_counts_and_the_rest_is_named(tmp_path: Path) -> None:
+    """Nothing was read from it before that could stay."""
+    wrong = MESSAGE | {"NORAD_CAT_ID": 5, "MEAN_MOTION": 0}
+    (tmp_path / "elements.json").write_text(json.dumps([MESSAGE, wrong]), encoding="utf-8")
+    catalogue = Catalogue([str(tmp_path)])
+    assert [each.catalogue_number for each in catalogue.satellites] == [25544]
+    assert len(catalogue.faults) == 1
+
+
+def test_what_is_missing_or_no_text_is_named(tmp_path: Path) -> None:
+    (tmp_path / "binary.tle").write_bytes(bytes(range(256)))
+    (tmp_path / "empty").mkdir()
+    places = [
+        str(tmp_path / "gone.tle"),
+        str(tmp_path / "*.nothing"),
+        str(tmp_path / "empty"),
+        str(tmp_path / "binary.tle"),
+    ]
+    assert Catalogue(places).faults == (
+        f"{places[0]}: no such file",
+        f"{places[1]}: no such file",
+        f"{places[2]}: no file of elements in it",
+        f"{places[3]}: no text",
+    )
+
+
+def test_a_file_that_goes_takes_its_satellites_along(tmp_path: Path) -> None:
+    path = tmp_path / "elements.tle"
+    path.write_text("\n".join(sums_up(line) for line in ISS.splitlines()[1:]), encoding="utf-8")
+    catalogue = Catalogue([str(path)])
+    path.unlink()
+    assert catalogue.refresh()
+    assert catalogue.satellites == ()

@@ -1,0 +1,176 @@
+"""`rotator config --ask`: whatever is answered, the file loads, says what each key does, and runs."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from datetime import date
+from ipaddress import IPv4Interface
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rotator.assembly.station import Station
+from rotator.cli.main import cli
+from rotator.config.load import load, parse, profiles
+from rotator.config.statements import statements
+from rotator.setup.machine import Machine
+from rotator.setup.new_file import for_the_service, new_file
+from rotator.setup.questions import PROGRAMS, ROTORS, Question, place, questions
+
+MACHINE = Machine(False, ("/dev/serial/by-id/usb-FTDI_A1-if00",), (IPv4Interface("192.168.1.5/24"),), "shack")
+TYPED = {"azimuth": "450", "elevation": "180", "place": "48.85 2.35"}
+
+
+def answered(choose: dict[str, str] | None = None) -> dict[str, str]:
+    """All questions with their default, or what `choose` says."""
+    answers: dict[str, str] = {}
+    while question := next((each for each in questions(answers, MACHINE) if each.name not in answers), None):
+        answers[question.name] = (choose or {}).get(question.name, question.default)
+    return answers
+
+
+def drawn(data: st.DataObject) -> dict[str, str]:
+    answers: dict[str, str] = {}
+    while question := next((each for each in questions(answers, MACHINE) if each.name not in answers), None):
+        offered = [choice.answer for choice in question.choices] or [question.default, TYPED[question.name]]
+        answers[question.name] = data.draw(st.sampled_from(offered), question.name)
+    return answers
+
+
+@settings(max_examples=150, deadline=None)
+@given(data=st.data())
+def test_every_combination_of_answers_is_a_file_that_loads_and_means_them(data: st.DataObject) -> None:
+    answers = drawn(data)
+    text = new_file(answers)
+    config = parse(text, "new.toml")
+    assert config.rotor.hardware == answers["hardware"]
+    assert parse(for_the_service(text), "new.toml").rotor == config.rotor
+    for axis in ("azimuth", "elevation"):
+        if axis in answers:
+            assert getattr(config, axis).max_deg == float(answers[axis])
+    assert config.station.is_known == bool(answers["place"])
+    assert config.lcd.kind == {"0x27": "pcf8574", "0x3f": "pcf8574"}.get(answers["display"], answers["display"])
+    protocols = [link.protocol for link in config.link]
+    assert protocols[-1] == "rotctld"
+    assert protocols[:-1] == [each for each in [answers["program"]] if each not in ("rotctld", "none")]
+    assert config.link[-1].allow == (None if answers["network"] == "here" else [answers["network"]])
+    rows = text.split("\n")
+    for statement in statements(text):
+        if statement.keys and not statement.brackets:
+            about = rows[statement.line - 1], rows[statement.line - 2], rows[statement.last - 1]
+            assert any("# " in row for row in about), rows[statement.line - 1]
+
+
+@pytest.mark.parametrize(("rotor", "display"), [*itertools.product((each.answer for each in ROTORS), ("none", "gpio"))])
+def test_each_rotor_runs_simulated(rotor: str, display: str) -> None:
+    config = parse(new_file(answered({"rotor": rotor, "hardware": "sim", "display": display})), "new.toml")
+    Station(config, time.monotonic, time.sleep).close()
+
+
+def test_every_shipped_rotor_can_be_chosen() -> None:
+    assert sorted(each.answer for each in ROTORS) == profiles()
+
+
+def test_every_question_has_a_word_of_help_and_offers_its_default() -> None:
+    for rotor, program in itertools.product(ROTORS, PROGRAMS):
+        answers = answered({"rotor": rotor.answer, "program": program.answer})
+        asked: list[Question] = list(questions(answers, MACHINE))
+        for question in asked:
+            assert question.help
+            assert not question.choices or question.default in [choice.answer for choice in question.choices]
+            assert question.choices or question.understood(question.default) == question.default
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("JN18du", "JN18du"),
+        ("48,85 2,35", "48.85 2.35"),
+        ("48.85 2.35", "48.85 2.35"),
+        ("48.85, 2.35", "48.85 2.35"),
+        ("48,85; 2,35", "48.85 2.35"),
+        ("-33,9 18,4", "-33.9 18.4"),
+        ("33,9 S 18,4 E", "-33.9 18.4"),
+        ("40.7N 74W", "40.7 -74"),
+        ("48 2", "48 2"),
+        ("", ""),
+    ],
+)
+def test_a_place_in_the_ways_people_write_one(typed: str, meant: str) -> None:
+    assert place(typed) == meant
+
+
+@pytest.mark.parametrize("typed", ["48,85,2,35", "JO62", "95 10", "Paris", "48.85", "48,85"])
+def test_what_could_be_two_places_or_none_is_asked_again(typed: str) -> None:
+    with pytest.raises(ValueError, match=r"type a locator|no locator|latitude goes"):
+        place(typed)
+
+
+# --- the dialogue
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def config_ask(*lines: str, to: str = "new.toml", name: tuple[str, ...] = ()) -> Result:
+    return CliRunner().invoke(cli, ["config", *name, "--ask", "--to", to], input="\n".join(lines) + "\n")
+
+
+def test_enter_all_the_way_writes_a_file(here: Path) -> None:
+    done = config_ask(*[""] * 12)
+    assert done.exit_code == 0, done.output
+    assert load(here / "new.toml").rotor.type == "relay-pot"
+    assert f"# Written by `rotator config --ask` on {date.today().isoformat()}." in (here / "new.toml").read_text()
+
+
+def test_a_comma_is_a_point_and_what_was_understood_is_shown(here: Path) -> None:
+    done = config_ask("", "", "437,5", *[""] * 10)
+    assert "= 437.5" in done.output
+    assert load(here / "new.toml").azimuth.max_deg == 437.5
+
+
+def test_back_asks_the_question_before_again(here: Path) -> None:
+    config_ask("6", "b", "2", *[""] * 12)
+    assert load(here / "new.toml").rotor.type == "relay-pot"
+
+
+def test_an_answer_that_is_none_is_said_and_asked_again(here: Path) -> None:
+    done = config_ask("9", "G-5500", "1", *[""] * 12)
+    assert '"9": type a number from 1 to 7, or Enter for 1' in done.output
+    assert done.exit_code == 0
+
+
+@pytest.mark.parametrize("count", range(8))
+def test_an_input_that_ends_writes_nothing(here: Path, count: int) -> None:
+    done = config_ask(*[""] * count)
+    assert done.exit_code == 1
+    assert "nothing was written" in str(done.exception)
+    assert list(here.iterdir()) == []
+
+
+def test_a_file_that_is_there_stays_unless_the_person_says_so(here: Path) -> None:
+    (here / "new.toml").write_text("# mine\n")
+    done = config_ask(*[""] * 12)
+    assert "nothing was written" in str(done.exception)
+    assert (here / "new.toml").read_text() == "# mine\n"
+
+
+def test_it_is_kept_beside_the_new_one(here: Path) -> None:
+    (here / "new.toml").write_text("# mine\n")
+    done = config_ask(*[""] * 8, "y")
+    assert done.exit_code == 0, done.output
+    (copy,) = here.glob("new.toml.before-rotator-*")
+    assert copy.read_text() == "# mine\n"
+    assert load(here / "new.toml").link
+
+
+def test_a_name_is_the_default_of_the_first_question(here: Path) -> None:
+    config_ask(*[""] * 12, name=("servos",))
+    assert load(here / "new.toml").rotor.type == "servo"
