@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests docs reference drills test-hamlib test-kernel test-install test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings clean
+.PHONY: run test check tests docs reference drills test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -42,9 +42,13 @@ test-rotors: $(VENV)/.dev
 test-machines: $(VENV)/.dev
 	$(BIN)/pytest -n 8 --dist worksteal tests/machines
 
-# install.sh in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in ~/.cache/gs232-rotator.
-test-install: $(VENV)/.dev
+# install.sh and the .deb in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in ~/.cache/gs232-rotator.
+test-install: $(VENV)/.release
 	$(BIN)/pytest tests/install
+
+# The wheel and the sdist: the same bytes everywhere, and they work on each Python there is, for an ordinary user.
+test-dist: $(VENV)/.release
+	$(BIN)/pytest -n 2 --dist loadfile tests/release tests/release/test_archives.py tests/release/test_wheel.py
 
 # The tests that need a real Linux kernel: Debian's own under QEMU, with simulated chips on its buses. TESTS chooses some.
 test-kernel: $(VENV)/.dev
@@ -93,6 +97,7 @@ picture-gpredict: $(VENV)/.dev
 # The pages of docs/ as a site in build/docs that needs no network to read or search. A broken link or anchor ends it.
 docs: $(VENV)/.docs
 	$(BIN)/python -m docs.words
+	$(BIN)/python -m docs.blocks
 	$(BIN)/sphinx-build -q -W --keep-going -c docs/site -d build/doctrees docs build/docs
 	$(BIN)/python -m docs.site.check build/docs
 
@@ -128,5 +133,21 @@ $(VENV)/.mutants: $(VENV)/.dev
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[mutants]'
 	@touch $@
 
+# The sdist, the wheel and the list of packages in dist, built twice: they must be the same to the byte.
+dist: $(VENV)/.release
+	$(BIN)/python -m release archives --twice
+
+# The Debian packages in dist, for both architectures or the one that ARCH names.
+deb: $(VENV)/.release
+	$(BIN)/python -m release deb $(foreach arch,$(or $(ARCH),amd64 arm64),--arch $(arch))
+
+# Which packages go into the Debian package, in which versions: anew, the newest.
+lock: $(VENV)/.release
+	$(BIN)/python -m release lock
+
+$(VENV)/.release: $(VENV)/.dev
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[release]'
+	@touch $@
+
 clean:
-	rm -rf $(VENV) run .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) run dist .mypy_cache .pytest_cache .ruff_cache .hypothesis .import_linter_cache

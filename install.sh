@@ -10,14 +10,16 @@ usage() {
     cat <<'END'
 usage: sudo ./install.sh [--profile NAME] [--wheels DIR]    install, or update to what is in this folder
        sudo ./install.sh --rollback                         back to the version before
-       sudo ./install.sh --remove [--keep] [--yes]          take everything away; --keep: all but configuration and state
+       sudo ./install.sh --remove [--keep]                  take everything away; --keep: all but configuration and state
        ./install.sh --fetch-wheels DIR [--arch ARCH]        fill DIR with all that a machine without network needs
 
+It says what it would do, asks, and only then does it.
+
+  --yes             do not ask; without a terminal it is needed
   --dry-run         say what would be done and change nothing; needs no sudo
   --profile NAME    which configuration to begin with: simulated (unless given), g5500, ...; one that is there stays
   --wheels DIR      take everything from DIR, nothing from the network
   --arch ARCH       for --fetch-wheels: arm64, armhf or amd64; this machine's unless given
-  --yes             do not ask before configuration and state are lost
 
 A configuration of moteus controllers, or of chips on the kernel's SPI, brings the packages that these need.
 Another Python than python3: sudo PYTHON=python3.12 ./install.sh
@@ -112,6 +114,8 @@ install_it() {
 
 refuse_what_is_not_ours() {
     local home
+    [ "$(dpkg-query --show --showformat '${db:Status-Status}' gs232-rotator 2>/dev/null)" != installed ] ||
+        die "the Debian package is installed; first: sudo apt remove gs232-rotator (configuration and state stay)"
     home=$(getent passwd rotator | cut -d: -f6) || true
     [ -z "$home" ] || [ "$home" = $STATE_AT ] ||
         die "there is another user rotator already, with the home $home; the service needs that name: rename the other"
@@ -175,11 +179,8 @@ make_user() {
 }
 own() { mkdir -p "$1" && chmod 755 "$1" && chown -R rotator:rotator "$1"; }
 
-write_config() { # a shipped profile, with the places that a service has
-    "$version_at/bin/rotator" config "$profile" | sed 's|^pty = "run/|pty = "/run/rotator/|' >"$scratch/rotator.toml"
-    if ! grep -q '^\[state\]' "$scratch/rotator.toml"; then
-        printf '\n[state]\npath = "%s/state.json"\n' $STATE_AT >>"$scratch/rotator.toml"
-    fi
+write_config() {
+    "$HERE/install/first-config.sh" "$version_at/bin/rotator" "$profile" >"$scratch/rotator.toml"
     install -o rotator -g rotator -m 644 "$scratch/rotator.toml" $CONFIG
 }
 
@@ -247,7 +248,9 @@ remove_it() {
     local file folder
     refuse_what_is_not_ours
     if [ -e $USB_SERIAL ]; then die "first let the Pi be no COM port any more: sudo rotator setup usb-serial --undo"; fi
-    if [ $keep = no ] && { [ -e $CONFIG_AT ] || [ -e $STATE_AT ]; }; then ask_before_losing; fi
+    if [ $keep = no ] && { [ -e $CONFIG_AT ] || [ -e $STATE_AT ]; }; then
+        echo "This deletes your configuration and calibrations in $CONFIG_AT, and what the box has learnt, in $STATE_AT; --keep keeps them."
+    fi
     if [ -e $UNIT ]; then
         if [ -d /run/systemd/system ]; then act "stops the service" systemctl stop rotator.service; fi
         act "has it start no more" systemctl --quiet disable rotator.service
@@ -267,15 +270,6 @@ remove_it() {
     finish "rotator is not installed."
 }
 
-ask_before_losing() {
-    local answer
-    echo "This deletes your configuration and calibrations in $CONFIG_AT, and what the box has learnt, in $STATE_AT; --keep keeps them."
-    if [ $sure = yes ] || [ $dry = yes ]; then return; fi
-    [ -t 0 ] || die "add --yes to lose them, or --keep"
-    read -r -p "Go on? [y/N] " answer
-    case $answer in y | Y | yes) ;; *) die "nothing has been changed" ;; esac
-}
-
 take_back_what_was_made() { # the latest first; what others use by now stays
     local kind name members
     tac $MADE >"$scratch/made"
@@ -293,8 +287,23 @@ take_back_what_was_made() { # the latest first; what others use by now stays
 # shellcheck source=install/version.sh
 . "$HERE/install/version.sh"
 
+ask_first() { # OPTION...: those of this run. A dry run says everything; where there is nothing to do, that is all.
+    local plan answer
+    plan=$(bash "$HERE/install.sh" "$@" --dry-run) || exit 1
+    case $plan in "Nothing to do"*) echo "$plan"; exit 0 ;; esac
+    echo "This is what it would do:"
+    sed '$d' <<<"$plan" # without the line that says it was a dry run
+    need_root "$@"
+    [ -t 0 ] || die "without a terminal to ask at it needs --yes; nothing has been changed"
+    read -r -p "Do this? [y/N] " answer
+    case $answer in y | Y | yes) ;; *) die "nothing has been changed" ;; esac
+}
+
+need_root() { [ "$(id -u)" = 0 ] || die "only root may do that: sudo ./install.sh${*:+ $*}; nothing has been changed"; }
+
 needs_value() { [ -n "${2:-}" ] || die "$1 needs a value; see ./install.sh --help"; }
 
+given=("$@")
 while [ $# -gt 0 ]; do
     case $1 in
         --profile) needs_value "$@"; profile=$2; shift ;;
@@ -313,7 +322,8 @@ while [ $# -gt 0 ]; do
 done
 
 if [ $task != fetch_wheels ] && [ $dry = no ]; then
-    [ "$(id -u)" = 0 ] || die "only root may install: sudo ./install.sh; --dry-run shows what it would do, without sudo"
+    if [ $sure = no ]; then ask_first "${given[@]}"; fi
+    need_root "${given[@]}"
     exec 9<"$HERE/install.sh"
     flock --nonblock 9 || die "another install.sh is at work; wait for its end"
 fi

@@ -17,7 +17,7 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
-from rotator.config import toml_text
+from rotator.config import migrations, toml_text
 from rotator.config.mistake import ConfigError, Mistake
 from rotator.config.model import Config
 from rotator.config.statements import Place, places
@@ -69,8 +69,8 @@ def profiles() -> list[str]:
 def parse(text: str, name: str) -> Config:
     """The checked configuration in a TOML text. `name` stands in the errors. Raises ConfigError."""
     try:
-        return Config.model_validate(tomllib.loads(text))
-    except (tomllib.TOMLDecodeError, RecursionError, ValidationError) as first:
+        return Config.model_validate(migrations.values(text))
+    except (tomllib.TOMLDecodeError, RecursionError, ValidationError, migrations.FormatError) as first:
         raise ConfigError(name, _mistakes(text)) from first
 
 
@@ -78,9 +78,13 @@ def _mistakes(text: str) -> list[Mistake]:
     """Everything that is wrong with a text that is no configuration."""
     several = {name for name, _, many in tables() if many}
     mended = toml_text.mended(text, {name for name, *_ in tables()} - several, several)
-    values = {key: value for key, value in tomllib.loads(mended.text).items() if key[:1] != toml_text.SCRATCH}
-    lines = places(mended.text)
     found = list(mended.mistakes)
+    try:
+        keys = migrations.values(mended.text)
+    except migrations.FormatError as fault:
+        return [*found, Mistake(str(fault), places(mended.text).get((migrations.KEY,), ())[:1])]
+    values = {key: value for key, value in keys.items() if key[:1] != toml_text.SCRATCH}
+    lines = places(mended.text)
     for _ in range(toml_text.MOST):
         try:
             Config.model_validate(values)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from tomllib import TOMLDecodeError
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
@@ -15,6 +16,7 @@ from tomlkit.items import Array
 
 from rotator.config import toml_text
 from rotator.config.load import ConfigError, Mistake, parse
+from rotator.config.migrations import FormatError, brought_up
 from rotator.store.whole import write_whole
 
 Points = Sequence[tuple[float, float]]
@@ -30,8 +32,10 @@ def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **val
     try:
         before = toml_text.read(path)
         text = changed(before, axis, calibration=calibration, **values)
-    except TOMLKitError as fault:
+    except (TOMLKitError, TOMLDecodeError) as fault:
         raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault
+    except FormatError as fault:
+        raise ConfigError(str(path), [Mistake(str(fault))]) from fault
     except toml_text.NoTextError as none:
         raise ConfigError(str(path), [none.mistake]) from none
     # A text that the next start would refuse is not written.
@@ -42,7 +46,7 @@ def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **val
 
 def changed(text: str, axis: str, *, calibration: Points | None = None, **values: float | bool) -> str:
     """The file's text with these keys in the table `[axis]`; everything else as it was."""
-    document = tomlkit.parse(text)
+    document = tomlkit.parse(brought_up(text))
     if axis not in document and text and not text.endswith("\n\n"):
         document.add(tomlkit.nl())
     table = document.setdefault(axis, tomlkit.table())

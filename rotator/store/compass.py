@@ -9,20 +9,21 @@ from pathlib import Path
 from typing import Any
 
 from rotator.store import json_file
+from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile
 
-FORMAT = "rotator compass 1"
+FORM = Form("rotator compass")
 OFFSETS_COUNT = 22
 """Bytes, as the BNO055's registers hold them."""
 
 
 def encode(offsets: bytes) -> str:
-    return json_file.encode(FORMAT, _content(offsets))
+    return json_file.encode(FORM, _content(offsets))
 
 
 def decode(text: str) -> bytes:
     """The corrections in the text of a file. Raises ValueError where the text is damaged or another file's."""
-    return json_file.decode(FORMAT, text, _parse)
+    return json_file.decode(FORM, text, _parse)
 
 
 def _content(offsets: bytes) -> dict[str, object]:
@@ -41,7 +42,7 @@ class CompassFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._file = JsonFile(path, FORMAT, "what the compass learnt")
+        self._file = JsonFile(path, FORM, "what the compass learnt")
         self._saved: bytes | None = None
 
     @property

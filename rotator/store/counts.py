@@ -21,11 +21,12 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.store import json_file
+from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, number
 
 FILE_NAME = "counts.json"
 """Beside the state file."""
-FORMAT = "rotator counts 1"
+FORM = Form("rotator counts")
 REST_S = 2.0
 """An angle is written this long after the axis stopped, if the last write is older than REST_EVERY_S; else after
 LONG_REST_S."""
@@ -60,12 +61,12 @@ NEVER, LOST, MOVING = Place(Standing.NEVER), Place(Standing.LOST), Place(Standin
 
 
 def encode(places: Mapping[Axis, Place], cams: Mapping[Axis, CamSettings]) -> str:
-    return json_file.encode(FORMAT, _content(places, cams))
+    return json_file.encode(FORM, _content(places, cams))
 
 
 def decode(text: str, cams: Mapping[Axis, CamSettings]) -> dict[Axis, Place]:
     """KNOWN, LOST or NEVER for each axis of `cams`. Raises ValueError where the text is damaged or another file's."""
-    return json_file.decode(FORMAT, text, lambda content: _parse(content, cams))
+    return json_file.decode(FORM, text, lambda content: _parse(content, cams))
 
 
 def _content(places: Mapping[Axis, Place], cams: Mapping[Axis, CamSettings]) -> dict[str, object]:
@@ -97,7 +98,7 @@ class CountsFile:
     """
 
     def __init__(self, path: Path, cams: Mapping[Axis, CamSettings]) -> None:
-        self._file = JsonFile(path, FORMAT, "the count")
+        self._file = JsonFile(path, FORM, "the count")
         self._cams = cams
         self._written: dict[Axis, Place] = dict.fromkeys(cams, NEVER)
         self._stood: dict[Axis, tuple[float, float]] = {}

@@ -1,7 +1,7 @@
 """One JSON file with a format name, replaced as a whole: each file in which the box keeps something has this form.
 
-Knows that a damaged or foreign file must not stop the box. Does not know what the content means: each store has its own
-`parse`.
+Knows that a damaged or foreign file must not stop the box, and that the file of a later version stays as it is. Does
+not know what the content means: each store has its own `parse`.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
+from rotator.store.forms import Form, LaterFormError
 from rotator.store.whole import write_whole
 
 log = logging.getLogger(__name__)
@@ -25,18 +26,17 @@ LONGEST_BYTES = 100_000
 """A hundred times what any of these files holds: a larger one is another's."""
 
 
-def encode(form: str, content: Mapping[str, object]) -> str:
-    """The file's text. `form`: the format name."""
-    return json.dumps({"format": form, **content}, indent=1) + "\n"
+def encode(form: Form, content: Mapping[str, object]) -> str:
+    """The file's text."""
+    return json.dumps({"format": form.today, **content}, indent=1) + "\n"
 
 
-def decode(form: str, text: str, parse: Parse[T]) -> T:
-    """The value in the file's text. Raises ValueError where the text is damaged, or its format name is not `form`."""
+def decode(form: Form, text: str, parse: Parse[T]) -> T:
+    """The value in the file's text. Raises LaterFormError; ValueError where the text is damaged, or of another form."""
     try:
-        content = json.loads(text)
-        if not isinstance(content, dict) or content.get("format") != form:
-            raise ValueError(f"its format is not {form!r}")
-        return parse(content)
+        return parse(form.brought_up(json.loads(text)))
+    except LaterFormError:
+        raise
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as fault:
         raise ValueError(damage(fault)) from fault
 
@@ -57,17 +57,19 @@ def number(value: object, what: str, least: float, most: float) -> float:
 
 
 class JsonFile:
-    """`form`: the format name. `what`: the content in a few words, for the log.
+    """`what`: the content in a few words, for the log.
 
     `load` and `save` raise nothing: their failures go to the log.
     """
 
-    def __init__(self, path: Path, form: str, what: str) -> None:
+    def __init__(self, path: Path, form: Form, what: str) -> None:
         self.path = path
         self.trouble = ""
         """The reason of the last failed write; empty after a good one."""
         self._form = form
         self._what = what
+        self._later = ""
+        """Why the file is another version's, and stays as it is; empty where it is ours."""
 
     def load(self, parse: Parse[T], *, absent: T, damaged: T, consequence: str) -> T:
         """The value in the file; `absent` without a file; `damaged` where the file cannot be read or parsed.
@@ -78,6 +80,10 @@ class JsonFile:
             return decode(self._form, self._text(), parse)
         except FileNotFoundError:
             return absent
+        except LaterFormError as fault:
+            self._later = f"{fault}; update the program, or move the file away"
+            log.warning("%s: %s: %s. The file stays as it is", self.path, consequence, self._later)
+            return damaged
         except (OSError, ValueError) as fault:
             log.warning("%s: %s: %s", self.path, consequence, fault)
             return damaged
@@ -95,6 +101,8 @@ class JsonFile:
     def save(self, content: Mapping[str, object]) -> bool:
         """Replace the file as a whole. False: the write failed. The log has each new reason once."""
         try:
+            if self._later:
+                raise OSError(self._later)
             self.path.parent.mkdir(parents=True, exist_ok=True)
             write_whole(self.path, encode(self._form, content))
         except OSError as fault:

@@ -10,11 +10,12 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
+from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, number
 
 FILE_NAME = "knobs.json"
 """Beside the state file."""
-FORMAT = "rotator knobs 1"
+FORM = Form("rotator knobs")
 LEAST, MOST = 0.1, 1.1
 """The full scale of a working knob lies between these shares of its supply."""
 DIGITS = 4
@@ -33,7 +34,7 @@ class KnobsFile:
     """`load` the full scales, `save` new ones. Failures go to the log, and nothing is raised."""
 
     def __init__(self, path: Path) -> None:
-        self._file = JsonFile(path, FORMAT, "the knobs' full scales")
+        self._file = JsonFile(path, FORM, "the knobs' full scales")
         self._saved: FullScales = {}
 
     def load(self) -> FullScales:

@@ -14,11 +14,12 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.status import LearntMotor
+from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, damage, number
 
 log = logging.getLogger(__name__)
 
-FORMAT = "rotator state 1"
+FORM = Form("rotator state")
 WORTH_WRITING = 0.05
 """Memory cards wear: a change smaller than this share waits for the end of the program."""
 LEAST_COAST_DEG = 0.2
@@ -40,7 +41,7 @@ class LearntFile:
     """
 
     def __init__(self, path: Path, begun: Mapping[Axis, MotorSettings]) -> None:
-        self._file = JsonFile(path, FORMAT, "what the motors taught")
+        self._file = JsonFile(path, FORM, "what the motors taught")
         self._begun = begun
         self._kept: dict[Axis, Motors] = {}
 

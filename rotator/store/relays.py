@@ -13,11 +13,12 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.status import ALL_OPEN, Trust, Trusts
+from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile
 
 FILE_NAME = "relays.json"
 """Beside the state file."""
-FORMAT = "rotator relays 1"
+FORM = Form("rotator relays")
 UNKNOWN: Trusts = (Trust.UNSEEN, Trust.UNSEEN)
 
 
@@ -36,7 +37,7 @@ class RelaysFile:
     """
 
     def __init__(self, path: Path) -> None:
-        self._file = JsonFile(path, FORMAT, "what is known of the relays")
+        self._file = JsonFile(path, FORM, "what is known of the relays")
         self._written: dict[Axis, Trusts] = {}
 
     def load(self) -> dict[Axis, Trusts]:

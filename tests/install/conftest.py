@@ -9,18 +9,25 @@ import os
 import shutil
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
+from release import archives, deb, environment
+from release.source import Source, run
 from tests.install.roots import Layer, Root, can_run_arm64, debian
-from tests.install.visit import Visit, visit
+from tests.install.visit import DebVisit, Visit, visit, visit_deb
 from tests.kept import kept
 
 PROJECT = Path(__file__).parent.parent.parent
 ROOTS = kept("roots")
-WHAT_IT_TAKES = ("install.sh", "install", "pyproject.toml", "README.md", "LICENSE", "rotator", "hw", "firmware_sim")
+WHAT_IT_TAKES = (
+    *("install.sh", "install", "pyproject.toml", "README.md", "CHANGELOG.md", "LICENSE"),
+    *("rotator", "hw", "firmware_sim"),
+)
 RELEASES = ("trixie", "bookworm")
+PACKAGES_AT = f"{deb.HOME.lstrip('/')}/{environment.PACKAGES}"
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
@@ -37,7 +44,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope="session")
 def able() -> None:
     """Root, and the programs that make and enter a Debian."""
-    needed = {"debootstrap": "debootstrap", "unshare": "util-linux", "nsenter": "util-linux"}
+    needed = {
+        "debootstrap": "debootstrap",
+        "unshare": "util-linux",
+        "nsenter": "util-linux",
+        "systemd-nspawn": "systemd-container",
+        "dpkg-deb": "dpkg",
+        "pgrep": "procps",
+    }
     missing = [package for program, package in needed.items() if shutil.which(program) is None]
     if os.geteuid() != 0 or missing:
         reason = f"sudo apt install {' '.join(missing)}" if missing else "only root makes a Debian root"
@@ -52,10 +66,13 @@ def amd64(able: None) -> Path:
     return debian("bookworm", "amd64", ROOTS)
 
 
+Visits = tuple[Visit, DebVisit]
+
+
 @pytest.fixture(scope="session")
 def arm64_visits(
-    request: pytest.FixtureRequest, able: None, tree: Path, layers: Callable[[], Layer]
-) -> Iterator[dict[str, Future[Visit]]]:
+    request: pytest.FixtureRequest, able: None, tree: Path, wheel: Path, layers: Callable[[], Layer]
+) -> Iterator[dict[str, Future[Visits]]]:
     """By release; under way from the first test on."""
     arch = "arm64"
     if not can_run_arm64():
@@ -64,10 +81,13 @@ def arm64_visits(
         assert report is not None
         report.write_line("arm64 does not run here (sudo apt install qemu-user-static binfmt-support): amd64 instead")
 
-    def go(release: str, layer: Layer) -> Visit:
+    built, _ = deb.build(Source.at(tree), wheel, wheel.parent, arch)
+
+    def go(release: str, layer: Layer) -> Visits:
         with Root([debian(release, arch, ROOTS)], layer) as root:
             root.receive(tree, "/src")
-            return visit(root)
+            shutil.copy(built, root.at("/src"))
+            return visit(root), visit_deb(root, f"/src/{built.name}")
 
     with ThreadPoolExecutor(len(RELEASES)) as pool:
         yield {release: pool.submit(go, release, layers()) for release in RELEASES}
@@ -114,7 +134,7 @@ def installed_layer(amd64: Path, tree: Path, layers: Callable[[], Layer]) -> Lay
     layer = layers()
     with Root([amd64], layer) as root:
         root.receive(tree, "/src")
-        root.run("/src/install.sh").check()
+        root.run("/src/install.sh", "--yes").check()
     return layer
 
 
@@ -123,3 +143,36 @@ def installed(amd64: Path, installed_layer: Layer, layers: Callable[[], Layer]) 
     """The same, with the project installed from /src."""
     with Root([installed_layer.upper, amd64], layers()) as root:
         yield root
+
+
+@pytest.fixture(scope="session")
+def wheel(tree: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    _, made = archives.build(Source.at(tree), tmp_path_factory.mktemp("wheel"))
+    return made
+
+
+@dataclass(frozen=True, slots=True)
+class Debs:
+    """The Debian package of today, and a later one. Only the version is another."""
+
+    today: Path
+    later: Path
+
+
+@pytest.fixture(scope="session")
+def debs(able: None, tree: Path, wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Debs:
+    folder = tmp_path_factory.mktemp("debs")
+    source = Source.at(tree)
+    today, _ = deb.build(source, wheel, folder, "amd64")
+    opened = folder / "opened"
+    run("dpkg-deb", "--raw-extract", today, opened, epoch_s=source.epoch_s)
+    for name, was, becomes in (
+        ("DEBIAN/control", f"Version: {deb.deb_version(source)}", "Version: 9.8.7"),
+        (f"{PACKAGES_AT}/rotator/__init__.py", f'"{source.version}"', '"9.8.7"'),
+    ):
+        text = (opened / name).read_text()
+        assert was in text
+        (opened / name).write_text(text.replace(was, becomes))
+    later = folder / "later_9.8.7_amd64.deb"
+    run("dpkg-deb", "--root-owner-group", "-Zgzip", "--build", opened, later, epoch_s=source.epoch_s)
+    return Debs(today, later)

@@ -44,7 +44,32 @@ def test_a_dry_run_needs_no_sudo(bare: Root) -> None:
 
 def test_what_a_dry_run_says_is_what_is_done(bare: Root) -> None:
     announced = bare.run("/src/install.sh", "--dry-run").check().lines[:-1]
-    assert bare.run("/src/install.sh").check().lines[:-1] == announced
+    assert bare.run("/src/install.sh", "--yes").check().lines[:-1] == announced
+
+
+NO_TERMINAL = "install.sh: without a terminal to ask at it needs --yes; nothing has been changed"
+
+
+def at_a_terminal(root: Root, command: str, *, answer: str) -> Said:
+    return root.shell(f"echo {answer} | script --quiet --return --command {command!r} /dev/null")
+
+
+def test_without_options_it_says_everything_before_it_asks(bare: Root) -> None:
+    before = bare.inventory(times=True)
+    would = bare.run("/src/install.sh", "--dry-run").check().lines[:-1]
+    assert bare.run("/src/install.sh").lines == ["This is what it would do:", *would, NO_TERMINAL]
+    refused = at_a_terminal(bare, "/src/install.sh", answer="n")
+    assert refused.code == 1
+    assert refused.lines[-1].endswith("Do this? [y/N] install.sh: nothing has been changed")
+    assert [line for line in refused.lines if line.startswith("  ")] == would
+    assert bare.inventory(times=True) == before
+    agreed = at_a_terminal(bare, "/src/install.sh", answer="y").check()
+    assert agreed.lines[-1].startswith("Done: rotator ")
+    assert [line for line in agreed.lines if line.startswith("  ")] == would * 2
+
+
+def test_where_there_is_nothing_to_do_it_does_not_ask(installed: Root) -> None:
+    assert installed.run("/src/install.sh").check().text.startswith("Nothing to do")
 
 
 def test_user_groups_and_folders(installed: Root) -> None:
@@ -69,7 +94,7 @@ def test_the_unit_is_sound_enabled_and_shut_in(installed: Root) -> None:
 
 
 def test_the_configuration_uses_the_places_of_a_service(bare: Root) -> None:
-    bare.run("/src/install.sh", "--profile", "f1efw").check()
+    bare.run("/src/install.sh", "--profile", "f1efw", "--yes").check()
     text = bare.at(CONFIG).read_text()
     assert 'path = "/var/lib/rotator/state.json"' in text
     assert 'pty = "/run/rotator/bench"' in text
@@ -78,7 +103,7 @@ def test_the_configuration_uses_the_places_of_a_service(bare: Root) -> None:
 
 def test_a_second_run_changes_nothing(installed: Root) -> None:
     before = installed.inventory(times=True)
-    said = installed.run("/src/install.sh").check()
+    said = installed.run("/src/install.sh", "--yes").check()
     assert len(said.lines) == 1
     assert said.text.startswith("Nothing to do")
     assert installed.inventory(times=True) == before
@@ -88,25 +113,25 @@ def test_a_newer_version_keeps_the_configuration_and_can_be_rolled_back(installe
     old = installed_version(installed)
     installed.shell(f"echo '# mine' >>{CONFIG}").check()
     newer(installed, version="9.8.7")
-    installed.run("/newer/install.sh", "--profile", "g5500").check()
+    installed.run("/newer/install.sh", "--profile", "g5500", "--yes").check()
     assert installed_version(installed) == "rotator 9.8.7"
     assert installed.at(CONFIG).read_text().endswith("# mine\n")
-    installed.run("/newer/install.sh", "--rollback").check()
+    installed.run("/newer/install.sh", "--rollback", "--yes").check()
     assert installed_version(installed) == old
-    installed.run("/newer/install.sh", "--rollback").check()
+    installed.run("/newer/install.sh", "--rollback", "--yes").check()
     assert installed_version(installed) == "rotator 9.8.7"
 
 
 def test_changed_sources_of_the_same_version_are_an_update_too(installed: Root) -> None:
     installed.shell("cp -r /src /newer && echo '# news' >>/newer/rotator/__init__.py").check()
-    assert "builds version" in installed.run("/newer/install.sh").check().text
+    assert "builds version" in installed.run("/newer/install.sh", "--yes").check().text
     assert installed.shell("grep -rl '# news' /opt/rotator/current/lib/python3*/site-packages/rotator").code == 0
 
 
 def test_two_versions_are_kept(installed: Root) -> None:
     for version in ("9.0.1", "9.0.2"):
         newer(installed, version=version)
-        installed.run("/newer/install.sh").check()
+        installed.run("/newer/install.sh", "--yes").check()
         installed.run("rm", "-r", "/newer").check()
     assert installed.run("ls", "/opt/rotator/versions").text.split() == ["9.0.1", "9.0.2"]
 
@@ -114,7 +139,7 @@ def test_two_versions_are_kept(installed: Root) -> None:
 def test_a_version_that_does_not_start_never_replaces_one_that_does(installed: Root) -> None:
     before = installed.inventory(times=False)
     newer(installed, version="9.8.7", spoilt=True)
-    said = installed.run("/newer/install.sh")
+    said = installed.run("/newer/install.sh", "--yes")
     assert said.code == 1
     assert said.lines[-1].endswith("does not work here, it says why above; nothing has been changed")
     assert installed.inventory(times=False) == before
@@ -123,47 +148,48 @@ def test_a_version_that_does_not_start_never_replaces_one_that_does(installed: R
 def test_a_configuration_that_the_new_version_refuses_stops_the_update(installed: Root) -> None:
     installed.shell(f"echo 'nonsense = 1' >>{CONFIG}").check()
     newer(installed, version="9.8.7")
-    said = installed.run("/newer/install.sh")
+    said = installed.run("/newer/install.sh", "--yes")
     assert said.code == 1
     assert "nonsense" in said.text
     assert installed_version(installed) != "rotator 9.8.7"
 
 
 def test_rollback_without_a_version_before_says_so(installed: Root) -> None:
-    said = installed.run("/src/install.sh", "--rollback")
+    said = installed.run("/src/install.sh", "--rollback", "--yes")
     assert (said.code, said.text) == (1, "install.sh: there is no version before this one\n")
 
 
 def test_removed_nothing_is_left(bare: Root) -> None:
     before = bare.inventory(times=False)
-    bare.run("/src/install.sh").check()
+    bare.run("/src/install.sh", "--yes").check()
     assert bare.inventory(times=False) != before
     bare.run("/src/install.sh", "--remove", "--yes").check()
     assert bare.inventory(times=False) == before
-    assert bare.run("/src/install.sh", "--remove").check().text.startswith("Nothing to do")
+    assert bare.run("/src/install.sh", "--remove", "--yes").check().text.startswith("Nothing to do")
 
 
 def test_remove_says_what_is_lost_and_wants_a_yes(installed: Root) -> None:
     before = installed.inventory(times=True)
     said = installed.run("/src/install.sh", "--remove")
     assert said.code == 1
-    assert said.lines[0].startswith("This deletes your configuration and calibrations in /etc/rotator")
+    assert said.lines[1].startswith("This deletes your configuration and calibrations in /etc/rotator")
+    assert said.lines[-1] == NO_TERMINAL
     assert installed.inventory(times=True) == before
 
 
 def test_what_was_kept_is_taken_up_again(installed: Root) -> None:
     installed.shell(f"echo '# mine' >>{CONFIG}; touch /var/lib/rotator/state.json").check()
-    installed.run("/src/install.sh", "--remove", "--keep").check()
+    installed.run("/src/install.sh", "--remove", "--keep", "--yes").check()
     assert installed.run("stat", "-c", "%U", CONFIG, "/var/lib/rotator/state.json").lines == ["root", "root"]
     assert installed.run("getent", "passwd", "rotator").code != 0
-    installed.run("/src/install.sh").check()
+    installed.run("/src/install.sh", "--yes").check()
     assert installed.at(CONFIG).read_text().endswith("# mine\n")
     assert installed.run("stat", "-c", "%U", CONFIG, "/var/lib/rotator/state.json").lines == ["rotator", "rotator"]
 
 
 def test_groups_that_were_there_before_stay(bare: Root) -> None:
     bare.run("groupadd", "--system", "gpio").check()
-    bare.run("/src/install.sh").check()
+    bare.run("/src/install.sh", "--yes").check()
     bare.run("/src/install.sh", "--remove", "--yes").check()
     assert bare.run("getent", "group", "gpio").code == 0
     assert bare.run("getent", "group", "i2c").code != 0
@@ -175,7 +201,7 @@ def test_groups_that_were_there_before_stay(bare: Root) -> None:
 def test_only_what_is_open_to_the_network_is_announced(installed: Root, address: str, announced: bool) -> None:
     installed.run("mkdir", "-p", "/etc/avahi/services").check()
     installed.run("sed", "-i", f's/"127.0.0.1:4533"/"{address}"/', CONFIG).check()
-    installed.run("/src/install.sh").check()
+    installed.run("/src/install.sh", "--yes").check()
     service = installed.at("/etc/avahi/services/rotator.service")
     assert service.exists() == announced
     if announced:
@@ -184,20 +210,22 @@ def test_only_what_is_open_to_the_network_is_announced(installed: Root, address:
 
 def test_offline_from_wheels(bare: Root, wheels: Path) -> None:
     bare.receive(wheels, "/wheels")
-    said = bare.run("unshare", "--net", "/wheels/install.sh", "--wheels", "/wheels").check()
+    said = bare.run("unshare", "--net", "/wheels/install.sh", "--wheels", "/wheels", "--yes").check()
     assert said.lines[-1].startswith("Done: rotator")
-    assert bare.run("unshare", "--net", "/wheels/install.sh", "--wheels", "/wheels").text.startswith("Nothing to do")
+    assert bare.run("unshare", "--net", "/wheels/install.sh", "--wheels", "/wheels", "--yes").text.startswith(
+        "Nothing to do"
+    )
 
 
 def test_a_moteus_rotor_brings_its_library_and_can_go_again(installed: Root) -> None:
     python = "/opt/rotator/current/bin/python"
     assert installed.run(python, "-c", "import moteus").code != 0
     installed.run("sed", "-i", '/^\\[rotor\\]/,/^$/s/^type = .*/type = "moteus"/', CONFIG).check()
-    assert "with moteus in" in installed.run("/src/install.sh").check().text
+    assert "with moteus in" in installed.run("/src/install.sh", "--yes").check().text
     installed.run(python, "-c", "import moteus, can, importlib_metadata, packaging").check()
     assert installed.run(python, "-c", "import scipy").code != 0
-    assert installed.run("/src/install.sh").check().text.startswith("Nothing to do")
-    said = installed.run("/src/install.sh", "--rollback")
+    assert installed.run("/src/install.sh", "--yes").check().text.startswith("Nothing to do")
+    said = installed.run("/src/install.sh", "--rollback", "--yes")
     assert said.code == 1
     assert said.lines[-1].endswith(
         "the version before does not accept /etc/rotator/rotator.toml; nothing has been changed"
@@ -206,7 +234,7 @@ def test_a_moteus_rotor_brings_its_library_and_can_go_again(installed: Root) -> 
 
 def test_a_moteus_rotor_without_network(bare: Root, wheels: Path) -> None:
     bare.receive(wheels, "/wheels")
-    bare.run("unshare", "--net", "/wheels/install.sh", "--wheels", "/wheels", "--profile", "isel").check()
+    bare.run("unshare", "--net", "/wheels/install.sh", "--wheels", "/wheels", "--profile", "isel", "--yes").check()
     bare.run("/opt/rotator/current/bin/python", "-c", "import moteus, can").check()
 
 

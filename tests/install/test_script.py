@@ -13,14 +13,16 @@ from pathlib import Path
 
 import pytest
 
+from release.deb import SCRIPTS
+
 PROJECT = Path(__file__).parent.parent.parent
 
 
 def test_shellcheck(need_program: Callable[[str, str], str]) -> None:
     shellcheck = need_program("shellcheck", "shellcheck")
-    done = subprocess.run(
-        [shellcheck, "-x", "install.sh", "install/version.sh"], cwd=PROJECT, capture_output=True, text=True, check=False
-    )
+    scripts = ["install.sh", "install/version.sh", "install/first-config.sh", ".ci/run"]
+    scripts += [f"install/deb/{name}" for name in SCRIPTS]
+    done = subprocess.run([shellcheck, "-x", *scripts], cwd=PROJECT, capture_output=True, text=True, check=False)
     assert done.stdout == ""
 
 

@@ -170,7 +170,7 @@ def test_a_damaged_file_is_named_in_the_log_and_replaced_as_a_whole(
     box = Box(G5500, learns=True, state={"path": str(path)})
     box.close()
     assert f"{path}: azimuth: ignored, its motor is learnt anew: a speed in °/s is 1000.0" in caplog.text
-    assert JsonFile(path, learnt.FORMAT, "").save({"axes": {}})
+    assert JsonFile(path, learnt.FORM, "").save({"axes": {}})
     assert "1000" not in path.read_text()
 
 

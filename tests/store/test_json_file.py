@@ -8,10 +8,11 @@ from typing import Any
 
 import pytest
 
+from rotator.store.forms import Form
 from rotator.store.json_file import LONGEST_BYTES, JsonFile, decode, encode
 from rotator.store.json_file import number as within
 
-FORM = "rotator test 1"
+FORM = Form("rotator test")
 
 
 def number(content: dict[str, Any]) -> int:
@@ -32,7 +33,11 @@ def test_there_and_back() -> None:
         ("5", "its format is not"),
         ('"rotator test 1"', "its format is not"),
         ("{}", "its format is not"),
-        ('{"format": "rotator test 2", "number": 5, "words": ""}', "its format is not"),
+        ('{"format": "rotator tests 1", "number": 5, "words": ""}', "its format is not"),
+        ('{"format": "rotator test 0", "number": 5, "words": ""}', "its format is not"),
+        ('{"format": "rotator test one", "number": 5, "words": ""}', "its format is not"),
+        ('{"format": ["rotator test 1"], "number": 5, "words": ""}', "its format is not"),
+        ('{"format": "rotator test 2", "number": 5, "words": ""}', "a later version of the program wrote it"),
         ('{"format": "rotator test 1", "words": ""}', "the key number is missing"),
         ('{"format": "rotator test 1", "number": "five", "words": ""}', "invalid literal"),
         ('{"format": "rotator test 1", "number": null, "words": ""}', "int"),
