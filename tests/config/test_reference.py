@@ -66,3 +66,8 @@ def test_the_legend_bounds_what_the_rows_only_name() -> None:
     legend = reference().split("\n\n")[0].replace("\n", " ")
     for said in ("*GPIO*: 0 to 57", "0 to 255", "0x08 to 0x77", "as 0 to 3"):
         assert said in legend
+
+
+def test_no_word_of_a_library_stands_in_it() -> None:
+    for word in ("Pydantic", "Undefined", "annotation=", "<class", "NoneType", "typing."):
+        assert word not in reference()
