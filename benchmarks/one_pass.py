@@ -121,7 +121,7 @@ def _moments(box: list[Sample], sketch: list[Sample]) -> Iterable[str]:
             yield f'<circle cx="{at_x:.1f}" cy="{at_y:.1f}" r="5.5" fill="{colour}" stroke="white"/>'
         yield f'<circle cx="{x:.1f}" cy="{y:.1f}" r="7" fill="white" stroke="#222" stroke-width="2"/>'
     yield text(
-        24, 640, "rings: where the satellite is at four moments, and where each antenna points then", "start", GREY
+        24, 664, "rings: where the satellite is at four moments, and where each antenna points then", "start", GREY
     )
 
 
