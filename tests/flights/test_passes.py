@@ -1,7 +1,7 @@
 """Twelve real passes flown in simulated time, through the protocol, the drivers and the simulated chips.
 
-What the README promises of them: few relay starts, close to the best that any relay controller could do with as many,
-and far better than the sketch that the box replaces. Every figure is the same on every machine.
+What docs/pointing.md promises of them: few relay starts, close to the best that any relay controller could do with as
+many, and far better than the sketch that the box replaces. Every figure is the same on every machine.
 """
 
 from __future__ import annotations

@@ -295,11 +295,11 @@ def test_a_storm_park_holds_like_a_stop(box: BenchBox) -> None:
     assert session.receive(b"point 300 25\n") == [why]
 
 
-# --- docs/protocols.md
+# --- docs/reference/console.md
 
 
 def test_the_page_holds_the_table() -> None:
-    page = (Path(__file__).parents[2] / "docs" / "protocols.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "reference" / "console.md").read_text(encoding="utf-8")
     rows = page.split("<!-- console: begin -->\n")[1].split("<!-- console: end -->\n")[0].strip().splitlines()[2:]
     escaped = [verb.usage.replace("|", "\\|") for verb in VERBS]
     assert rows == [f"| `{usage}` | {verb.help} |" for usage, verb in zip(escaped, VERBS, strict=True)]
