@@ -46,9 +46,9 @@ test-machines: $(VENV)/.dev
 test-install: $(VENV)/.release
 	$(BIN)/pytest tests/install
 
-# The wheel and the sdist: the same bytes everywhere, and they work on each Python there is, for an ordinary user.
+# Wheel, sdist and .deb: the same bytes wherever they are built, and they work on each Python that this machine has.
 test-dist: $(VENV)/.release
-	$(BIN)/pytest -n 2 --dist loadfile tests/release tests/release/test_archives.py tests/release/test_wheel.py
+	$(BIN)/pytest -n 2 --dist loadfile tests/release $(addprefix tests/release/test_,$(addsuffix .py,archives package wheel))
 
 # The tests that need a real Linux kernel: Debian's own under QEMU, with simulated chips on its buses. TESTS chooses some.
 test-kernel: $(VENV)/.dev

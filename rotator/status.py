@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import AngleSource, Axis, Direction
-from rotator.faults import EasycommError, Fault, Missing, Notice
+from rotator.faults import Fault, Missing, Notice
 from rotator.orders import Mode
 
 
@@ -50,6 +50,8 @@ class AxisStatus:
     max_deg: float
     angle_deg: float | None = None
     """Where the axis is on its own scale; the last good value while the sensor is out; None before the first."""
+    seen: bool = True
+    """The latest reading is a good one. False: the sensor is out, and `angle_deg` is where the axis was last seen."""
     raw: float | None = None
     """The sensor's own reading, for calibration."""
     source: AngleSource = AngleSource.MEASURED
@@ -60,6 +62,8 @@ class AxisStatus:
     drive: Direction = Direction.OFF
     moving: bool = False
     """Driven, or still coasting."""
+    starts: int | None = None
+    """How often its motor has been started in this pass; None: no relay starts it."""
     missing: tuple[Missing, ...] = ()
     """What this axis lacks; until it has it, it obeys only jog. Empty: commissioned."""
     lost: str = ""
@@ -98,11 +102,6 @@ class AxisStatus:
             return False
         off_deg = abs(self.angle_deg - self.target_deg)
         return not self.moving and off_deg <= self.tolerance_deg + AT_END_NOISES * self.noise_deg
-
-    @property
-    def sensor_out(self) -> bool:
-        """A fault of the sensor: `angle_deg` is the last good angle, and the axis may have turned since."""
-        return self.fault is not None and EasycommError.SENSOR in self.fault.kind.easycomm
 
     @property
     def uncalibrated(self) -> str:

@@ -43,7 +43,7 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
     Field("angle_deg", "number or null", "where it stands on the rotor's own scale; null: not known",
           lambda axis: _angle(axis.shown_deg)),
     Field("angle_is_current", "true or false", "false: the sensor is out, and the angle is its last good one",
-          lambda axis: axis.angle_deg is not None and not axis.sensor_out),
+          lambda axis: axis.angle_deg is not None and axis.seen),
     Field("angle_source", "text", '"measured", "counted" or "modelled"', lambda axis: axis.source.value),
     Field("target_deg", "number or null", "the angle that it turns to; null: it has nothing to do",
           lambda axis: _angle(axis.target_deg)),

@@ -71,7 +71,7 @@ def test_transcript_of_a_stop_at_the_box(box: Any, rotator: Rotator, config: Pat
     assert re.fullmatch(
         r"azimuth: -?0\.\d° measured\nelevation: -?0\.\d° measured\nmoved by: nobody\n"
         r"stopped by: console#\d+; nothing moves until resume\n"
-        r"note: orders from gs232b(#\d+)? are ignored: stopped by console#\d+ until released\n"
+        r"note: orders from gs232b(#\d+)? are ignored: stopped by console#\d+: nothing moves until resume\n"
         r"simulated: nothing real turns\n",
         here,
     )
@@ -334,9 +334,9 @@ def test_pointing_ends_when_the_antenna_is_there(scripted: Any, rotator: Rotator
 
 def test_a_fault_on_the_way_is_named(scripted: Any, rotator: Rotator, config: Path) -> None:
     fault = Fault(FaultKind.POT_OPEN, Axis.AZIMUTH, "reads 0.000", "0.02 to 0.98")
-    scripted(on_its_way(100), pointed(AxisStatus(0.0, 450.0, 120.0, fault=fault)))
+    scripted(on_its_way(100), pointed(AxisStatus(0.0, 450.0, 120.0, fault=fault, seen=False)))
     done = rotator("point", "180", "45", "--config", config)
-    assert done.stdout == "azimuth 120.0° when last read, elevation 45.0° measured.\n"
+    assert done.stdout == "azimuth 120.0° when last seen, no reading now, elevation 45.0° measured.\n"
     assert why(done, 3) == f"rotator: {fault}\n"
 
 
@@ -373,7 +373,7 @@ def test_without_waiting(scripted: Any, rotator: Rotator, config: Path, order: l
 
 def test_both_axes_with_a_fault(scripted: Any, rotator: Rotator, config: Path) -> None:
     faults = [Fault(FaultKind.POT_OPEN, axis, "reads 0.000", "0.02 to 0.98") for axis in Axis]
-    azimuth, elevation = (AxisStatus(0.0, 180.0, 10.0, fault=fault) for fault in faults)
+    azimuth, elevation = (AxisStatus(0.0, 180.0, 10.0, fault=fault, seen=False) for fault in faults)
     scripted(Status(0.0, azimuth, elevation))
     done = rotator("where", "--json", "--config", config)
     assert done.returncode == 3
