@@ -11,7 +11,7 @@ INTERRUPTED = 130
 def main() -> None:
     try:
         _run()
-    except KeyboardInterrupt:  # while the program still loads: later each command handles it itself
+    except KeyboardInterrupt:  # while the program still loads or starts: later each command handles it itself
         sys.exit(INTERRUPTED)
 
 

@@ -50,6 +50,8 @@ class AxisStatus:
     max_deg: float
     angle_deg: float | None = None
     """Where the axis is on its own scale; the last good value while the sensor is out; None before the first."""
+    seen: bool = True
+    """The latest reading is a good one. False: the sensor is out, and `angle_deg` is where the axis was last seen."""
     raw: float | None = None
     """The sensor's own reading, for calibration."""
     source: AngleSource = AngleSource.MEASURED
@@ -58,6 +60,8 @@ class AxisStatus:
     drive: Direction = Direction.OFF
     moving: bool = False
     """Driven, or still coasting."""
+    starts: int | None = None
+    """How often its motor has been started in this pass; None: no relay starts it."""
     missing: tuple[Missing, ...] = ()
     """What this axis lacks; until it has it, it obeys only jog. Empty: commissioned."""
     lost: str = ""

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from benchmarks.drills.goals import Ranges
 from benchmarks.drills.judges import COUNTED_PERIODS, TRY_S, AxisCase, Judges
-from benchmarks.drills.orders import ZENITH_DEG, Orders, Ranges
+from benchmarks.drills.orders import ZENITH_DEG, Orders
 from benchmarks.drills.script import WORLD, Drill, Event
 from benchmarks.drills.world import AxisTruth
 from hw.ports import AngleSource, Axis

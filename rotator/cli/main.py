@@ -179,10 +179,11 @@ STATION = click.option(
 @ROOT
 @STATION
 @click.option("--usb-id", default="1d6b:0104", metavar="VENDOR:PRODUCT", show_default=True, help="The USB id.")
+@click.option("--pi", "model", metavar="NAME", help="The Pi that takes the card in --root, such as zero2w or 4b.")
 @click.option("--up", "gadget", flag_value="up", help="Build the USB device now, as the unit does.")
 @click.option("--down", "gadget", flag_value="down", help="Remove the USB device now.")
 def usb_serial(  # noqa: PLR0917 - click calls it by keyword
-    undo: bool, yes: bool, root: Path, path: Path | None, usb_id: str, gadget: str | None
+    undo: bool, yes: bool, root: Path, path: Path | None, usb_id: str, model: str | None, gadget: str | None
 ) -> None:
     """Make the Pi a serial port of the PC, over USB."""
     from rotator.cli.setup import lower_gadget, raise_gadget, usb_serial_port
@@ -193,7 +194,7 @@ def usb_serial(  # noqa: PLR0917 - click calls it by keyword
         case "down":
             lower_gadget(root)
         case _:
-            usb_serial_port(root, path, undo=undo, yes=yes, usb_id=usb_id)
+            usb_serial_port(root, path, undo=undo, yes=yes, usb_id=usb_id, model=model)
 
 
 @set_up.command()
@@ -208,6 +209,19 @@ def pins(undo: bool, yes: bool, root: Path, path: Path | None) -> None:
     relay_pins(root, path, undo=undo, yes=yes)
 
 
+@set_up.command()
+@UNDO
+@YES
+@ROOT
+@STATION
+@click.option("--allow", metavar="NETWORK", help="Who may: a network such as 192.168.1.0/24, an address, or all.")
+def network(undo: bool, yes: bool, root: Path, path: Path | None, allow: str | None) -> None:
+    """Open rotctld to the local network. Says what to type on the PC, and waits for it."""
+    from rotator.cli.network import open_network
+
+    open_network(root, path, allow, undo=undo, yes=yes)
+
+
 def _draws() -> bool:
     """Whether the output is a terminal that a picture can be drawn on."""
     return sys.stdout.isatty() and os.environ.get("TERM") not in ("dumb", "unknown")
@@ -216,10 +230,15 @@ def _draws() -> bool:
 def main() -> None:
     """Run the command. An error that the user can repair is printed as a sentence.
 
-    The exit code is 2 for a fault in the configuration, 1 for the others.
+    The exit code is 2 for a fault in the configuration, 1 for the others. Raises KeyboardInterrupt.
     """
     try:
-        cli(standalone_mode=True)
+        sys.exit(cli(standalone_mode=False))
+    except click.ClickException as mistake:
+        mistake.show()
+        sys.exit(mistake.exit_code)
+    except click.Abort:
+        raise KeyboardInterrupt from None
     except ConfigError as fault:
         terminal = sys.stderr.isatty()
         click.echo(fault.wrapped(shutil.get_terminal_size().columns) if terminal else str(fault), err=True)

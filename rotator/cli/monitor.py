@@ -15,7 +15,7 @@ import click
 
 from rotator.cli.reach import monitors, reach
 from rotator.links.wire import LinkError
-from rotator.monitor.transcript import LinkNote, Piece, Remark, parse
+from rotator.monitor.transcript import LinkNote, Peer, Piece, Remark, parse
 
 BYTES_PER_MB = 1_000_000
 
@@ -46,7 +46,7 @@ def _only(links: Sequence[str], lines: Iterator[str]) -> Iterator[str]:
             case LinkNote(name):
                 known.append(name)
                 wanted = name in links
-            case Piece(source=source):
+            case Piece(source=source) | Peer(source=source):
                 wanted = source.link in links
             case _:
                 wanted = True

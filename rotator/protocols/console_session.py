@@ -116,11 +116,12 @@ def report(status: Status) -> list[str]:
 
 def _stands(status: Status, axis: Axis) -> str:
     now = status.axis(axis)
-    words = ["not known" if now.shown_deg is None else f"{_shown(now.shown_deg)} {now.source.value}"]
+    known = now.source.value if now.seen else "when last seen, no reading now"
+    words = ["not known" if now.shown_deg is None else f"{_shown(now.shown_deg)} {known}"]
     if now.target_deg is not None:
         words.append(f"to {_shown(now.target_deg)}")
     if now.homing:
-        words.append("looks for its end stop")
+        words.append("homing: turns to its end stop")
     if now.drive:
         words.append(f"turns {TURN_WORDS[axis, now.drive]}")
     return ", ".join(words)

@@ -64,7 +64,7 @@ def test_transcript_of_a_stop_at_the_box(box: Any, rotator: Rotator, config: Pat
     assert re.fullmatch(
         r"azimuth: -?0\.\d° measured\nelevation: -?0\.\d° measured\nmoved by: nobody\n"
         r"stopped by: console#\d+; nothing moves until resume\n"
-        r"note: orders from gs232b(#\d+)? are ignored: stopped by console#\d+ until released\n"
+        r"note: orders from gs232b(#\d+)? are ignored: stopped by console#\d+: nothing moves until resume\n"
         r"simulated: nothing real turns\n",
         here,
     )

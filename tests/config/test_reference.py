@@ -83,3 +83,8 @@ def test_examples_are_good_files(text: str) -> None:
 
 def test_there_are_examples() -> None:
     assert {parse(text, "example").rotor.hardware for text in examples()} == {"sim", "pi"}
+
+
+def test_no_word_of_a_library_stands_in_it() -> None:
+    for word in ("Pydantic", "Undefined", "annotation=", "<class", "NoneType", "typing."):
+        assert word not in reference()

@@ -185,6 +185,7 @@ class PositionedAxis:
             min_deg=limits.min_deg,
             max_deg=limits.max_deg,
             angle_deg=self._sensing.angle_deg,
+            seen=now_s <= self._sensing.ridden_until_s,
             raw=self._sensing.raw,
             source=self.settings.source,
             target_deg=self.aiming.target_deg if self.aiming else None,
