@@ -67,6 +67,7 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.mount
 	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
+	$(BIN)/python -m benchmarks.startup
 	$(BIN)/python -m benchmarks.clients
 
 # Hostile bytes on every link of two running boxes, for ten minutes or as long as MINUTES says.
@@ -104,6 +105,7 @@ docs: $(VENV)/.docs
 # What the program itself knows, written into the pages: keys, commands, checks, rights.
 reference: $(VENV)/.dev
 	$(BIN)/python -m docs.generate
+	$(BIN)/python -m docs.commands
 
 # The wiring pictures, from their source in docs/drawings, and the rooms of the source, from its imports.
 drawings: $(VENV)/.dev

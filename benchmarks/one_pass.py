@@ -13,11 +13,10 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from pathlib import Path
 
-from benchmarks.passes import PASSES
 from benchmarks.picture import BLUE, RED, text
 from rotator.config.load import parse
 from rotator.rehearsal.flight import SETTLING_S, Sample, fly, plant_maker
-from rotator.rehearsal.passes import read_pass
+from rotator.rehearsal.passes import SHIPPED, read_pass
 
 PASS_NAME = "mid-1-iss"
 WIDTH, HEIGHT = 820, 980
@@ -41,7 +40,7 @@ def flown() -> tuple[Flown, Flown]:
     config = parse("", "benchmark")
     made = []
     for arduino in (False, True):
-        trace, summary = fly(read_pass(PASSES / f"{PASS_NAME}.csv"), plant_maker(config, arduino=arduino))
+        trace, summary = fly(read_pass(SHIPPED / f"{PASS_NAME}.csv"), plant_maker(config, arduino=arduino))
         made.append((trace, summary.relay_starts or 0, summary.rms_deg))
     return made[0], made[1]
 

@@ -57,6 +57,8 @@ class AxisStatus:
     source: AngleSource = AngleSource.MEASURED
     target_deg: float | None = None
     """The axis angle aimed at; None: at rest, nothing to do."""
+    tolerance_deg: float | None = None
+    """So near to the target counts as there; None: no target."""
     drive: Direction = Direction.OFF
     moving: bool = False
     """Driven, or still coasting."""
@@ -92,6 +94,14 @@ class AxisStatus:
         nearest_deg = min(max(self.angle_deg, self.min_deg), self.max_deg)
         margin_deg = min(AT_END_NOISES * self.noise_deg, AT_END_MOST_DEG)
         return nearest_deg if abs(self.angle_deg - nearest_deg) <= margin_deg else self.angle_deg
+
+    @property
+    def at_target(self) -> bool:
+        """It stands as near to its target as it is asked to."""
+        if self.target_deg is None or self.tolerance_deg is None or self.angle_deg is None:
+            return False
+        off_deg = abs(self.angle_deg - self.target_deg)
+        return not self.moving and off_deg <= self.tolerance_deg + AT_END_NOISES * self.noise_deg
 
     @property
     def uncalibrated(self) -> str:

@@ -10,7 +10,9 @@ from pathlib import Path
 
 import pytest
 
-PASSES = sorted((Path(__file__).parent / "passes").glob("*.csv"))
+from rotator.rehearsal.passes import SHIPPED
+
+PASSES = sorted(SHIPPED.glob("*.csv"))
 collect_ignore = [] if "GS232_KERNEL" in os.environ else ["kernel"]
 """Tests that need a kernel of their own run in it: `make test-kernel`."""
 

@@ -18,9 +18,9 @@ from pathlib import Path
 
 import click
 
+from rotator.cli.failed import CommandFailed
 from rotator.cli.reach import monitors, reach
 from rotator.cli.setup import SETTINGS, propose
-from rotator.links.wire import LinkError
 from rotator.monitor.transcript import LinkNote, Peer, Piece, Way, parse
 from rotator.orders import Source
 from rotator.setup import network, tree
@@ -113,8 +113,8 @@ def _try_it(path: Path, port: int, *, restart: bool) -> None:
 def wait_for_the_pc(path: Path, port: int, patience_s: float = PATIENCE_S) -> bool:
     """Say who has asked for the position through `port`; False: no other computer has, in that time."""
     try:
-        box = reach(monitors(path), "monitor")
-    except LinkError as fault:
+        box = reach(path, monitors)
+    except CommandFailed as fault:
         raise SetupError(f"{fault}; then type the line for Hamlib on the PC") from fault
     click.echo("Waiting for the PC (Ctrl-C ends) ...")
     with box, suppress(KeyboardInterrupt):

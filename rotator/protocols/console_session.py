@@ -5,6 +5,7 @@ Knows what each command makes the box do, and how the status is written. Does no
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,6 +17,7 @@ from rotator.protocols.console import TURN_WORDS, VERBS, Ask, parse
 from rotator.protocols.lines import LineReader
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Box
+from rotator.protocols.status_object import as_object
 from rotator.status import Status
 
 MAX_LINE = 200
@@ -59,6 +61,8 @@ class ConsoleSession:
         match command:
             case Ask.STATUS:
                 return _reply(*report(self._box.status()), OK)
+            case Ask.STATUS_JSON:
+                return _reply(json.dumps(as_object(self._box.status()), ensure_ascii=False), OK)
             case Ask.HELP:
                 width = max(len(verb.usage) for verb in VERBS)
                 return _reply(*(f"{verb.usage:<{width}}  {verb.help}" for verb in VERBS), OK)

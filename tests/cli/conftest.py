@@ -152,9 +152,9 @@ def start_in_terminal(tmp_path: Path) -> Iterator[Callable[..., InTerminal]]:
     """Start a command in a terminal."""
     started: list[tuple[InTerminal, int, int]] = []
 
-    def begin(*words: object, term: str = "xterm-256color") -> InTerminal:
+    def begin(*words: object, term: str = "xterm-256color", columns: int = 120) -> InTerminal:
         master, slave = os.openpty()
-        termios.tcsetwinsize(slave, (40, 120))
+        termios.tcsetwinsize(slave, (40, columns))
         process = subprocess.Popen(
             [sys.executable, "-c", _TAKE_TERMINAL, *COMMAND, *map(str, words)],
             cwd=tmp_path,

@@ -336,7 +336,7 @@ def test_a_jog_switch_held_through_a_stop_counts_again_when_it_was_let_go(let_go
         now_s += 0.05
         assert not authority.may_move(PANEL, now_s)
     assert authority.ignored(now_s) == (
-        "orders from panel are ignored: a stop came while its switch was held: let it go first",
+        "orders from panel are ignored: a stop came while the jog switch was held: release the switch first",
     )
     assert authority.may_move(PANEL, now_s + let_go_s) is (let_go_s > 0.5)
 

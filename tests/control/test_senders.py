@@ -103,24 +103,24 @@ def test_what_silences_it_and_what_ends_that_is_said(senders: Senders) -> None:
     senders.note(OTHER, now_s, THERE)
     senders.take(OTHER, now_s)
     assert senders.silence(ONE) == (
-        "rotctld#1 has taken the antenna; they count again after 10 s without one, or on a new connection"
+        "rotctld#1 moves the antenna now; orders count again after a pause of 10 s, or on a new connection"
     )
     now_s = stream(senders, OTHER, THERE, from_s=now_s + 1.0)
     senders.note(ONE, now_s, HERE)
     assert senders.silence(ONE) == (
-        "it fights with rotctld#1, which has the antenna; end one of the two programs "
-        "(they count again after 10 s without one)"
+        "rotctld#1 moves the antenna, and both send directions: end one of the two programs "
+        "(orders count again after a pause of 10 s)"
     )
     senders.stop(THIRD, now_s)
     assert senders.silence(ONE) == (
-        "easycomm2#1 has stopped the antenna; they count again after 10 s without one, or on a new connection"
+        "easycomm2#1 has stopped the antenna; orders count again after a pause of 10 s, or on a new connection"
     )
 
 
 def test_a_single_order_before_a_stop_waits_three_seconds(senders: Senders) -> None:
     senders.note(ONE, 0.0, HERE)
     senders.stop(OTHER, 0.5)
-    assert "after 3 s without one" in senders.silence(ONE)
+    assert "after a pause of 3 s" in senders.silence(ONE)
     senders.note(ONE, 2.9, HERE)
     assert senders.silence(ONE) != ""
     senders.note(ONE, 5.9, HERE)

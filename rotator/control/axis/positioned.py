@@ -189,6 +189,7 @@ class PositionedAxis:
             raw=self._sensing.raw,
             source=self.settings.source,
             target_deg=self.aiming.target_deg if self.aiming else None,
+            tolerance_deg=self.aiming.tolerance_deg if self.aiming else None,
             drive=self._direction(),
             moving=self.moving(now_s),
             missing=self.settings.missing,

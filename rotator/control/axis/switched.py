@@ -318,6 +318,7 @@ class SwitchedAxis:
             raw=self._sensing.raw,
             source=self.settings.source,
             target_deg=self.aiming.target_deg if self.aiming else None,
+            tolerance_deg=self.aiming.tolerance_deg if self.aiming else None,
             drive=self._runs.direction,
             moving=self.moving(now_s),
             missing=self.missing,
