@@ -14,8 +14,8 @@ PAGE = Path(__file__).parent / "reference" / "commands.md"
 HEAD = """# Commands
 
 For a person, or a script, at the Pi. `rotator --help` lists the commands, `rotator COMMAND --help` has examples. A
-number may have a decimal point or a comma. `point`, `jog`, `park` and `home` wait until the antenna stands; Ctrl-C stops
-it.
+number may have a decimal point or a comma. `point`, `jog`, `park` and `home` wait until the antenna stands; Ctrl-C
+stops it.
 
 """
 STATUS = """
