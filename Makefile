@@ -105,6 +105,7 @@ docs: $(VENV)/.docs
 # What the program itself knows, written into the pages: keys, commands, checks, rights.
 reference: $(VENV)/.dev
 	$(BIN)/python -m docs.generate
+	$(BIN)/python -m docs.commands
 
 # The wiring pictures, from their source in docs/drawings, and the rooms of the source, from its imports.
 drawings: $(VENV)/.dev
