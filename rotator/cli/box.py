@@ -75,5 +75,5 @@ def stands(status: BoxStatus, axis: str) -> str:
     now = status[axis]
     if now["angle_deg"] is None:
         return f"{axis} not known"
-    source = now["angle_source"] if now["angle_is_current"] else "when last read"
+    source = now["angle_source"] if now["angle_is_current"] else "when last seen, no reading now"
     return f"{axis} {now['angle_deg']:.1f}° {source}"

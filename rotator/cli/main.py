@@ -247,7 +247,7 @@ def pins(undo: bool, yes: bool, root: Path, path: Path | None) -> None:
     relay_pins(root, path, undo=undo, yes=yes)
 
 
-@set_up.command()
+@set_up.command(epilog=examples("sudo rotator setup network"))
 @UNDO
 @YES
 @ROOT

@@ -336,7 +336,7 @@ def test_a_fault_on_the_way_is_named(scripted: Any, rotator: Rotator, config: Pa
     fault = Fault(FaultKind.POT_OPEN, Axis.AZIMUTH, "reads 0.000", "0.02 to 0.98")
     scripted(on_its_way(100), pointed(AxisStatus(0.0, 450.0, 120.0, fault=fault, seen=False)))
     done = rotator("point", "180", "45", "--config", config)
-    assert done.stdout == "azimuth 120.0° when last read, elevation 45.0° measured.\n"
+    assert done.stdout == "azimuth 120.0° when last seen, no reading now, elevation 45.0° measured.\n"
     assert why(done, 3) == f"rotator: {fault}\n"
 
 

@@ -43,3 +43,33 @@ def test_what_ends_an_order_is_not_undone_by_a_nudge(desk: Any, over: Order) -> 
     desk.step(Nudge(AZ, 3.0), by=PANEL)
     assert targets(desk) == stood
     assert targets(desk)[0] != 203.0
+
+
+@pytest.mark.parametrize(("at_deg", "azimuth_deg", "target_deg"), [(430.0, 60.0, 420.0), (20.0, 60.0, 60.0)])
+def test_of_two_turns_the_nearer_one_is_taken(
+    new_desk: Any, at_deg: float, azimuth_deg: float, target_deg: float
+) -> None:
+    desk = new_desk(at=(at_deg, 10.0))
+    desk.step()
+    desk.step(Aim(azimuth_deg, 10.0))
+    assert targets(desk) == pytest.approx((target_deg, 10.0))
+
+
+def test_before_the_azimuth_has_been_read_the_first_turn_is_taken(new_desk: Any) -> None:
+    desk = new_desk(at=(430.0, 10.0))
+    desk.instead[AZ] = None
+    desk.step(Aim(60.0, 10.0))
+    assert targets(desk) == pytest.approx((60.0, 10.0))
+
+
+def test_between_the_orders_of_a_stream_the_target_moves_on_and_stands_when_the_stream_ends(desk: Any) -> None:
+    for second in range(6):
+        desk.step(Aim(110.0 + 3.0 * second, 20.0))
+        desk.run(0.95)
+    target_deg = desk.status.azimuth.target_deg
+    desk.run(0.5)
+    assert desk.status.azimuth.target_deg > target_deg + 1.0
+    desk.step(Aim(None, 30.0))
+    target_deg = desk.status.azimuth.target_deg
+    desk.run(1.0)
+    assert desk.status.azimuth.target_deg == target_deg

@@ -1,4 +1,4 @@
-"""docs/commands.md is what the program says of itself, and each `--help` can be read on a narrow terminal."""
+"""docs/reference/commands.md is what the program says of itself, and each `--help` can be read on a narrow terminal."""
 
 from __future__ import annotations
 

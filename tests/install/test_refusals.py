@@ -47,7 +47,7 @@ def test_no_python_at_all(bare: Root) -> None:
 
 def test_no_venv(bare: Root) -> None:
     bare.run("dpkg", "--purge", "--force-depends", "python3-venv", "python3.11-venv").check()
-    assert refused(bare, "/src/install.sh").startswith(
+    assert refused(bare, "/src/install.sh", "--yes").startswith(
         "Python cannot make a virtual environment: sudo apt install python3-venv"
     )
 

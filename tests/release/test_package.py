@@ -12,7 +12,6 @@ from pathlib import Path
 import pytest
 
 from release import deb, environment
-from release.source import Source
 from tests.release.conftest import PROJECT, Archives, python_of
 
 HERE = "arm64" if os.uname().machine == "aarch64" else "amd64"
@@ -33,7 +32,7 @@ def package(built: Archives, tmp_path_factory: pytest.TempPathFactory) -> tuple[
     """The package, and the list of its parts."""
     if not Path("/usr/bin/dpkg-deb").exists():
         pytest.skip("only a Debian builds its packages: sudo apt install dpkg")
-    return deb.build(Source.at(PROJECT), built.wheel, tmp_path_factory.mktemp("deb"), HERE)
+    return deb.build(built.source, built.wheel, tmp_path_factory.mktemp("deb"), HERE)
 
 
 def test_built_by_another_person_it_is_the_same_bytes(
@@ -43,7 +42,7 @@ def test_built_by_another_person_it_is_the_same_bytes(
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     umask = os.umask(0o077)
     try:
-        again = deb.build(Source.at(PROJECT), built.wheel, tmp_path, HERE)
+        again = deb.build(built.source, built.wheel, tmp_path, HERE)
     finally:
         os.umask(umask)
     assert [path.read_bytes() for path in again] == [path.read_bytes() for path in package]

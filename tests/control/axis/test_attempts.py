@@ -84,6 +84,13 @@ def test_a_fault_at_rest_before_any_run_meets_no_stop() -> None:
     assert tried.attempts.limits == LIMITS
 
 
+def test_a_fault_may_come_before_the_first_reading_of_the_axis() -> None:
+    attempts = Attempts(Axis.AZIMUTH, LIMITS)
+    assert attempts.fail(JUMPS)
+    assert attempts.acknowledge(0.0, by_person=False)
+    assert attempts.fault is None
+
+
 def test_a_link_keeps_the_stop_and_a_person_s_release_forgets_it() -> None:
     tried = Tried()
     tried.run_into(END)

