@@ -250,6 +250,14 @@ def test_a_change_counted_back_after_a_run_may_have_been_one_ahead_so_no_stop_ma
     assert shaft.watch.trusts[0 if way > 0 else 1] is (Trust.DOUBTED if near else Trust.OPEN)
 
 
+def test_near_its_stop_with_an_edge_ahead_silence_shows_it_where_no_change_was_counted_back() -> None:
+    shaft = Shaft()
+    shaft.angle_deg = 352.0
+    shaft.run(PLUS)
+    shaft.pass_by(5.0)
+    assert shaft.watch.trusts == (Trust.OPEN, Trust.OPEN)
+
+
 @pytest.mark.parametrize(("held_s", "trust"), [(0.5, Trust.OPEN), (2.0, Trust.DOUBTED)])
 def test_without_a_count_it_must_have_changed_as_lately_as_one_that_turns(held_s: float, trust: Trust) -> None:
     """It may have met its stop anywhere."""

@@ -66,4 +66,4 @@ def test_what_is_put_off_keeps_its_way_and_its_end() -> None:
 def test_an_open_limit_switch_names_the_axis_and_the_way(axis: Axis, way: Direction, word: str) -> None:
     fault = limit_reached(axis, way)
     assert (fault.kind, fault.axis) == (FaultKind.LIMIT_SWITCH, axis)
-    assert fault.measured.endswith(f"to turn {word}")
+    assert fault.measured.endswith(f" {word}")

@@ -294,4 +294,5 @@ def test_a_relay_found_welded_must_show_that_it_opens_before_the_opposite_one_is
 
 def test_a_late_cycle_is_told_with_how_late_it_was_and_how_late_it_may_be() -> None:
     fault = late(Axis.AZIMUTH, 1.234, 0.05)
-    assert (fault.measured, fault.limit) == ("1.2 s from one cycle to the next", "0.55 s")
+    assert "1.2 s" in fault.measured
+    assert "0.55 s" in fault.limit
