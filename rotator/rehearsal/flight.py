@@ -186,8 +186,13 @@ def plant_maker(
     return make
 
 
-def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Sample], Summary]:
-    """Follow the pass with one order a second, as from a tracking program. Returns the trace and its summary."""
+def fly(
+    flown: Pass, make: Callable[[SimClock, Pass], Plant], progress: Callable[[float], None] = lambda _t_s: None
+) -> tuple[list[Sample], Summary]:
+    """Follow the pass with one order a second, as from a tracking program. Returns the trace and its summary.
+
+    `progress` hears every second how much of the pass is flown.
+    """
     clock = SimClock()
     plant = make(clock, flown)
     trace: list[Sample] = []
@@ -200,6 +205,7 @@ def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Samp
 
     def order(now_s: float) -> None:
         azimuth_deg, elevation_deg = flown.at(now_s - started_s)
+        progress(now_s - started_s)
         plant.order(azimuth_deg, max(0.0, elevation_deg))
 
     clock.every(SAMPLE_S, sample)
