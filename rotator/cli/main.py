@@ -51,7 +51,7 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
 @click.command(
     epilog=examples(
         "rotator rehearse                  # lists the passes that are there",
-        "rotator rehearse iss-north",
+        "rotator rehearse north-1-iss",
         "rotator rehearse mine.csv --config station.toml --trace flight.csv",
     )
 )
