@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests drills test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings dist deb lock clean
+.PHONY: run test check tests docs reference drills test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -46,9 +46,9 @@ test-machines: $(VENV)/.dev
 test-install: $(VENV)/.release
 	$(BIN)/pytest tests/install
 
-# The wheel and the sdist: the same bytes everywhere, and they work on each Python there is, for an ordinary user.
+# Wheel, sdist and .deb: the same bytes wherever they are built, and they work on each Python that this machine has.
 test-dist: $(VENV)/.release
-	$(BIN)/pytest -n 2 --dist loadfile tests/release tests/release/test_archives.py tests/release/test_wheel.py
+	$(BIN)/pytest -n 2 --dist loadfile tests/release $(addprefix tests/release/test_,$(addsuffix .py,archives package wheel))
 
 # The tests that need a real Linux kernel: Debian's own under QEMU, with simulated chips on its buses. TESTS chooses some.
 test-kernel: $(VENV)/.dev
@@ -58,14 +58,16 @@ test-kernel: $(VENV)/.dev
 test-gpredict: $(VENV)/.dev
 	$(BIN)/pytest -rP tests/gpredict
 
-# The figures of the README: pointing first, the same on every machine; then latency and load, on this one.
+# The figures of docs/pointing.md: pointing first, the same on every machine; then latency and load, on this one.
 bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.passes --svg docs/img/passes.svg
+	$(BIN)/python -m benchmarks.one_pass docs/img/one-pass.svg
 	$(BIN)/python -m benchmarks.kinds
 	$(BIN)/python -m benchmarks.rotors
 	$(BIN)/python -m benchmarks.mount
 	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
+	$(BIN)/python -m benchmarks.startup
 	$(BIN)/python -m benchmarks.clients
 
 # Hostile bytes on every link of two running boxes, for ten minutes or as long as MINUTES says.
@@ -93,6 +95,18 @@ picture: $(VENV)/.dev
 picture-gpredict: $(VENV)/.dev
 	$(BIN)/pytest tests/gpredict -k follows --picture docs/img/gpredict.png
 
+# The pages of docs/ as a site in build/docs that needs no network to read or search. A broken link or anchor ends it.
+docs: $(VENV)/.docs
+	$(BIN)/python -m docs.words
+	$(BIN)/python -m docs.blocks
+	$(BIN)/sphinx-build -q -W --keep-going -c docs/site -d build/doctrees docs build/docs
+	$(BIN)/python -m docs.site.check build/docs
+
+# What the program itself knows, written into the pages: keys, commands, checks, rights.
+reference: $(VENV)/.dev
+	$(BIN)/python -m docs.generate
+	$(BIN)/python -m docs.commands
+
 # The wiring pictures, from their source in docs/drawings, and the rooms of the source, from its imports.
 drawings: $(VENV)/.dev
 	$(BIN)/python -m docs.drawings
@@ -112,6 +126,10 @@ $(VENV)/.dev: $(BIN)/python pyproject.toml
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	$(BIN)/pip install --quiet --disable-pip-version-check --no-deps 'moteus>=1.1,<2'
 	@touch $@ $(VENV)/.run
+
+$(VENV)/.docs: $(VENV)/.dev
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	@touch $@
 
 $(VENV)/.mutants: $(VENV)/.dev
 	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[mutants]'

@@ -99,6 +99,7 @@ install_it() {
     check_python
     find_source
     find_version
+    refuse_an_unknown_profile
     refuse_what_is_not_ours
     if [ -e "$version_at/print" ]; then
         try_out "$version_at" || die "version $version, which is here already, does not accept that; nothing has been changed"
@@ -110,6 +111,14 @@ install_it() {
     if [ ! -e $CONFIG ]; then act "writes $CONFIG, profile $profile" write_config; fi
     switch_to "$version_at" "$HERE/install"
     finish "rotator $version is installed. Configuration: $CONFIG. Log: journalctl -fu rotator"
+}
+
+refuse_an_unknown_profile() {
+    local file known=simulated
+    for file in $(if [ -d "$source_at" ]; then find "$source_at/rotator/config"; else "$PYTHON" -m zipfile -l "$source_at"; fi | sort); do
+        case $file in */profiles/*.toml) known+=" $(basename "$file" .toml)" ;; esac
+    done
+    case " $known " in *" $profile "*) ;; *) die "there is no profile $profile; there are: $known" ;; esac
 }
 
 refuse_what_is_not_ours() {

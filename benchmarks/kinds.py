@@ -14,17 +14,17 @@ from dataclasses import dataclass
 from itertools import pairwise
 from multiprocessing import get_context
 
-from benchmarks.passes import PASSES, mean
+from benchmarks.passes import mean
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.rehearsal.flight import Sample, Summary, fly, plant_maker
-from rotator.rehearsal.passes import read_pass
+from rotator.rehearsal.passes import SHIPPED, read_pass
 
 AWAY_DEG = 10.0
 """Off by this much, a second is lost."""
 SETTLED_S = 5.0
 OVER_DEG = 90.0
-PASS_NAMES = sorted(path.stem for path in PASSES.glob("*.csv"))
+PASS_NAMES = sorted(path.stem for path in SHIPPED.glob("*.csv"))
 FULL_TURN_DEG = 360.0
 
 
@@ -75,7 +75,7 @@ class Flight:
 
 def fly_one(job: tuple[Kind, str]) -> Flight:
     kind, pass_name = job
-    trace, summary = fly(read_pass(PASSES / f"{pass_name}.csv"), plant_maker(kind.config(), via=kind.via))
+    trace, summary = fly(read_pass(SHIPPED / f"{pass_name}.csv"), plant_maker(kind.config(), via=kind.via))
     return Flight(kind, pass_name, summary, away_s(trace), swings(trace))
 
 

@@ -11,10 +11,9 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from benchmarks.passes import PASSES
 from rotator.config.load import parse
 from rotator.rehearsal.flight import SAMPLE_S, Sample, fly, plant_maker
-from rotator.rehearsal.passes import Pass, read_pass
+from rotator.rehearsal.passes import SHIPPED, Pass, read_pass
 
 OFF_DEG = 10.0
 LONG_SWING_DEG = 200.0
@@ -62,7 +61,7 @@ def flips(trace: list[Sample]) -> list[float]:
 
 
 def fly_case(case: Case) -> Outcome:
-    flown = read_pass(PASSES / f"{case.name}.csv")
+    flown = read_pass(SHIPPED / f"{case.name}.csv")
     if case.mirrored:
         flown = mirror(flown)
     start = "" if case.start_deg is None else f"[sim.azimuth]\nstart_deg = {case.start_deg}\n"
@@ -76,7 +75,7 @@ def fly_case(case: Case) -> Outcome:
 def cases() -> list[Case]:
     some = []
     flips = '[azimuth]\nmax_deg = 360\n[mount]\nflip = "over-top"\n'
-    for path in sorted(PASSES.glob("north-*.csv")):
+    for path in sorted(SHIPPED.glob("north-*.csv")):
         for mirrored in (False, True):
             flown = mirror(read_pass(path)) if mirrored else read_pass(path)
             first_deg = flown.rows[0][1]

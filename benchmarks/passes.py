@@ -18,9 +18,9 @@ from pathlib import Path
 from benchmarks.picture import FIGURES, kept
 from rotator.config.load import parse
 from rotator.rehearsal.flight import Summary, fly, plant_maker
-from rotator.rehearsal.passes import read_pass
+from rotator.rehearsal.passes import SHIPPED, read_pass
 
-PASSES = Path(__file__).parent.parent / "tests" / "passes"
+OPTIMUM = Path(__file__).parent.parent / "tests" / "passes" / "optimum.json"
 TOLERANCES_DEG = (4.0, 2.0, 1.0)
 AXES = ("azimuth", "elevation")
 
@@ -45,7 +45,7 @@ class Flight:
 
 def optimum_points() -> dict[str, list[tuple[float, float]]]:
     """For each pass the points (starts, rms in degrees), fewest starts first."""
-    table = json.loads((PASSES / "optimum.json").read_text())
+    table = json.loads(OPTIMUM.read_text())
     return {name.removesuffix(".csv"): sorted((s, r) for s, r in points) for name, points in table.items()}
 
 
@@ -67,12 +67,12 @@ def fly_one(job: tuple[str, float | None, str]) -> Flight:
         axes = {axis: getattr(config, axis).model_copy(update={"tolerance_deg": tolerance_deg}) for axis in AXES}
         config = config.model_copy(update=axes)
     make = plant_maker(config, arduino=tolerance_deg is None)
-    _, summary = fly(read_pass(PASSES / f"{pass_name}.csv"), make)
+    _, summary = fly(read_pass(SHIPPED / f"{pass_name}.csv"), make)
     return Flight(pass_name, tolerance_deg, summary)
 
 
 def fly_all(tolerances: tuple[float | None, ...], extra: str = "") -> list[Flight]:
-    names = [path.stem for path in sorted(PASSES.glob("*.csv"))]
+    names = [path.stem for path in sorted(SHIPPED.glob("*.csv"))]
     jobs = [(name, tolerance, extra) for tolerance in tolerances for name in names]
     with ProcessPoolExecutor() as pool:
         return list(pool.map(fly_one, jobs))

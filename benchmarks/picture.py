@@ -16,11 +16,11 @@ from pathlib import Path
 Point = tuple[float, float]
 """Relay starts a pass, and the error in degrees."""
 
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 720, 440, 60, 20, 34, 56
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 860, 540, 66, 24, 44, 66
 STARTS = (15, 1000)
 ERRORS_DEG = (0.3, 8.0)
-FONT_PX = 13
-CHARACTER_PX = 7.4
+FONT_PX = 17
+CHARACTER_PX = 9.6
 """The widest that a character is on average in the usual fonts of this size."""
 RED, BLUE, GREEN, GREY = "#b22", "#05b", "#363", "#666"
 FIGURES = Path(__file__).with_name("passes.json")
@@ -78,54 +78,55 @@ def draw(series: dict[str, Point], optima: Iterable[Sequence[Point]]) -> str:
     for starts in (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0):
         x = _x(starts)
         parts.append(f'<line x1="{x:.1f}" x2="{x:.1f}" y1="{TOP}" y2="{PLOT.bottom}" stroke="#ddd"/>')
-        parts.append(_text(x, PLOT.bottom + 18, f"{starts:g}", "middle"))
+        parts.append(text(x, PLOT.bottom + 24, f"{starts:g}", "middle"))
     for error_deg in (0.5, 1.0, 2.0, 4.0, 8.0):
         y = _y(error_deg)
         parts.append(f'<line x1="{LEFT}" x2="{PLOT.right}" y1="{y:.1f}" y2="{y:.1f}" stroke="#ddd"/>')
-        parts.append(_text(LEFT - 8, y + 4, f"{error_deg:g}°", "end"))
+        parts.append(text(LEFT - 8, y + 6, f"{error_deg:g}°", "end"))
     for curve in optima:
         points = " ".join(f"{_x(starts):.1f},{_y(error):.1f}" for starts, error in curve)
         parts.append(f'<polyline points="{points}" fill="none" stroke="#9c9" clip-path="url(#plot)"/>')
     for row, line in enumerate(("green lines: the least possible", "on each pass, knowing the future")):
-        parts.append(_text(LEFT + 12, PLOT.bottom - 32 + 18 * row, line, "start", GREEN))
+        parts.append(text(LEFT + 14, PLOT.bottom - 40 + 24 * row, line, "start", GREEN))
     colours = {name: RED if "sketch" in name else BLUE for name in series} | dict.fromkeys(PEERS, GREY)
     points_of = {**series, **PEERS}
     for name, (starts, error) in points_of.items():
-        parts.append(f'<circle cx="{_x(starts):.1f}" cy="{_y(error):.1f}" r="5" fill="{colours[name]}"/>')
+        parts.append(f'<circle cx="{_x(starts):.1f}" cy="{_y(error):.1f}" r="7" fill="{colours[name]}"/>')
     for label in labels(points_of, colours):
         x = label.box.left if label.anchor == "start" else label.box.right
-        parts.append(_text(x, label.box.bottom - 4, label.text, label.anchor, label.colour))
-    parts.append(_text((LEFT + PLOT.right) / 2, HEIGHT - 14, "relay starts a pass (mean of twelve)", "middle"))
-    parts.append(_text(12, 18, "pointing error, rms", "start"))
+        parts.append(text(x, label.box.bottom - 6, label.text, label.anchor, label.colour))
+    parts.append(text((LEFT + PLOT.right) / 2, HEIGHT - 14, "relay starts a pass (mean of twelve)", "middle"))
+    parts.append(text(12, 24, "pointing error, rms", "start"))
     return "\n".join((*parts, "</svg>")) + "\n"
 
 
 def labels(points: dict[str, Point], colours: dict[str, str]) -> list[Label]:
     """Each beside its dot, inside the plot, and clear of every dot and every other label. Raises ValueError."""
-    dots = [Box(_x(s) - 6, _y(e) - 6, _x(s) + 6, _y(e) + 6) for s, e in points.values()]
+    dots = [Box(_x(s) - 8, _y(e) - 8, _x(s) + 8, _y(e) + 8) for s, e in points.values()]
     placed: list[Label] = []
     for name, (starts, error_deg) in points.items():
-        text = f"{name}: {starts:.0f} starts, {error_deg:.2f}°"
+        words = f"{name}: {starts:.0f} starts, {error_deg:.1f}°"
         taken = [*dots, *(label.box for label in placed)]
-        free = (box for box in _beside(starts, error_deg, text) if box.inside(PLOT) and not any(map(box.hits, taken)))
+        free = (box for box in _beside(starts, error_deg, words) if box.inside(PLOT) and not any(map(box.hits, taken)))
         box = next(free, None)
         if box is None:
-            raise ValueError(f"no room for the label: {text}")
-        placed.append(Label(text, colours[name], box, "start" if box.left > _x(starts) else "end"))
+            raise ValueError(f"no room for the label: {words}")
+        placed.append(Label(words, colours[name], box, "start" if box.left > _x(starts) else "end"))
     return placed
 
 
 def _beside(starts: float, error_deg: float, text: str) -> Iterable[Box]:
     """Where a label may stand: right of its dot, then left; higher first, then level, then lower."""
     x, y, long = _x(starts), _y(error_deg), len(text) * CHARACTER_PX
-    for left, middle in product((x + 9, x - 9 - long), (y - 8, y, y + 10, y - 20, y + 22)):
-        yield Box(left, middle - 9, left + long, middle + 9)
+    for left, middle in product((x + 12, x - 12 - long), (y - 8, y, y + 12, y - 24, y + 26)):
+        yield Box(left, middle - 12, left + long, middle + 12)
 
 
-def _text(x: float, y: float, text: str, anchor: str, colour: str = "#333") -> str:
-    # A white edge keeps it readable where it stands on a line.
-    edge = 'stroke="white" stroke-width="3" paint-order="stroke"'
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" fill="{colour}" {edge}>{text}</text>'
+def text(x: float, y: float, words: str, anchor: str, colour: str = "#333") -> str:
+    """With a white edge, painted first and by itself: not every viewer keeps the letters on top of their own edge."""
+    where = f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"'
+    edge = f'{where} fill="white" stroke="white" stroke-width="4" stroke-linejoin="round">{words}</text>'
+    return f'{edge}{where} fill="{colour}">{words}</text>'
 
 
 def _x(starts: float) -> float:

@@ -1,7 +1,7 @@
 """What a terminal shows, as an SVG that looks the same with any fixed-width font.
 
-Each word is stretched to its cells. Frames, bars and lamps are drawn as lines and shapes, because each font gives them
-another height and width. Knows `rich`, not what the picture says.
+Each word is stretched to its cells. Frames, bars, dots and lamps are drawn as lines and shapes, because each font gives
+them another height and width. Knows `rich`, not what the picture says.
 """
 
 from __future__ import annotations
@@ -28,6 +28,13 @@ ARMS = {
 }
 """Which edges of its cell a character's lines reach from the middle, and how wide they are."""
 
+PARTS = "▏▎▍▌▋▊▉█"
+SHADES = {"░": 0.25, "▒": 0.5}
+SHAPES = f"{PARTS}▕░▒●○◆◇◈"
+DOTS = {chr(code) for code in range(0x2801, 0x2900)}
+DOT_PLACES = ((0, 0), (0, 1), (0, 2), (1, 0), (1, 1), (1, 2), (0, 3), (1, 3))
+"""The column and the row of each bit's dot in a cell of two by four."""
+
 
 @dataclass(frozen=True, slots=True)
 class Cell:
@@ -40,7 +47,9 @@ class Cell:
     def kind(self) -> str:
         if self.text in ARMS:
             return "line"
-        return "shape" if self.text in "█●○" else "space" if self.text == " " else "word"
+        if self.text in SHAPES or self.text in DOTS:
+            return "shape"
+        return "space" if self.text == " " else "word"
 
     @property
     def colour(self) -> str:
@@ -118,15 +127,41 @@ def _lines(run: list[Cell]) -> Iterator[str]:
 
 
 def _shape(cell: Cell) -> str:
-    x, y = cell.x + CELL_W / 2, cell.y + CELL_H / 2
+    x, y, colour = cell.x + CELL_W / 2, cell.y + CELL_H / 2, cell.colour
+    half = CELL_W / 2
+    diamond = f"M{x:g} {y - half:g} L{x + half:g} {y:g} L{x:g} {y + half:g} L{x - half:g} {y:g} Z"
     match cell.text:
-        case "█":
-            at, size = f'x="{cell.x:g}" y="{cell.y + 2:g}"', f'width="{CELL_W:g}" height="{CELL_H - 4:g}"'
-            return f'<rect {at} {size} fill="{cell.colour}"/>'
+        case "▕":
+            return _block(cell, CELL_W - 1.0, 1.0)
+        case "░" | "▒":
+            return _block(cell, 0.0, CELL_W, SHADES[cell.text])
+        case text if text in PARTS:
+            # A little wider than the part: else a seam shows between two cells.
+            return _block(cell, 0.0, CELL_W * (PARTS.index(text) + 1) / 8 + 0.4)
         case "●":
-            return f'<circle cx="{x:g}" cy="{y:g}" r="4.5" fill="{cell.colour}"/>'
+            return f'<circle cx="{x:g}" cy="{y:g}" r="4.5" fill="{colour}"/>'
+        case "○":
+            return f'<circle cx="{x:g}" cy="{y:g}" r="4" fill="none" stroke="{colour}"/>'
+        case "◆" | "◈":
+            return f'<path d="{diamond}" fill="{colour}"/>'
+        case "◇":
+            return f'<path d="{diamond}" fill="none" stroke="{colour}" stroke-width="1.5"/>'
         case _:
-            return f'<circle cx="{x:g}" cy="{y:g}" r="4" fill="none" stroke="{cell.colour}"/>'
+            return "".join(_dots(cell))
+
+
+def _block(cell: Cell, left: float, wide: float, opacity: float = 1.0) -> str:
+    at, size = f'x="{cell.x + left:g}" y="{cell.y + 2:g}"', f'width="{wide:g}" height="{CELL_H - 4:g}"'
+    seen = f' opacity="{opacity:g}"' if opacity < 1.0 else ""
+    return f'<rect {at} {size} fill="{cell.colour}"{seen}/>'
+
+
+def _dots(cell: Cell) -> Iterator[str]:
+    bits = ord(cell.text) - 0x2800
+    for bit, (column, row) in enumerate(DOT_PLACES):
+        if bits >> bit & 1:
+            x, y = cell.x + CELL_W * (column + 0.5) / 2, cell.y + CELL_H * (row + 0.5) / 4
+            yield f'<circle cx="{x:g}" cy="{y:g}" r="1.3" fill="{cell.colour}"/>'
 
 
 def _triplet(colour: Color | None, *, foreground: bool) -> ColorTriplet:

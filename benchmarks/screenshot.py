@@ -16,9 +16,11 @@ from benchmarks.screen_svg import screen_svg
 from rotator import __version__
 from rotator.app import App
 from rotator.config.load import parse
-from rotator.views import frame, terminal
+from rotator.views import terminal
+from rotator.views.sky_plot import Trail
 
 UNDER_WAY_S = 30.0
+COLUMNS = 120
 
 
 async def take() -> str:
@@ -35,11 +37,14 @@ async def take() -> str:
             await reader.readline()
             port = os.open("run/gs232", os.O_RDWR | os.O_NOCTTY)
             os.write(port, b"W235 025\r")
-            await asyncio.sleep(UNDER_WAY_S)
+            trail = Trail()
+            for _ in range(round(UNDER_WAY_S)):
+                await asyncio.sleep(1.0)
+                trail.note(app.loop.status)
             os.write(port, b"C2\r")
             writer.write(b"p\n")
             await asyncio.sleep(0.5)
-            picture = _render(app)
+            picture = _render(app, trail)
             os.close(port)
             writer.close()
             stop.set()
@@ -49,13 +54,14 @@ async def take() -> str:
     return picture
 
 
-def _render(app: App) -> str:
+def _render(app: App, trail: Trail) -> str:
     world = app.station.world
     assert world is not None
     assert world.lcd is not None
     wires = [link.wire for link in app.links]
-    picture = terminal.picture(__version__, app.loop.status, world.lcd.text(), wires, [])
-    return screen_svg(picture, "rotator run", frame.WIDTH)
+    around = terminal.Surroundings(app.mount, trail.ways)
+    picture = terminal.picture(__version__, app.loop.status, world.lcd.text(), wires, [], around=around)
+    return screen_svg(picture, "rotator run", COLUMNS)
 
 
 CONFIG = """

@@ -44,19 +44,22 @@ find_source() { # sets source_at, what pip is given; version; and print: which s
         source_at=$(find "$wheels" -maxdepth 1 -name 'gs232_rotator-*.whl' | sort -V | tail -n 1)
         [ -n "$source_at" ] || die "$wheels holds no wheel of the rotator; where there is a network, fill it: ./install.sh --fetch-wheels $wheels"
         version=$(basename "$source_at" | cut -d- -f2)
-        sums=$(cd "$wheels" && sha256sum -- *.whl; cd "$HERE" && sha256sum install/*)
+        sums=$(cd "$wheels" && sha256sum -- *.whl; cd "$HERE" && sums_of install)
     else
         [ -f "$HERE/pyproject.toml" ] || die "this folder holds no sources; if it holds wheels: --wheels $HERE"
         source_at=$HERE
         version=$(sed -n 's/^__version__ = "\(.*\)"$/\1/p' "$HERE/rotator/__init__.py")
-        sums=$(cd "$HERE" && find pyproject.toml install rotator hw firmware_sim -type f ! -path '*/__pycache__/*' -print0 |
-            LC_ALL=C sort -z | xargs -0 sha256sum)
+        sums=$(cd "$HERE" && sums_of pyproject.toml install rotator hw firmware_sim)
     fi
     # An upgrade of the system changes its Python, and an environment made for another one is dead.
     print="$("$PYTHON" -c 'import sys; print("python%d.%d" % sys.version_info[:2])') $(sha256sum <<<"$sums" | cut -c1-16)"
     find_extras
     # With another set of packages it is another version, built beside: going back to the one before stays possible.
     print+=${extras:+ $extras}
+}
+
+sums_of() { # FILE-OR-FOLDER...
+    find "$@" -type f ! -path '*/__pycache__/*' -print0 | LC_ALL=C sort -z | xargs -0 sha256sum
 }
 
 find_version() { # sets version_at: the folder that has these sources already, or the one to build

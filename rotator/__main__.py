@@ -2,29 +2,42 @@
 
 from __future__ import annotations
 
+import os
 import sys
 
-INTERRUPTED = 130
-"""The exit code of a program that Ctrl-C ended."""
+from rotator.cli.failed import INTERRUPTED
 
 
 def main() -> None:
     try:
         _run()
-    except KeyboardInterrupt:  # while the program still loads: later each command handles it itself
+    except KeyboardInterrupt:  # while the program still loads or starts: later each command handles it itself
         sys.exit(INTERRUPTED)
 
 
 def _run() -> None:
-    if sys.argv[1:2] == ["stop"]:
-        from rotator.cli.stop import STOPPED, stop_at_once  # noqa: PLC0415 - a command loads what it needs and no more
-
-        if stop_at_once(sys.argv[2:]):
-            sys.stdout.write(f"{STOPPED}\n")
-            return
-    from rotator.cli import main as commands  # noqa: PLC0415 - loads click and the model
+    if sys.argv[1:2] == ["stop"] and _stopped(sys.argv[2:]):
+        return
+    from rotator.cli import main as commands  # noqa: PLC0415 - loads click
 
     commands.main()
+
+
+def _stopped(arguments: list[str]) -> bool:
+    from rotator.cli.failed import CommandFailed  # noqa: PLC0415 - a command loads what it needs and no more
+    from rotator.cli.stop import STOPPED, stop_at_once  # noqa: PLC0415
+
+    try:
+        if not stop_at_once(arguments):
+            return False
+    except CommandFailed as fault:
+        sys.stderr.write(f"rotator: {fault}\n")
+        sys.exit(fault.exit_code)
+    try:
+        print(STOPPED, flush=True)  # noqa: T201
+    except OSError:  # the reader has gone: the antenna has stopped all the same
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return True
 
 
 if __name__ == "__main__":

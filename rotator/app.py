@@ -74,7 +74,7 @@ class App:
         self.station = station or open_station(config)
         self._service_manager = ServiceManager(os.environ, time.monotonic)
         self._events = EventWatch(time.monotonic)
-        mount = build_mount(config)
+        self.mount = mount = build_mount(config)
         learnt, relays_file = build_learnt(config), open_relays(config)
         self.loop = ControlLoop(
             build_controller(config, learnt.load(), trusts=relays_file.load() if relays_file else None, panel=True),
@@ -115,6 +115,8 @@ class App:
             motion_ended = await self._start()
             self._tasks.append(asyncio.create_task(stop.wait(), name="stop"))
             self._service_manager.ready()
+            if not self.links:
+                log.warning("the file has no [[link]], so no program can connect: `rotator config` prints two to copy")
             await asyncio.wait([motion_ended, *self._tasks], return_when=asyncio.FIRST_COMPLETED)
             if motion_ended.done() and (failure := motion_ended.result()):
                 failures.note("the control thread", failure)

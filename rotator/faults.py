@@ -21,36 +21,109 @@ class EasycommError(IntFlag):
 
 
 class FaultKind(Enum):
-    """Every kind of fault: its name, its text on the LCD beside the axis (13 characters at most), its EasyComm bit."""
+    """Every kind of fault: its name, its text on the LCD beside the axis (13 characters at most), its EasyComm bit, and
+    what a person does about it, where AXIS stands for the axis.
+    """
 
-    POT_OPEN = "pot open or shorted", "POT OPEN/SHRT", EasycommError.SENSOR
-    SENSOR_SILENT = "sensor silent", "SENSOR SILENT", EasycommError.SENSOR
-    SENSOR_LATE = "sensor late", "SENSOR LATE", EasycommError.SENSOR
-    POT_JUMPS = "pot jumps", "POT JUMPS", EasycommError.SENSOR
-    BAD_READINGS = "bad readings", "BAD READINGS", EasycommError.SENSOR
-    WRONG_WAY = "pot moves the wrong way", "WRONG WAY", EasycommError.SENSOR
-    STANDS_STILL = "motor runs and pot stands still", "STANDS STILL", EasycommError.JAM
-    RUN_TOO_LONG = "motor on longer than the travel takes", "RUN TOO LONG", EasycommError.JAM
-    END_STOP = "end stop reached", "END STOP", EasycommError.JAM
-    LIMIT_SWITCH = "limit switch reached", "LIMIT SWITCH", EasycommError.JAM
-    NOT_FOLLOWING = "axis does not follow", "NOT FOLLOWING", EasycommError.JAM
-    RELAY_WELDED = "relay welded", "RELAY WELDED", EasycommError.MOTOR
-    RELAY_UNSEEN = "relay not seen to open", "RELAY OPEN?", EasycommError.MOTOR
-    TURNS_BY_ITSELF = "turning with no relay on", "TURNS BY SELF", EasycommError.MOTOR
-    CONTROL_LATE = "control thread late", "CONTROL LATE", EasycommError.MOTOR
-    NO_PULSES = "no pulses", "NO PULSES", EasycommError.JAM
-    COUNT_LOST = "count lost", "COUNT LOST", EasycommError.NOT_CALIBRATED
-    COUNT_NOT_KEPT = "count not kept", "COUNT UNKEPT", EasycommError.SENSOR
-    NOT_HOMED = "not homed", "NOT HOMED", EasycommError.NOT_CALIBRATED
-    CONTROLLER_FAULT = "controller fault", "CTRL FAULT", EasycommError.MOTOR
-    CONTROLLER_SILENT = "controller silent", "CTRL SILENT", EasycommError.SENSOR
-    POSITION_UNKNOWN = "position unknown", "POS UNKNOWN", EasycommError.NOT_CALIBRATED
-    SERVO_BOARD = "servo board", "SERVO BOARD", EasycommError.MOTOR
+    POT_OPEN = "pot open or shorted", "POT OPEN/SHRT", EasycommError.SENSOR, "Check the pot's wires and its supply"
+    SENSOR_SILENT = "sensor silent", "SENSOR SILENT", EasycommError.SENSOR, "Check the sensor's wires and its supply"
+    SENSOR_LATE = (
+        "sensor late",
+        "SENSOR LATE",
+        EasycommError.SENSOR,
+        "Check the sensor's wires; look for a program that slows this computer down",
+    )
+    POT_JUMPS = (
+        "pot jumps",
+        "POT JUMPS",
+        EasycommError.SENSOR,
+        "Look for a loose wire, a worn pot, or your own transmitter",
+    )
+    BAD_READINGS = (
+        "bad readings",
+        "BAD READINGS",
+        EasycommError.SENSOR,
+        "Look for a loose wire, a worn pot, or motor cables beside the sensor's",
+    )
+    WRONG_WAY = (
+        "pot moves the wrong way",
+        "WRONG WAY",
+        EasycommError.SENSOR,
+        "Look which way the antenna turned: swap the pot's two ends, or the motor's two directions",
+    )
+    STANDS_STILL = (
+        "motor runs and pot stands still",
+        "STANDS STILL",
+        EasycommError.JAM,
+        "Check the motor's fuse and supply; look for ice, a rope, a guy wire",
+    )
+    RUN_TOO_LONG = (
+        "motor on longer than the travel takes",
+        "RUN TOO LONG",
+        EasycommError.JAM,
+        "Look for a slow motor, or a pot that slips on its shaft",
+    )
+    END_STOP = "end stop reached", "END STOP", EasycommError.JAM, "Set the limit one degree inside this angle"
+    LIMIT_SWITCH = (
+        "limit switch reached",
+        "LIMIT SWITCH",
+        EasycommError.JAM,
+        "Turn it the other way; far from an end, check the switch and its wires",
+    )
+    NOT_FOLLOWING = (
+        "axis does not follow",
+        "NOT FOLLOWING",
+        EasycommError.JAM,
+        "Look for what holds the antenna; check the motor's supply",
+    )
+    RELAY_WELDED = "relay welded", "RELAY WELDED", EasycommError.MOTOR, "Switch the motors off, and replace the relay"
+    RELAY_UNSEEN = (
+        "relay not seen to open",
+        "RELAY OPEN?",
+        EasycommError.MOTOR,
+        "Jog it the same way for a second; or look at both relays, then: rotator relays-checked AXIS",
+    )
+    TURNS_BY_ITSELF = (
+        "turning with no relay on",
+        "TURNS BY SELF",
+        EasycommError.MOTOR,
+        "Look for a hand at the control box, strong wind, a relay that is stuck",
+    )
+    CONTROL_LATE = (
+        "control thread late",
+        "CONTROL LATE",
+        EasycommError.MOTOR,
+        "Look for a program that slows this computer down",
+    )
+    NO_PULSES = "no pulses", "NO PULSES", EasycommError.JAM, "Check the motor, then the contact and its wires"
+    COUNT_LOST = "count lost", "COUNT LOST", EasycommError.NOT_CALIBRATED, "Find its end stop again: rotator home AXIS"
+    COUNT_NOT_KEPT = "count not kept", "COUNT UNKEPT", EasycommError.SENSOR, "Look for a full or read-only card"
+    NOT_HOMED = (
+        "not homed",
+        "NOT HOMED",
+        EasycommError.NOT_CALIBRATED,
+        "Correct that, then home it again and watch: rotator home AXIS",
+    )
+    CONTROLLER_FAULT = "controller fault", "CTRL FAULT", EasycommError.MOTOR, "The axis is loose until you release it"
+    CONTROLLER_SILENT = (
+        "controller silent",
+        "CTRL SILENT",
+        EasycommError.SENSOR,
+        "Check the controller's supply and the CAN wires",
+    )
+    POSITION_UNKNOWN = (
+        "position unknown",
+        "POS UNKNOWN",
+        EasycommError.NOT_CALIBRATED,
+        "Look where the antenna points, then: rotator confirm AXIS DEGREES",
+    )
+    SERVO_BOARD = "servo board", "SERVO BOARD", EasycommError.MOTOR, "Check the board's wires and its 3.3 V supply"
 
-    def __init__(self, text: str, lcd: str, easycomm: EasycommError) -> None:
+    def __init__(self, text: str, lcd: str, easycomm: EasycommError, advice: str) -> None:
         self.text = text
         self.lcd = lcd
         self.easycomm = easycomm
+        self.advice = advice
 
     @property
     def anchor(self) -> str:
@@ -82,7 +155,9 @@ class Fault:
     def __str__(self) -> str:
         loud = f"{self.act_now} " if self.act_now else ""
         limit = f", limit {self.limit}" if self.limit else ""
-        return f"{loud}{self.axis.value}: {self.kind.text}: {self.measured}{limit} (see {self.page}#{self.kind.anchor})"
+        advice = self.kind.advice.replace("AXIS", self.axis.value)
+        seen = f"{self.axis.value}: {self.kind.text}: {self.measured}{limit}"
+        return f"{loud}{seen}. {advice} (see {self.page}#{self.kind.anchor})"
 
 
 class Missing(Enum):

@@ -42,7 +42,10 @@ PLAN_STEP_S = 0.5
 
 @dataclass(frozen=True, slots=True)
 class AxisPlan:
-    """How one axis flies a pass: its angles every `PLAN_STEP_S` from `begin_s` on, and the steps of a motor on relays."""
+    """How one axis flies a pass: its angles every `PLAN_STEP_S` from `begin_s` on.
+
+    `steps`: those of a motor on relays; empty for one that goes to every angle by itself.
+    """
 
     begin_s: float
     angles_deg: tuple[float, ...]
@@ -201,9 +204,10 @@ class Leave:
 Personal = SetMode | Nudge | Home | Confirm | RelaysChecked | LetGo | Remark
 """Orders that only a person at the panel or on the console may give."""
 
-Order = (
-    Aim | Fly | Jog | Stop | Release | Park | LoadTimed | ClearTimed | RunTimed | Calibrate | Speed | Leave | Personal
-)
+Pointing = Aim | Fly | LoadTimed | RunTimed | Park
+"""Orders that point the antenna somewhere."""
+
+Order = Pointing | Jog | Stop | Release | ClearTimed | Calibrate | Speed | Leave | Personal
 
 
 PERSONS = ("console", "panel", "calibrate")

@@ -50,14 +50,20 @@ class AxisStatus:
     max_deg: float
     angle_deg: float | None = None
     """Where the axis is on its own scale; the last good value while the sensor is out; None before the first."""
+    seen: bool = True
+    """The latest reading is a good one. False: the sensor is out, and `angle_deg` is where the axis was last seen."""
     raw: float | None = None
     """The sensor's own reading, for calibration."""
     source: AngleSource = AngleSource.MEASURED
     target_deg: float | None = None
     """The axis angle aimed at; None: at rest, nothing to do."""
+    tolerance_deg: float | None = None
+    """So near to the target counts as there; None: no target."""
     drive: Direction = Direction.OFF
     moving: bool = False
     """Driven, or still coasting."""
+    starts: int | None = None
+    """How often its motor has been started in this pass; None: no relay starts it."""
     missing: tuple[Missing, ...] = ()
     """What this axis lacks; until it has it, it obeys only jog. Empty: commissioned."""
     lost: str = ""
@@ -88,6 +94,14 @@ class AxisStatus:
         nearest_deg = min(max(self.angle_deg, self.min_deg), self.max_deg)
         margin_deg = min(AT_END_NOISES * self.noise_deg, AT_END_MOST_DEG)
         return nearest_deg if abs(self.angle_deg - nearest_deg) <= margin_deg else self.angle_deg
+
+    @property
+    def at_target(self) -> bool:
+        """It stands as near to its target as it is asked to."""
+        if self.target_deg is None or self.tolerance_deg is None or self.angle_deg is None:
+            return False
+        off_deg = abs(self.angle_deg - self.target_deg)
+        return not self.moving and off_deg <= self.tolerance_deg + AT_END_NOISES * self.noise_deg
 
     @property
     def uncalibrated(self) -> str:

@@ -10,14 +10,16 @@ from pathlib import Path
 
 import pytest
 
-PASSES = sorted((Path(__file__).parent / "passes").glob("*.csv"))
+from rotator.rehearsal.passes import SHIPPED
+
+PASSES = sorted(SHIPPED.glob("*.csv"))
 collect_ignore = [] if "GS232_KERNEL" in os.environ else ["kernel"]
 """Tests that need a kernel of their own run in it: `make test-kernel`."""
 
 SLOW = (
     *("machines", "rotors", "flights", "calibrating/test_north.py", "cli/test_calibrate_north.py"),
     *("foreign/test_hamlib.py", "foreign/test_rotctld_follow.py", "foreign/clients"),
-    *("release/test_archives.py", "release/test_wheel.py"),
+    *("release/test_archives.py", "release/test_package.py", "release/test_wheel.py"),
 )
 """Tests of minutes, run only where they are named: `make test-rotors` has every kind of rotor, all its faults and whole
 passes; `make test-machines` has the five machines in real time; `make test-hamlib` has every model of Hamlib that can

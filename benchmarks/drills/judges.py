@@ -10,7 +10,8 @@ import math
 from collections import deque
 from dataclasses import dataclass, field
 
-from benchmarks.drills.orders import AxisOrders, Goal, Orders
+from benchmarks.drills.goals import AxisOrders, Goal
+from benchmarks.drills.orders import Orders
 from benchmarks.drills.world import AxisTruth
 
 BOTH_FED = "both directions of a motor fed, welds included"
@@ -254,11 +255,15 @@ class Judges:
             self._accuse(STANDING_CURRENT, truth, f"for {case.standing_s:.2f} s")
 
     def _is_there(self, truth: AxisTruth, case: AxisCase) -> bool:
-        """Whether a control box of its own drives it where the box sees it arrived: nothing shows the current."""
+        """Whether a control box of its own drives it where the box sees it arrived: nothing shows the current.
+
+        Round a sector it is sent to places that no order names.
+        """
         near_deg, here_deg = case.tolerance_deg + case.slack_deg, truth.shaft_deg + case.shift_deg
         goals = self._orders.axes[truth.name].goals.values()
         places_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
-        return not truth.relayed and any(abs(place_deg - here_deg) < near_deg for place_deg in places_deg)
+        there = self.goes_round or any(abs(place_deg - here_deg) < near_deg for place_deg in places_deg)
+        return not truth.relayed and there
 
     def _accuse(self, judge: str, truth: AxisTruth, measured: str) -> None:
         if (judge, truth.name) not in self._told:

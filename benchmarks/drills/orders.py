@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
 
 from benchmarks.drills.front_panel import FrontPanel
+from benchmarks.drills.goals import AxisOrders, Goal, Ranges
 from benchmarks.drills.script import PANEL, PEOPLE, Event
 from benchmarks.drills.silenced import Silenced
 from benchmarks.drills.wavering import Wavering
@@ -27,57 +27,6 @@ PANEL_S = 0.2
 ZENITH_DEG, OVERHEAD_DEG = 90.0, 4.0
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
-
-
-@dataclass(frozen=True, slots=True)
-class Ranges:
-    """The range of an axis in true degrees, as orders name them; `flips`: over the top."""
-
-    low_deg: float
-    high_deg: float
-    flips: bool
-
-
-@dataclass(slots=True)
-class Goal:
-    """One sender's order for one axis. `angles_deg` empty: anywhere. `way`: it jogs."""
-
-    angles_deg: tuple[float, ...] = ()
-    ends_deg: tuple[float, ...] = ()
-    """The ends of the range where it may be waited for meanwhile."""
-    way: int = 0
-    said_s: float = 0.0
-    until_s: float = math.inf
-    turns_s: float = math.inf
-    """For so long more it may turn the motor, whenever it begins."""
-    rate_dps: float = 0.0
-
-
-@dataclass(slots=True)
-class AxisOrders:
-    goals: dict[str, Goal] = field(default_factory=dict)
-    homes: bool = False
-    ended_s: float | None = None
-    """When the last order ended; None: there has been none."""
-
-    def forget(self, now_s: float, said_before_s: float = math.inf) -> None:
-        kept = {sender: goal for sender, goal in self.goals.items() if goal.said_s >= said_before_s}
-        if len(kept) < len(self.goals):
-            self.ended_s = now_s
-        self.goals, self.homes = kept, self.homes and bool(kept)
-
-    def turned(self, now_s: float, way: int, past_s: float) -> None:
-        """The box has fed the motor this way for so long."""
-        for goal in self.goals.values():
-            if goal.way == way:
-                goal.turns_s -= past_s
-                if goal.turns_s <= 0.0:
-                    goal.until_s = min(goal.until_s, now_s)
-        self.expire(now_s)
-
-    def expire(self, now_s: float) -> None:
-        for sender in [sender for sender, goal in self.goals.items() if goal.until_s <= now_s]:
-            self.ended_s = self.goals.pop(sender).until_s
 
 
 class Orders:
@@ -234,7 +183,8 @@ class Orders:
     def _note_order(self, event: Event) -> None:
         match event.what:
             case "aim":
-                if self._silenced.aim(event):
+                # Orders that were refused, before it was homed, make no sender that a stop silences.
+                if self._silenced.aim(event) and not self._counts:
                     return
             case "stop":
                 self._silenced.stop(event)

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from benchmarks.drills.goals import Ranges
 from benchmarks.drills.judges import COUNTED_PERIODS, TRY_S, AxisCase, Judges
-from benchmarks.drills.orders import ZENITH_DEG, Orders, Ranges
+from benchmarks.drills.orders import ZENITH_DEG, Orders
 from benchmarks.drills.script import WORLD, Drill, Event
 from benchmarks.drills.world import AxisTruth
 from hw.ports import AngleSource, Axis
@@ -124,8 +125,9 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.slack_deg += abs(event.number(2))
                 # A control box follows its own pot: where the other one drifts, it is held beside its place.
                 case.feels = case.feels and config.rotor.type != "digipot"
-            case "stands" if config.rotor.type == "digipot":
-                case.trusted = False
+            case "stands" | "burst" if config.rotor.type == "digipot" and event.args[-1] in (1.0, "last"):
+                # A stop sends the box to where its sensor stood.
+                case.trusted, case.astray = False, True
             case "pace" | "push" | "weld" if not case.feels:
                 case.trusted, case.astray = False, True
             case "push" | "weld" | "sticks" if case.counts:
@@ -141,10 +143,11 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
 
 
 def begins_anew(config: Config, cases: tuple[AxisCase, AxisCase], truths: list[AxisTruth]) -> None:
-    """The program has begun again: a control box without feedback is taken to stand where the file says."""
-    if config.rotor.type != "digipot":
+    """The program has begun again: without feedback an axis is taken to stand where the file says."""
+    if config.rotor.type not in KEEP_THEIR_ORDER:
         return
     for axis, case, truth in zip(Axis, cases, truths, strict=True):
-        table = config.digipot.of(axis)
-        if not case.feels and abs(truth.shaft_deg - table.start_deg) > table.dead_band_deg:
-            case.trusted, case.astray = False, True
+        start_deg = (config.digipot if config.rotor.type == "digipot" else config.servo).of(axis).start_deg
+        if not case.feels and abs(truth.shaft_deg - start_deg) > config.kind.slack_deg(axis):
+            # A servo stands there until its first pulse; a control box has had its supply, and may turn.
+            case.trusted, case.astray = False, case.astray or config.rotor.type == "digipot"

@@ -1,8 +1,9 @@
 """A target that wavers across the end of the azimuth range, or moves across it: the antenna may wait at that end.
 
 Knows the rule of docs/pointing.md: the first swing right round begins at once, each further one within two minutes
-waits, up to 96 s, for a target that stays. A target that moves is followed on the turn on which it began. Knows axis
-angles alone, and no order but those that it is given.
+waits, up to 96 s, for a target that stays. A target that moves is followed on the turn on which it began; once its
+path is certain to leave the range the antenna may unwind ahead of it. Knows axis angles alone, and no order but those
+that it is given.
 """
 
 from __future__ import annotations
@@ -13,6 +14,9 @@ REMEMBERS_S = 120.0 + 96.0
 """So long after the last wish for a swing, the next one may have to wait."""
 STREAM_ORDERS, STREAM_GAP_S, STREAM_STEP_DEG = 4, 5.0, 10.0
 """So many orders, no further apart than both, and not all for one place, are a target that moves."""
+
+CERTAIN_S, AHEAD_S = 45.0, 900.0
+"""After so long the path of a moving target is certain, and it is looked at for so long ahead."""
 
 
 class Wavering:
@@ -45,14 +49,14 @@ class Wavering:
             self._swung_s = now_s
         stays_deg = self._before_deg if overhead else ()
         self._before_deg = (*within_deg, *(beyond_deg if may_wait else ()), *stays_deg)
-        if not may_wait:
-            return ()
-        return tuple({min(max(angle_deg, self._low_deg), self._high_deg) for angle_deg in beyond_deg})
+        waits_deg = {min(max(angle_deg, self._low_deg), self._high_deg) for angle_deg in beyond_deg if may_wait}
+        return tuple(waits_deg | self._unwinds())
 
     def _moves(self, now_s: float, turns_deg: list[float]) -> bool:
         """Whether this order belongs to a target that moves."""
         if not self._stream:
-            near_deg = turns_deg[0]
+            within_deg = (angle_deg for angle_deg in turns_deg if self._low_deg <= angle_deg <= self._high_deg)
+            near_deg = next(within_deg, turns_deg[0])
         else:
             before_s, before_deg = self._stream[-1]
             near_deg = min(turns_deg, key=lambda angle_deg: abs(angle_deg - before_deg))
@@ -60,3 +64,13 @@ class Wavering:
                 self._stream.clear()
         self._stream.append((now_s, near_deg))
         return len(self._stream) >= STREAM_ORDERS and any(angle_deg != near_deg for _, angle_deg in self._stream)
+
+    def _unwinds(self) -> set[float]:
+        """The end where a moving target is awaited that will come round to it, once that is certain."""
+        (began_s, began_deg), (now_s, here_deg) = self._stream[0], self._stream[-1]
+        if now_s - began_s < CERTAIN_S:
+            return set()
+        there_deg = here_deg + AHEAD_S * (here_deg - began_deg) / (now_s - began_s)
+        if there_deg > self._high_deg:
+            return {self._low_deg}
+        return {self._high_deg} if there_deg < self._low_deg else set()

@@ -1,6 +1,8 @@
 """Where a source file can be changed, and how: Cosmic Ray's operators, and one of our own that drops a statement.
 
-Knows a file's text. Knows neither its tests nor how they are run.
+Knows a file's text. Knows neither its tests nor how they are run. Three kinds of change are left out, because no test
+could see them: annotations are never run; a `typing.Protocol` has no code of its own, only the shape of others; and a
+direction is 1 or -1, so that to divide by it is to multiply by it.
 """
 
 from __future__ import annotations
@@ -62,13 +64,14 @@ class Mutant:
 def mutants(source: str, sample: int | None, chance: random.Random) -> list[Mutant]:
     """One mutant of each place, by chance one of those that are possible there; of `sample` places at most."""
     lines = source.splitlines()
-    skipped = list(_annotations(source))
+    skipped, factors = list(_never_run(source)), list(_direction_factors(source))
     changes: dict[Position, list[tuple[str, Any, int]]] = defaultdict(list)
     tree = get_ast(source)
     for name, operator in _operators():
         spans = (span for node in ast_nodes(tree) for span in operator.mutation_positions(node))
         for occurrence, (start, _) in enumerate(spans):
-            if not any(first <= start < last for first, last in skipped):
+            same = name == "ReplaceBinaryOperator_Mul_Div" and _within(start, factors)
+            if not same and not _within(start, skipped):
                 changes[start].append((name, operator, occurrence))
     places = sorted(changes)
     if sample is not None and sample < len(places):
@@ -103,8 +106,12 @@ def _operators() -> Iterator[tuple[str, Any]]:
     yield "DropStatement", DropStatement()
 
 
-def _annotations(source: str) -> Iterator[tuple[Position, Position]]:
-    """What makes no difference: annotations are never run, and these keywords only forbid what is not done."""
+def _within(place: Position, spans: list[tuple[Position, Position]]) -> bool:
+    return any(first <= place < last for first, last in spans)
+
+
+def _never_run(source: str) -> Iterator[tuple[Position, Position]]:
+    """What makes no difference: annotations, the shape of a port, and keywords that only forbid what is not done."""
     for node in ast.walk(ast.parse(source)):
         match node:
             case ast.arg(annotation=ast.expr() as said) | ast.AnnAssign(annotation=said):
@@ -112,8 +119,19 @@ def _annotations(source: str) -> Iterator[tuple[Position, Position]]:
             case ast.FunctionDef(returns=ast.expr() as said) | ast.AsyncFunctionDef(returns=ast.expr() as said):
                 # The star of keyword arguments is no multiplication.
                 yield (node.lineno, node.col_offset), (said.lineno, said.col_offset)
+            case ast.ClassDef(bases=[ast.Name(id="Protocol")]):
+                yield (node.lineno, node.col_offset), (node.end_lineno or 0, node.end_col_offset or 0)
+                continue
             case ast.keyword(arg="strict" | "frozen" | "slots", value=said):
                 pass
             case _:
                 continue
         yield (said.lineno, said.col_offset), (said.end_lineno or 0, said.end_col_offset or 0)
+
+
+def _direction_factors(source: str) -> Iterator[tuple[Position, Position]]:
+    """Where something is multiplied by a direction: from the end of the one to the beginning of the other."""
+    for node in ast.walk(ast.parse(source)):
+        match node:
+            case ast.BinOp(left=left, op=ast.Mult(), right=ast.Name(id="direction" | "way") as factor):
+                yield (left.end_lineno or 0, left.end_col_offset or 0), (factor.lineno, factor.col_offset)

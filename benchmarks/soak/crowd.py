@@ -12,15 +12,14 @@ import time
 from contextlib import suppress
 
 from benchmarks.fuzz import client as hostile_client
-from benchmarks.passes import PASSES
 from benchmarks.soak.box import Box
 from benchmarks.soak.programs import program
 from benchmarks.soak.words import WORDS
-from rotator.rehearsal.passes import Pass, read_pass
+from rotator.rehearsal.passes import SHIPPED, Pass, read_pass
 
 ASK_EVERY_S = 0.5
 ANSWER_WITHIN_S = 10.0
-FLIGHTS = tuple(read_pass(path) for path in sorted(PASSES.glob("*.csv")))
+FLIGHTS = tuple(read_pass(path) for path in sorted(SHIPPED.glob("*.csv")))
 HANDS = (
     ("panel knob azimuth 0.3", "panel knob elevation 0.2", "panel mode manual"),
     ("panel mode jog", "panel jog cw 1.5"),

@@ -11,7 +11,7 @@ HEARTBEAT = "heartbeat"
 
 
 class Heartbeat:
-    """Each beat changes the level, because the one-shot reacts to changes only (docs/wiring-heartbeat.md)."""
+    """Each beat changes the level, because the one-shot reacts to changes only (docs/heartbeat.md)."""
 
     def __init__(self, lines: OutputLines) -> None:
         self._lines = lines

@@ -12,8 +12,10 @@ from dataclasses import dataclass
 from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.entries import (
     NUMBER_FORM,
+    Back,
     Enter,
     Entry,
+    Finish,
     No,
     Number,
     Press,
@@ -30,6 +32,7 @@ Steps = Generator[None, None, None]
 Asked = Generator[None, None, object]
 """Ends with an entry, or with an event that happened meanwhile."""
 
+ANSWERS = (Yes, No, Enter, Number, Finish, Back, Unknown)
 NOTHING_SAVED = "Nothing is saved."
 ORDER_TAKEN_S = 0.5
 """An order shows in the status after this time at the latest."""
@@ -76,6 +79,8 @@ class Guide:
             self._take(status, entry)
             if isinstance(entry, Quit):
                 raise Abandoned("Left: nothing is saved.")
+            if not self._asking and isinstance(entry, ANSWERS):
+                self._say("Not taken: wait until the box asks.")
             next(self._steps)
         except StopIteration:
             self.ended = True

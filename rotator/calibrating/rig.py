@@ -75,7 +75,10 @@ class AxisRig:
 
     def picture(self) -> tuple[str, bool]:
         axis = self.loop.status.axis(self.guide.facts.axis)
+        facts = self.guide.facts
         reading = "----" if axis.raw is None else self.guide.reading_text(axis.raw)
+        if axis.raw is not None and not facts.lowest_reading <= axis.raw <= facts.highest_reading:
+            reading += f", which no whole sensor reads: {facts.lowest_reading:g} to {facts.highest_reading:g}"
         direction = "  it waits, and looks whether the axis stands" if axis.waiting else ""
         direction = f"  {self.guide.direction_text(axis.drive)}" if axis.drive else direction
         return f"reading {reading}{direction}", bool(axis.drive)

@@ -33,7 +33,8 @@ class Screen(Protocol):
 
     typed: TypedAhead
 
-    def show(self, text: str) -> None: ...
+    def show(self, *lines: str) -> None:
+        """What one step of a guide says. The same again right after it, from a key that is held, may be counted."""
 
     def ask(self, prompt: str) -> None:
         """The open question has changed; empty: none is open."""
@@ -90,8 +91,8 @@ class CalibrationSession:
                 rig.start()
                 asked = ""
                 while not (rig.guide.ended or stop.is_set() or ended.done()):
-                    for line in rig.step(self._screen.typed.next(rig.guide)):
-                        self._screen.show(line)
+                    if lines := rig.step(self._screen.typed.next(rig.guide)):
+                        self._screen.show(*lines)
                     if rig.guide.prompt != asked:
                         asked = rig.guide.prompt
                         self._screen.ask(asked)

@@ -92,7 +92,7 @@ async def _run(sketch: Sketch, pty: Path, *, plain: bool) -> None:
     watching = (
         print_lines(lambda: [f"F1EFW sketch on an emulated UNO: {pty} ({wire.state})"], line, screen)
         if plain
-        else draw(render, key, terminal_console(screen))
+        else draw(render, key, terminal_console(screen), whole_screen=True)
     )
     tasks = [asyncio.create_task(watching), asyncio.create_task(link.run())]
     try:

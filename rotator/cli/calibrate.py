@@ -10,6 +10,7 @@ import asyncio
 import logging
 import os
 import sys
+import textwrap
 import threading
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
@@ -25,13 +26,12 @@ from rotator.assembly.station import Station
 from rotator.calibrating.rig import Rig
 from rotator.calibrating.session import CalibrationSession
 from rotator.calibrating.typed_ahead import TypedAhead
+from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
-from rotator.cli.reach import monitors, reach
+from rotator.cli.reach import connected, consoles
 from rotator.cli.screen import draw, log_to, stop_on_signals
 from rotator.config.load import load
 from rotator.config.model import Config
-from rotator.config.places import console_path
-from rotator.links.wire import LinkError
 
 
 def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None, *, plain: bool) -> int:
@@ -61,8 +61,9 @@ class PlainLines:
         self._console = Console(highlight=False, soft_wrap=True)
         self._reads = False
 
-    def show(self, text: str) -> None:
-        self._console.print(text, markup=False)
+    def show(self, *lines: str) -> None:
+        for line in lines:
+            self._console.print(_wrapped(line, self._console), markup=False)
 
     def ask(self, prompt: str) -> None:
         self.show(f"> {prompt}" if prompt else "")
@@ -77,14 +78,26 @@ class PlainLines:
 
 
 class LivePicture:
-    """A terminal: single keys, and the state of the rig below the lines."""
+    """A terminal: single keys, and the state of the rig below the lines.
+
+    A key that is held makes the guide say the same thirty times a second: it is shown once, and counted.
+    """
 
     def __init__(self) -> None:
         self.typed = TypedAhead()
         self._console = Console(highlight=False, soft_wrap=True)
+        self._shown: tuple[str, ...] = ()
+        self._times = 1
 
-    def show(self, text: str) -> None:
-        self._console.print(text, markup=False)
+    def show(self, *lines: str) -> None:
+        if lines == self._shown:
+            self._times += 1
+            return
+        if self._times > 1:
+            self._console.print(self._count, style="dim", markup=False)
+        for line in lines:
+            self._console.print(_wrapped(line, self._console), markup=False)
+        self._shown, self._times = lines, 1
 
     def ask(self, prompt: str) -> None:
         """The picture shows the prompt all the time."""
@@ -97,13 +110,33 @@ class LivePicture:
         finally:
             drawing.cancel()
             await asyncio.gather(drawing, return_exceptions=True)
+            # The last picture stays, with its count.
+            self._shown, self._times = (), 1
+
+    @property
+    def _count(self) -> str:
+        return f"  ({self._times} times)"
 
     def _picture(self, rig: Rig) -> RenderableType:
         state, turns = rig.picture()
+        count = [Text(self._count, style="dim")] if self._times > 1 else []
         return Group(
+            *count,
             Text(state, style="green" if turns else "dim"),
             Text(f"> {rig.guide.prompt} {self.typed.keyboard.typed}", style="bold"),
         )
+
+
+def _wrapped(line: str, console: Console) -> str:
+    """Broken between words where a terminal is narrower. The rows below the first have its indent."""
+    if not console.is_terminal:
+        return line
+    indent = " " * (len(line) - len(line.lstrip()))
+    rows = [
+        textwrap.wrap(row, console.width, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+        for row in line.split("\n")
+    ]
+    return "\n".join("\n".join(each) for each in rows)
 
 
 def _inject(faults: tuple[str, ...], station: Station) -> None:
@@ -114,13 +147,13 @@ def _inject(faults: tuple[str, ...], station: Station) -> None:
 
 
 def _refuse_beside_running_box(path: Path | None) -> None:
-    """Raises LinkError if the box is running: two programs could open the same serial port or I2C chip."""
-    try:
-        box = reach([console_path(place) for place in monitors(path)], "console")
-    except LinkError:
-        return
-    box.close()
-    raise LinkError("the box is running, and two programs cannot have the motors: end it (sudo systemctl stop rotator)")
+    """Raises CommandFailed if the box is running: two programs could open the same serial port or I2C chip."""
+    for place in consoles(path):
+        if box := connected(place):
+            box.close()
+            raise CommandFailed(
+                "the box is running, and two programs cannot have the motors: end it (sudo systemctl stop rotator)"
+            )
 
 
 def _read_lines(typed: TypedAhead, events: asyncio.AbstractEventLoop) -> None:

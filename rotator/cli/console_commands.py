@@ -1,52 +1,92 @@
-"""The commands that use the console of the running box: names, arguments and options. `console` does the work."""
+"""The commands that talk to the running box: names, arguments and options. `console` and `moves` do the work."""
 
 # ruff: noqa: PLC0415 - a command loads what it needs and no more
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import click
 
-from hw.ports import Axis
+from rotator.cli.commands import ANY_WORDS, CONFIG, YES, Number, NumbersCommand, examples
 
-CONFIG = click.option(
-    "--config", "path", type=click.Path(path_type=Path, dir_okay=False), help="Configuration file (TOML)."
-)
-YES = click.option("--yes", is_flag=True, help="Do not ask.")
-AXIS = click.argument("axis", type=click.Choice([axis.value for axis in Axis]))
-MINUS_IS_A_NUMBER = {"ignore_unknown_options": True}
+AXIS = click.argument("axis", type=click.Choice(["azimuth", "elevation"]), metavar="azimuth|elevation")
+WAIT = click.option("--no-wait", "wait", is_flag=True, flag_value=False, default=True, help="Give the order, and end.")
 
 
-@click.command(context_settings=MINUS_IS_A_NUMBER)
+@click.command(epilog=examples("rotator where", "rotator where --json", "rotator where && echo healthy"))
 @CONFIG
-@click.argument("words", nargs=-1, type=click.UNPROCESSED)
-def tell(path: Path | None, words: tuple[str, ...]) -> None:
-    """Send WORDS to the console of the running box. Without WORDS: list the words of the console."""
+@click.option("--json", "as_json", is_flag=True, help="One object; its fields: docs/reference/commands.md.")
+def where(path: Path | None, as_json: bool) -> None:
+    """Show where the antenna is, who moves it, and what is wrong.
+
+    The exit code is 3 where an axis has a fault.
+    """
     from rotator.cli import console
 
-    console.tell(path, words)
+    sys.exit(console.where(path, as_json=as_json))
 
 
-@click.command()
+@click.command(cls=NumbersCommand, epilog=examples("rotator point 180 45", "rotator point 237,5 12,5"))
 @CONFIG
-def where(path: Path | None) -> None:
-    """Show where the antenna is, who moves it, and what is wrong."""
-    from rotator.cli import console
+@WAIT
+@click.argument("azimuth", type=Number("degrees"))
+@click.argument("elevation", type=Number("degrees"))
+def point(path: Path | None, wait: bool, azimuth: float, elevation: float) -> None:
+    """Point the antenna, and wait until it has arrived.
 
-    console.where(path)
+    AZIMUTH counts from north over east, ELEVATION from the horizon, in degrees. Ctrl-C stops the antenna. The exit
+    code is 0 when it has arrived, 3 when a fault stopped it.
+    """
+    from rotator.cli import moves
+
+    moves.point(path, azimuth, elevation, wait=wait)
 
 
-@click.command()
+@click.command(cls=NumbersCommand, epilog=examples("rotator jog cw 2", "rotator jog down 0,5"))
+@CONFIG
+@WAIT
+@click.argument("direction", type=click.Choice(["cw", "ccw", "up", "down"]), metavar="cw|ccw|up|down")
+@click.argument("seconds", type=Number("seconds", 0.05))
+def jog(path: Path | None, wait: bool, direction: str, seconds: float) -> None:
+    """Turn one axis for some SECONDS, 5 at most.
+
+    cw is clockwise seen from above, ccw the other way. It works before calibration too. Ctrl-C stops the antenna.
+    """
+    from rotator.cli import moves
+
+    moves.jog(path, direction, seconds, wait=wait)
+
+
+@click.command(epilog=examples("rotator park", "rotator resume    # afterwards, before anything else moves"))
+@CONFIG
+@WAIT
+def park(path: Path | None, wait: bool) -> None:
+    """Go to the park position, and stay until `rotator resume`.
+
+    It goes now, and ends what a tracking program does. Ctrl-C stops the antenna.
+    """
+    from rotator.cli import moves
+
+    moves.park(path, wait=wait)
+
+
+@click.command(epilog=examples("rotator stop"))
 @CONFIG
 def stop(path: Path | None) -> None:
-    """Stop the antenna until `rotator resume`. Until then no link can move it."""
-    from rotator.cli import console
+    """Stop the antenna until `rotator resume`. Until then no link can move it.
 
-    console.stop(path)
+    Without --config it stops every box that runs here.
+    """
+    from rotator.cli import reach
+    from rotator.cli.stop import STOPPED, stop_boxes
+
+    stop_boxes(reach.consoles(path), all_of_them=path is None)
+    click.echo(STOPPED)
 
 
-@click.command()
+@click.command(epilog=examples("rotator resume"))
 @CONFIG
 def resume(path: Path | None) -> None:
     """Let the antenna move again after a stop. Acknowledges faults."""
@@ -55,58 +95,68 @@ def resume(path: Path | None) -> None:
     console.resume(path)
 
 
-@click.command()
+@click.command(epilog=examples("rotator home azimuth"))
 @CONFIG
 @YES
 @AXIS
 def home(path: Path | None, yes: bool, axis: str) -> None:
-    """Turn an axis that counts pulses to its end stop. Watch the antenna; Ctrl-C stops it."""
-    from rotator.cli import console
+    """Turn an axis that counts pulses to its end stop.
 
-    console.home(path, Axis(axis), yes=yes)
+    Its count begins there. Watch the antenna; Ctrl-C stops it.
+    """
+    from rotator.cli import moves
+
+    moves.home(path, axis, yes=yes)
 
 
-@click.command(context_settings=MINUS_IS_A_NUMBER)
+@click.command(cls=NumbersCommand, epilog=examples("rotator confirm azimuth 123,5"))
 @CONFIG
 @AXIS
-@click.argument("degrees")
-def confirm(path: Path | None, axis: str, degrees: str) -> None:
-    """Confirm the angle of an axis, in DEGREES. A moteus behind a gear needs it after power-on."""
+@click.argument("degrees", type=Number("degrees"))
+def confirm(path: Path | None, axis: str, degrees: float) -> None:
+    """Say at which angle an axis stands, in DEGREES.
+
+    A moteus behind a gear needs it after power-on. An axis that measures its angle refuses it.
+    """
     from rotator.cli import console
-    from rotator.protocols import aiming
 
-    angle_deg = aiming.degrees(degrees)
-    if angle_deg is None:
-        raise click.BadParameter(f"{degrees!r} is no number of degrees; write it like 438.5 or 438,5")
-    console.confirm(path, Axis(axis), angle_deg)
+    console.confirm(path, axis, degrees)
 
 
-@click.command(name="relays-checked")
+@click.command(name="relays-checked", epilog=examples("rotator relays-checked azimuth"))
 @CONFIG
 @YES
 @AXIS
 def relays_checked(path: Path | None, yes: bool, axis: str) -> None:
-    """Say that you have looked at an axis's relays, and both are open."""
+    """Say that you have seen: both relays of an axis are open."""
     from rotator.cli import console
 
-    console.relays_checked(path, Axis(axis), yes=yes)
+    console.relays_checked(path, axis, yes=yes)
 
 
-@click.command(name="let-go")
+@click.command(name="let-go", epilog=examples("rotator let-go"))
 @CONFIG
 @YES
 def let_go(path: Path | None, yes: bool) -> None:
-    """Switch off the motors' torque until `rotator resume`. An antenna out of balance then turns."""
+    """Switch off the motors' torque until `rotator resume`.
+
+    An antenna out of balance then turns.
+    """
     from rotator.cli import console
 
     console.let_go(path, yes=yes)
 
 
-@click.command(context_settings=MINUS_IS_A_NUMBER)
+@click.command(
+    context_settings=ANY_WORDS,
+    epilog=examples("rotator panel mode manual", "rotator panel knob azimuth 0,5", "rotator panel jog cw 2"),
+)
 @CONFIG
 @click.argument("words", nargs=-1, required=True, metavar="mode|knob|jog|stop ...")
 def panel(path: Path | None, words: tuple[str, ...]) -> None:
-    """Move a part of a simulated box's front panel: its switches have no other hands.
+    """Move a switch or a knob of a simulated box's panel.
+
+    A real panel has hands of its own.
 
     \b
     mode auto|manual|jog|park
@@ -115,13 +165,18 @@ def panel(path: Path | None, words: tuple[str, ...]) -> None:
     stop press|release
     """
     from rotator.cli import console
-    from rotator.protocols.panel_words import parse_hand
 
-    try:
-        hand = parse_hand([word.lower() for word in words])
-    except ValueError as mistake:
-        raise click.UsageError(str(mistake)) from None
-    console.hand(path, hand)
+    console.hand(path, words)
 
 
-CONSOLE_COMMANDS = (tell, where, stop, resume, home, confirm, relays_checked, let_go, panel)
+@click.command(context_settings=ANY_WORDS, epilog=examples("rotator tell help", "rotator tell status json"))
+@CONFIG
+@click.argument("words", nargs=-1, type=click.UNPROCESSED)
+def tell(path: Path | None, words: tuple[str, ...]) -> None:
+    """Send WORDS to the box's console, for scripts. Without WORDS: list the words.
+
+    It ends as soon as the box has the order.
+    """
+    from rotator.cli import console
+
+    console.tell(path, words)

@@ -13,16 +13,16 @@ from pathlib import Path
 
 import click
 
+from rotator.cli.failed import CommandFailed
 from rotator.cli.reach import monitors, reach
-from rotator.links.wire import LinkError
-from rotator.monitor.transcript import LinkNote, Piece, Remark, parse
+from rotator.monitor.transcript import LinkNote, Peer, Piece, Remark, parse
 
 BYTES_PER_MB = 1_000_000
 
 
 def watch(path: Path | None, to: Path | None, links: Sequence[str], limit_mb: float) -> None:
-    """Show or record until Ctrl-C, until the box ends, or until the file is full. Raises ConfigError, LinkError."""
-    with reach(monitors(path), "monitor") as box:
+    """Show or record until Ctrl-C, until the box ends, or until the file is full. Raises ConfigError, CommandFailed."""
+    with reach(path, monitors) as box:
         signal.signal(signal.SIGTERM, signal.default_int_handler)
         lines = _only(links, _lines(box))
         if to is None:
@@ -38,7 +38,7 @@ def _lines(box: socket.socket) -> Iterator[str]:
 
 
 def _only(links: Sequence[str], lines: Iterator[str]) -> Iterator[str]:
-    """The remarks, and the lines of these links; without names, of all links. Raises LinkError for an unknown name."""
+    """The remarks, and the lines of these links; without names, of all. Raises CommandFailed for an unknown name."""
     known: list[str] = []
     for line in lines:
         entry = parse(line)
@@ -46,7 +46,7 @@ def _only(links: Sequence[str], lines: Iterator[str]) -> Iterator[str]:
             case LinkNote(name):
                 known.append(name)
                 wanted = name in links
-            case Piece(source=source):
+            case Piece(source=source) | Peer(source=source):
                 wanted = source.link in links
             case _:
                 wanted = True
@@ -54,7 +54,7 @@ def _only(links: Sequence[str], lines: Iterator[str]) -> Iterator[str]:
             # The box has named all its links by now.
             unknown = [name for name in links if name not in known]
             if unknown:
-                raise LinkError(f"no link is called {unknown[0]}; there are: {', '.join(known)}")
+                raise CommandFailed(f"no link is called {unknown[0]}; there are: {', '.join(known)}")
         if wanted or not links:
             yield line
 
@@ -72,9 +72,9 @@ def _record(lines: Iterator[str], to: Path, limit_mb: float) -> None:
     try:
         file = to.open("x", encoding="ascii")
     except FileExistsError:
-        raise LinkError(f"{to} is there already: give another name") from None
+        raise CommandFailed(f"{to} is there already: give another name") from None
     except OSError as fault:
-        raise LinkError(f"{to} cannot be written to: {fault.strerror}") from fault
+        raise CommandFailed(f"{to} cannot be written to: {fault.strerror}") from fault
     pieces = 0
     end = "the box has ended"
 
@@ -95,6 +95,6 @@ def _record(lines: Iterator[str], to: Path, limit_mb: float) -> None:
         except KeyboardInterrupt:
             end = "stopped"
         except OSError as fault:
-            raise LinkError(f"{to} cannot be written to: {fault.strerror}") from fault
+            raise CommandFailed(f"{to} cannot be written to: {fault.strerror}") from fault
         write(f"# {end}")
     click.echo(f"{pieces} pieces in {to}: {end}", err=True)

@@ -9,6 +9,9 @@ from __future__ import annotations
 import csv
 import json
 import logging
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import astuple, fields
 from functools import partial
 from io import StringIO
@@ -16,17 +19,18 @@ from pathlib import Path
 
 import click
 
+from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
 from rotator.config.axes import AxisTable
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.rehearsal.flight import Sample, Summary, fly, plant_maker
-from rotator.rehearsal.passes import Pass, PassError, read_pass
+from rotator.rehearsal.passes import FORM, SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
 from rotator.store.whole import write_whole
 
 
 def rehearse_pass(
-    pass_file: Path,
+    word: str | None,
     path: Path | None,
     faults: tuple[str, ...],
     *,
@@ -35,24 +39,57 @@ def rehearse_pass(
     as_json: bool,
     arduino: bool,
 ) -> None:
+    """`word`: the name of a shipped pass, or a file; None: list the names."""
     logging.basicConfig(level=logging.WARNING, format="%(levelname).1s %(message)s")
     config = load(path)
     if config.rotor.hardware != "sim":
         config = simulated(config)
+    if word is None and "list" not in faults:
+        return click.echo(_listed())
     try:
-        flown = read_pass(pass_file)
+        flown = find_pass(word or shipped_names()[0])
     except PassError as fault:
-        raise click.ClickException(str(fault)) from None
+        raise CommandFailed(str(fault)) from None
+    if trace and word and trace.exists() and Path(word).exists() and trace.samefile(word):
+        raise click.UsageError("--trace would write over the pass")
     if arduino and faults:
         raise click.UsageError("--fault is for the box, not for the Arduino")
     make = plant_maker(config, via=via, arduino=arduino, faults=partial(parse_faults, faults))
-    rows, summary = fly(flown, make)
+    with _progress(flown) as progress:
+        rows, summary = fly(flown, make, progress)
     if trace is not None:
         _write_trace(trace, rows)
     if as_json:
-        click.echo(json.dumps(summary.as_dict()))
-    else:
-        click.echo(_sentence(flown, summary, arduino=arduino))
+        return click.echo(json.dumps(summary.as_dict()))
+    return click.echo(_sentence(flown, summary, arduino=arduino))
+
+
+def _listed() -> str:
+    """The shipped passes, each in a row."""
+    passes = [read_pass(SHIPPED / f"{name}.csv") for name in shipped_names()]
+    rows = [
+        f"{each.name:<16} {each.rows[0][1]:3.0f}° to {each.rows[-1][1]:3.0f}°, up to {each.highest_deg:2.0f}°, "
+        f"{each.end_s / 60:4.1f} min"
+        for each in passes
+    ]
+    return "\n".join(
+        ("Passes of real satellites that come with the program:", *rows, "", f"Your own is a file. {FORM}")
+    )
+
+
+@contextmanager
+def _progress(flown: Pass) -> Iterator[Callable[[float], None]]:
+    """A bar on a terminal; nothing elsewhere. Only then its library is loaded."""
+    if not sys.stderr.isatty():
+        yield lambda _t_s: None
+        return
+    from rich.console import Console  # noqa: PLC0415
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn  # noqa: PLC0415
+
+    text = TextColumn("{task.description} {task.completed:4.0f} of {task.total:.0f} s")
+    with Progress(text, BarColumn(), TimeRemainingColumn(), console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(flown.name, total=flown.end_s)
+        yield lambda t_s: bar.update(task, completed=t_s)
 
 
 def simulated(config: Config) -> Config:
@@ -89,4 +126,4 @@ def _write_trace(path: Path, rows: list[Sample]) -> None:
     try:
         write_whole(path, text.getvalue())
     except OSError as fault:
-        raise click.ClickException(f"{path}: cannot be written: {fault.strerror}") from None
+        raise CommandFailed(f"{path}: cannot be written: {fault.strerror}") from None

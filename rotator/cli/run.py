@@ -11,7 +11,6 @@ import logging
 import sys
 import time
 from contextlib import suppress
-from functools import partial
 from pathlib import Path
 from typing import TextIO, cast
 
@@ -21,11 +20,12 @@ from rotator import __version__
 from rotator.app import App
 from rotator.cli.faults import parse_faults
 from rotator.cli.output import LINES, PICTURES, Output
-from rotator.cli.run_keys import RunKeys
-from rotator.cli.screen import LogRows, draw, log_to, print_lines, terminal_console
+from rotator.cli.run_keys import NEXT, RunKeys
+from rotator.cli.screen import LogRows, draw, has_ascii_only, keys_to, log_to, print_lines, terminal_console
 from rotator.config.load import load
 from rotator.runtime.signals import SignalThread
-from rotator.views import terminal
+from rotator.views import plain_lines, terminal
+from rotator.views.sky_plot import Trail
 
 
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
@@ -59,7 +59,7 @@ async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, rec
     for at_s, name in faults:
         assert app.station.world is not None, "faults are for the simulator"
         events.call_later(at_s, app.station.world.inject, name)
-    watcher = asyncio.create_task(_plain(app, screen) if recent is None else _picture(app, stop, screen, recent))
+    watcher = asyncio.create_task(_plain(app, stop, screen) if recent is None else _picture(app, stop, screen, recent))
     try:
         with SignalThread(ended):
             await app.run(stop)
@@ -68,16 +68,28 @@ async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, rec
         await asyncio.gather(watcher, return_exceptions=True)
 
 
-async def _plain(app: App, screen: Output) -> None:
+async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
+    """Lines, and at a terminal the same keys as in the picture."""
     wires = [link.wire for link in app.links]
-    hardware = app.config.rotor.hardware
-    greeting = partial(terminal.greeting, __version__, hardware, wires)
-    await print_lines(greeting, lambda: terminal.line(app.loop.status), screen)
+    keys = RunKeys(app.console)
+
+    def greeting() -> list[str]:
+        lines = plain_lines.greeting(__version__, app.config.rotor.hardware, wires)
+        return [*lines, "  keys: " + ", ".join(terminal.KEYS).replace("   ", ", ")] if sys.stdin.isatty() else lines
+
+    def key(pressed: str) -> None:
+        if keys.key(pressed):
+            stop.set()
+        elif keys.line and not keys.line.endswith(NEXT):
+            screen.write(f"{keys.line}\n")
+
+    with keys_to(key):
+        await print_lines(greeting, lambda: plain_lines.line(app.loop.status), screen)
 
 
 async def _picture(app: App, stop: asyncio.Event, screen: Output, recent: LogRows) -> None:
     wires = [link.wire for link in app.links]
-    keys = RunKeys(app.console)
+    keys, trail, plain = RunKeys(app.console), Trail(), has_ascii_only(screen)
 
     def glass() -> tuple[str, ...]:
         """The rows of the display: read from a simulated one. A real one cannot be read, so the rows sent to it."""
@@ -85,10 +97,13 @@ async def _picture(app: App, stop: asyncio.Event, screen: Output, recent: LogRow
         return world.lcd.text() if world and world.lcd else app.lcd_rows(time.monotonic())
 
     def render() -> RenderableType:
-        return terminal.picture(__version__, app.loop.status, glass(), wires, list(recent.rows), typed=keys.line)
+        status = app.loop.status
+        trail.note(status)
+        around = terminal.Surroundings(app.mount, trail.ways, keys.line, plain)
+        return terminal.picture(__version__, status, glass(), wires, list(recent.rows), around=around)
 
     def key(pressed: str) -> None:
         if keys.key(pressed):
             stop.set()
 
-    await draw(render, key, terminal_console(screen))
+    await draw(render, key, terminal_console(screen), whole_screen=True)

@@ -12,6 +12,8 @@ from rotator.protocols.session import Box
 
 WORDS = ("park", "resume")
 STOP, QUIT = " ", "q"
+NEXT = "Enter does it"
+"""What is said of a word that is being typed."""
 ENTER, BACK, ESCAPE = "\r\n", "\x7f\b", "\x1b"
 
 
@@ -59,7 +61,7 @@ class RunKeys:
 
     def _show(self, typed: str, remark: str = "") -> None:
         self._typed = typed
-        self.line = f"> {typed}_  {remark or 'Enter does it'}" if typed else remark
+        self.line = f"> {typed}_  {remark or NEXT}" if typed else remark
 
     def _swallow(self, pressed: str) -> None:
         """An arrow or another key that sends more than one character. Esc alone forgets what was typed."""

@@ -21,9 +21,10 @@ from rich.console import Console, RenderableType
 from rich.live import Live
 
 from rotator.cli.output import Output
+from rotator.views.plain_characters import ascii_only
 
 PICTURE_HZ = 5
-LOG_ROWS = 6
+LOG_ROWS = 40
 
 
 class LogRows(logging.Handler):
@@ -55,9 +56,18 @@ def terminal_console(output: Output) -> Console:
     return Console(file=cast(IO[str], output))
 
 
-async def draw(render: Callable[[], RenderableType], key: Callable[[str], None], console: Console) -> None:
-    """Draw until cancelled, and pass single keys to `key`. Text printed on `console` stays above the picture."""
-    with _keys(key), Live(console=console, auto_refresh=False) as live:
+def has_ascii_only(output: Output) -> bool:
+    return ascii_only(output.encoding, os.environ.get("TERM", ""))
+
+
+async def draw(
+    render: Callable[[], RenderableType], key: Callable[[str], None], console: Console, *, whole_screen: bool = False
+) -> None:
+    """Draw until cancelled, and pass single keys to `key`. Text printed on `console` stays above the picture.
+
+    `whole_screen`: the picture has the whole terminal, whatever size it gets, and gives it back as it was.
+    """
+    with keys_to(key), Live(console=console, auto_refresh=False, screen=whole_screen) as live:
         while True:
             live.update(render(), refresh=True)
             await asyncio.sleep(1 / PICTURE_HZ)
@@ -78,7 +88,8 @@ async def print_lines(greeting: Callable[[], list[str]], line: Callable[[], str]
 
 
 @contextmanager
-def _keys(handle: Callable[[str], None]) -> Iterator[None]:
+def keys_to(handle: Callable[[str], None]) -> Iterator[None]:
+    """While it is open, each key goes to `handle` without Enter. Without a terminal: nothing."""
     if not sys.stdin.isatty():
         yield
         return

@@ -18,6 +18,7 @@ import click
 
 from rotator.config.load import load
 from rotator.setup import gadget, pins, tree, usb_serial
+from rotator.setup.pi import SHORT_NAMES, Pi, known
 from rotator.setup.plan import ChangeSet, SetupError, diff
 
 SETTINGS = Path("etc/rotator/rotator.toml")
@@ -27,7 +28,9 @@ CONFIGFS, CONTROLLERS = Path("sys/kernel/config"), Path("sys/class/udc")
 SERIALS = (Path("proc/device-tree/serial-number"), Path("sys/firmware/devicetree/base/serial-number"))
 
 
-def usb_serial_port(root: Path, settings: Path | None, *, undo: bool, yes: bool, usb_id: str) -> None:
+def usb_serial_port(
+    root: Path, settings: Path | None, *, undo: bool, yes: bool, usb_id: str, model: str | None
+) -> None:
     identity("", usb_id)
     boot = tree.boot_config(root)
     places = usb_serial.Places(root, boot, settings or root / SETTINGS)
@@ -36,10 +39,10 @@ def usb_serial_port(root: Path, settings: Path | None, *, undo: bool, yes: bool,
     files = tree.read(*ours, *theirs, *tree.matching(root, usb_serial.MODULES))
     _refuse_overlay(str(files[places.command_line] or ""))
     if undo:
-        _propose(usb_serial.undone(files, places), yes=yes)
+        propose(usb_serial.undone(files, places), yes=yes, done=_then(root))
     else:
-        plan = usb_serial.plan(files, places, tree.pi(root), command=_command(root), usb_id=usb_id)
-        _propose(plan, yes=yes)
+        plan = usb_serial.plan(files, places, _pi(root, model, yes=yes), command=_command(root), usb_id=usb_id)
+        propose(plan, yes=yes, done=_then(root))
 
 
 def relay_pins(root: Path, settings: Path | None, *, undo: bool, yes: bool) -> None:
@@ -48,12 +51,36 @@ def relay_pins(root: Path, settings: Path | None, *, undo: bool, yes: bool) -> N
     files = tree.read(boot, command_line, root / pins.I2C_MODULE)
     _refuse_overlay(str(files[command_line] or ""))
     if undo:
-        _propose(pins.undone(files, root, boot), yes=yes)
+        propose(pins.undone(files, root, boot), yes=yes, done=_then(root))
     else:
         path = settings or root / SETTINGS
         if not path.exists():
             raise SetupError(f"there is no {path}: say with --config which file names your relay pins")
-        _propose(pins.plan(files, root, boot, load(path), tree.pi(root)), yes=yes)
+        propose(pins.plan(files, root, boot, load(path), tree.pi(root)), yes=yes, done=_then(root))
+
+
+def _pi(root: Path, model: str | None, *, yes: bool) -> Pi | None:
+    """The Pi of these files: this one; for a card in another computer the one that `model` or the person names."""
+    if model is None and (here := tree.pi(root)):
+        return here
+    if model is None and not tree.is_card(root):
+        return None
+    names = list(SHORT_NAMES)
+    if model is None and yes:
+        raise SetupError(f"say which Pi takes this card: --pi NAME, one of {', '.join(names)}")
+    if model is None:
+        click.echo("Which Pi takes this card?")
+        for number, name in enumerate(names, 1):
+            click.echo(f"{number:>4}  {SHORT_NAMES[name]}")
+        try:
+            model = names[click.prompt("Number", type=click.IntRange(1, len(names))) - 1]
+        except click.Abort:
+            raise SetupError("nothing was changed") from None
+    short = model.lower().replace(" ", "")
+    full = SHORT_NAMES.get(short) or SHORT_NAMES.get(f"{short}b")
+    if full is None:
+        raise SetupError(f"--pi {model}: no such Pi; there are {', '.join(names)}")
+    return known(f"Raspberry Pi {full}")
 
 
 def raise_gadget(root: Path, usb_id: str) -> None:
@@ -107,12 +134,13 @@ def _refuse_overlay(command_line: str) -> None:
         )
 
 
-def _propose(plan: ChangeSet, *, yes: bool, today: Callable[[], date] = date.today) -> None:
+def propose(plan: ChangeSet, *, yes: bool, done: str, today: Callable[[], date] = date.today) -> bool:
+    """Show the changes, ask, and make them, all or none. `done` is said then. Returns whether there were any."""
     for note in plan.notes:
         click.echo(note)
     if not plan.changes:
         click.echo("Nothing to change: everything is as it should be.")
-        return
+        return False
     for change in plan.changes:
         for line in diff(change):
             click.echo(line.encode("utf-8", "replace").decode())
@@ -125,4 +153,14 @@ def _propose(plan: ChangeSet, *, yes: bool, today: Callable[[], date] = date.tod
             raise SetupError("nothing was changed (--yes does it without asking)") from None
     for copy in tree.carry_out(plan, today()):
         click.echo(f"The file as it was: {copy}")
-    click.echo("Done. It takes effect after a reboot: sudo reboot")
+    click.echo(done)
+    return True
+
+
+def _then(root: Path) -> str:
+    """What makes a change of config.txt take effect."""
+    if not tree.is_card(root):
+        return "Done. It takes effect after a reboot: sudo reboot"
+    done = "Done. It takes effect when the Pi starts from this card."
+    installed = (root / INSTALLED).is_symlink() or (root / INSTALLED).exists()
+    return done if installed else f"{done}\nThe program is not on this card yet: run sudo ./install.sh on the Pi."

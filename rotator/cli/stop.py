@@ -1,20 +1,19 @@
-"""`rotator stop`, at once: it connects to the console and stops the antenna without loading the rest of the program.
+"""`rotator stop`: stops the antenna without loading the rest of the program, not even the command line's parser.
 
-A person who calls it sees the antenna run into something, and the whole program takes a second to load on a Pi. Knows
-the two keys of the configuration that say where the console is. Does not check the file: where anything is unusual,
-it leaves the command to the slow way, which has the error texts.
+A person who calls it sees the antenna run into something, and the whole program takes a second to load on a Pi. Without
+a file it stops every box that runs here. Where the arguments or the file are unusual, it leaves the command to the slow
+way, which has the error texts.
 """
 
 from __future__ import annotations
 
-import os
 import socket
-import tomllib
 from collections.abc import Sequence
-from importlib.resources import files
 from pathlib import Path
 
-from rotator.config.places import STATE, console_path, monitor_places
+from rotator.cli.failed import CommandFailed
+from rotator.cli.reach import connected, no_box, quick_monitors
+from rotator.config.places import console_path
 
 STOP = b"stop\n"
 """The console's command."""
@@ -24,39 +23,62 @@ STOPPED = "Stopped. Nothing moves until `rotator resume`."
 
 
 def stop_at_once(arguments: Sequence[str]) -> bool:
-    """`arguments`: those after `stop`. Returns whether a box has stopped; False: nothing has happened yet."""
+    """`arguments`: those after `stop`. Returns whether the antenna has stopped; False: nothing has happened yet.
+
+    Raises CommandFailed: there is no box, or it has not obeyed.
+    """
     match arguments:
         case []:
-            text = (files("rotator.config") / "simulated.toml").read_text(encoding="utf-8")
+            path = None
         case ["--config", name]:
-            try:
-                text = Path(name).read_text(encoding="utf-8-sig")
-            except (OSError, ValueError):
-                return False
+            path = Path(name)
         case _:
             return False
-    return any(_stop(console_path(place)) for place in _places(text))
+    places = quick_monitors(path)
+    if not places:
+        return False
+    stop_boxes([console_path(place) for place in places], all_of_them=path is None)
+    return True
 
 
-def _places(text: str) -> list[Path]:
-    try:
-        tables = tomllib.loads(text)
-        return monitor_places(
-            str(tables.get("state", {}).get("path", STATE)), tables.get("monitor", {}).get("path"), os.environ
-        )
-    except (ValueError, AttributeError, TypeError):
-        return []
+def stop_boxes(places: Sequence[Path], *, all_of_them: bool) -> None:
+    """Stop the box at the first of `places` where one answers, or the boxes at all of them. Raises CommandFailed."""
+    stopped = 0
+    failed: list[str] = []
+    for place in places:
+        try:
+            stopped += _stop(place)
+        except CommandFailed as fault:
+            failed.append(str(fault))
+        if stopped and not all_of_them:
+            return
+    if failed:
+        raise CommandFailed(f"NOT STOPPED: {'; '.join(failed)}")
+    if not stopped:
+        raise no_box(places)
 
 
 def _stop(place: Path) -> bool:
-    try:
-        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as box:
-            box.settimeout(ANSWER_S)
-            box.connect(str(place))
-            box.sendall(STOP)
-            answer = b""
-            while not answer.endswith(b"\n") and (received := box.recv(4096)):
-                answer += received
-    except OSError:
+    """Returns whether a box is there. Raises CommandFailed where it does not obey."""
+    box = connected(place)
+    if box is None:
         return False
-    return answer == OK
+    with box:
+        answer = _answer(box)
+    if answer != OK:
+        reason = answer.decode("utf-8", "replace").strip() or f"it does not answer within {ANSWER_S:g} s"
+        raise CommandFailed(f"the box at {place}: {reason}")
+    return True
+
+
+def _answer(box: socket.socket) -> bytes:
+    """Up to its newline; empty: none came."""
+    answer = b""
+    try:
+        box.settimeout(ANSWER_S)
+        box.sendall(STOP)
+        while not answer.endswith(b"\n") and (received := box.recv(4096)):
+            answer += received
+    except OSError:
+        return b""
+    return answer

@@ -1,4 +1,4 @@
-"""Makes the key tables of docs/configuration.md from the model, so that page and program agree.
+"""Makes the key tables of docs/reference/keys.md from the model, so that page and program agree.
 
 Knows Markdown, the legend of the tables, and the short name of each type of value. The keys and their meanings come
 from the model.
@@ -33,10 +33,9 @@ _LENGTHS = {"min_length": "{} or more", "max_length": "up to {}"}
 _HEADINGS = ("key", "default; allowed", "meaning")
 _LEFT_OUT = "–"
 _LEGEND = """\
-The default comes first (–: none, the key may be left out), then what is allowed: the bounds of a number, or
-after *whole* of a whole number. *GPIO*: 0 to 57, the BCM number, not the pin of the header. *Bus*: the N of
-/dev/i2c-N, 0 to 255. *Address*: an I2C address, 0x08 to 0x77. *Input*: A0 to A3 of an ADS1115, as 0 to 3.
-*Pairs*: a list of [number, number]. *Texts*: a list of texts. One table stands for both axes."""
+First the default (–: none, the key may be left out), then what is allowed: a number from 0 to 360 (`0…360`), above 0 to
+45 (`>0…45`), a *whole* number. *GPIO*: 0 to 57, the BCM number. *Bus*: the N of /dev/i2c-N, 0 to 255. *Address*: an I2C
+address, 0x08 to 0x77. *Input*: A0 to A3 of an ADS1115, as 0 to 3. *Pairs*: a list of [number, number]."""
 _AXES = ("azimuth", "elevation")
 """Two tables with the same keys, which the page shows as one."""
 
@@ -167,8 +166,11 @@ def _bounds(limits: list[Any], kind: Any) -> str:
     edges = {name: getattr(limit, name) for limit in limits for name in wording if hasattr(limit, name)}
     if kind is str:
         edges.pop("min_length", None)
-    words = [wording[name].format(int(edge) if edge == int(edge) else edge) for name, edge in edges.items()]
-    text = " ".join(words).replace("from ", "", 1) if len(words) == 2 else " ".join(words)
+    numbers = {name: f"{int(edge) if edge == int(edge) else edge}" for name, edge in edges.items()}
+    words = [wording[name].format(number) for name, number in numbers.items()]
+    lower = next((f"{sign}{numbers[name]}" for name, sign in (("ge", ""), ("gt", ">")) if name in numbers), None)
+    # Both ends in one word: most keys have both.
+    text = f"{lower}…{numbers['le']}" if lower is not None and "le" in numbers else " ".join(words)
     return f"{text} characters" if text and kind is str else text
 
 

@@ -1,28 +1,14 @@
-"""The text of a TOML file, and all that keeps it from being one, in words for the person who wrote it.
+"""The text of a configuration file, and why a file has none.
 
-Mends each mistake to find the next one, and hands the mended text on, so that the keys can be checked too. Knows no key
-but by the names of the tables that a caller gives.
+Knows encodings. Does not know TOML.
 """
 
 from __future__ import annotations
 
 import codecs
-import re
-import tomllib
-from collections.abc import Collection
-from dataclasses import dataclass
 from pathlib import Path
 
 from rotator.config.mistake import Mistake
-from rotator.config.slips import shown, slip
-from rotator.config.statements import Statement, places, statements
-
-_TWICE = re.compile(r"Cannot (?:declare|overwrite|mutate|redefine)|twice|immutable|already")
-_PLACE = re.compile(r" ?\(at (?:line (\d+), column \d+|end of document)\)")
-MOST = 50
-"""The most mistakes that are looked for in one file."""
-SCRATCH = "#"
-"""The first character of the tables that take the keys below a heading that cannot be read."""
 
 
 class NoTextError(Exception):
@@ -31,17 +17,6 @@ class NoTextError(Exception):
     def __init__(self, mistake: Mistake) -> None:
         super().__init__(mistake)
         self.mistake = mistake
-
-
-@dataclass(frozen=True, slots=True)
-class Mended:
-    """A text that is TOML now."""
-
-    text: str
-    mistakes: tuple[Mistake, ...]
-    """What was wrong."""
-    whole: bool
-    """Every mistake could be mended: no key is missing that the person has written."""
 
 
 def read(path: Path) -> str:
@@ -62,82 +37,7 @@ def read(path: Path) -> str:
         row = data.split(b"\n")[line - 1].decode("cp1252", "replace")
         raise NoTextError(
             Mistake(
-                f"{shown(row)}: is not saved as UTF-8 (perhaps as ANSI or Latin-1): save the file as UTF-8", (line,)
+                f"{row.strip()[:60]}: is not saved as UTF-8 (perhaps as ANSI or Latin-1): save the file as UTF-8",
+                (line,),
             )
         ) from fault
-
-
-def mended(text: str, tables: Collection[str], lists: Collection[str]) -> Mended:
-    """The text without its mistakes. `tables`: names of tables that stand there once; `lists`: of those in [[ ]]."""
-    text, mistakes = _brackets(text, tables, lists)
-    whole = True
-    for _ in range(MOST):
-        try:
-            tomllib.loads(text)
-            return Mended(text, tuple(mistakes), whole)
-        except tomllib.TOMLDecodeError as fault:
-            reason = str(fault)
-        except RecursionError:
-            return Mended("", (*mistakes, Mistake("has too many brackets inside each other")), whole=False)
-        mistake, line, better = _mistake(text, reason)
-        rows = text.split("\n")
-        if any(mistake.lines == each.lines for each in mistakes):
-            better = None  # mended once, and still wrong: the line is left out
-        else:
-            mistakes.append(mistake)
-        whole = whole and better is not None
-        heading = better is None and rows[line - 1].lstrip().startswith("[")
-        rows[line - 1] = f'["{SCRATCH}{line}"]' if heading else better or ""
-        text = "\n".join(rows)
-    return Mended("", tuple(mistakes), whole=False)
-
-
-def _brackets(text: str, tables: Collection[str], lists: Collection[str]) -> tuple[str, list[Mistake]]:
-    """[link] where [[link]] belongs, and the other way round: mended before anything else, for they look like TOML."""
-    rows = text.split("\n")
-    mistakes = []
-    for each in statements(text):
-        name = ".".join(each.keys)
-        right = f"[[{name}]]" if name in lists else f"[{name}]" if name in tables else None
-        if each.brackets and right and each.brackets != (2 if name in lists else 1):
-            found = shown(rows[each.line - 1].partition("#")[0])
-            rows[each.line - 1] = right
-            why = "there may be several, so it has two brackets" if name in lists else "there is one, with one bracket"
-            mistakes.append(Mistake(f"{found}: {why}: write {right}", (each.line,)))
-    return "\n".join(rows), mistakes
-
-
-def _mistake(text: str, reason: str) -> tuple[Mistake, int, str | None]:
-    """The first mistake of a text, its line, and that line as it should be."""
-    rows = text.split("\n")
-    found = statements(text)
-    at = _PLACE.search(reason)
-    line = min(int(at[1]), len(rows)) if at and at[1] else len(rows)
-    # The reader notices an open bracket only lines later.
-    for each in found:
-        if each.unclosed and each.line <= line:
-            row = rows[each.last - 1]
-            said = f"{shown(rows[each.line - 1])}: {each.unclosed} is missing at its end"
-            if each.unclosed[0] in "\"'":
-                return Mistake(said, (each.line,)), each.line, None
-            return Mistake(said, (each.line,)), each.last, _closed(row, each.unclosed)
-    this = next((each for each in found if each.line <= line <= each.last), None)
-    if this and this.keys and _TWICE.search(reason):
-        return _twice(text, this, rows[this.line - 1])
-    what = slip(rows[line - 1], _PLACE.sub("", reason))
-    return Mistake(what.advice, (line,)), line, what.mended
-
-
-def _closed(row: str, brackets: str) -> str:
-    before, mark, remark = row.rstrip("\r").partition("#")
-    return f"{before.rstrip().rstrip(',')}{brackets}  {mark}{remark}"
-
-
-def _twice(text: str, this: Statement, row: str) -> tuple[Mistake, int, str | None]:
-    lines = [line for lines in places(text).values() if this.line in lines for line in lines]
-    first = min(lines, default=this.line)
-    where = f"in line {first} already" if first < this.line else "in the file already"
-    if this.brackets:
-        said = f"{shown(row.partition('#')[0])} is {where}: write its keys there, under one heading"
-        return Mistake(said, (this.line,)), this.line, f'["{SCRATCH}{this.line}"]'
-    return Mistake(f"{shown(row)}: this key is {where}: leave one of the two", (this.line,)), this.line, ""

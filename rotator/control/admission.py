@@ -29,9 +29,9 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
         case Calibrate(axis) if status.moving:
             return Refusal(f"{axis.value} cannot be calibrated while the antenna moves")
         case Home(axis) if status.axis(axis).source is not AngleSource.COUNTED:
-            return Refusal(f"{axis.value} knows where it stands: there is no end stop to be found")
+            return Refusal(f"{axis.value} knows its angle: it needs no homing")
         case Confirm(axis) if not status.axis(axis).confirmable:
-            return Refusal(f"{axis.value} measures where it stands: there is nothing to confirm")
+            return Refusal(f"{axis.value} measures its angle: there is nothing to confirm")
         case RelaysChecked(axis) if status.axis(axis).moving:
             return Refusal(f"{axis.value} moves: look at its relays while they are off")
         case _:

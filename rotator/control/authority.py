@@ -101,7 +101,7 @@ class Authority:
     def allows(self, source: Source, now_s: float, deed: Deed, *, homing: bool = False) -> bool:
         """Whether this order from `source` has an effect now; if not, `ignored` tells why."""
         self._ignored.pop(str(source), None)
-        held = self._holds(source, now_s) | ({State.HOMING: "an axis looks for its end stop"} if homing else {})
+        held = self._holds(source, now_s) | ({State.HOMING: "an axis is homing"} if homing else {})
         if (state := hindrance(held, deed)) is None:
             return True
         self._ignored.pop(source.link, None)
@@ -121,12 +121,14 @@ class Authority:
         """The states that hold the antenna back from `source`, the strongest first, and the words for each."""
         held = {}
         if self.latched:
-            held[State.STORM if self.storm else State.STOPPED] = f"stopped by {self.latched} until released"
+            held[State.STORM if self.storm else State.STOPPED] = (
+                f"stopped by {self.latched}: nothing moves until resume"
+            )
         at_panel = source == self._panel and self.mode in (Mode.MANUAL, Mode.JOG)
         if self.mode is not Mode.AUTO and not at_panel:
             held[AT_MODE[self.mode]] = f"the panel's switch is at {self.mode.name}"
         if at_panel and self._holds_on(now_s):
-            held[State.SILENCED] = "a stop came while its switch was held: let it go first"
+            held[State.SILENCED] = "a stop came while the jog switch was held: release the switch first"
         # A stop that comes over a link does not silence the person at the panel for longer.
         if self.mode is Mode.AUTO and (silence := self._senders.silence(source)):
             held[State.SILENCED] = silence

@@ -22,6 +22,7 @@ from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.fence import Fence
 from rotator.control.homing_queue import HomingQueue
 from rotator.control.jogs import Jogs
+from rotator.control.pass_starts import PassStarts
 from rotator.control.rights import deed_of
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
@@ -77,6 +78,7 @@ class Controller:
         self._fence = Fence(settings.mount, axes, period_s=settings.period_s, attended=settings.attended)
         self._timed = TimedList()
         self._jogs = Jogs(axes)
+        self._starts = PassStarts()
         self._speed_level = 4
         self._remarks: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         """What the panel has to say of each axis."""
@@ -129,6 +131,7 @@ class Controller:
         for axis, control in self._axes.items():
             control.note_driven(now_s, driven[axis])
         self._jogs.note_driven(now_s)
+        self._starts.note_driven(now_s, driven)
 
     def status(self, now_s: float, late_s: float = 0.0) -> Status:
         """The state of the box at this moment. `late_s`: how late the last cycle was."""
@@ -154,7 +157,8 @@ class Controller:
     def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
         status = self._axes[axis].status(now_s)
         more = self._remarks[axis] + self._aiming.notices(axis) + self._fence.notices(axis, now_s)
-        return replace(status, notices=status.notices + more) if more else status
+        starts = self._starts.of(axis) if axis in self._switched else None
+        return replace(status, notices=status.notices + more, starts=starts)
 
     def _note_lateness(self, now_s: float) -> None:
         """A motor ran for longer than a cycle unwatched: the guard has opened its relay, and a person should know."""
@@ -212,6 +216,7 @@ class Controller:
                 self._move(order, source, now_s)
 
     def _move(self, order: Order, source: Source, now_s: float) -> None:
+        self._starts.ordered(now_s)
         if not isinstance(order, RunTimed):
             self._timed.halt()
         if not isinstance(order, Home):
@@ -268,7 +273,7 @@ class Controller:
 
     def _confirm(self, axis: Axis, angle_deg: float) -> None:
         if not self._axes[axis].confirmable:
-            self.troubles.append(f"{axis.value} measures where it stands: there is nothing to confirm")
+            self.troubles.append(f"{axis.value} measures its angle: there is nothing to confirm")
             return
         self._halt((axis,))
         self.errands.append(Place(axis, angle_deg))
@@ -284,7 +289,8 @@ class Controller:
     def _park_when_idle(self, now_s: float) -> None:
         """Long after the last order, where the configuration asks for it; never before a first order."""
         after_s = self._settings.park_after_s
-        if after_s <= 0 or self._moved_s is None or self._authority.latched or self._timed.running:
+        held = self._authority.latched or self._authority.mode is Mode.PARK
+        if after_s <= 0 or self._moved_s is None or held or self._timed.running:
             return
         if now_s - self._moved_s >= after_s:
             self._park(now_s)
@@ -315,7 +321,7 @@ class Controller:
             self.troubles.append(f"{axis.value} is not calibrated while the antenna moves")
             return
         if axis not in self._switched:
-            self.troubles.append(f"{axis.value} knows its own angles: there is no end to be set")
+            self.troubles.append(f"{axis.value} knows its own angles: it needs no ends")
             return
         self._axes[axis].halt()
         self._aiming.forget((axis,))

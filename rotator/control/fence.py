@@ -110,11 +110,11 @@ class Fence:
         there = swept.but(axis, self._axes[axis].sweep(now_s, command))
         name = " and ".join(self._met(there))
         if swept.known:
-            notice = Notice(f"held before {name}", "HELD BACK")
+            notice = Notice(f"stopped before {name}", "HELD BACK")
         else:
             unknown = " and ".join(each.value for each in Axis if swept.of(each) == UNKNOWN)
             notice = Notice(
-                f"held back: the angle of {unknown} is not known, and {name} may be in the way", "HELD BACK"
+                f"does not turn: the angle of {unknown} is not known, and {name} may be in the way", "HELD BACK"
             )
         if self._axes[axis].aiming is None or not swept.known:
             # The way of an axis that aims is found elsewhere, and what keeps it from its target is said there.

@@ -140,7 +140,7 @@ class GoingRound:
                 self._noticed[axis] = Notice(text, "FORBIDDEN")
         if detour.leaves:
             for axis in Axis:
-                self._noticed[axis] = Notice(f"the antenna is in {detour.sector}: it only leaves it", "IN FORBIDDEN")
+                self._noticed[axis] = Notice(f"the antenna is in {detour.sector}: it may only leave it", "IN FORBIDDEN")
 
     def _here(self, now_s: float) -> Box:
         return Box(*(self._axes[axis].sweep(now_s, None) for axis in Axis))

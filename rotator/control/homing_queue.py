@@ -33,7 +33,7 @@ class HomingQueue:
     def ask(self, axis: Axis, source: Source) -> None:
         """Raises ValueError where the axis has no end stop to be found."""
         if axis not in self._axes:
-            raise ValueError(f"{axis.value} is not homed: it knows where it stands, there is no end stop to be found")
+            raise ValueError(f"{axis.value} knows its angle: it needs no homing")
         self._asked_by = source
         self._waiting.append(axis)
 

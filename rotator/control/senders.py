@@ -94,11 +94,11 @@ class Senders:
         """Why the orders of `source` have no effect, and what ends that; empty: they have an effect."""
         if (sender := self._senders.get(source)) is None:
             return ""
-        again = f"they count again after {sender.pause_s:g} s without one"
+        again = f"orders count again after a pause of {sender.pause_s:g} s"
         if (by := sender.taken_by) is not None:
             if (other := self._senders.get(by)) is not None and other.streams:
-                return f"it fights with {by}, which has the antenna; end one of the two programs ({again})"
-            return f"{by} has taken the antenna; {again}, or on a new connection"
+                return f"{by} moves the antenna, and both send directions: end one of the two programs ({again})"
+            return f"{by} moves the antenna now; {again}, or on a new connection"
         return f"{by} has stopped the antenna; {again}, or on a new connection" if (by := sender.stopped_by) else ""
 
     def streams(self, source: Source) -> bool:

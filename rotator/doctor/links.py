@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path, PurePath
 from typing import Any
 
-from rotator.config.links import address
+from rotator.config.links import Link, address
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.machine import Machine
@@ -84,22 +84,22 @@ def pseudo_terminals(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def tcp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
-    names = [link.tcp for link in config.link if link.tcp is not None]
-    if not names:
+    links = [(link.tcp, link) for link in config.link if link.tcp is not None]
+    if not links:
         yield skipped("no link has one")
-    for name in names:
-        yield _port(machine, name, socket.SOCK_STREAM)
+    for name, link in links:
+        yield _port(machine, name, socket.SOCK_STREAM, link)
 
 
 def udp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
-    names = [link.udp for link in config.link if link.udp is not None]
-    if not names:
+    links = [(link.udp, link) for link in config.link if link.udp is not None]
+    if not links:
         yield skipped("no link has one")
-    for name in names:
-        yield _port(machine, name, socket.SOCK_DGRAM)
+    for name, link in links:
+        yield _port(machine, name, socket.SOCK_DGRAM, link)
 
 
-def _port(machine: Machine, name: str, kind: socket.SocketKind) -> Finding:
+def _port(machine: Machine, name: str, kind: socket.SocketKind, link: Link) -> Finding:
     host, port = address(name)
     try:
         places = socket.getaddrinfo(host, port, type=kind, flags=socket.AI_PASSIVE)
@@ -122,9 +122,13 @@ def _port(machine: Machine, name: str, kind: socket.SocketKind) -> Finding:
             return wrong(f"{name}: cannot listen there: {os.strerror(number)}", ANY_ADDRESS)
     if all(_is_loopback(place) for place in places):
         return fine(f"{name}: {state}")
+    if link.read_only:
+        return fine(f"{name}: {state}, and open to the network; it is read_only: nothing there turns the antenna")
+    if link.allow is not None:
+        return fine(f"{name}: {state}, and open to the network for {', '.join(link.allow) or 'no machine'} (allow)")
     return warn(
         f"{name}: {state}, and open to the network: every machine on it can turn the antenna",
-        f"127.0.0.1:{port} keeps it to programs on this machine; a firewall keeps strangers out.",
+        f'allow = ["192.168.1.20"] lets only these machines in; 127.0.0.1:{port} only programs on this one.',
     )
 
 

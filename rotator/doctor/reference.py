@@ -1,4 +1,4 @@
-"""Makes the table of checks in docs/troubleshooting.md, so that page and program agree.
+"""Makes the table of checks in docs/reference/checks.md, so that page and program agree.
 
 Knows Markdown. The checks are in `checks.py`.
 """

@@ -24,7 +24,9 @@ from rotator.protocols.session import Session
 log = logging.getLogger(__name__)
 
 SERIAL_GROUP = "dialout"
-_ORDER = re.compile(rb"\S{0,4}|[A-Za-z]{1,2}[-+.\d]+(?: [A-Za-z]{0,2}[-+.\d]+){0,3}|[PMWpmw](?: [-+.\d]+){1,4}")
+_ORDER = re.compile(
+    rb"|[A-Za-z?][A-Za-z\d]?|[A-Za-z]{1,2}[-+.\d]+(?: [A-Za-z]{0,2}[-+.\d]+){0,3}|[PMWpmw](?: [-+.\d]+){1,4}"
+)
 """A line that was written to the port while no box was running: a shell makes a file of it then."""
 SMALL = 4096
 ASIDE = ".was-a-file"

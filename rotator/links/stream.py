@@ -14,7 +14,7 @@ from collections.abc import Callable
 from typing import cast
 
 from rotator.links.wire import Conversation, Wire
-from rotator.protocols.session import Session
+from rotator.protocols.session import Addressed, Session
 from rotator.runtime.log_limit import LogLimit
 
 log = logging.getLogger(__name__)
@@ -115,12 +115,16 @@ class _Client(asyncio.BufferedProtocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._transport = cast(asyncio.Transport, transport)
         peer = self._transport.get_extra_info("peername")  # of a Unix socket: an empty text
-        if not self._clients.admit(self, str(peer[0]) if peer else ""):
+        host = str(peer[0]) if peer else ""
+        if not self._clients.admit(self, host):
             self._transport.abort()
             return
         _watch(self._transport.get_extra_info("socket"))
         clients = self._clients
-        self._conversation = Conversation(clients.session(), clients.wire, self._write, self._transport.close)
+        session = clients.session()
+        if host and isinstance(session, Addressed):
+            session.comes_from(host)
+        self._conversation = Conversation(session, clients.wire, self._write, self._transport.close)
 
     def get_buffer(self, sizehint: int) -> bytearray:
         return self._buffer

@@ -11,7 +11,7 @@ from datetime import datetime
 
 from rotator import __version__
 from rotator.links.wire import Wire
-from rotator.monitor.transcript import At, LinkNote, Way, encode_at, encode_link, encode_piece
+from rotator.monitor.transcript import At, LinkNote, Peer, Way, encode_at, encode_link, encode_peer, encode_piece
 from rotator.orders import Source
 from rotator.protocols.session import Beating, Inquiry, Session
 from rotator.status import Status
@@ -37,6 +37,8 @@ class Tap:
         self._status = status
         self._wires: dict[str, Wire] = {}
         self._links: list[LinkNote] = []
+        self._peers: dict[Source, Peer] = {}
+        """Of the network connections that last."""
         self._day = ""
         self._at: At | None = None
         self._at_noted = datetime.min
@@ -52,7 +54,17 @@ class Tap:
         if not self.listeners:
             self._at, self._at_noted = at, moment
         lines = [f"# rotator {__version__}, {moment:%Y-%m-%d}", *map(encode_link, self._links)]
+        lines += map(encode_peer, self._peers.values())
         return [*lines, encode_at(at)] if at else lines
+
+    def came(self, source: Source, host: str) -> None:
+        """A machine of the network has connected; the listeners hear its address."""
+        self._peers[source] = Peer(source, host)
+        for listener in list(self.listeners):
+            listener(encode_peer(self._peers[source]))
+
+    def left(self, source: Source) -> None:
+        self._peers.pop(source, None)
 
     def note(self, source: Source, way: Way, data: bytes, *, text: bool) -> None:
         """Note bytes on the link of `source`. `text`: the bytes are characters; else they are binary."""
@@ -116,11 +128,18 @@ class TappedSession:
         text: bool = True,
         ended: Callable[[], None] = lambda: None,
     ) -> None:
-        self.ended = ended
+        self._ended = ended
         self._session = session
         self._tap = tap
         self._source = source
         self._text = text
+
+    def comes_from(self, host: str) -> None:
+        self._tap.came(self._source, host)
+
+    def ended(self) -> None:
+        self._tap.left(self._source)
+        self._ended()
 
     @property
     def idle_s(self) -> float | None:

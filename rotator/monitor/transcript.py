@@ -3,6 +3,7 @@ r"""The bytes of the links as text, one line for each piece, from which a progra
     # rotator 1.0, 2026-11-21
     # link gs232b {"protocol": "gs232b", "pty": "run/gs232"}
     # at 235.00 25.00, under gs232b#1
+    # rotctld#2 comes from 192.168.1.20
     18:03:22.114 gs232b#1 > W235 025\r
     18:03:22.301 gs232b#1 < AZ=235  EL=025\r\n
     18:03:22.377 md01#1 > \hex 57 00 00 00 00 00 00 00 00 00 00 1F 20
@@ -61,11 +62,20 @@ class At:
 
 
 @dataclass(frozen=True, slots=True)
+class Peer:
+    """The machine at the other end of a network connection."""
+
+    source: Source
+    host: str
+    """Its address."""
+
+
+@dataclass(frozen=True, slots=True)
 class Remark:
     text: str
 
 
-Entry = Piece | LinkNote | At | Remark
+Entry = Piece | LinkNote | At | Peer | Remark
 
 
 class NotATranscript(ValueError):  # noqa: N818 - a fault of the text, not of the program
@@ -80,6 +90,7 @@ _PIECE = re.compile(r"(\d\d):(\d\d):(\d\d\.\d{3}) ([^<>]+?)(?:#(\d+))? ([<>]) (.
 _LINK = re.compile(r"# link (.+?) (\{.*\})")
 _ANGLE = r"(-?\d{1,3}(?:\.\d+)?)"
 _AT = re.compile(rf"# at {_ANGLE} {_ANGLE}(?:, under (.+))?")
+_PEER = re.compile(r"# (.+?)(?:#(\d+))? comes from (\S+)")
 
 
 def parse(line: str) -> Entry:
@@ -88,6 +99,8 @@ def parse(line: str) -> Entry:
         return LinkNote(link[1], _keys(link[2]))
     if at := _AT.fullmatch(line):
         return At(float(at[1]), float(at[2]), at[3] or "")
+    if peer := _PEER.fullmatch(line):
+        return Peer(Source(peer[1], int(peer[2] or 0)), peer[3])
     if line.startswith("#") or not line:
         return Remark(line.removeprefix("#").strip())
     if piece := _PIECE.fullmatch(line):
@@ -105,6 +118,10 @@ def encode_piece(moment: datetime, source: Source, way: Way, data: bytes, *, tex
 
 def encode_link(note: LinkNote) -> str:
     return f"# link {note.name} {json.dumps(note.keys)}"
+
+
+def encode_peer(peer: Peer) -> str:
+    return f"# {peer.source} comes from {peer.host}"
 
 
 def encode_at(at: At) -> str:

@@ -1,6 +1,6 @@
 """The console's commands, one on a line, for the operator at the box: some orders are allowed only here.
 
-Knows the table of commands and its codec. Does not know what a command makes the box do.
+Knows the table of commands and how each is written. Does not know what a command makes the box do.
 """
 
 from __future__ import annotations
@@ -12,19 +12,9 @@ from enum import Enum
 
 from hw.ports import Axis
 from rotator.control.admission import SENT_DEG
-from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
+from rotator.orders import Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
 from rotator.protocols.aiming import aim, degrees
-from rotator.protocols.panel_words import (
-    OPERANDS,
-    TURNS,
-    Hand,
-    StopButton,
-    ThrowJog,
-    TurnKnob,
-    TurnMode,
-    encode_hand,
-    parse_hand,
-)
+from rotator.protocols.panel_words import OPERANDS, TURNS, Hand, parse_hand
 
 LONGEST_JOG_S = 5.0
 
@@ -33,6 +23,7 @@ class Ask(Enum):
     """A question, not an order."""
 
     STATUS = "status"
+    STATUS_JSON = "status json"
     HELP = "help"
 
 
@@ -53,7 +44,7 @@ class Verb:
 
 
 VERBS = (
-    Verb("status", "", "Angles and targets, who moves the antenna, faults, and what is missing"),
+    Verb("status", "[json]", "Angles and targets, who moves the antenna, faults, and what is missing"),
     Verb("stop", "", "Stop everything; nothing moves until `resume`. The rest of the line does not count"),
     Verb("resume", "", "Let it move again, and acknowledge faults"),
     Verb("home", "azimuth|elevation", "Find the low end stop of an axis that counts pulses: watch the antenna"),
@@ -75,8 +66,8 @@ def parse(line: bytes) -> ConsoleCommand:
     """From one line, without its end, to a command; capitals do not matter. Raises ValueError for the operator."""
     words = [word for word in line.lower().replace(b"\t", b" ").decode("latin-1").split(" ") if word]
     match words:
-        case ["status"] | ["help"]:
-            return Ask(words[0])
+        case ["status"] | ["status", "json"] | ["help"]:
+            return Ask(" ".join(words))
         case ["stop", *_]:
             # A stop counts even if more text follows it.
             return Stop(latch=True)
@@ -104,36 +95,6 @@ def parse(line: bytes) -> ConsoleCommand:
             raise ValueError(_unknown(words[0] if words else ""))
 
 
-def encode(command: ConsoleCommand) -> bytes:
-    """The line of a command, with its end. Raises ValueError for an order that is no console command."""
-    match command:
-        case Ask(value=word):
-            text = word
-        case Stop(latch=True):
-            text = "stop"
-        case Release():
-            text = "resume"
-        case Home(axis):
-            text = f"home {axis.value}"
-        case Confirm(axis, angle_deg):
-            text = f"confirm {axis.value} {_number(angle_deg)}"
-        case RelaysChecked(axis):
-            text = f"relays-checked {axis.value}"
-        case LetGo():
-            text = "let-go"
-        case Park(storm=True):
-            text = "park"
-        case Jog(axis, direction, float() as seconds) if direction:
-            text = f"jog {TURN_WORDS[axis, direction]} {_number(seconds)}"
-        case Aim(float() as azimuth_deg, float() as elevation_deg, engaged=True):
-            text = f"point {_number(azimuth_deg)} {_number(elevation_deg)}"
-        case TurnMode() | TurnKnob() | ThrowJog() | StopButton():
-            text = f"panel {encode_hand(command)}"
-        case _:
-            raise ValueError(f"the console has no command for {command}")
-    return text.encode() + b"\n"
-
-
 def _degrees(axis: Axis, text: str) -> float:
     low_deg, high_deg = SENT_DEG[axis]
     angle_deg = degrees(text)
@@ -153,10 +114,6 @@ def _unknown(word: str) -> str:
     meant = difflib.get_close_matches(word, _BY_TEXT, n=1)
     hint = f"; did you mean {meant[0]}?" if meant else "."
     return f"there is no command {_quoted(word)}{hint} There are: {', '.join(_BY_TEXT)}"
-
-
-def _number(value: float) -> str:
-    return f"{value:.6f}".rstrip("0").rstrip(".")
 
 
 def _quoted(text: str) -> str:

@@ -5,6 +5,7 @@ Knows what each command makes the box do, and how the status is written. Does no
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,6 +17,7 @@ from rotator.protocols.console import TURN_WORDS, VERBS, Ask, parse
 from rotator.protocols.lines import LineReader
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Box
+from rotator.protocols.status_object import as_object
 from rotator.status import Status
 
 MAX_LINE = 200
@@ -59,6 +61,8 @@ class ConsoleSession:
         match command:
             case Ask.STATUS:
                 return _reply(*report(self._box.status()), OK)
+            case Ask.STATUS_JSON:
+                return _reply(json.dumps(as_object(self._box.status()), ensure_ascii=False), OK)
             case Ask.HELP:
                 width = max(len(verb.usage) for verb in VERBS)
                 return _reply(*(f"{verb.usage:<{width}}  {verb.help}" for verb in VERBS), OK)
@@ -116,11 +120,12 @@ def report(status: Status) -> list[str]:
 
 def _stands(status: Status, axis: Axis) -> str:
     now = status.axis(axis)
-    words = ["not known" if now.shown_deg is None else f"{_shown(now.shown_deg)} {now.source.value}"]
+    known = now.source.value if now.seen else "when last seen, no reading now"
+    words = ["not known" if now.shown_deg is None else f"{_shown(now.shown_deg)} {known}"]
     if now.target_deg is not None:
         words.append(f"to {_shown(now.target_deg)}")
     if now.homing:
-        words.append("looks for its end stop")
+        words.append("homing: turns to its end stop")
     if now.drive:
         words.append(f"turns {TURN_WORDS[axis, now.drive]}")
     return ", ".join(words)

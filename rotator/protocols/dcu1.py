@@ -2,7 +2,7 @@
 
 Knows the command table, its codec and what each command makes the box do. Does not know how the box does it. Sources:
 Idiom Press' command reference in Hamlib's archive, and what Hamlib 4.5 sends to models 401 to 406 (see
-docs/protocols.md).
+docs/reference/wire.md).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Knows every command for a rotor, how clients really write it, and the form of its reply. Does not know what the box does
 with it: `easycomm_session` does. Sources: G7UPN's EasyComm standard with its third part, in Hamlib's archive, and what
-Hamlib 4.5 and 4.6, WispDDE and PstRotator users send (see docs/protocols.md).
+Hamlib 4.5 and 4.6, WispDDE and PstRotator users send (see docs/reference/wire.md).
 """
 
 from __future__ import annotations

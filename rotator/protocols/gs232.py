@@ -2,7 +2,7 @@
 
 Knows every command, how clients really write it, and every byte of a real unit's answer. Does not know what the box
 does with a command: `gs232_session` does. Sources: Yaesu's manuals of the GS-232A (2000) and GS-232B (2004), pages 8 to
-20, and captures of real units and of Hamlib, OscarWatch, SDRangel, WispDDE and SatPC32 (see docs/protocols.md).
+20, and captures of real units and of Hamlib, OscarWatch, SDRangel, WispDDE and SatPC32 (see docs/reference/wire.md).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Knows hours, degrees, minutes and seconds as LX200 writes them, and finds commands in a stream of bytes. Does not know
 what a command makes the box do: `lx200_session` does. Sources: Meade's telescope protocol of October 2010, and what
-Hamlib 4.5 (model 1801) and Stellarium send (see docs/protocols.md).
+Hamlib 4.5 (model 1801) and Stellarium send (see docs/reference/wire.md).
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ VERBS = (
     Verb("Gt", "Read the station's latitude"),
     Verb("Gg", "Read the station's longitude, counted to the west"),
     Verb("GVP", "Read the product's name"),
-    Verb("CM", "Take the place for the target: not here, [commissioning](commissioning.md) does that"),
+    Verb("CM", "Take the place for the target: not here, [commissioning](../commissioning.md) does that"),
     Verb("St", "Set the latitude: answered and ignored, `[station]` counts", "+52*22"),
     Verb("Sg", "Set the longitude: answered and ignored", "351*10"),
     Verb("SL", "Set the time: answered and ignored, the Pi's clock counts", "18:00:00"),

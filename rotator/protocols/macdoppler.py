@@ -1,7 +1,7 @@
 """MacDoppler's broadcasts: `[AzEl Rotor Report:Azimuth:39.00, Elevation:0.00, SatName:XW-2C]`, without answers.
 
 Knows this report, its codec, and that it is an order. Reports for radios are skipped. Does not know sockets: one
-`receive` is one datagram. Source: programs that connect MacDoppler to rotors (see docs/protocols.md).
+`receive` is one datagram. Source: programs that connect MacDoppler to rotors (see docs/reference/wire.md).
 """
 
 from __future__ import annotations

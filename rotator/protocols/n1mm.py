@@ -1,7 +1,7 @@
 """N1MM Logger+ and its rotor messages: orders for an azimuth as XML, and the antenna's azimuth as `name @ 2350`.
 
 Knows the messages, their codec and what they make the box do. Does not know sockets: one `receive` is one datagram.
-Sources: what other rotor servers for N1MM receive and send (see docs/protocols.md).
+Sources: what other rotor servers for N1MM receive and send (see docs/reference/wire.md).
 """
 
 from __future__ import annotations

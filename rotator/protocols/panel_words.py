@@ -1,4 +1,4 @@
-"""What a person does with the switches and knobs of the simulated front panel, as words of the console, both ways.
+"""What a person does with the switches and knobs of the simulated front panel, as words of the console.
 
 Knows the words. Does not know the panel, nor what a switch does.
 """
@@ -70,20 +70,6 @@ def parse_hand(words: list[str]) -> Hand:
             return StopButton(what == "press")
         case _:
             raise ValueError(f"write it like this: panel {OPERANDS}")
-
-
-def encode_hand(hand: Hand) -> str:
-    """The words after `panel`."""
-    match hand:
-        case TurnMode(mode):
-            return f"mode {mode.value}"
-        case TurnKnob(axis, share):
-            return f"knob {axis.value} {share:.4g}"
-        case ThrowJog(axis, direction, seconds):
-            turn = next(word for word, way in TURNS.items() if way == (axis, direction))
-            return f"jog {turn} {seconds:.4g}"
-        case StopButton(pressed):
-            return "stop press" if pressed else "stop release"
 
 
 def _number(text: str, most: float, what: str) -> float:

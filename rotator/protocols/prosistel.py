@@ -2,7 +2,7 @@
 
 A command is STX, the axis, a letter, and CR. Knows the command table, its codec, and what a command makes the box do.
 Does not know how the box does it. Source: what Hamlib 4.5 sends to models 1701 to 1704 and reads from them (see
-docs/protocols.md).
+docs/reference/wire.md).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Knows the tags, their codec and what they make the box do. Does not know sockets: one `receive` is one whole datagram.
 Sources: PstRotator's manual, Rev. 7.5, as quoted by others; what Hamlib 4.6 and other programs send (see
-docs/protocols.md).
+docs/reference/wire.md).
 """
 
 from __future__ import annotations

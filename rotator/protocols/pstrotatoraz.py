@@ -2,7 +2,7 @@
 
 Knows one request to a connection (`GET /PstRotatorAz.htm?az=235`), the page, and who may turn the antenna: no page of
 another web site that a browser has open. Does not know sockets. Sources: what the plug-in and other programs request,
-and what they look for in the page (see docs/protocols.md).
+and what they look for in the page (see docs/reference/wire.md).
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """M2's RC2800PX: azimuth and elevation, one letter for each axis, ended by CR.
 
 Knows the command table, its codec and what each command makes the box do. Does not know how the box does it. Source:
-what Hamlib 4.5 and 5.0 send to model 1001 and read from it (see docs/protocols.md). The older RC2800, to which an angle
-is sent without its letter, is not spoken here: a lost letter would turn the wrong axis.
+what Hamlib 4.5 and 5.0 send to model 1001 and read from it (see docs/reference/wire.md). The older RC2800, to which an
+angle is sent without its letter, is not spoken here: a lost letter would turn the wrong axis.
 """
 
 from __future__ import annotations

@@ -48,6 +48,14 @@ class Ending(Protocol):
 
 
 @runtime_checkable
+class Addressed(Protocol):
+    """A session that may know the machine at the other end."""
+
+    def comes_from(self, host: str) -> None:
+        """The client's machine has this address."""
+
+
+@runtime_checkable
 class Beating(Protocol):
     """A session that also works without bytes from its program: it sends unasked, or follows a moving target."""
 

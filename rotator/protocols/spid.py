@@ -2,7 +2,7 @@
 
 A client sends 13 bytes; a Rot1Prog answers with 5, the other models with 12. Knows these bytes, and how to find a frame
 among other bytes. Does not know what the box does with a frame: `spid_session` does. Sources: LA6YKA's description of
-the protocol, and what Hamlib 4.5 and 4.6 send to models 901, 902 and 903 (see docs/protocols.md).
+the protocol, and what Hamlib 4.5 and 4.6 send to models 901, 902 and 903 (see docs/reference/wire.md).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Knows the frames, in right ascension and declination J2000, and what a target makes the box do. Does not know where a
 star stands: `sky` does. Source: Stellarium's description of the protocol, and what its telescope plug-in sends and
-reads (see docs/protocols.md).
+reads (see docs/reference/wire.md).
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from rotator.assembly.settings import build_controller, build_mount, build_offse
 from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.control.sky.angles import great_circle_deg
-from rotator.control.sky.flight_plan import plan_flight
+from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
 from rotator.orders import Order, Source
 from rotator.protocols.gs232 import Command, Dialect, encode
@@ -78,6 +78,12 @@ class Summary:
 class Plant(Protocol):
     """The controller that follows the pass: the box, or the emulated Arduino."""
 
+    early_s: float
+    """So long before the pass begins it hears of all of it; 0: it hears an order a second."""
+
+    def announce(self, flown: Pass, begin_s: float) -> None:
+        """Let it know the whole pass, which begins at that moment."""
+
     def order(self, azimuth_deg: float, elevation_deg: float) -> None: ...
 
     def run_until(self, moment_s: float) -> None: ...
@@ -90,9 +96,13 @@ class Plant(Protocol):
 
 
 class BoxPlant:
-    """The box, from its protocol to its relays, on simulated chips. `via`: "rotctld" or "gs232", as orders are sent."""
+    """The box, from its protocol to its relays, on simulated chips.
+
+    `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand.
+    """
 
     def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float], via: str) -> None:
+        self.early_s = KNOWN_S if via == "track" else 0.0
         self._clock = clock
         self._period_s = 1 / config.control.rate_hz
         self._shift = build_offsets(config)
@@ -129,10 +139,9 @@ class BoxPlant:
         self._session.receive(self._encode(azimuth_deg, elevation_deg))
 
     def announce(self, flown: Pass, begin_s: float) -> None:
-        """Let the box know the whole pass, which begins at that moment."""
-        path = KnownPath(tuple((begin_s + t_s, azimuth_deg, elevation_deg) for t_s, azimuth_deg, elevation_deg in flown.rows))
+        path = KnownPath(tuple((begin_s + t_s, az_deg, el_deg) for t_s, az_deg, el_deg in flown.rows))
         stands = self.status.azimuth.angle_deg or 0.0, self.status.elevation.angle_deg or 0.0
-        plan = plan_flight(self._mount, flown.name, path, self._clock(), stands, *self._motors)
+        plan = plan_flight(flown.name, path, Antenna(self._mount, *self._motors, stands), self._clock())
         self._loop.post(Source("track"), plan.order)
 
     def run_until(self, moment_s: float) -> None:
@@ -156,8 +165,13 @@ class BoxPlant:
 class ArduinoPlant:
     """The emulated Arduino that the box replaces. Its motors and ranges come from the box's configuration."""
 
+    early_s = 0.0
+
     def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float]) -> None:
         self._station = arduino_station(config, clock, clock.sleep, start_deg)
+
+    def announce(self, flown: Pass, begin_s: float) -> None:
+        """It knows orders alone."""
 
     def order(self, azimuth_deg: float, elevation_deg: float) -> None:
         self._station.host_send(_gs232_order(azimuth_deg, elevation_deg))
@@ -201,43 +215,35 @@ def plant_maker(
     return make
 
 
-def fly_known(flown: Pass, make: Callable[[SimClock, Pass], BoxPlant]) -> tuple[list[Sample], Summary]:
-    """Follow a pass that the box knows from `KNOWN_S` before it begins. Returns the trace and its summary."""
+def fly(
+    flown: Pass, make: Callable[[SimClock, Pass], Plant], progress: Callable[[float], None] = lambda _t_s: None
+) -> tuple[list[Sample], Summary]:
+    """Follow the pass: with one order a second, as from a tracking program, or known to the plant before it begins.
+
+    Returns the trace and its summary. `progress` hears every second how much of the pass is flown.
+    """
     clock = SimClock()
     plant = make(clock, flown)
     trace: list[Sample] = []
-    begin_s = clock() + KNOWN_S
+    begin_s = clock() + plant.early_s
 
     def sample(now_s: float) -> None:
         t_s = now_s - begin_s
-        trace.append(Sample(t_s, *flown.at(t_s), *plant.pointing()))
-
-    clock.every(SAMPLE_S, sample)
-    plant.run_until(begin_s - KNOWN_S + FIRST_LOOK_S)
-    plant.announce(flown, begin_s)
-    plant.run_until(begin_s + flown.end_s)
-    return trace, summarise(trace, plant.relay_starts())
-
-
-def fly(flown: Pass, make: Callable[[SimClock, Pass], Plant]) -> tuple[list[Sample], Summary]:
-    """Follow the pass with one order a second, as from a tracking program. Returns the trace and its summary."""
-    clock = SimClock()
-    plant = make(clock, flown)
-    trace: list[Sample] = []
-    started_s = clock()
-
-    def sample(now_s: float) -> None:
-        t_s = now_s - started_s
         target_az_deg, target_el_deg = flown.at(t_s)
         trace.append(Sample(t_s, target_az_deg, target_el_deg, *plant.pointing()))
 
     def order(now_s: float) -> None:
-        azimuth_deg, elevation_deg = flown.at(now_s - started_s)
+        azimuth_deg, elevation_deg = flown.at(now_s - begin_s)
         plant.order(azimuth_deg, max(0.0, elevation_deg))
 
     clock.every(SAMPLE_S, sample)
-    clock.every(1.0, order)
-    plant.run_until(flown.end_s)
+    clock.every(1.0, lambda now_s: progress(now_s - begin_s))
+    if plant.early_s:
+        plant.run_until(begin_s - plant.early_s + FIRST_LOOK_S)
+        plant.announce(flown, begin_s)
+    else:
+        clock.every(1.0, order)
+    plant.run_until(begin_s + flown.end_s)
     return trace, summarise(trace, plant.relay_starts())
 
 

@@ -15,7 +15,7 @@ from rotator.faults import Notice
 from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.positioned import PositionedRotor
 
-ASSUMED = Notice("angle assumed until a full travel is over")
+ASSUMED = Notice("angle not certain until the rotor has had time for a full travel")
 NEAR_DEG = 10.0
 """No control box turns its rotor further from one reading to the next."""
 MOVED_READINGS = 20

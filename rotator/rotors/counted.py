@@ -127,7 +127,7 @@ class CountedAxis:
             measured = "its contact opens and closes as if its motor ran"
             return unstoppable(FaultKind.TURNS_BY_ITSELF, self._axis, measured, "", master=self._master)
         if self._counter.quiet:
-            return Fault(FaultKind.NO_PULSES, self._axis, "driven for three periods, and its contact did not change")
+            return Fault(FaultKind.NO_PULSES, self._axis, "its motor ran for three periods, the contact did not change")
         return None
 
     def _keep(self, angle_deg: float) -> None:

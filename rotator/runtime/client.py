@@ -88,7 +88,7 @@ class Client:
     def _forbidden(self, order: Order) -> Refusal | None:
         if not self._rights.read_only:
             return None
-        return Refusal(f"the link is read_only, and takes no orders ({type(order).__name__})", forbidden=True)
+        return Refusal("this link is read_only: it may ask, but not move or stop the antenna", forbidden=True)
 
     def _is_too_much(self, order: Order) -> bool:
         """Whether the order must wait for the next cycle, because too many came before it. A stop never waits."""

@@ -53,7 +53,7 @@ class Journal:
             if notice not in before.notices and (text := self._orders.admit(notice)):
                 log.warning("%s", text)
         if now.latched != before.latched:
-            log.warning(f"stopped by {now.latched} until released" if now.latched else "released")
+            log.warning(f"stopped by {now.latched}: nothing moves until resume" if now.latched else "released")
 
     def _notices(self, now: Status) -> None:
         for axis in Axis:

@@ -30,7 +30,7 @@ class LogLimit:
             self._until_s = now_s + self._every_s
             self._admitted = {text}
             withheld, self._withheld = self._withheld, 0
-            return f"{text} ({withheld} more of the kind before)" if withheld else text
+            return f"{text} ({withheld} similar lines before this one are not shown)" if withheld else text
         if text in self._admitted or len(self._admitted) >= self._most:
             self._withheld += 1
             return None

@@ -70,3 +70,13 @@ def known(model: str) -> Pi | None:
         if name.startswith(f"Raspberry Pi {prefix}"):
             return Pi(name, frozenset(filters.split()), socket, power)
     return None
+
+
+def short_name(name: str) -> str:
+    """`zero2w` of "Zero 2 W", `3b+` of "3 Model B Plus", `cm4` of "Compute Module 4"."""
+    words = name.lower().replace("compute module", "cm").replace("model", "").replace("plus", "+")
+    return words.replace(" ", "")
+
+
+SHORT_NAMES = {short_name(name): name for name, *_ in _MODELS}
+"""The full names by the short ones, for a card whose Pi is not here."""

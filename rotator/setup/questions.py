@@ -89,7 +89,7 @@ def questions(answers: Answers, machine: Machine) -> Iterator[Question]:
         )  # fmt: skip
     yield Question(
         "program", "Which program turns the antenna?",
-        "One is enough to begin; a [[link]] more in the file for each other one. docs/protocols.md lists them all.",
+        "One is enough to begin; a [[link]] more for each other. docs/reference/programs.md lists them all.",
         NETWORK_PROGRAM, PROGRAMS,
     )  # fmt: skip
     if answers.get("program") not in (NETWORK_PROGRAM, NONE_YET, *UDP, None):

@@ -20,12 +20,27 @@ OVERLAYS = ("overlayroot=tmpfs", "boot=overlay")
 
 
 def boot_config(root: Path) -> Path:
-    """The path of config.txt: that since Bookworm, or the older one. Raises SetupError."""
+    """The path of config.txt: that since Bookworm, or the older one; of a card in another computer also that of the
+    boot partition beside it, as desktops mount both. Raises SetupError."""
     places = [root / "boot/firmware/config.txt", root / "boot/config.txt"]
+    if is_card(root):
+        places.append(root.resolve().parent / "bootfs/config.txt")
     for place in places:
         if place.is_file():
             return place
+    if (root / "config.txt").is_file():
+        raise SetupError(f"{root} is the card's boot partition: give --root its other partition, often called rootfs")
+    if is_card(root) and (root / "etc").is_dir():
+        raise SetupError(
+            f"there is no {places[0]}: mount the card's first partition there too, "
+            f"such as with `sudo mount /dev/sdX1 {root / 'boot/firmware'}`, and run this again"
+        )
     raise SetupError(f"there is no {places[0]} and no {places[1]}: is this a Raspberry Pi's SD card?")
+
+
+def is_card(root: Path) -> bool:
+    """Whether `root` is the card of a Pi that is not running from it."""
+    return root.resolve() != Path("/")
 
 
 def pi(root: Path) -> Pi | None:

@@ -152,7 +152,7 @@ def _rival(files: Files, places: Places) -> str | None:
             "switch it off with `sudo rpi-usb-gadget off`, then run this again"
         )
     for path, content in files.items():
-        if isinstance(content, str) and any(path.relative_to(places.root).match(each) for each in MODULES):
+        if isinstance(content, str) and any(path.match(f"{places.root}/{each}") for each in MODULES):
             for line in content.splitlines():
                 if _LEGACY_GADGET.fullmatch(line.strip().split(" ")[0]):
                     return _taken(path, line.strip())

@@ -22,7 +22,7 @@ class LaterFormError(ValueError):
 class Form:
     """`steps`: one for each number but today's, the first from 1 to 2. So a file of any age can be read.
 
-    Who changes what a file holds adds a step, and the number of today rises with it.
+    A change of what a file holds adds a step, and the number of today rises with it.
     """
 
     name: str

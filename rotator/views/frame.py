@@ -13,8 +13,8 @@ from rich.console import Console, ConsoleOptions, RenderResult
 from rich.style import Style
 from rich.text import Text
 
-WIDTH = 88
-"""Greatest width in cells, with the frame."""
+ENDLESS = 10_000
+"""The height of an output that is no terminal, in rows."""
 _GAPS = (3, 2)
 """Cells between two columns: the first number if the table then fits, else the second."""
 
@@ -60,25 +60,33 @@ class Column:
 
 
 class Framed:
-    """A frame that `rich` can print. `rows` takes the number of cells inside the frame, and returns its rows."""
+    """A frame that `rich` can print. `rows` takes the cells and the rows inside the frame, and returns its rows.
 
-    def __init__(self, title: str, rows: Callable[[int], Iterable[Row]]) -> None:
+    `drawn`: how a row is drawn, for a terminal that has few characters.
+    """
+
+    def __init__(
+        self,
+        title: str,
+        rows: Callable[[int, int], Iterable[Row]],
+        drawn: Callable[[Text], Text] = lambda text: text,
+    ) -> None:
         self._title = title
         self._rows = rows
+        self._drawn = drawn
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        width = min(options.max_width, WIDTH)
-        rows = list(self._rows(width - 4))
-        if console.is_terminal:
-            rows = _fewer(rows, options.max_height - 2)
+        width = options.max_width
+        height = options.max_height - 2 if console.is_terminal else ENDLESS
+        rows = fewer(list(self._rows(width - 4, height)), height)
         title = Text(f" {self._title} ")
         title.truncate(max(width - 4, 0), overflow="ellipsis")
-        yield Text("╭─") + title + Text("─" * (width - 3 - title.cell_len) + "╮")
+        yield self._drawn(Text("╭─") + title + Text("─" * (width - 3 - title.cell_len) + "╮"))
         for row in rows:
             text = row.text.copy()
             text.truncate(width - 4, overflow="ellipsis", pad=True)
-            yield Text("│ ") + text + Text(" │")
-        yield Text("╰" + "─" * (width - 2) + "╯")
+            yield self._drawn(Text("│ ") + text + Text(" │"))
+        yield self._drawn(Text("╰" + "─" * (width - 2) + "╯"))
 
 
 def wrapped(text: str, width: int, style: str, rank: int) -> list[Row]:
@@ -144,6 +152,7 @@ def _fit(columns: list[Column], width: int) -> tuple[list[Column], int, list[int
         columns = [column for column in columns if column.rank < rank]
 
 
-def _fewer(rows: list[Row], height: int) -> list[Row]:
+def fewer(rows: list[Row], height: int) -> list[Row]:
+    """The rows that fit into this height."""
     keep = sorted(range(len(rows)), key=lambda at: (rows[at].rank, at))[: max(height, 0)]
     return [rows[at] for at in sorted(keep)]

@@ -1,67 +1,65 @@
-"""The picture of the box in a terminal: its LCD, both axes, the relays, and the last bytes on each link.
+"""The picture of the box in a terminal: what it does, its display, both axes, the links, what is wrong, and the keys.
 
-Knows the layout and the keys' names. Does not read keys, clocks or the terminal: it turns values into text, or into
-something that `rich` can print.
+Knows the layout: what a small terminal leaves out, and what a large one gains. Does not read keys, clocks or the
+terminal: it turns values into something that `rich` can print.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
-from typing import Protocol
+from dataclasses import dataclass, replace
 
 from rich.console import RenderableType
 from rich.style import Style
 from rich.text import Text
 
 from hw.ports import Axis, Direction
-from rotator.status import AxisStatus, Status
-from rotator.views.frame import Column, Framed, Row, beside, boxed, table, wrapped
+from rotator.control.sky.mount import Mount
+from rotator.status import Status
+from rotator.views import sky_plot
+from rotator.views.axis_rows import WIDE, Ranks, axis_rows, lamps
+from rotator.views.frame import ENDLESS, Column, Framed, Row, beside, boxed, fewer, table, wrapped
+from rotator.views.plain_characters import in_ascii
+from rotator.views.sky_plot import Way
+from rotator.views.words import (
+    ALARMS,
+    WARNS,
+    WireView,
+    headline,
+    lacks,
+    notes,
+    off_target,
+    orders_from,
+    pass_starts,
+    release,
+)
 
-_WORDS = {
-    (Axis.AZIMUTH, Direction.PLUS): "CW",
-    (Axis.AZIMUTH, Direction.MINUS): "CCW",
-    (Axis.ELEVATION, Direction.PLUS): "UP",
-    (Axis.ELEVATION, Direction.MINUS): "DOWN",
-}
-_BAR_CELLS = 14
+KEYS = "space STOP   q quit", "park + Enter: storm park", "resume + Enter: go on"
 _GLASS = "bold #e8f4ff on #1040c0"
 _BEZEL = Style.parse("#708090")
-_KEYS, _TROUBLE, _ANGLE, _MORE, _LINK, _NOTE, _FRAME, _HEAD, _RULE, _SPACE, _LOG = range(11)
+_LEFT, _BETWEEN = 76, 3
+"""Cells that all else keeps beside the plot of the sky, at least, and the cells between the two."""
+_GLASS_ROWS = 18
+"""From this height on, the display is shown."""
+_KEYS, _TROUBLE, _ANGLE, _WHO, _MORE, _BARS, _SCALES, _LINK, _NOTE, _FRAME, _HEAD, _RULE, _SPACE, _LOG = range(14)
 """Ranks of rows: on a low terminal the rows with the highest rank are left out first. The newest log line has the rank
 _LOG, and each older one the next higher rank.
 """
-KEYS = "space STOP   q quit   park, resume: type the word and Enter"
 _BLANK = Row(Text(), _SPACE)
 
 
-class WireView(Protocol):
-    """The properties of a link that the picture shows."""
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What the picture shows beside the status.
 
-    name: str
-    protocol: str
-    where: str
-    state: str
-    last_in: bytes
-    last_out: bytes
+    `trail`: where the antenna has been. `typed`: what the person at the keys has typed, and what came of it.
+    `ascii_only`: the terminal has no more characters than that.
+    """
 
-
-def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str]:
-    """The version, and the address of each link, in plain lines."""
-    what = "a SIMULATED rotor" if hardware == "sim" else "the rotor on this Pi"
-    return [f"rotator {version}: {what}", *(f"  {wire.protocol:<11} {wire.where}  ({wire.state})" for wire in wires)]
-
-
-def line(status: Status) -> str:
-    """The status in one plain line. It has no time and no counter, so equal lines mean that nothing has changed."""
-    parts = [_axis_words(status, axis) for axis in Axis]
-    if status.mode_switch:
-        parts.append(f"mode {status.mode.name}")
-    if status.latched:
-        parts.append(f"STOPPED by {status.latched}")
-    parts += [f"FAULT {fault}" for fault in status.faults]
-    parts += [f"NOTE {notice}" for notice in _notes(status)]
-    return "  ".join(parts)
+    mount: Mount | None = None
+    trail: Sequence[Way] = ()
+    typed: str = ""
+    ascii_only: bool = False
 
 
 def picture(
@@ -71,40 +69,58 @@ def picture(
     wires: Sequence[WireView],
     log_rows: Sequence[str],
     *,
-    typed: str = "",
+    around: Surroundings = Surroundings(),
 ) -> RenderableType:
-    """The whole picture. On a low terminal log lines are left out first; keys, faults and angles stay longest.
+    """The whole picture. On a low terminal log lines are left out first; keys, faults and angles stay longest."""
 
-    `typed`: what the person at the keys has typed, and what came of it.
-    """
+    def rows(width: int, height: int) -> Iterator[Row]:
+        high = ENDLESS if height == ENDLESS else height
+        plot_columns, plot_rows = _plot_beside(width, high)
+        left = width - plot_columns - _BETWEEN if plot_columns else width
+        every = fewer(list(_rows(left, height)), height)
+        if plot_columns:
+            plotted = sky_plot.plot(plot_columns, plot_rows, status, around.mount, around.trail)
+            texts = beside([_padded(row.text, left) for row in every], plotted, _BETWEEN)
+            yield from (Row(text, _KEYS) for text in texts)
+            return
+        room = height - len(every) - 1
+        if height < ENDLESS and room >= sky_plot.LEAST_CELLS[1] and width >= sky_plot.LEAST_CELLS[0]:
+            size = min(width, 2 * room), min(room, width // 2 + 1)
+            plotted = sky_plot.plot(*size, status, around.mount, around.trail)
+            last = len(every) - sum(row.rank == _KEYS for row in every)
+            middle = [Row(Text(" " * ((width - size[0]) // 2)) + text, _LOG) for text in plotted]
+            every = [*every[:last], *middle, *every[last:]]
+        yield from every
 
-    def rows(width: int) -> Iterator[Row]:
-        yield from _top(glass, _relays(status))
-        yield from _axes(status, width)
+    def _rows(width: int, height: int) -> Iterator[Row]:
+        yield from _top(glass, status, wires, width, height)
+        yield _BLANK
+        yield from axis_rows(status, around.mount, width, Ranks(_ANGLE, _BARS, _SCALES))
         yield from _links(wires, width)
         yield _BLANK
         for fault in status.faults:
-            yield from _trouble(str(fault), width)
-        if status.latched:
-            yield from _trouble(f"held by {status.latched}: nothing moves until resume", width)
-        uncalibrated = {axis: status.axis(axis).uncalibrated for axis in Axis}
-        notes = [f"{axis.value} UNCALIBRATED: {missing}" for axis, missing in uncalibrated.items() if missing]
-        for note in (*status.notices, *notes, *_notes(status)):
-            yield from wrapped(note, width, "bold yellow", _NOTE)
+            # What to do this moment is the headline.
+            yield from _trouble(str(fault).removeprefix(fault.act_now).strip(), width)
+        if to_go_on := release(status):
+            yield from _trouble(to_go_on, width)
+        for note in (*status.notices, *lacks(status), *notes(status)):
+            yield from wrapped(note, width, WARNS, _NOTE)
         yield from (Row(Text(line, style="dim"), _LOG + age) for age, line in _newest_last(log_rows))
-        if typed:
-            yield Row(Text(typed, style="bold reverse"), _KEYS)
-        yield from wrapped(KEYS, width, "bold", _KEYS)
+        if around.typed:
+            yield Row(Text(around.typed, style="bold reverse"), _KEYS)
+        yield from _keys(width)
 
-    return Framed(f"rotator {version}" + ("  SIMULATED" if status.simulated else ""), rows)
+    title = f"rotator {version}" + ("  SIMULATED" if status.simulated else "")
+    return Framed(title, rows, in_ascii) if around.ascii_only else Framed(title, rows)
 
 
 def sketch_picture(glass: Sequence[str], drives: tuple[int, int], wires: Sequence[WireView]) -> RenderableType:
     """The picture of the emulated Arduino: its LCD, its relays, its serial line. `drives`: -1, 0 or 1 for each axis."""
-    relays = _relay_lamps({Axis.AZIMUTH: Direction(drives[0]), Axis.ELEVATION: Direction(drives[1])})
+    on = dict(zip(Axis, map(Direction, drives), strict=True))
 
-    def rows(width: int) -> Iterator[Row]:
-        yield from _top(glass, relays)
+    def rows(width: int, _height: int) -> Iterator[Row]:
+        relays = [Text(), *(_lamp_row(on, axis) for axis in Axis)]
+        yield from _glass_beside(glass, relays)
         yield from _links(wires, width)
         yield _BLANK
         yield Row(Text("q quit", style="bold"), _KEYS)
@@ -112,9 +128,31 @@ def sketch_picture(glass: Sequence[str], drives: tuple[int, int], wires: Sequenc
     return Framed("F1EFW sketch on an emulated UNO  SIMULATED", rows)
 
 
+def _plot_beside(width: int, height: int) -> tuple[int, int]:
+    """Columns and rows of a plot at the right of all else; none where there is no room."""
+    columns = min(width - _LEFT - _BETWEEN, 2 * min(height, width // 4))
+    rows = min(height, columns // 2 + 1)
+    least_columns, least_rows = sky_plot.LEAST_CELLS
+    return (columns, rows) if columns >= least_columns and rows >= least_rows else (0, 0)
+
+
+def _keys(width: int) -> Iterator[Row]:
+    """What each key does, in one row where there is room."""
+    line = "   ".join(KEYS)
+    narrow = KEYS[0], "park + Enter   resume + Enter"
+    for text in (line,) if len(line) <= width else narrow:
+        yield Row(Text(text, style="bold"), _KEYS)
+
+
+def _padded(text: Text, width: int) -> Text:
+    text = text.copy()
+    text.truncate(width, overflow="ellipsis", pad=True)
+    return text
+
+
 def _trouble(text: str, width: int) -> list[Row]:
     """Its first row says where and what. On a low terminal the others make way for the keys and the angles."""
-    first, *more = wrapped(text, width, "bold white on red", _MORE)
+    first, *more = wrapped(text, width, ALARMS, _MORE)
     return [replace(first, rank=_TROUBLE), *more]
 
 
@@ -123,48 +161,34 @@ def _newest_last(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
     return ((len(lines) - 1 - at, line) for at, line in enumerate(lines))
 
 
-def _top(glass: Sequence[str], relays: Sequence[Text]) -> Iterator[Row]:
-    """The LCD in its frame, and the relays beside it."""
-    display = boxed([Text(f" {row} ", style=_GLASS) for row in glass], _BEZEL)
-    for at, text in enumerate(beside(display, relays)):
-        yield Row(text, _FRAME if at in (0, len(display) - 1) else _ANGLE)
-
-
-def _relays(status: Status) -> list[Text]:
-    who = f"under {status.controlled_by}" if status.controlled_by else "under nobody's orders"
-    if status.timed_points:
-        who += f", point {status.timed_point} of {status.timed_points}"
-    if status.mode_switch:
-        who = f"mode {status.mode.name}, {who}"
-    rows = _relay_lamps({axis: status.axis(axis).drive for axis in Axis})
-    return [*rows, Text(f" {who}", style="dim")]
-
-
-def _relay_lamps(drives: Mapping[Axis, Direction]) -> list[Text]:
-    """A blank row beside the upper edge of the LCD's frame, then a row for each axis."""
-    rows = [Text()]
-    for axis in Axis:
-        row = Text()
-        for direction in (Direction.PLUS, Direction.MINUS):
-            on = drives[axis] is direction
-            row.append(f" {'●' if on else '○'} {_WORDS[axis, direction]:<5}", style="bold green" if on else "dim")
-        rows.append(row)
-    return rows
-
-
-def _axes(status: Status, width: int) -> Iterator[Row]:
-    every = [status.axis(axis) for axis in Axis]
-    readings = ["" if each.raw is None else f"{round(each.raw, 4) + 0.0:.4f} {each.source.value}" for each in every]
-    columns = [
-        Column("axis", [Text(axis.value) for axis in Axis]),
-        Column("angle", [Text(_degrees(each.shown_deg)) for each in every], right=True, width=7),
-        Column("target", [Text(_degrees(each.target_deg)) for each in every], right=True, width=7),
-        Column("", [_bar(each) for each in every], rank=2),
-        Column("range", [Text(f"{each.min_deg:g}…{each.max_deg:g}°") for each in every]),
-        Column("reading", [Text(reading) for reading in readings], width=18, rank=1),
+def _top(glass: Sequence[str], status: Status, wires: Sequence[WireView], width: int, height: int) -> Iterator[Row]:
+    """What the box does, on whose orders, and how well; beside its display where there is room."""
+    words, style = headline(status)
+    mode = f"panel at {status.mode.name}, " if status.mode_switch else ""
+    said = [
+        Text(words, style=style),
+        Text(f"{mode}{orders_from(status, wires)}"),
+        Text(off_target(status), style="bold"),
+        Text(pass_starts(status), style="dim"),
     ]
-    yield _BLANK
-    yield from table(columns, width, rank=_ANGLE, head_rank=_HEAD, rule_rank=_RULE)
+    if width >= WIDE and height >= _GLASS_ROWS:
+        yield from _glass_beside(glass, said)
+        return
+    for text, rank in zip(said, (_KEYS, _WHO, _SCALES, _NOTE), strict=True):
+        if text:
+            yield Row(text, rank)
+
+
+def _glass_beside(glass: Sequence[str], texts: Sequence[Text]) -> Iterator[Row]:
+    """The LCD in its frame, and four rows beside it."""
+    display = boxed([Text(f" {row} ", style=_GLASS) for row in glass], _BEZEL)
+    for text in beside(display, texts):
+        yield Row(text, _ANGLE)
+
+
+def _lamp_row(drives: Mapping[Axis, Direction], axis: Axis) -> Text:
+    one, other = lamps(drives, axis)
+    return Text.assemble(one, " " * (8 - one.cell_len), other)
 
 
 def _links(wires: Sequence[WireView], width: int) -> Iterator[Row]:
@@ -178,39 +202,6 @@ def _links(wires: Sequence[WireView], width: int) -> Iterator[Row]:
     ]
     yield _BLANK
     yield from table(columns, width, rank=_LINK, head_rank=_HEAD, rule_rank=_RULE)
-
-
-def _notes(status: Status) -> list[str]:
-    return [f"{axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
-
-
-def _bar(axis: AxisStatus) -> Text:
-    """The axis's range as a line of cells, with marks for the antenna (█) and its target (│)."""
-    cells = ["─"] * _BAR_CELLS
-    for angle_deg, mark in ((axis.target_deg, "│"), (axis.angle_deg, "█")):
-        if angle_deg is not None:
-            share = (angle_deg - axis.min_deg) / (axis.max_deg - axis.min_deg)
-            cells[min(max(int(share * _BAR_CELLS), 0), _BAR_CELLS - 1)] = mark
-    return Text("".join(cells), style="cyan")
-
-
-def _axis_words(status: Status, axis: Axis) -> str:
-    each = status.axis(axis)
-    words = [f"{axis.value} {_degrees(each.shown_deg, 0)}"]
-    if each.target_deg is not None:
-        words.append(f"to {_degrees(each.target_deg)}")
-    if each.drive is not Direction.OFF:
-        words.append(_WORDS[axis, each.drive])
-    if each.uncalibrated:
-        words.append(
-            f"UNCALIBRATED ({each.uncalibrated}; reads {each.raw if each.raw is None else round(each.raw, 3)})"
-        )
-    return " ".join(words)
-
-
-def _degrees(angle_deg: float | None, digits: int = 1) -> str:
-    # Adding zero turns -0.0, from a noisy pot at its stop, into 0.0.
-    return "---" if angle_deg is None else f"{round(angle_deg, digits) + 0.0:.{digits}f}°"
 
 
 def _bytes(data: bytes) -> str:

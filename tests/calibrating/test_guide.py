@@ -214,7 +214,7 @@ def test_a_relay_in_doubt_at_a_stop_is_noted_and_it_turns_back(calibration: Any)
     run = calibration()
     directions(run)
     run.drive("l", TO_LOW)
-    assert "the relay counter-clockwise is not seen to open" in run.text
+    assert "the box could not see the relay counter-clockwise open" in run.text
     stop_deg = run.shaft_deg()
     run.drive("r", 2)
     assert run.shaft_deg() > stop_deg + 15.0

@@ -5,6 +5,7 @@ Nothing here waits for a time to pass, only for output that must come, far longe
 
 from __future__ import annotations
 
+import codecs
 import contextlib
 import os
 import re
@@ -35,6 +36,7 @@ class Running:
         self.process = process
         self._output = output
         self._errors = errors
+        self._decoder = codecs.getincrementaldecoder("utf-8")("replace")
         self._text = ""
 
     def until(self, pattern: str) -> str:
@@ -71,7 +73,7 @@ class Running:
             data = os.read(self._output, 65536)
         except OSError:  # a terminal that nobody has open any more
             return False
-        self._text += data.decode("utf-8", "replace")
+        self._text += self._decoder.decode(data)
         return bool(data)
 
 
@@ -89,6 +91,9 @@ class InTerminal(Running):
 
     def press(self, key: str) -> None:
         os.write(self._master, key.encode())
+
+    def resize(self, columns: int, rows: int) -> None:
+        termios.tcsetwinsize(self._slave, (rows, columns))
 
     def frame(self) -> str:
         """The next whole picture."""
@@ -147,9 +152,9 @@ def start_in_terminal(tmp_path: Path) -> Iterator[Callable[..., InTerminal]]:
     """Start a command in a terminal."""
     started: list[tuple[InTerminal, int, int]] = []
 
-    def begin(*words: object, term: str = "xterm-256color") -> InTerminal:
+    def begin(*words: object, term: str = "xterm-256color", columns: int = 120) -> InTerminal:
         master, slave = os.openpty()
-        termios.tcsetwinsize(slave, (40, 120))
+        termios.tcsetwinsize(slave, (40, columns))
         process = subprocess.Popen(
             [sys.executable, "-c", _TAKE_TERMINAL, *COMMAND, *map(str, words)],
             cwd=tmp_path,

@@ -109,7 +109,8 @@ def test_no_box(rotator: Rotator, config: Path) -> None:
     done = rotator("monitor", "--config", config)
     assert done.returncode == 1
     assert done.stderr == (
-        "rotator: no box is running with a monitor at nowhere/monitor: start it, or name its file with --config\n"
+        "rotator: no box runs here: nothing answers at nowhere/monitor. Start it with `rotator run`, "
+        "or name its file with --config\n"
     )
 
 

@@ -13,7 +13,6 @@ import pytest
 
 from rotator.config.load import shipped
 
-PASSES = Path(__file__).parents[1] / "passes"
 KEYS = ["rms_deg", "p95_deg", "max_deg", "relay_starts", "motor_s"]
 COLUMNS = ["t", "target_az", "target_el", "antenna_az", "antenna_el", "az_drive", "el_drive"]
 Rotator = Callable[..., Any]
@@ -65,6 +64,29 @@ def test_without_relays_the_sentence_has_no_word_of_starts_and_motors(
     assert done.stderr == ""
 
 
+def test_without_a_pass_it_lists_those_that_are_there(rotator: Rotator) -> None:
+    done = rotator("rehearse")
+    assert done.returncode == 0
+    rows = done.stdout.splitlines()
+    assert "north-1-iss      275° to  81°, up to 50°, 10.8 min" in rows
+    assert rows[-1].startswith("Your own is a file. The first line is t,az,el; ")
+
+
+def test_a_terminal_sees_how_far_it_is_and_the_result_stays(start_in_terminal: Rotator, flown: Path) -> None:
+    flying = start_in_terminal("rehearse", flown)
+    flying.until(r"south +\d+ of 120 s")
+    flying.until(r"south: the box was off by .* s of 120 s")
+    assert flying.ends() == 0
+
+
+def test_the_pass_is_not_written_over(rotator: Rotator, flown: Path) -> None:
+    before = flown.read_bytes()
+    done = rotator("rehearse", flown, "--trace", flown)
+    assert done.returncode == 2
+    assert "--trace would write over the pass" in done.stderr
+    assert flown.read_bytes() == before
+
+
 def test_two_runs_are_one(rotator: Rotator, flown: Path, tmp_path: Path) -> None:
     results = []
     for trace in (tmp_path / "one.csv", tmp_path / "two.csv"):
@@ -76,7 +98,7 @@ def test_two_runs_are_one(rotator: Rotator, flown: Path, tmp_path: Path) -> None
 def test_the_trace(rotator: Rotator, tmp_path: Path) -> None:
     """Of a pass through north: the target starts again at 0 there, the antenna counts on."""
     trace = tmp_path / "trace.csv"
-    summary = figures(rotator("rehearse", PASSES / "north-1-iss.csv", "--json", "--trace", trace))
+    summary = figures(rotator("rehearse", "north-1-iss", "--json", "--trace", trace))
     with trace.open(newline="") as file:
         header, *rows = csv.reader(file)
     assert header == COLUMNS
@@ -145,10 +167,10 @@ def test_a_fault_strikes(rotator: Rotator, flown: Path) -> None:
     ("text", "said"),
     [
         (None, "cannot be read: "),
-        ("", "the first line must name the columns t,az,el"),
+        ("", "is empty. The first line is t,az,el; "),
         ("t,az,el\n0,0,0\n", "a pass needs two rows or more"),
         ("t,az,el\n0,0,0\n1,north,0\n", "t, az and el must be numbers"),
-        ("t,az,el\n0,0,0\n0,1,0\n", "t must rise from row to row"),
+        ("t,az,el\n0,0,0\n0,1,0\n", ":3: t must rise from row to row"),
     ],
     ids=["missing", "empty", "one row", "a word", "no time"],
 )
@@ -159,7 +181,7 @@ def test_a_bad_pass(rotator: Rotator, tmp_path: Path, text: str | None, said: st
     done = rotator("rehearse", path, "--json")
     assert done.returncode == 1
     assert done.stdout == ""
-    assert done.stderr.startswith(f"Error: {path}")
+    assert done.stderr.startswith(f"rotator: {path}")
     assert said in done.stderr
     assert "Traceback" not in done.stderr
 

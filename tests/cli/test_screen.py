@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,7 @@ import pytest
 
 Start = Callable[..., Any]
 Send = Callable[[bytes], None]
-HELD = "nothing moves until resume"
+HELD = "resume + Enter: it may move again"
 FRAMES = 100
 """How many pictures to look at: five come every second."""
 
@@ -30,9 +31,9 @@ def box(start_in_terminal: Start, config: Path) -> Any:
 
 
 def test_the_picture_shows_the_display_the_axes_and_the_links(box: Any, send: Send) -> None:
-    picture_with(box, "SIMULATED", "SAT A:--- E:---", "SIM A:000 E:000", "gs232b", "0…450°", "0…180°")
+    picture_with(box, "SIMULATED", "SAT A:--- E:---", "SIM A:000 E:000", "gs232b", "450", "180")
     send(b"W235 025\r")
-    picture_with(box, "SAT A:235 E:025", r"W235 025\r", "under gs232b#1", "●")
+    picture_with(box, "SAT A:235 E:025", r"W235 025\r", "orders from gs232b#1", "●")
     picture_with(box, "SIM A:23", without=("●",))
     box.press("q")
     assert box.ends() == 0
@@ -43,14 +44,14 @@ def test_space_stops_and_latches_and_resume_releases(box: Any, send: Send) -> No
     send(b"R\r")
     picture_with(box, "● CW", without=("SIM A:000",))  # so far from its limit that it can turn back
     box.press(" ")
-    picture_with(box, "held by console: " + HELD, without=("●",))
+    picture_with(box, "STOPPED by console", HELD, without=("●",))
     send(b"L\r")
     # The order has been heard, and nothing comes of it.
     picture_with(box, r"L\r", HELD, without=("●",))
     box.press("resume")
     picture_with(box, "> resume_", HELD, without=("●",))
     box.press("\r")
-    picture_with(box, "resume: done", without=("held by",))
+    picture_with(box, "resume: done", without=("STOPPED by",))
     send(b"L\r")
     picture_with(box, "● CCW")
     box.press("q")
@@ -62,11 +63,11 @@ def test_park_and_enter_parks_and_latches(box: Any, send: Send) -> None:
     send(b"W060 030\r")
     picture_with(box, "SIM A:06", without=("●",))
     box.press("p")
-    picture_with(box, "> p_", "SIM A:06", without=("held by", "●"))
+    picture_with(box, "> p_", "SIM A:06", without=("STOPPED by", "●"))
     box.press("ark\r")
-    picture_with(box, "SIM A:00", "storm park", HELD, without=("●",))
+    picture_with(box, "SIM A:00", "STORM PARK", HELD, without=("●",))
     send(b"W120 030\r")
-    picture_with(box, "W120 030", "SIM A:00", "storm park", HELD, without=("●",))
+    picture_with(box, "W120 030", "SIM A:00", "STORM PARK", HELD, without=("●",))
     box.press("q")
     assert box.ends() == 0
 
@@ -94,7 +95,7 @@ def test_any_other_key_does_nothing(box: Any, send: Send) -> None:
     picture_with(box, "● CW")
     for key in ("x", "\r", "\x1b[A", "ä", "r", "\r", "\x1b", "p", "\x7f", "\r"):
         box.press(key)
-    picture_with(box, "● CW", without=("held by",))
+    picture_with(box, "● CW", without=("STOPPED by",))
     box.press("q")
     assert box.ends() == 0
 
@@ -110,6 +111,42 @@ def test_plain_lines_where_nothing_can_be_drawn(start_in_terminal: Start, config
     box = start_in_terminal("run", "--config", config, term="dumb")
     assert "╭" not in box.until("azimuth 0°  elevation 0°")
     box.press("\x03")
+    assert box.ends() == 0
+
+
+def test_keys_act_where_nothing_can_be_drawn(start_in_terminal: Start, config: Path) -> None:
+    box = start_in_terminal("run", "--config", config, term="dumb")
+    box.until("keys: space STOP, q quit")
+    box.until("elevation 0°")
+    box.press(" ")
+    box.until("STOPPED by console")
+    box.press("resume\r")
+    box.until("resume: done")
+    box.press("q")
+    assert box.ends() == 0
+    assert box.modes() == box.modes_before
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(40, 12), (80, 24), (132, 43), (200, 60)])
+def test_the_picture_follows_the_terminal_s_size(box: Any, columns: int, rows: int) -> None:
+    box.frame()
+    box.resize(columns, rows)
+    for _ in range(FRAMES):
+        lines = re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", box.frame()).splitlines()
+        if len(lines[0]) == columns - 1:  # its first corner has been read before
+            break
+    assert {len(line) for line in lines[1:-1]} == {columns}
+    assert len(lines) <= rows
+    assert "space STOP   q quit" in "\n".join(lines)
+    box.press("q")
+    assert box.ends() == 0
+
+
+def test_a_simple_terminal_gets_simple_characters(start_in_terminal: Start, config: Path) -> None:
+    box = start_in_terminal("run", "--config", config, term="linux")
+    box.until(r"\+- rotator \S+  SIMULATED -+\+")
+    assert "target        --- | " in box.until(r"space STOP")
+    box.press("q")
     assert box.ends() == 0
 
 

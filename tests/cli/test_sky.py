@@ -71,7 +71,7 @@ def test_passes_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:
         (("where", "sun", "--at", "tomorrow"), '"tomorrow" is no date and time such as 2026-11-22T18:30:00Z'),
         (("where", "sun", "--at", "9999-01-01T00:00:00Z"), "is not in the years 1957 to 2100"),
         (("passes", "JN58td", "nothing"), '"nothing" is not among'),
-        (("passes", "iss", "--hours", "0"), "0.0 is not in the range"),
+        (("passes", "iss", "--hours", "0"), "0 hours: 0.01 at least, 336 at most"),
     ],
 )
 def test_mistakes(tmp_path: Path, words: tuple[str, ...], said: str) -> None:

@@ -1,17 +1,24 @@
-"""What a person says to a running box, as they meet it: `rotator stop`, `resume`, `where`, `home` and their kin."""
+"""What a person says to a running box, as they meet it: `rotator stop`, `resume`, `where`, `point` and their kin."""
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import signal
 import socket
 import threading
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from hw.ports import AngleSource, Axis, Direction
+from rotator.faults import Fault, FaultKind, Missing
+from rotator.protocols.status_object import as_object
+from rotator.status import AxisStatus, Status
 
 Start = Callable[..., Any]
 StartInTerminal = Callable[..., Any]
@@ -32,9 +39,9 @@ def said(done: Any) -> str:
     return str(done.stdout)
 
 
-def why(done: Any) -> str:
+def why(done: Any, code: int = 1) -> str:
     """What one said that did not."""
-    assert done.returncode == 1
+    assert done.returncode == code
     assert "Traceback" not in done.stderr
     return str(done.stderr)
 
@@ -64,7 +71,7 @@ def test_transcript_of_a_stop_at_the_box(box: Any, rotator: Rotator, config: Pat
     assert re.fullmatch(
         r"azimuth: -?0\.\d° measured\nelevation: -?0\.\d° measured\nmoved by: nobody\n"
         r"stopped by: console#\d+; nothing moves until resume\n"
-        r"note: orders from gs232b(#\d+)? are ignored: stopped by console#\d+ until released\n"
+        r"note: orders from gs232b(#\d+)? are ignored: stopped by console#\d+: nothing moves until resume\n"
         r"simulated: nothing real turns\n",
         here,
     )
@@ -78,6 +85,20 @@ def test_transcript_of_a_stop_at_the_box(box: Any, rotator: Rotator, config: Pat
     box.until(r"azimuth (8[6-9]|9[0-4])° to 90\.0°")
     assert "moved by: gs232b#" in said(rotator("where", "--config", config))
     assert box.stop() == 0
+
+
+def test_transcript_of_a_person_who_points(box: Any, rotator: Rotator, config: Path) -> None:
+    told = said(rotator("point", 90, "30,5", "--config", config))
+    assert re.fullmatch(
+        r"Arrived: azimuth (8[6-9]|9[0-4])\.\d° measured, elevation (2[6-9]|3[0-4])\.\d° measured\.\n", told
+    )
+    assert re.fullmatch(
+        r"azimuth \d+\.\d° measured: \+\d+\.\d° from before\.\n", said(rotator("jog", "cw", 1, "--config", config))
+    )
+    assert why(rotator("point", 700, 30, "--config", config)) == (
+        "rotator: '700.0000' is no azimuth: degrees from -180 to 540\n"
+    )
+    assert json.loads(said(rotator("where", "--json", "--config", config)))["wanted_azimuth_deg"] is None
 
 
 def test_anything_the_console_knows(box: Any, rotator: Rotator, config: Path) -> None:
@@ -94,7 +115,7 @@ def test_anything_the_console_knows(box: Any, rotator: Rotator, config: Path) ->
 
 def test_an_angle_that_is_none(box: Any, rotator: Rotator, config: Path) -> None:
     done = rotator("confirm", "elevation", "-100", "--config", config)
-    assert why(done) == "rotator: '-100' is no elevation: degrees from -90 to 180\n"
+    assert why(done) == "rotator: '-100.0000' is no elevation: degrees from -90 to 180\n"
     assert rotator("confirm", "polarisation", "10", "--config", config).returncode == 2
     assert rotator("confirm", "azimuth", "north", "--config", config).returncode == 2
     assert rotator("confirm", "azimuth", "43,8,5", "--config", config).returncode == 2
@@ -108,9 +129,19 @@ def test_a_pot_rotor_has_no_end_stop_to_find(box: Any, rotator: Rotator, config:
 
 def test_no_box(rotator: Rotator, config: Path) -> None:
     config.write_text(config.read_text() + '[monitor]\npath = "nowhere/monitor"\n')
-    for words in (["where"], ["stop"], ["resume"], ["let-go"], ["home", "azimuth"], ["confirm", "azimuth", 1]):
+    orders = (
+        ["where"],
+        ["stop"],
+        ["let-go"],
+        ["home", "azimuth"],
+        ["confirm", "azimuth", 1],
+        ["point", 1, 2],
+        ["park"],
+    )
+    for words in orders:
         assert why(rotator(*words, "--config", config)) == (
-            "rotator: no box is running with a console at nowhere/console: start it, or name its file with --config\n"
+            "rotator: no box runs here: nothing answers at nowhere/console. Start it with `rotator run`, "
+            "or name its file with --config\n"
         )
 
 
@@ -120,9 +151,10 @@ def test_no_box(rotator: Rotator, config: Path) -> None:
 class ScriptedConsole:
     """Where the box would have it. `heard` is what was said to it, but for the questions about its status."""
 
-    def __init__(self, path: Path, statuses: list[str]) -> None:
+    def __init__(self, path: Path, statuses: list[Status]) -> None:
         path.parent.mkdir(exist_ok=True)
         self.heard: list[str] = []
+        self.ordered = threading.Event()
         self._statuses = statuses
         self._server = socket.socket(socket.AF_UNIX)
         self._server.bind(str(path))
@@ -142,28 +174,34 @@ class ScriptedConsole:
             threading.Thread(target=self._talk, args=(client,), daemon=True).start()
 
     def _talk(self, client: socket.socket) -> None:
-        with client, client.makefile("rw", encoding="utf-8") as lines:
+        with suppress(OSError), client, client.makefile("rw", encoding="utf-8") as lines:
             for line in lines:
                 lines.write(self._answer(line.strip()))
                 lines.flush()
 
     def _answer(self, line: str) -> str:
-        if line == "status":
+        if line == "status json":
             told = self._statuses.pop(0) if len(self._statuses) > 1 else self._statuses[0]
-            return told + ("" if "moved by" in told else "moved by: console#1\n") + "ok\n"
+            return json.dumps(as_object(told)) + "\nok\n"
         self.heard.append(line)
+        self.ordered.set()
         return "ok\n"
 
 
-DOWN = "azimuth: {}° counted, turns ccw\nelevation: 0.0° counted\nmoving: azimuth\n"
-STANDS = "azimuth: {}° counted\nelevation: 0.0° counted\n"
+def counted(azimuth_deg: float, *, turns: bool = False, by: str = "console#1", **more: Any) -> Status:
+    """A box that counts its azimuth."""
+    drive = Direction.MINUS if turns else Direction.OFF
+    azimuth = AxisStatus(
+        0.0, 450.0, azimuth_deg, source=AngleSource.COUNTED, drive=drive, moving=turns, confirmable=True, **more
+    )
+    return Status(0.0, azimuth, AxisStatus(0.0, 180.0, 0.0, source=AngleSource.COUNTED), controlled_by=by)
 
 
 @pytest.fixture
 def scripted(tmp_path: Path) -> Iterator[Callable[..., ScriptedConsole]]:
     made: list[ScriptedConsole] = []
 
-    def make(*statuses: str) -> ScriptedConsole:
+    def make(*statuses: Status) -> ScriptedConsole:
         made.append(ScriptedConsole(tmp_path / "run" / "console", list(statuses)))
         return made[-1]
 
@@ -175,7 +213,7 @@ def scripted(tmp_path: Path) -> Iterator[Callable[..., ScriptedConsole]]:
 def test_letting_go_is_asked_about_first(
     scripted: Any, rotator: Rotator, start_in_terminal: StartInTerminal, config: Path
 ) -> None:
-    console = scripted(STANDS.format(0))
+    console = scripted(counted(0))
     for key, code, told in (("n", 1, "nothing was done"), ("y", 0, "Nothing moves until `rotator resume`.")):
         assert console.heard == []
         asking = start_in_terminal("let-go", "--config", config)
@@ -187,65 +225,158 @@ def test_letting_go_is_asked_about_first(
     assert why(rotator("let-go", "--config", config)) == "rotator: nothing was done (--yes does it without asking)\n"
 
 
-def test_where_an_axis_stands_is_said_to_the_box(scripted: Any, rotator: Rotator, config: Path) -> None:
-    console = scripted(STANDS.format(0))
-    assert said(rotator("confirm", "azimuth", "123.4", "--config", config)) == "azimuth stands at 123.4°.\n"
-    assert said(rotator("confirm", "elevation", "-3,5", "--config", config)) == "elevation stands at -3.5°.\n"
-    assert console.heard == ["confirm azimuth 123.4", "confirm elevation -3.5"]
-
-
-def test_homing_is_shown_until_the_axis_stands(scripted: Any, rotator: Rotator, config: Path) -> None:
-    console = scripted(
-        *(DOWN.format(angle) for angle in (20, 10)), *[STANDS.format(0)] * 4, DOWN.format(5), STANDS.format("0.0")
+def test_what_was_confirmed_is_what_the_box_then_reads(scripted: Any, rotator: Rotator, config: Path) -> None:
+    console = scripted(counted(20), counted(20), counted(123.4))
+    assert said(rotator("confirm", "azimuth", "123,4", "--config", config)) == (
+        "Taken: azimuth 123.4° counted. Before: azimuth 20.0° counted.\n"
     )
-    assert said(rotator("home", "azimuth", "--yes", "--config", config)).splitlines() == [
-        "azimuth 20° counted, turns ccw",
-        "azimuth 10° counted, turns ccw",
-        "azimuth 5° counted, turns ccw",  # between its turns it stands for a moment
-        "azimuth stands: 0.0° counted",
-    ]
+    assert console.heard == ["confirm azimuth 123.4000"]
+
+
+def test_a_confirmation_without_effect_is_no_success(scripted: Any, rotator: Rotator, config: Path) -> None:
+    scripted(counted(20))
+    done = rotator("confirm", "azimuth", "300", "--config", config)
+    assert why(done) == "rotator: 300° had no effect: azimuth 20.0° counted\n"
+
+
+def test_a_gear_allows_only_some_angles(scripted: Any, rotator: Rotator, config: Path) -> None:
+    scripted(counted(0), counted(0), counted(36))
+    done = rotator("confirm", "azimuth", "20", "--config", config)
+    assert why(done) == (
+        "rotator: not 20°: the box now has azimuth 36.0° counted, the nearest that fits its sensor. "
+        "Before: azimuth 0.0° counted. Look at the antenna, and confirm it again\n"
+    )
+
+
+def test_homing_ends_when_the_axis_stands(scripted: Any, rotator: Rotator, config: Path) -> None:
+    # Between its turns it stands for a moment.
+    turns = [counted(angle_deg, turns=True) for angle_deg in (20, 10)]
+    console = scripted(counted(25), *turns, *[counted(0)] * 4, counted(5, turns=True), counted(0))
+    assert said(rotator("home", "azimuth", "--yes", "--config", config)) == "azimuth 0.0° counted: homed.\n"
     assert console.heard == ["home azimuth"]
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "fault: azimuth: not homed: no pulse came in either direction (see docs/troubleshooting.md#not-homed)",
-        "missing: azimuth needs homing",
-    ],
-)
-def test_an_axis_that_was_not_homed(scripted: Any, rotator: Rotator, config: Path, line: str) -> None:
-    scripted(DOWN.format(20), STANDS.format(20) + "fault: elevation: is another matter\n" + line + "\n")
+def test_an_axis_that_was_not_homed(scripted: Any, rotator: Rotator, config: Path) -> None:
+    fault = Fault(FaultKind.NOT_HOMED, Axis.AZIMUTH, "no pulse came in either direction")
+    scripted(counted(25), counted(20, turns=True), counted(20, fault=fault, missing=(Missing.HOMING,)))
     done = rotator("home", "azimuth", "--yes", "--config", config)
-    assert why(done) == f"rotator: {line.partition(': ')[2]}\n"
+    assert why(done, 3) == f"rotator: {fault}\n"
 
 
-@pytest.mark.parametrize("who", ["gs232b#1", "nobody"])
-def test_somebody_else_takes_or_stops_it(scripted: Any, rotator: Rotator, config: Path, who: str) -> None:
-    console = scripted(DOWN.format(20), DOWN.format(10) + f"moved by: {who}\n")
+def test_an_axis_that_still_needs_homing(scripted: Any, rotator: Rotator, config: Path) -> None:
+    scripted(counted(25), counted(20, turns=True), counted(20, missing=(Missing.HOMING,)))
     done = rotator("home", "azimuth", "--yes", "--config", config)
-    assert why(done) == f"rotator: azimuth is not homed: {who} moves the antenna\n"
-    assert console.heard == ["home azimuth"]
+    assert why(done) == "rotator: azimuth is not homed: it needs homing\n"
 
 
-def test_ctrl_c_stops_the_axis(scripted: Any, start_in_terminal: StartInTerminal, config: Path) -> None:
-    console = scripted(DOWN.format(123))
+@pytest.mark.parametrize("who_told", [("gs232b#1", "gs232b#1 moves the antenna now"), ("", "the antenna was stopped")])
+@pytest.mark.parametrize("order", [["home", "azimuth", "--yes"], ["point", 0, 0], ["park"], ["jog", "ccw", 3]])
+def test_somebody_else_takes_or_stops_it(
+    scripted: Any, rotator: Rotator, config: Path, who_told: tuple[str, str], order: list[Any]
+) -> None:
+    who, told = who_told
+    console = scripted(counted(25), counted(20, turns=True), counted(15, turns=True), counted(10, turns=True, by=who))
+    done = rotator(*order, "--config", config)
+    assert why(done).endswith(f" was ended: {told}\n")
+    assert len(console.heard) == 1, "the antenna is not this command's to stop any more"
+
+
+@pytest.mark.parametrize("order", ["point 0 0", "park", "jog ccw 3"])
+def test_ctrl_c_stops_what_turns(scripted: Any, start_in_terminal: StartInTerminal, config: Path, order: str) -> None:
+    console = scripted(counted(123), counted(123, turns=True))
+    moving = start_in_terminal(*order.split(), "--config", config)
+    moving.until("azimuth 123")
+    moving.press("\x03")
+    assert moving.ends() == 1
+    assert console.heard[1:] == ["stop"]
+    assert re.search(r"rotator: Ctrl-C\. Stopped\. Nothing moves until `rotator resume`\.\r\n$", moving.rest)
+
+
+def test_ctrl_c_stops_an_axis_that_homes(scripted: Any, start_in_terminal: StartInTerminal, config: Path) -> None:
+    console = scripted(counted(123), counted(123, turns=True))
     homing = start_in_terminal("home", "azimuth", "--config", config)
     homing.until(r"Watch the antenna: azimuth turns to its low end. Ctrl-C stops it. Begin\? \[y/N\]: ")
     assert console.heard == []
     homing.press("y\r")
-    homing.until("azimuth 123° counted, turns ccw")
+    homing.until("azimuth 123.0°")
     homing.press("\x03")
     assert homing.ends() == 1
     assert console.heard == ["home azimuth", "stop"]
-    assert re.search(
-        r"\nStopped\. Nothing moves until `rotator resume`\.\r\nrotator: azimuth is not homed\r\n$", homing.rest
-    )
 
 
-def test_a_terminal_that_closes_stops_the_axis(scripted: Any, start: Start, config: Path) -> None:
-    console = scripted(DOWN.format(123))
+def test_a_terminal_that_closes_stops_an_axis_that_homes(scripted: Any, start: Start, config: Path) -> None:
+    console = scripted(counted(123), counted(123, turns=True))
     homing = start("home", "azimuth", "--yes", "--config", config)
-    homing.until("azimuth 123° counted")
+    assert console.ordered.wait(60)
     assert homing.stop(signal.SIGHUP) == 1
     assert console.heard == ["home azimuth", "stop"]
+
+
+# --- a box that is pointed, as its status tells it
+
+
+def pointed(azimuth: AxisStatus, by: str = "console#1", **more: Any) -> Status:
+    return Status(0.0, azimuth, AxisStatus(0.0, 180.0, 45.0), controlled_by=by, **more)
+
+
+def on_its_way(angle_deg: float, *, moving: bool = True) -> Status:
+    return pointed(AxisStatus(0.0, 450.0, angle_deg, target_deg=180.0, tolerance_deg=4.0, moving=moving))
+
+
+def test_pointing_ends_when_the_antenna_is_there(scripted: Any, rotator: Rotator, config: Path) -> None:
+    rests = on_its_way(120, moving=False)  # a relay waits, and the motor with it
+    console = scripted(on_its_way(100), *[rests] * 9, on_its_way(150), on_its_way(178.2, moving=False))
+    assert said(rotator("point", "180", "45", "--config", config)) == (
+        "Arrived: azimuth 178.2° measured, elevation 45.0° measured.\n"
+    )
+    assert console.heard == ["point 180.0000 45.0000"]
+
+
+def test_a_fault_on_the_way_is_named(scripted: Any, rotator: Rotator, config: Path) -> None:
+    fault = Fault(FaultKind.POT_OPEN, Axis.AZIMUTH, "reads 0.000", "0.02 to 0.98")
+    scripted(on_its_way(100), pointed(AxisStatus(0.0, 450.0, 120.0, fault=fault, seen=False)))
+    done = rotator("point", "180", "45", "--config", config)
+    assert done.stdout == "azimuth 120.0° when last seen, no reading now, elevation 45.0° measured.\n"
+    assert why(done, 3) == f"rotator: {fault}\n"
+
+
+def test_an_axis_that_may_not_be_aimed_has_not_arrived(scripted: Any, rotator: Rotator, config: Path) -> None:
+    scripted(pointed(AxisStatus(0.0, 450.0, 120.0, missing=(Missing.CALIBRATION, Missing.LIMITS))))
+    done = rotator("point", "180", "45", "--config", config)
+    assert why(done) == "rotator: azimuth did not move: it needs calibration, limits\n"
+
+
+def test_a_stop_on_the_way_ends_it(scripted: Any, rotator: Rotator, config: Path) -> None:
+    scripted(on_its_way(100), pointed(AxisStatus(0.0, 450.0, 120.0), by="", latched="panel"))
+    done = rotator("point", "180", "45", "--config", config)
+    assert why(done) == "rotator: point was ended: stopped by panel; nothing moves until `rotator resume`\n"
+
+
+def test_the_storm_park_is_no_stop(scripted: Any, rotator: Rotator, config: Path) -> None:
+    there = pointed(AxisStatus(0.0, 450.0, 0.0), latched="console#1: storm park", storm=True)
+    scripted(on_its_way(100), there)
+    assert said(rotator("park", "--config", config)).startswith("Arrived: azimuth 0.0° measured")
+
+
+def test_a_jog_says_how_far_it_went(scripted: Any, rotator: Rotator, config: Path) -> None:
+    console = scripted(counted(20), counted(30, turns=True), counted(32.5))
+    assert said(rotator("jog", "cw", "1,5", "--config", config)) == "azimuth 32.5° counted: +12.5° from before.\n"
+    assert console.heard == ["jog cw 1.500"]
+
+
+@pytest.mark.parametrize("order", [["point", 180, 45], ["park"], ["jog", "up", 1]])
+def test_without_waiting(scripted: Any, rotator: Rotator, config: Path, order: list[Any]) -> None:
+    console = scripted(on_its_way(100))
+    assert said(rotator(*order, "--no-wait", "--config", config)).startswith("The box has the order.")
+    assert len(console.heard) == 1
+
+
+def test_both_axes_with_a_fault(scripted: Any, rotator: Rotator, config: Path) -> None:
+    faults = [Fault(FaultKind.POT_OPEN, axis, "reads 0.000", "0.02 to 0.98") for axis in Axis]
+    azimuth, elevation = (AxisStatus(0.0, 180.0, 10.0, fault=fault, seen=False) for fault in faults)
+    scripted(Status(0.0, azimuth, elevation))
+    done = rotator("where", "--json", "--config", config)
+    assert done.returncode == 3
+    told = json.loads(done.stdout)
+    assert [told[axis.value]["fault"]["text"] for axis in Axis] == [str(fault) for fault in faults]
+    assert [told[axis.value]["angle_is_current"] for axis in Axis] == [False, False]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from hw.ports import Axis
@@ -15,9 +13,8 @@ from rotator.config.model import Config
 from rotator.control.axis.calibration_table import Calibration
 from rotator.faults import Missing
 from rotator.rehearsal.flight import fly, plant_maker
-from rotator.rehearsal.passes import read_pass
+from rotator.rehearsal.passes import SHIPPED, read_pass
 
-PASSES = Path(__file__).parents[1] / "passes"
 POTS = ["f1efw", "g5500", "spid"]
 OTHERS = ["isel", "orbit360", "servos", "u100"]
 """Rotors whose angles need no calibration: counted, told by their controllers, or modelled."""
@@ -69,7 +66,7 @@ def test_the_whole_range_lies_within_the_readings_that_are_believed(name: str) -
 @pytest.mark.parametrize("name", POTS)
 def test_it_flies_a_pass(name: str) -> None:
     """The others fly all twelve in tests/flights."""
-    _, summary = fly(read_pass(PASSES / "mid-1-iss.csv"), plant_maker(simulated(profile(name))))
+    _, summary = fly(read_pass(SHIPPED / "mid-1-iss.csv"), plant_maker(simulated(profile(name))))
     assert summary.relay_starts is not None
     assert 0 < summary.relay_starts < 100
     assert summary.rms_deg < 4.0

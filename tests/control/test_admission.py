@@ -168,7 +168,7 @@ def test_one_coordinate_over_the_top_is_looked_at_with_the_other_one_as_it_goes(
 
 
 def test_what_needs_a_person_at_the_rotor_says_so() -> None:
-    assert refused(Home(Axis.ELEVATION)) == "elevation knows where it stands: there is no end stop to be found"
+    assert refused(Home(Axis.ELEVATION)) == "elevation knows its angle: it needs no homing"
     counted = status()
     counted = replace(counted, elevation=replace(counted.elevation, source=AngleSource.COUNTED))
     assert refusal(Home(Axis.ELEVATION), counted, MOUNT) is None

@@ -198,8 +198,8 @@ def test_a_single_order_wins_over_a_stream(authority: Authority) -> None:
     assert not any(stream(authority, GPREDICT, from_s=11, until_s=200))
     assert authority.controlled_by == PST
     assert authority.ignored(200.0) == (
-        "orders from rotctld#1 are ignored: gs232b#1 has taken the antenna; "
-        "they count again after 10 s without one, or on a new connection",
+        "orders from rotctld#1 are ignored: gs232b#1 moves the antenna now; "
+        "orders count again after a pause of 10 s, or on a new connection",
     )
     assert authority.may_move(PST, 200.5, HERE)
     assert authority.may_move(GPREDICT_AGAIN, 201.0, THERE), "connected anew, its user wants it back"
@@ -229,7 +229,7 @@ def test_two_streams_that_disagree_change_hands_a_few_times_at_most(authority: A
     assert sum(one is not other for one, other in itertools.pairwise(hands)) <= 1
     assert moved[20:] in ([True, False] * 110, [False, True] * 110)
     (ignored,) = authority.ignored(120.0)
-    assert ignored.endswith("; end one of the two programs (they count again after 10 s without one)")
+    assert ignored.endswith(": end one of the two programs (orders count again after a pause of 10 s)")
     assert {"gs232b#1", "rotctld#1"} <= set(ignored.replace(":", "").replace(",", "").split())
 
 
@@ -273,7 +273,9 @@ def test_polling_is_no_order(authority: Authority) -> None:
 def test_each_reason_is_said_and_forgotten_ten_seconds_later(authority: Authority) -> None:
     authority.stopped(CONSOLE, 0.0, latch=True)
     authority.may_move(PST, 1.0)
-    assert authority.ignored(1.0) == ("orders from gs232b#1 are ignored: stopped by console until released",)
+    assert authority.ignored(1.0) == (
+        "orders from gs232b#1 are ignored: stopped by console: nothing moves until resume",
+    )
     assert authority.ignored(11.0) == ()
     authority.released()
     authority.switch(Source("panel"), Mode.PARK)
@@ -281,7 +283,7 @@ def test_each_reason_is_said_and_forgotten_ten_seconds_later(authority: Authorit
     assert authority.ignored(12.0) == ("orders from gs232b#1 are ignored: the panel's switch is at PARK",)
     authority.switch(Source("panel"), Mode.AUTO)
     authority.may_move(PST, 13.0, homing=True)
-    assert authority.ignored(13.0) == ("orders from gs232b#1 are ignored: an axis looks for its end stop",)
+    assert authority.ignored(13.0) == ("orders from gs232b#1 are ignored: an axis is homing",)
     authority.may_move(PST, 14.0)
     assert authority.ignored(14.0) == ()
 
@@ -291,6 +293,16 @@ def test_many_connections_are_not_all_named(authority: Authority) -> None:
     for number in range(100):
         authority.may_move(Source("rotctld", number), 1.0)
     assert len(authority.ignored(1.0)) == 4
+
+
+def test_a_program_that_connects_anew_is_named_once_with_its_latest_connection(authority: Authority) -> None:
+    authority.stopped(CONSOLE, 0.0, latch=True)
+    for number in range(1, 4):
+        source = Source("rotctld", number)
+        authority.may_move(source, float(number))
+        if number < 3:
+            authority.left(source, number + 0.5)
+    assert [line.split()[2] for line in authority.ignored(4.0)] == ["rotctld#3"]
 
 
 @pytest.mark.parametrize(("stops_on", "goes_on"), [("rotctld", True), ("gs232b", False)])
@@ -311,6 +323,39 @@ def test_a_script_that_connects_for_every_order_may_stop_and_go_on(stops_on: str
 
 
 PANEL = Source("panel")
+
+
+@pytest.mark.parametrize("let_go_s", [0.4, 0.6])
+def test_a_jog_switch_held_through_a_stop_counts_again_when_it_was_let_go(let_go_s: float) -> None:
+    """A held switch sends an order in each cycle."""
+    authority = Authority()
+    authority.switch(PANEL, Mode.JOG)
+    now_s = 10.0
+    authority.stopped(CONSOLE, now_s, latch=False)
+    for _ in range(40):
+        now_s += 0.05
+        assert not authority.may_move(PANEL, now_s)
+    assert authority.ignored(now_s) == (
+        "orders from panel are ignored: a stop came while the jog switch was held: release the switch first",
+    )
+    assert authority.may_move(PANEL, now_s + let_go_s) is (let_go_s > 0.5)
+
+
+def test_the_panel_s_own_stop_does_not_silence_its_switch() -> None:
+    authority = Authority()
+    authority.switch(PANEL, Mode.JOG)
+    authority.stopped_axis(PANEL, 10.0)
+    assert authority.may_move(PANEL, 10.05)
+
+
+def test_a_switch_of_the_panel_ends_a_storm_park_and_who_moved_the_antenna_moves_it_no_more() -> None:
+    authority = Authority()
+    authority.may_move(PST, 0.0)
+    authority.begin_storm(CONSOLE)
+    assert authority.controlled_by == CONSOLE
+    authority.switch(PANEL, Mode.AUTO)
+    assert (authority.latched, authority.storm) == ("panel, in a storm park", False)
+    assert authority.controlled_by is None
 
 
 @pytest.mark.parametrize(
@@ -338,7 +383,9 @@ def test_a_stop_ends_a_storm_park_and_what_it_latched_stays(authority: Authority
 def test_released_it_no_longer_names_those_who_were_ignored(authority: Authority) -> None:
     authority.stopped(CONSOLE, 0.0, latch=True)
     authority.may_move(PST, 1.0)
-    assert authority.ignored(1.0) == ("orders from gs232b#1 are ignored: stopped by console until released",)
+    assert authority.ignored(1.0) == (
+        "orders from gs232b#1 are ignored: stopped by console: nothing moves until resume",
+    )
     authority.released()
     assert authority.ignored(1.0) == ()
 

@@ -39,7 +39,7 @@ def test_a_jog_ends_before_it_with_room_for_the_coast(beside: Any) -> None:
 def test_a_jog_that_was_held_back_does_not_go_on_by_itself(beside: Any) -> None:
     beside.step(Jog(AZ, PLUS))
     beside.run(9.0)
-    assert notices(beside) == ["held before the chimney"]
+    assert notices(beside) == ["stopped before the chimney"]
     beside.run(4.0)
     assert notices(beside) == []
     beside.step(Jog(EL, PLUS))

@@ -117,7 +117,7 @@ def test_two_programs_that_disagree_do_not_wear_the_rotor_out(desk: Any) -> None
                     ways.append(way)
             said |= set(desk.status.notices)
     assert len(ways) <= 8
-    (fight,) = (text for text in said if "fights with" in text)
+    (fight,) = (text for text in said if "both send directions" in text)
     assert "rotctld#1" in fight
     assert "gs232b#1" in fight
     assert fight in desk.status.notices, "it is said for as long as it lasts"

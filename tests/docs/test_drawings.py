@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from docs.drawings import one_shot, panel
+from docs.drawings.__main__ import pictures
 from docs.drawings.album import profile, sheets
 from docs.drawings.header import GPIO_PINS
 from docs.drawings.inspect import complaints
@@ -45,6 +46,18 @@ def test_the_picture_in_the_documents_is_what_the_source_makes(
 ) -> None:
     """If this fails: make drawings."""
     assert (IMAGES / f"{name}.svg").read_text(encoding="utf-8") == svg(*drawn[name])
+
+
+@pytest.mark.parametrize("name", pictures())
+def test_a_picture_that_is_no_wiring_is_what_its_source_makes(name: str) -> None:
+    """If this fails: make drawings."""
+    assert (IMAGES / f"{name}.svg").read_text(encoding="utf-8") == pictures()[name]
+
+
+def test_no_letter_of_a_picture_is_painted_over_by_its_own_edge() -> None:
+    """Not every viewer knows paint-order: an edge is painted first, as letters of its own."""
+    for image in IMAGES.glob("*.svg"):
+        assert "paint-order" not in image.read_text(encoding="utf-8"), image.name
 
 
 def test_no_picture_is_left_of_a_drawing_that_is_gone() -> None:

@@ -54,7 +54,7 @@ def test_it_does_not_drop_out_between_two_beats_and_not_for_three_missed_ones() 
 
 
 def test_the_page_says_what_the_one_shot_does() -> None:
-    text = page("wiring-heartbeat.md")
+    text = page("heartbeat.md")
     assert "0.7 × 330 kΩ × 2.2 µF = 0.51 s" in text
     assert "0.41 s" in text
     assert "0.62 s" in text
@@ -65,7 +65,7 @@ def test_the_transistor_is_driven_far_into_saturation() -> None:
     base_a = (3.84 - 0.8) / BASE_OHM
     assert base_a < 0.004
     assert 0.080 / base_a < 30
-    assert "3 mA into the base, 80 mA through the coil" in page("wiring-heartbeat.md")
+    assert "3 mA into the base, 80 mA through the coil" in page("heartbeat.md")
 
 
 @pytest.mark.parametrize(
@@ -75,7 +75,7 @@ def test_the_transistor_is_driven_far_into_saturation() -> None:
 def test_the_divider_gives_what_the_profile_and_the_pages_say(socket_v: float, adc_v: float) -> None:
     assert divided_v(socket_v) == pytest.approx(adc_v, abs=0.0006)
     assert divided_v(socket_v) < ADC_LIMIT_V
-    assert f"{adc_v:.3f}" in page("wiring-g5500.md")
+    assert f"{adc_v:.3f}" in page("paths/g5500.md")
 
 
 def test_the_g5500s_supply_is_five_volts_behind_the_divider() -> None:
@@ -105,12 +105,12 @@ def test_the_end_resistors_of_the_table_keep_the_wiper_off_the_rails(pot_ohm: fl
 def test_an_ssr_behind_the_uln2803_sees_enough() -> None:
     """A CX240D5 closes from 3.0 V on and takes 15 mA, at which a ULN2803 keeps about 1 V for itself."""
     assert 5.0 - 1.0 > 3.0
-    assert "which leaves it about 4 V" in page("wiring-ssr.md")
+    assert "which leaves it about 4 V" in page("ssr.md")
 
 
 def test_what_a_snubber_lets_through() -> None:
     assert 24 * 2 * math.pi * 50 * 100e-9 == pytest.approx(0.75e-3, abs=0.01e-3)
-    assert "0.75 mA" in page("wiring-ssr.md")
+    assert "0.75 mA" in page("ssr.md")
 
 
 @pytest.mark.parametrize(("motor_a", "fuse_a"), [(1.0, 2.0), (2.0, 4.0)])
@@ -121,7 +121,7 @@ def test_the_fuse_is_the_next_standard_size_above_both_motors(motor_a: float, fu
 
 
 def test_a_contacts_loop_lights_its_opto_well_and_burns_no_resistor() -> None:
-    loop, page_ = ContactLoop(), page("wiring-u100.md")
+    loop, page_ = ContactLoop(), page("paths/u100.md")
     assert loop.supply_v == pytest.approx(24 * math.sqrt(2) - 0.7) == pytest.approx(33.2, abs=0.1)
     assert loop.led_a == pytest.approx(0.010, abs=0.0005)
     assert loop.resistor_w == pytest.approx(0.31, abs=0.01)
@@ -146,7 +146,7 @@ def test_oe_is_held_high_against_the_boards_own_resistor() -> None:
 
 
 def test_what_braking_does_to_the_capacitor() -> None:
-    page_ = page("wiring-moteus.md")
+    page_ = page("paths/isel.md")
     assert 0.5 * math.radians(30) ** 2 == pytest.approx(0.14, abs=0.005)
     for speed_dps, volts in ((30, 25.2), (90, 33), (300, 80)):
         assert braked_v(24, 1.0, speed_dps, BUS_FARAD) == pytest.approx(volts, rel=0.01)
@@ -157,14 +157,14 @@ def test_a_meters_trimmer_reaches_full_scale_from_both_sides() -> None:
     least_ohm = PI_SUPPLY_V / METER_FULL_A - 200
     assert least_ohm > METER_SERIES_OHM
     assert METER_SERIES_OHM + METER_TRIMMER_OHM > PI_SUPPLY_V / METER_FULL_A
-    assert "3.3 V ÷ 3.3 kΩ is full scale" in page("wiring-panel.md")
+    assert "3.3 V ÷ 3.3 kΩ is full scale" in page("panel.md")
 
 
 def test_a_lamp_takes_what_an_output_gives() -> None:
     """A PCA9685 gives 10 mA at high; a red LED takes 2 V of the 3.3."""
     lamp_a = (PI_SUPPLY_V - 2.0) / LAMP_OHM
     assert lamp_a == pytest.approx(0.004, abs=0.0005)
-    assert "330 Ω each, 4 mA" in page("wiring-panel.md")
+    assert "330 Ω each, 4 mA" in page("panel.md")
 
 
 def test_a_step_of_the_servos_chip() -> None:
@@ -172,7 +172,7 @@ def test_a_step_of_the_servos_chip() -> None:
     low_us, high_us = (us for _, us in profile("servos").servo.azimuth.pulses_us)
     assert tick_us == pytest.approx(4.88)
     assert 180 / (high_us - low_us) * tick_us == pytest.approx(0.49, abs=0.01)
-    assert "4.88 µs, with 600 to 2400 µs for 180° half a degree" in page("wiring-servos.md")
+    assert "4.88 µs, with 600 to 2400 µs for 180° half a degree" in page("paths/servos.md")
 
 
 def test_a_step_of_the_digital_pot() -> None:
@@ -181,17 +181,17 @@ def test_a_step_of_the_digital_pot() -> None:
     assert (high_deg - low_deg) / (high - low) == pytest.approx(1.41, abs=0.005)
     (low_deg, low), (high_deg, high) = points.elevation.steps
     assert (high_deg - low_deg) / (high - low) == pytest.approx(1.41, abs=0.005)
-    assert "1.41° each" in page("wiring-orbit360.md")
+    assert "1.41° each" in page("paths/orbit360.md")
 
 
 def test_an_upside_down_elevation_shows_what_the_moteus_page_says() -> None:
     elevation = profile("isel").moteus.elevation
     shown = [elevation.zero_rev + degrees / 360 * elevation.rev_per_turn for degrees in (0, 90)]
     assert shown == [-0.25, -0.5]
-    assert "0° is -0.25 turns, 90° is -0.5" in page("wiring-moteus.md")
+    assert "0° is -0.25 turns, 90° is -0.5" in page("paths/isel.md")
 
 
 def test_three_periods_of_a_u_100() -> None:
     box = profile("u100")
     assert 3 * box.pulses.azimuth.spacing_deg / box.azimuth.speed_dps == 2.5
-    assert "2.5 s at 5° and 6°/s" in page("wiring-u100.md")
+    assert "2.5 s at 5° and 6°/s" in page("paths/u100.md")

@@ -3,44 +3,30 @@
 from __future__ import annotations
 
 import re
+import textwrap
 import tomllib
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from docs.drawings.album import profile, sheets
+from docs.drawings.album import profile
 from docs.drawings.header import GPIO_PINS
 from docs.drawings.panel import LIMITS, PANEL
+from docs.words import MOST, count, pages
 from hw.moteus.faults import FAULTS
 from hw.ports import Direction
 from hw.sensors.cam import Cam
 from hw.sensors.cam_count import CamCount
 from rotator.config.load import shipped
 from rotator.config.model import Config
-from rotator.config.panel import LimitsTable, PanelTable
 from rotator.faults import FaultKind
 from rotator.panel.ladder import LEVELS
 
 DOCS = Path(__file__).parents[2] / "docs"
-PAGES = [
-    "README.md",
-    "wiring.md",
-    "wiring-g5500.md",
-    "wiring-ssr.md",
-    "wiring-u100.md",
-    "wiring-moteus.md",
-    "wiring-servos.md",
-    "wiring-orbit360.md",
-    "wiring-panel.md",
-    "wiring-heartbeat.md",
-    "sensors.md",
-    "parts.md",
-    "commissioning.md",
-    "troubleshooting.md",
-]
-BUILDS = {"u100": "wiring-u100", "isel": "wiring-moteus", "servos": "wiring-servos", "orbit360": "wiring-orbit360"}
-"""The page of each shipped configuration that is not a rotor with relays and pots."""
+PAGES = [str(path.relative_to(DOCS)) for path in sorted(DOCS.rglob("*.md"))]
+BUILDS = {"g5500", "f1efw", "u100", "isel", "servos", "orbit360"}
+"""Shipped configurations with a page of their own, from parts to the first pass."""
 
 
 def text(name: str) -> str:
@@ -53,20 +39,31 @@ def anchors(name: str) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-@pytest.mark.parametrize("page", [*sorted(path.name for path in DOCS.glob("*.md")), "../README.md"])
+@pytest.mark.parametrize("page", [*PAGES, "../README.md"])
 def test_every_link_leads_somewhere(page: str) -> None:
-    folder = Path(page).parent
+    folder = (DOCS / page).parent
     for target in re.findall(r"\]\((?!https?:)([^)]+)\)", text(page)):
         path, _, anchor = target.replace("\n", "").partition("#")
-        led = str(folder / path) if path else page
-        assert (DOCS / led).is_file(), target
+        led = (folder / path).resolve() if path else DOCS / page
+        assert led.is_file(), target
         if anchor:
-            assert anchor in anchors(led), target
+            assert anchor in anchors(str(led.relative_to(DOCS))), target
+
+
+def test_every_page_is_reached_from_the_map() -> None:
+    reached = set(re.findall(r"\]\(([\w/-]+\.md)\)", text("index.md").replace("\n", "")))
+    assert reached == set(PAGES) - {"index.md"}
 
 
 def test_every_picture_is_shown_on_some_page() -> None:
-    shown = {name for page in PAGES for name in re.findall(r"\(img/([\w-]+)\.svg\)", text(page))}
-    assert shown == {sheet.file for sheet in sheets()}
+    every = "".join(text(page) for page in [*PAGES, "../README.md"])
+    shown = set(re.findall(r"\((?:\.\./|docs/)?img/([\w.-]+)\)", every))
+    assert shown == {path.name for path in (DOCS / "img").iterdir()}
+
+
+def test_the_pages_stay_short() -> None:
+    """If this fails: `python -m docs.words` shows which page has grown."""
+    assert sum(each.read + each.reference for each in map(count, pages())) <= MOST
 
 
 @pytest.mark.parametrize("build", [0, 1, 2])
@@ -81,7 +78,7 @@ def test_the_prices_add_up(build: int) -> None:
 
 
 def test_the_g_5500s_table_names_the_gpios_of_its_profile() -> None:
-    rows = dict(re.findall(r"\| relay \d, GPIO (\d+) \| `relays\.(\w+)` \|", text("wiring-g5500.md")))
+    rows = dict(re.findall(r"\| relay \d, GPIO (\d+) \| `relays\.(\w+)` \|", text("paths/g5500.md")))
     relays = profile("g5500").relays
     assert {key: int(gpio) for gpio, key in rows.items()} == {
         "azimuth_cw": relays.azimuth_cw,
@@ -96,20 +93,35 @@ def settings(name: str) -> dict[str, Any]:
     return tomllib.loads("\n".join(re.findall(r"```toml\n(.*?)```", text(name), flags=re.DOTALL)))
 
 
-@pytest.mark.parametrize(("build", "page"), BUILDS.items())
-def test_page_and_configuration_name_each_other(build: str, page: str) -> None:
-    assert f"`rotator config {build} > station.toml`" in text(f"{page}.md")
-    assert f"docs/{page}.md" in shipped(build)
-    assert f"]({page}.md)" in text("wiring.md")
-    assert f"]({page}.md)" in text("README.md")
-    assert f"]({page}.md)" in text("parts.md")
+def fragments() -> list[tuple[str, str]]:
+    """Every piece of a configuration on the pages."""
+    return [
+        (page, textwrap.dedent(block))
+        for page in PAGES
+        for block in re.findall(r"^ *```toml\n(.*?)```$", text(page), flags=re.DOTALL | re.MULTILINE)
+    ]
+
+
+@pytest.mark.parametrize(("page", "fragment"), fragments())
+def test_every_piece_of_a_file_is_one_that_the_box_takes(page: str, fragment: str) -> None:
+    kind = 'rotor.type = "digipot"\n' if page.endswith("orbit360.md") else ""
+    Config.model_validate(tomllib.loads(kind + fragment))
+
+
+@pytest.mark.parametrize("build", sorted(BUILDS))
+def test_page_and_configuration_name_each_other(build: str) -> None:
+    page = f"paths/{build}.md"
+    assert f"--profile {build}" in text(page)
+    assert f"docs/{page}" in shipped(build)
+    for other in ("wiring.md", "index.md", "configuration.md"):
+        assert f"]({page})" in text(other)
 
 
 @pytest.mark.parametrize("build", ["u100", "orbit360"])
 def test_each_gpio_on_the_page_is_the_profiles_and_at_that_pin_of_the_header(build: str) -> None:
     """Tables: what, GPIO, header pin, perhaps more, key."""
     rows = re.findall(
-        r"^\|[^|]+\| (\d+) \| (\d+) \|(?:[^|]+\|)? `([\w.]+)` \|$", text(f"{BUILDS[build]}.md"), re.MULTILINE
+        r"^\|[^|]+\| (\d+) \| (\d+) \|(?:[^|]+\|)? `([\w.]+)` \|$", text(f"paths/{build}.md"), re.MULTILINE
     )
     used = {key: pin for pin, key in profile(build).pins() if not key.startswith(("lcd.", "panel."))}
     assert {key: int(gpio) for gpio, _, key in rows} == used
@@ -117,7 +129,7 @@ def test_each_gpio_on_the_page_is_the_profiles_and_at_that_pin_of_the_header(bui
 
 
 def test_the_servos_table_names_what_the_profile_has() -> None:
-    page, servo = text("wiring-servos.md"), profile("servos").servo
+    page, servo = text("paths/servos.md"), profile("servos").servo
     assert servo.enable is not None
     assert f"| OE | GPIO {servo.enable}, and 1 kΩ to 3.3 V | {GPIO_PINS[servo.enable]} | `servo.enable` |" in page
     assert f"| output {servo.azimuth.channel} | azimuth servo |" in page
@@ -127,17 +139,11 @@ def test_the_servos_table_names_what_the_profile_has() -> None:
 
 def test_the_moteus_page_sets_the_ids_of_the_profile() -> None:
     moteus = profile("isel").moteus
-    assert f"| `id.id` | {moteus.azimuth.id} | {moteus.elevation.id} |" in text("wiring-moteus.md")
-
-
-def test_the_panel_on_the_page_is_the_one_on_the_drawing() -> None:
-    said = settings("wiring-panel.md")
-    assert PanelTable.model_validate(said["panel"]) == PANEL
-    assert LimitsTable.model_validate(said["limits"]) == LIMITS
+    assert f"| `id.id` | {moteus.azimuth.id} | {moteus.elevation.id} |" in text("paths/isel.md")
 
 
 def test_the_panels_table_names_its_gpios() -> None:
-    rows = re.findall(r"\| GPIO (\d+), header pin (\d+) \| `(\w+)\.(\w+)` \|", text("wiring-panel.md"))
+    rows = re.findall(r"\| GPIO (\d+), header pin (\d+) \| `(\w+)\.(\w+)` \|", text("panel.md"))
     assert {key: int(gpio) for gpio, _, _, key in rows} == PANEL.switches | LIMITS.switches
     assert all(GPIO_PINS[int(gpio)] == int(pin) for gpio, pin, _, _ in rows)
 
@@ -153,7 +159,7 @@ def test_the_shipped_panel_is_the_one_on_the_page() -> None:
 
 
 def test_the_jog_switches_read_what_the_page_says() -> None:
-    page = text("wiring-panel.md")
+    page = text("panel.md")
     words = {
         (1, 0): "CW", (-1, 0): "CCW", (0, 1): "up", (0, -1): "down",
         (1, 1): "CW and up", (-1, -1): "CCW and down", (1, -1): "CW and down", (-1, 1): "CCW and up",
@@ -173,7 +179,7 @@ def test_the_sensors_page_has_tables_that_the_file_accepts() -> None:
 
 def test_the_digital_pots_points_are_ones_that_the_file_accepts() -> None:
     values = tomllib.loads(shipped("orbit360"))
-    values["digipot"]["azimuth"] |= settings("wiring-orbit360.md")["digipot"]["azimuth"]
+    values["digipot"]["azimuth"] |= settings("paths/orbit360.md")["digipot"]["azimuth"]
     assert len(Config.model_validate(values).digipot.azimuth.steps) == 5
 
 

@@ -11,7 +11,7 @@ from rotator.views.frame import Framed, Row
 
 
 def test_every_word_has_its_place_and_width_and_no_line_is_a_character() -> None:
-    picture = screen_svg(Framed("title", lambda _width: [Row(Text("● 235.0° <&>"), 0)]), "a window", 40)
+    picture = screen_svg(Framed("title", lambda _width, _height: [Row(Text("● 235.0° <&>"), 0)]), "a window", 40)
     words = re.findall(r'<text x="([\d.]+)" y="[\d.]+" textLength="([\d.]+)".*?>(.*?)</text>', picture)
     cells = {text: ((float(x) - MARGIN) / CELL_W, float(long) / CELL_W) for x, long, text in words}
     assert cells == {"title": (3, 5), "235.0°": (4, 6), "&lt;&amp;&gt;": (11, 3)}

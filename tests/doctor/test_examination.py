@@ -14,7 +14,7 @@ from rotator.doctor.reference import checks_table
 from rotator.views.examination import as_object, verdict
 from tests.doctor.conftest import STATION, Pi
 
-PAGE = Path(__file__).parents[2] / "docs" / "troubleshooting.md"
+PAGE = Path(__file__).parents[2] / "docs" / "reference" / "checks.md"
 NAMES = ["configuration", *(check.name for check in OF_THE_MACHINE), *(check.name for check in OF_THE_STATION)]
 
 

@@ -135,6 +135,20 @@ def test_a_link_that_is_open_to_the_network(pi: Pi) -> None:
     assert "127.0.0.1:15331" in finding.advice
 
 
+@pytest.mark.parametrize(
+    ("key", "told"),
+    [
+        ("read_only = true", "it is read_only: nothing there turns the antenna"),
+        ('allow = ["192.168.1.20", "10.0.0.0/8"]', "for 192.168.1.20, 10.0.0.0/8 (allow)"),
+    ],
+)
+def test_a_link_that_strangers_cannot_move_is_no_warning(pi: Pi, key: str, told: str) -> None:
+    pi.station(tcp("0.0.0.0:15331") + f"{key}\n")
+    finding = pi.only("TCP ports")
+    assert finding.mark == "✓"
+    assert told in finding.found
+
+
 @pytest.mark.parametrize(("host", "mark"), [("localhost", "✓"), ("127.0.0.2", "✓"), ("0.0.0.0", "!")])
 def test_loopback_is_told_from_the_network(pi: Pi, host: str, mark: str) -> None:
     pi.station(tcp(f"{host}:15332"))

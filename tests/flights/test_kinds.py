@@ -1,4 +1,4 @@
-"""What the README promises of each kind of rotor on twelve real passes, and that its table is what comes out.
+"""What docs/pointing.md promises of each kind of rotor on twelve real passes, and that its table is what comes out.
 
 `make test-rotors` flies them all; every figure is the same on every machine.
 """
@@ -11,7 +11,7 @@ import pytest
 
 from benchmarks.kinds import KINDS, PASS_NAMES, Flight, fly_all, markdown
 
-README = Path(__file__).parents[2] / "README.md"
+PAGE = Path(__file__).parents[2] / "docs" / "pointing.md"
 MOTEUS_W, MOTEUS_P = "moteus (isel), `W` in whole degrees", "moteus (isel), `P %.2f`"
 SERVOS, POT = "hobby servos (servos)", "digital pot (orbit360)"
 U100, U100_OVERLAP = "U-100, counting (u100)", "the same with 450° of azimuth"
@@ -28,9 +28,9 @@ def flown(flights: list[Flight]) -> dict[tuple[str, str], Flight]:
     return {(flight.kind.name, flight.pass_name): flight for flight in flights}
 
 
-def test_the_readme_has_this_table(flights: list[Flight]) -> None:
+def test_the_page_has_this_table(flights: list[Flight]) -> None:
     """If this fails, paste what `python -m benchmarks.kinds` prints."""
-    assert markdown(flights) in README.read_text(encoding="utf-8")
+    assert markdown(flights) in PAGE.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("name", PASS_NAMES)

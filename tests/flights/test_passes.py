@@ -1,20 +1,20 @@
 """Twelve real passes flown in simulated time, through the protocol, the drivers and the simulated chips.
 
-What the README promises of them: few relay starts, close to the best that any relay controller could do with as many,
-and far better than the sketch that the box replaces. Every figure is the same on every machine.
+What docs/pointing.md promises of them: few relay starts, close to the best that any relay controller could do with as
+many, and far better than the sketch that the box replaces. Every figure is the same on every machine.
 """
 
 from __future__ import annotations
 
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
-from pathlib import Path
 
 import pytest
 
 from benchmarks.passes import Flight, fly_one, mean, optimum_deg, optimum_points
+from rotator.rehearsal.passes import shipped_names
 
-PASSES = sorted(path.stem for path in (Path(__file__).parents[1] / "passes").glob("*.csv"))
+PASSES = shipped_names()
 COMPARED = ("low-1-iss", "north-1-iss")
 """A pass low in the south, and one through the rotor's stop in the north, where the sketch turns all the way back."""
 TOLERANCE_DEG = 4.0

@@ -174,5 +174,5 @@ def debs(able: None, tree: Path, wheel: Path, tmp_path_factory: pytest.TempPathF
         assert was in text
         (opened / name).write_text(text.replace(was, becomes))
     later = folder / "later_9.8.7_amd64.deb"
-    run("dpkg-deb", "--root-owner-group", "-Zgzip", "--build", opened, later, epoch_s=source.epoch_s)
+    run("dpkg-deb", "--root-owner-group", "-Zzstd", "--build", opened, later, epoch_s=source.epoch_s)
     return Debs(today, later)

@@ -59,7 +59,7 @@ def test_a_box_that_a_person_stopped_stays_stopped(running: Booted, debs: Debs) 
     running.run("systemctl", "stop", "rotator.service").check()
     for package in (debs.today, debs.later):
         running.run(*APT, "install", f"/root/{package.name}").check()
-        assert state(running) == "inactive", "somebody may stand at the mast"
+        assert state(running) == "inactive", "a person may stand at the mast"
 
 
 def test_an_upgrade_that_fails_leaves_the_old_box_running(running: Booted, debs: Debs) -> None:
@@ -71,4 +71,17 @@ def test_an_upgrade_that_fails_leaves_the_old_box_running(running: Booted, debs:
     running.run("dpkg-deb", "--build", "/root/broken", "/root/broken.deb").check()
     assert running.run(*APT, "install", "/root/broken.deb").code != 0
     assert running.run("rotator", "--version").text == version
+    assert state(running) == "active"
+
+
+def test_a_configuration_that_the_new_version_refuses_is_told_and_stays(running: Booted, debs: Debs) -> None:
+    config = running.at("/etc/rotator/rotator.toml")
+    config.write_text(config.read_text() + "nonsense = 1\n")
+    before = config.read_text()
+    said = running.run(*APT, "install", f"/root/{debs.today.name}").check().text
+    assert "gs232-rotator: the service does not start: journalctl -eu rotator says why" in said
+    assert "nonsense" in running.run("journalctl", "--unit", "rotator.service", "--output", "cat").text
+    assert config.read_text() == before
+    config.write_text(before.replace("nonsense = 1\n", ""))
+    running.run("systemctl", "restart", "rotator.service").check()
     assert state(running) == "active"

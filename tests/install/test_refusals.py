@@ -47,7 +47,7 @@ def test_no_python_at_all(bare: Root) -> None:
 
 def test_no_venv(bare: Root) -> None:
     bare.run("dpkg", "--purge", "--force-depends", "python3-venv", "python3.11-venv").check()
-    assert refused(bare, "/src/install.sh").startswith(
+    assert refused(bare, "/src/install.sh", "--yes").startswith(
         "Python cannot make a virtual environment: sudo apt install python3-venv"
     )
 
@@ -70,10 +70,8 @@ def test_a_disk_that_fills_up_on_the_way(bare: Root) -> None:
 
 
 def test_a_profile_there_is_not(bare: Root) -> None:
-    said = bare.run("/src/install.sh", "--profile", "g5501")
-    assert said.code == 1
-    assert "did you mean g5500?" in said.text
-    assert not bare.at("/opt/rotator").exists()
+    said = refused(bare, "/src/install.sh", "--profile", "g5501")
+    assert said.startswith("there is no profile g5501; there are: simulated f1efw g5500 ")
 
 
 def test_wheels_that_are_not_there(bare: Root) -> None:

@@ -115,6 +115,15 @@ def test_orders_written_while_no_box_ran_are_moved_aside(
     assert "written while no box was running" in caplog.text
 
 
+@pytest.mark.parametrize("text", ["mine\n", "a b\n", "12.5\n", "S\nhello\n", "#!/bin/sh\n", "S\r" * 3000])
+def test_what_is_not_all_orders_stays(link: PtyLink, path: Path, text: str) -> None:
+    path.parent.mkdir()
+    path.write_bytes(text.encode())
+    with pytest.raises(LinkError, match="there is a file already"):
+        asyncio.run(link.open())
+    assert path.read_bytes() == text.encode()
+
+
 def test_a_device_in_its_place_is_a_serial_port(wire: Wire, bench: Any) -> None:
     link = PtyLink(wire, Path("/dev/null"), bench.gs232)
     with pytest.raises(LinkError, match="there is a device already") as refused:

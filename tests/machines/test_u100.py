@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.cli.console import ConsoleClient
+from rotator.cli.box import RunningBox
 from tests.machines.shack import PATIENCE_S, Shack, Terminal, fly
 
 SPEED_DPS = 18.0
@@ -64,8 +64,8 @@ def read_back(pc: Terminal) -> Place:
 
 def hands(machine: Shack, words: str) -> None:
     """`rotator panel`, without starting Python once more for each."""
-    with ConsoleClient(machine.config_path) as console:
-        console.line(f"panel {words}\n".encode())
+    with RunningBox(machine.config_path) as console:
+        console.order(f"panel {words}")
 
 
 def obeys(machine: Shack, pc: Terminal, place: Place) -> None:

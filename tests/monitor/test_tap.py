@@ -156,3 +156,13 @@ def test_nobody_listens_and_nothing_is_asked(room: Room) -> None:
     session = TappedSession(Gs232Session(Example(), Dialect.B), room.tap, GS232)
     session.receive(b"C2\r")
     assert room.asked == 0
+
+
+def test_the_machine_of_a_connection_is_told_as_it_comes_and_to_later_listeners_while_it_stays(room: Room) -> None:
+    listen(room)
+    session = TappedSession(RotctldSession(Example()), room.tap, ROTCTLD)
+    session.comes_from("192.168.1.20")
+    assert room.told[-1] == "# rotctld#3 comes from 192.168.1.20"
+    assert "# rotctld#3 comes from 192.168.1.20" in room.tap.greeting()
+    session.ended()
+    assert "# rotctld#3 comes from 192.168.1.20" not in room.tap.greeting()

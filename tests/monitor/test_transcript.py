@@ -12,11 +12,13 @@ from rotator.monitor.transcript import (
     At,
     LinkNote,
     NotATranscript,
+    Peer,
     Piece,
     Remark,
     Way,
     encode_at,
     encode_link,
+    encode_peer,
     encode_piece,
     parse,
     unescape,
@@ -97,3 +99,9 @@ def test_what_is_no_transcript_is_said_to_be_none(line: str) -> None:
 def test_the_fault_is_shown_where_it_is() -> None:
     with pytest.raises(NotATranscript, match="character 3 is no escape"):
         unescape(r"C2\y")
+
+
+def test_the_machine_of_a_connection() -> None:
+    peer = Peer(Source("rotctld", 2), "192.168.1.20")
+    assert encode_peer(peer) == "# rotctld#2 comes from 192.168.1.20"
+    assert parse(encode_peer(peer)) == peer

@@ -47,6 +47,26 @@ def test_annotations_and_the_heads_of_functions_are_left_alone() -> None:
     assert all(mutant.line not in (1, 3, 8, 9) for seed in range(25) for mutant in changed(SOURCE, seed))
 
 
+def test_a_port_has_no_code_that_could_be_wrong() -> None:
+    port = '''
+class Drive(Protocol):
+    @property
+    def driven(self) -> bool:
+        """Whether it is on."""
+
+    def run(self, *, seconds: float = 2.0) -> None: ...
+'''
+    assert [mutant for seed in range(25) for mutant in changed(port, seed)] == []
+
+
+def test_by_a_direction_nothing_is_divided() -> None:
+    seen = {mutant.now for seed in range(60) for mutant in changed("gone_deg = (to_deg - from_deg) * way\n", seed)}
+    assert "gone_deg = (to_deg - from_deg) + way" in seen
+    assert "gone_deg = (to_deg - from_deg) / way" not in seen
+    seen = {mutant.now for seed in range(60) for mutant in changed("gone_deg = speed_dps * seconds\n", seed)}
+    assert "gone_deg = speed_dps / seconds" in seen
+
+
 def test_each_place_is_changed_once_and_the_seed_says_how() -> None:
     places = [(mutant.line, mutant.column) for mutant in changed(SOURCE)]
     assert len(places) == len(set(places))

@@ -1,7 +1,7 @@
 """Any bytes at all, in any pieces, on the console: no crash, one answer to a line, and no order but what a second
 reading of the same bytes finds there.
 
-The second reading is written from docs/protocols.md, by hand and without the program's own parser.
+The second reading is written from docs/reference/wire.md, by hand and without the program's own parser.
 """
 
 from __future__ import annotations

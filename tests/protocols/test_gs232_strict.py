@@ -183,7 +183,7 @@ def test_cosmos_never_says_a_word_to_a_link_as_shipped(box: BenchBox) -> None:
 
 
 def test_a_cr_after_commands_costs_cosmos_the_next_one(box: BenchBox) -> None:
-    """Why docs/protocols.md names `empty_line` for it, and not `strict`: after each order one command is lost."""
+    """Why docs/reference/wire.md names `empty_line` for it, and not `strict`: after each order one command is lost."""
     cosmos = Cosmos(Gs232Session(box, Dialect.B, ack=b"\r", empty_line=WRONG))
     assert cosmos.connect()
     assert cosmos.send(b"W100 020\r")

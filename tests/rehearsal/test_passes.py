@@ -6,10 +6,12 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from rotator.rehearsal.passes import Pass, PassError, read_pass
+from rotator.rehearsal.passes import FORM, SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
 
-PASSES = sorted((Path(__file__).parents[1] / "passes").glob("*.csv"))
+PASSES = sorted(SHIPPED.glob("*.csv"))
 
 
 @pytest.fixture
@@ -102,23 +104,35 @@ def test_before_and_after_it_stays_at_its_ends() -> None:
 # --- no pass
 
 
+COLUMNS = ": the first line must name the columns t,az,el"
+POINTS = "commas stand between values, and decimals have a point: 12.5,274.6,8.1"
+
+
 @pytest.mark.parametrize(
     ("text", "fault"),
     [
-        ("", ": the first line must name the columns t,az,el"),
-        ("0,10,5\n1,11,6\n", ": the first line must name the columns t,az,el"),
-        ("t,az\n0,10\n1,11\n", ": the first line must name the columns t,az,el"),
-        ("t,az,el\n", ": a pass needs two rows or more"),
-        ("t,az,el\n0,10,5\n", ": a pass needs two rows or more"),
-        ("t,az,el\n0,10,5\n0,11,6\n", ": t must rise from row to row"),
-        ("t,az,el\n1,10,5\n0,11,6\n", ": t must rise from row to row"),
-        ("t,az,el\n0,10,5\n1,east,6\n", ":3: t, az and el must be numbers"),
-        ("t,az,el\n0,10,5\n1,11\n", ":3: t, az and el must be numbers"),
-        ("t,az,el\n0,,5\n1,11,6\n", ":2: t, az and el must be numbers"),
-        ("t,az,el\n0,10,5\n1,nan,6\n", ":3: t, az and el must be numbers"),
-        ("t,az,el\n0,10,5\ninf,11,6\n", ":3: t, az and el must be numbers"),
+        ("", f": is empty. {FORM}"),
+        ("0,10,5\n1,11,6\n", f"{COLUMNS}. {FORM}"),
+        ("t,az\n0,10\n1,11\n", f"{COLUMNS}. {FORM}"),
+        ("t;az;el\n0;10;5\n1;11;6\n", f"{COLUMNS} with commas between; a semicolon stands there. {FORM}"),
+        ("t\taz\tel\n0\t10\t5\n", f"{COLUMNS} with commas between; a tab stands there. {FORM}"),
+        ("t,az,el\n", f": a pass needs two rows or more. {FORM}"),
+        ("t,az,el\n0,10,5\n", f": a pass needs two rows or more. {FORM}"),
+        ("t,az,el\n0,10,5\n0,11,6\n", ":3: t must rise from row to row: 0 comes after 0"),
+        ("t,az,el\n1,10,5\n\n0,11,6\n", ":4: t must rise from row to row: 0 comes after 1"),
+        ("t,az,el\n0,10,5\n1,east,6\n", ":3: az is 'east': t, az and el must be numbers"),
+        ("t,az,el\n0,10,5\n1,11\n", f":3: has 2 values, and the first line names 3: {POINTS}"),
+        ("t,az,el\n0,5,274,6,8,1\n", f":2: has 6 values, and the first line names 3: {POINTS}"),
+        ("t,az,el\n0,274,6,8\n", f":2: has 4 values, and the first line names 3: {POINTS}"),
+        ("t,az,el\n0;274,6;8\n", f":2: has 2 values, and the first line names 3: {POINTS}"),
+        ('t,az,el\n0,"274,6",8\n', ":2: az is 274,6: write it with a point, 274.6"),
+        ("t,az,el\n0,,5\n1,11,6\n", ":2: az is '': t, az and el must be numbers"),
+        ("t,az,el\n0,10,5\n1,nan,6\n", ":3: az is 'nan': t, az and el must be numbers"),
+        ("t,az,el\n0,10,5\ninf,11,6\n", ":3: t is 'inf': t, az and el must be numbers"),
+        ("t,az,el\n0,10,5\n1_0,11,6\n", ":3: t is '1_0': t, az and el must be numbers"),
         ("t,az,el\n0,10,5\n1,361,6\n", ":3: azimuth 361, elevation 6 is no direction"),
         ("t,az,el\n0,10,91\n1,11,6\n", ":2: azimuth 10, elevation 91 is no direction"),
+        ("t,az,el\n0,10,5\n1e6,11,6\n", ": lasts 278 h; t is in seconds, and a day is the most"),
     ],
 )
 def test_what_is_no_pass_is_refused_with_its_line(path: Path, text: str, fault: str) -> None:
@@ -126,6 +140,42 @@ def test_what_is_no_pass_is_refused_with_its_line(path: Path, text: str, fault: 
     with pytest.raises(PassError) as refused:
         read_pass(path)
     assert str(refused.value) == f"{path}{fault}"
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_a_shipped_pass_has_a_name(name: str) -> None:
+    assert find_pass(name) == read_pass(SHIPPED / f"{name}.csv")
+
+
+def test_a_file_comes_before_a_shipped_pass_of_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("low-1-iss").write_text("t,az,el\n0,10,5\n1,11,6\n")
+    assert find_pass("low-1-iss").rows == ((0.0, 10.0, 5.0), (1.0, 11.0, 6.0))
+
+
+def test_a_name_that_is_almost_right(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(PassError, match="no pass of that name; did you mean north-1-iss"):
+        find_pass("north-iss")
+
+
+@pytest.mark.parametrize("axes", [(0, 1), (1, 2), (0, 2), (0, 1, 2)], ids=str)
+@given(
+    rows=st.lists(st.tuples(st.integers(0, 9), st.integers(0, 359), st.integers(0, 89), *[st.integers(0, 99)] * 3)),
+    mark=st.sampled_from([",", ";", "\t", ", "]),
+)
+def test_a_decimal_comma_is_never_read_as_another_number(
+    tmp_path_factory: pytest.TempPathFactory, rows: list[tuple[int, ...]], mark: str, axes: tuple[int, ...]
+) -> None:
+    """As a program writes it whose country has decimal commas: refused, whatever stands between the values."""
+    path = tmp_path_factory.mktemp("pass") / "comma.csv"
+    lines = []
+    for number, row in enumerate(rows):
+        whole = (10 * number + row[0], *row[1:3])
+        lines.append(mark.join(f"{whole[at]},{row[3 + at]:02}" if at in axes else f"{whole[at]}" for at in range(3)))
+    path.write_text("\n".join(("t,az,el", *lines)))
+    with pytest.raises(PassError):
+        read_pass(path)
 
 
 def test_a_file_that_is_not_there(path: Path) -> None:
@@ -136,7 +186,7 @@ def test_a_file_that_is_not_there(path: Path) -> None:
 @pytest.mark.parametrize("data", [b"t,az,el\n0,10,5\n1,\xb0,6\n", b"\xff\xfe\x00"])
 def test_a_file_that_is_no_text(path: Path, data: bytes) -> None:
     path.write_bytes(data)
-    with pytest.raises(PassError, match=r"iss\.csv: cannot be read: "):
+    with pytest.raises(PassError, match=r"iss\.csv: is no text file \(UTF-8\)"):
         read_pass(path)
 
 

@@ -22,13 +22,16 @@ PROJECT = Path(__file__).parent.parent.parent
 
 @dataclass(frozen=True, slots=True)
 class Archives:
+    source: Source
+    """As it was then: a commit in the meantime has another moment."""
     sdist: Path
     wheel: Path
 
 
 @pytest.fixture(scope="session")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Archives:
-    return Archives(*archives.build(Source.at(PROJECT), tmp_path_factory.mktemp("dist")))
+    source = Source.at(PROJECT)
+    return Archives(source, *archives.build(source, tmp_path_factory.mktemp("dist")))
 
 
 def python_of(minor: int) -> str:

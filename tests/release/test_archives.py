@@ -37,7 +37,7 @@ def elsewhere(tmp_path: Path) -> Path:
 def test_built_elsewhere_with_another_umask_they_are_the_same_bytes(
     built: Archives, elsewhere: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("SOURCE_DATE_EPOCH", str(Source.at(PROJECT).epoch_s))
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", str(built.source.epoch_s))
     umask = os.umask(0o077)
     try:
         sdist, wheel = archives.build(Source.at(elsewhere), tmp_path / "dist")

@@ -180,7 +180,7 @@ def test_driven_and_quiet_is_a_fault_by_its_name(path: Path) -> None:
         mast.axis.read()
     fault = mast.axis.condition(NO_ENDS).fault
     assert fault is not None
-    assert str(fault).startswith("azimuth: no pulses: driven for three periods, and its contact did not change")
+    assert str(fault).startswith("azimuth: no pulses: its motor ran for three periods, the contact did not change")
 
 
 def test_placed_it_is_known_again_on_another_scale(path: Path) -> None:

@@ -104,7 +104,7 @@ def test_the_log_says_so_once_whoever_comes_again(bench: Bench, caplog: pytest.L
     for connection in range(1, 101):
         bench.client(connection, read_only=True).order(Aim(10, 10))
     (record,) = caplog.records
-    assert record.message == "link#1: refused: the link is read_only, and takes no orders (Aim)"
+    assert record.message == "link#1: refused: this link is read_only: it may ask, but not move or stop the antenna"
 
 
 def test_a_program_that_repeats_a_refused_order_does_not_fill_the_log(
@@ -116,7 +116,7 @@ def test_a_program_that_repeats_a_refused_order_does_not_fill_the_log(
         bench.clock.sleep(0.05)
     first, second = (record.message for record in caplog.records)
     assert first.startswith("link#1: refused: ")
-    assert re.fullmatch(re.escape(first) + r" \((1199|1200) more of the kind before\)", second)
+    assert re.fullmatch(re.escape(first) + r" \((1199|1200) similar lines before this one are not shown\)", second)
 
 
 @pytest.mark.parametrize(

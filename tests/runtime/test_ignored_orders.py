@@ -12,7 +12,9 @@ from rotator.protocols.console_session import report
 from rotator.runtime.journal import Journal
 from rotator.status import AxisStatus, Status
 
-IGNORED = "orders from rotctld#1 are ignored: gs232b#1 has stopped the antenna; they count again after 10 s without one"
+IGNORED = (
+    "orders from rotctld#1 are ignored: gs232b#1 has stopped the antenna; orders count again after a pause of 10 s"
+)
 QUIET = Status(0.0, AxisStatus(0.0, 450.0, 100.0), AxisStatus(0.0, 180.0, 10.0))
 LOUD = replace(QUIET, notices=(IGNORED,))
 
@@ -31,7 +33,9 @@ def test_the_log_has_it_once_a_minute(caplog: pytest.LogCaptureFixture) -> None:
         assert [record.message for record in caplog.records] == [IGNORED]
         clock.sleep(30.0)
         journal.changed(QUIET, LOUD)
-    assert [record.message for record in caplog.records][1:] == [f"{IGNORED} (9 more of the kind before)"]
+    assert [record.message for record in caplog.records][1:] == [
+        f"{IGNORED} (9 similar lines before this one are not shown)"
+    ]
 
 
 def test_where_has_it() -> None:

@@ -26,8 +26,8 @@ def test_once_and_then_every_minute_with_a_count(clock: Clock) -> None:
         clock.now_s += 1 / 16
     assert [text for text in told if text] == [
         "refused",
-        "refused (959 more of the kind before)",
-        "refused (959 more of the kind before)",
+        "refused (959 similar lines before this one are not shown)",
+        "refused (959 similar lines before this one are not shown)",
     ]
 
 
@@ -42,7 +42,7 @@ def test_one_that_is_different_each_time_is_soon_told_no_more(clock: Clock) -> N
     limit = LogLimit(clock)
     assert [limit.admit(f"azimuth {n}") is not None for n in range(100)] == [True] * MOST + [False] * (100 - MOST)
     clock.now_s += EVERY_S
-    assert limit.admit("azimuth 100") == "azimuth 100 (95 more of the kind before)"
+    assert limit.admit("azimuth 100") == "azimuth 100 (95 similar lines before this one are not shown)"
 
 
 def test_after_a_quiet_minute_it_is_news_again(clock: Clock) -> None:

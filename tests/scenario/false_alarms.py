@@ -5,17 +5,14 @@ Each function returns the names of all faults and the texts of all notices that 
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from benchmarks.faults import Mast
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
 from rotator.config.load import parse
 from rotator.orders import Aim, Jog
 from rotator.rehearsal.flight import BoxPlant, fly
-from rotator.rehearsal.passes import Pass, read_pass
+from rotator.rehearsal.passes import SHIPPED, Pass, read_pass
 
-PASSES = Path(__file__).parents[1] / "passes"
 NOISY = "[sim.azimuth]\npot_noise_deg = 0.4\n[sim.elevation]\npot_noise_deg = 0.4\n"
 FARTHEST_DEG, NEAR_DEG = 450.0, 70.0
 
@@ -54,7 +51,7 @@ def reported_in_flight(name: str) -> set[str]:
         clock.every(1.0, look)
         return plant
 
-    fly(read_pass(PASSES / f"{name}.csv"), make)
+    fly(read_pass(SHIPPED / f"{name}.csv"), make)
     return seen
 
 

@@ -26,7 +26,7 @@ def test_the_default_pins(shipped: Card) -> None:
     said = shipped.setup("pins", "--yes")
     assert said.code == 0
     assert "WARNING" not in said.text
-    assert "sudo reboot" in said.text
+    assert "takes effect when the Pi starts from this card" in said.text
     assert shipped.boot.read_text() == (
         block("gpio=22,23,24,25=op,dl", "dtparam=strict_gpiod", "dtparam=i2c_arm=on") + before
     )

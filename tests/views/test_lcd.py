@@ -166,7 +166,7 @@ def motor_hot() -> Notice:
 
 NOTICES = [
     motor_hot(),
-    Notice("turning with no relay on: a hand may be on the control box's switch", "TURNS BY SELF"),
+    Notice("turning with no relay on: wind, or a hand at the control box's switch", "TURNS BY SELF"),
     *(Notice(limit.name, limit.short) for limit in LIMITS.values()),
 ]
 

@@ -1,4 +1,4 @@
-"""The box in a terminal: what a person must find in the picture, and plain lines that change only with the box."""
+"""The box in a terminal: what a person must find in the picture, whatever the size and the state."""
 
 from __future__ import annotations
 
@@ -9,27 +9,75 @@ from io import StringIO
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from rich.console import Console, RenderableType
 from rich.text import Text
 
-from hw.ports import Axis, Direction
+from hw.ports import AngleSource, Axis, Direction
+from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.faults import Fault, FaultKind, Missing, Notice
 from rotator.links.wire import Wire
+from rotator.orders import Mode
 from rotator.status import AxisStatus, Status
 from rotator.views import frame, terminal
+from rotator.views.terminal import Surroundings
+from rotator.views.words import RELEASE, RELEASE_FAULT
 
-WIDTH = 100
 GLASS = ("SAT A:235 E:025 ", "SIM A:231 E:024 ")
+AZIMUTH = AxisStatus(
+    0, 450, angle_deg=231.26, raw=0.5125, target_deg=235.0, drive=Direction.PLUS, moving=True, starts=12
+)
+ELEVATION = AxisStatus(0, 180, angle_deg=24.04, raw=0.17, starts=3)
 STATUS = Status(
     at_s=10.0,
-    azimuth=AxisStatus(0, 450, angle_deg=231.26, raw=0.5125, target_deg=235.0, drive=Direction.PLUS, moving=True),
-    elevation=AxisStatus(0, 180, angle_deg=24.04, raw=0.17),
+    azimuth=AZIMUTH,
+    elevation=ELEVATION,
     wanted_azimuth_deg=235,
     wanted_elevation_deg=25,
     simulated=True,
     controlled_by="gs232b#1",
 )
-FAULT = Fault(FaultKind.STANDS_STILL, Axis.ELEVATION, "0.1°/s", "1.0°/s")
+STILL = Fault(FaultKind.STANDS_STILL, Axis.ELEVATION, "its motor runs up, but the angle stays at 24.0° (0.00°/s)")
+OPEN = Fault(FaultKind.POT_OPEN, Axis.AZIMUTH, "reads 0.000", "0.02 to 0.98")
+WELDED = Fault(FaultKind.RELAY_WELDED, Axis.AZIMUTH, "it turns", act_now="CUT MOTOR POWER!", cut=True)
+CHIMNEY = Sector("the chimney", Range(100.0, 130.0), Range(0.0, 40.0), 2.0)
+MOUNT = Mount(Range(0.0, 450.0), Range(0.0, 180.0), horizon=((0.0, 5.0), (180.0, 12.0)), sectors=(CHIMNEY,))
+
+
+def gone(axis: AxisStatus, fault: Fault) -> AxisStatus:
+    """Its pot is out: the last angle is kept, the latest reading is not one."""
+    return replace(axis, seen=False, raw=0.0, target_deg=None, drive=Direction.OFF, moving=False, fault=fault)
+
+
+ASLEEP = replace(
+    STATUS,
+    azimuth=replace(AZIMUTH, target_deg=None, drive=Direction.OFF, moving=False),
+    wanted_azimuth_deg=None,
+    wanted_elevation_deg=None,
+    controlled_by="",
+)
+BOTH_OUT = replace(STATUS, azimuth=gone(AZIMUTH, OPEN), elevation=gone(ELEVATION, replace(OPEN, axis=Axis.ELEVATION)))
+BARE = replace(AZIMUTH, angle_deg=None, target_deg=None, drive=Direction.OFF, missing=tuple(Missing)[:3])
+STATES = {
+    "no order": ASLEEP,
+    "tracking": STATUS,
+    "stopped": replace(ASLEEP, latched="console"),
+    "one fault": replace(STATUS, elevation=replace(ELEVATION, fault=STILL)),
+    "both faulted": BOTH_OUT,
+    "both faulted and stopped": replace(BOTH_OUT, latched="the panel"),
+    "relay welded": replace(STATUS, azimuth=replace(AZIMUTH, fault=WELDED)),
+    "uncalibrated": replace(ASLEEP, azimuth=BARE, elevation=replace(ELEVATION, missing=(Missing.LIMITS,))),
+    "storm park": replace(STATUS, latched="console: storm park", storm=True),
+    "homing": replace(ASLEEP, azimuth=replace(ASLEEP.azimuth, homing=True, source=AngleSource.COUNTED)),
+    "panel": replace(STATUS, mode=Mode.MANUAL, mode_switch=True),
+    "long names": replace(
+        STATUS,
+        controlled_by="a-very-long-name-of-a-link-in-the-file#1234",
+        notices=("orders from rotctld#17 are ignored: another program moves the antenna now " * 3,),
+    ),
+}
+SIZES = [(40, 12), (80, 24), (132, 43), (200, 60), (80, 60), (60, 18), (250, 14)]
 
 
 @pytest.fixture
@@ -40,14 +88,29 @@ def wires() -> list[Wire]:
     ]
 
 
-def text(what: RenderableType) -> str:
-    console = Console(file=StringIO(), record=True, width=WIDTH)
-    console.print(what)
-    return console.export_text()
+BUSY = [
+    Wire("gs232b", "gs232b", "run/gs232", "open as /dev/pts/3", b"C2\r" * 21, b"AZ=231  EL=024\r\n" * 4),
+    Wire("rotctld-in-the-shack", "rotctld", "a-very-long-host-name.of-somebody.example.org:4533", "128 clients"),
+]
+LOG = [f"12:00:{second:02d} W gs232b: refused {'long ' * 20}" for second in range(40)]
 
 
-def show(status: Status = STATUS, wires: Sequence[Wire] = (), log: Sequence[str] = ()) -> str:
-    return text(terminal.picture("0.1.0", status, GLASS, wires, log))
+def on_screen(what: RenderableType, columns: int, rows: int) -> list[str]:
+    """The lines that a terminal of this size shows."""
+    screen = Console(file=StringIO(), width=columns, height=rows, force_terminal=True, legacy_windows=False)
+    lines = screen.render_lines(what, pad=False)
+    return ["".join(segment.text for segment in line) for line in lines]
+
+
+def show(
+    status: Status = STATUS,
+    wires: Sequence[Wire] = (),
+    log: Sequence[str] = (),
+    size: tuple[int, int] = (88, 40),
+    **around: Any,
+) -> str:
+    what = terminal.picture("0.1.0", status, GLASS, wires, log, around=Surroundings(**around))
+    return "\n".join(on_screen(what, *size))
 
 
 def words(picture: str) -> str:
@@ -55,26 +118,97 @@ def words(picture: str) -> str:
     return " ".join(picture.translate(dict.fromkeys(map(ord, "│┃"), " ")).split())
 
 
-def axis_row(picture: str, axis: Axis) -> str:
-    return next(row for row in picture.splitlines() if axis.value in row)
+def row(picture: str, name: str, nth: int = 0) -> str:
+    return [line for line in picture.splitlines() if line.startswith(f"│ {name}")][nth]
 
 
-# --- the picture
+# --- every size, every state
 
 
-def test_the_display_as_it_looks() -> None:
-    upper, lower = (row for row in show().splitlines() if "A:" in row)
-    assert GLASS[0] in upper
-    assert GLASS[1] in lower
+@pytest.mark.parametrize(("columns", "rows"), SIZES)
+@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize("typed", ["", "> resume_  Enter does it"])
+def test_keys_stop_faults_and_angles_are_there(columns: int, rows: int, state: str, typed: str) -> None:
+    status = STATES[state]
+    picture = show(status, BUSY, LOG, (columns, rows), typed=typed, mount=MOUNT, trail=[(200.0, 20.0)])
+    whole_and_clear(picture, status, columns, rows)
+    assert typed in picture
 
 
-def test_both_axes() -> None:
-    azimuth = axis_row(show(), Axis.AZIMUTH)
-    for word in ("231.3°", "235.0°", "0…450°", "0.5125 measured"):
-        assert word in azimuth
-    elevation = axis_row(show(), Axis.ELEVATION)
-    for word in ("24.0°", "---", "0…180°", "0.1700 measured"):
-        assert word in elevation
+def whole_and_clear(picture: str, status: Status, columns: int, rows: int) -> None:
+    seen = picture.splitlines()
+    assert len(seen) <= rows
+    assert {len(line) for line in seen} == {columns}
+    assert [line[0] + line[-1] for line in seen] == ["╭╮", *["││"] * (len(seen) - 2), "╰╯"]
+    assert "space STOP   q quit" in picture
+    assert re.search(r"park.*resume", picture), "the words that move or release it"
+    for fault in status.faults:
+        assert f"{fault.axis.value}: {fault.name}"[:24] in picture
+        assert fault.act_now in picture
+    if status.latched:
+        assert "STOPPED by" in picture or "STORM PARK by" in picture or "CUT MOTOR" in picture
+        assert RELEASE in picture
+    elif status.faults and not all(fault.passing for fault in status.faults):
+        assert RELEASE_FAULT in picture
+    for axis in Axis:
+        each = status.axis(axis)
+        angle = "---" if each.shown_deg is None else f"{round(each.shown_deg, 1) + 0.0:.1f}°"
+        assert re.search(rf"(az|el|azimuth|elevation)\s+{re.escape(angle)}", picture), axis
+        assert each.seen or each.drive or ("no signal" if each.shown_deg is None else "last seen") in picture
+
+
+ANGLES = st.none() | st.floats(-20.0, 470.0)
+TEXTS = st.text(st.characters(codec="ascii", exclude_categories=["C"]), min_size=1, max_size=60)
+
+
+@st.composite
+def axes(draw: st.DrawFn, axis: Axis) -> AxisStatus:
+    kind = draw(st.none() | st.sampled_from(FaultKind))
+    return AxisStatus(
+        draw(st.sampled_from([-180.0, 0.0, 10.0])),
+        draw(st.sampled_from([90.0, 180.0, 360.0, 450.0, 540.0])),
+        angle_deg=draw(ANGLES),
+        target_deg=draw(ANGLES),
+        drive=draw(st.sampled_from(Direction)),
+        seen=draw(st.booleans()),
+        missing=draw(st.sampled_from([(), (Missing.HOMING,), tuple(Missing)])),
+        fault=Fault(kind, axis, draw(TEXTS), passing=draw(st.booleans())) if kind else None,
+        notices=tuple(map(Notice, draw(st.lists(TEXTS, max_size=3)))),
+        noise_deg=0.0,
+        starts=draw(st.none() | st.integers(0, 999)),
+    )
+
+
+@given(
+    st.integers(40, 250),
+    st.integers(12, 80),
+    axes(Axis.AZIMUTH),
+    axes(Axis.ELEVATION),
+    st.sampled_from(["", "console", "rotctld#12"]),
+    st.booleans(),
+)
+@settings(max_examples=60, deadline=None)
+def test_any_status_at_any_size(  # noqa: PLR0917 - hypothesis fills them in
+    columns: int, rows: int, azimuth: AxisStatus, elevation: AxisStatus, latched: str, masked: bool
+) -> None:
+    status = replace(STATUS, azimuth=azimuth, elevation=elevation, latched=latched)
+    picture = show(status, BUSY, LOG, (columns, rows), mount=MOUNT if masked else None)
+    whole_and_clear(picture, status, columns, rows)
+
+
+# --- one glance
+
+
+def test_where_it_is_where_it_should_be_and_by_how_much_it_is_off() -> None:
+    picture = show()
+    assert re.match(r"│ azimuth +231\.3° ▕█+", row(picture, "azimuth"))
+    assert re.match(r"│ target +235\.0° ▕█+", row(picture, "target"))
+    assert re.match(r"│ off by +\+3\.7° ", row(picture, "off by"))
+    assert "3.4° off target on the sky" in picture
+    assert re.match(r"│ target +--- ▕ ", row(picture, "target", 1))
+    narrow = show(size=(40, 12))
+    assert "az 231.3° → 235.0° off +3.7° CW" in narrow
+    assert "el 24.0° " in narrow
 
 
 @pytest.mark.parametrize(
@@ -87,25 +221,69 @@ def test_both_axes() -> None:
     ],
 )
 def test_the_relay_that_is_on_is_lit(axis: Axis, drive: Direction, lit: str) -> None:
-    still = replace(STATUS, azimuth=replace(STATUS.azimuth, drive=Direction.OFF))
-    assert "●" not in show(still)
-    changed: Any = {axis.value: replace(still.axis(axis), drive=drive)}
-    picture = show(replace(still, **changed))
+    assert "●" not in show(ASLEEP)
+    changed: Any = {axis.value: replace(ASLEEP.axis(axis), drive=drive)}
+    picture = show(replace(ASLEEP, **changed))
     assert picture.count("●") == 1
     assert lit + " " in picture
     assert picture.count("○") == 3
 
 
-def test_the_bar_shows_the_antenna_and_its_target_on_the_range() -> None:
-    there = replace(STATUS.azimuth, angle_deg=0.0, target_deg=450.0)
-    bar = axis_row(show(replace(STATUS, azimuth=there)), Axis.AZIMUTH)
-    assert re.search("█─{8,}│", bar)
+@pytest.mark.parametrize(
+    ("state", "said"),
+    [
+        ("no order", "AT REST no orders"),
+        ("tracking", "TURNING SAT A:235 E:025 orders from gs232b#1 (run/gs232)"),
+        ("stopped", "STOPPED by console"),
+        ("one fault", "FAULT elevation"),
+        ("both faulted and stopped", "STOPPED by the panel"),
+        ("relay welded", "CUT MOTOR POWER!"),
+        ("uncalibrated", "UNCALIBRATED azimuth and elevation"),
+        ("storm park", "STORM PARK by console"),
+        ("homing", "HOMING azimuth: turns to its end stop"),
+        ("panel", "The panel's switch is at MANUAL"),
+    ],
+)
+def test_what_it_does_and_who_says_so(state: str, said: str, wires: list[Wire]) -> None:
+    picture = words(show(STATES[state], wires))
+    if state == "no order":
+        said = "AT REST SAT A:235 E:025 no orders"
+    assert said in re.sub(r"[┏┓━]+ ?", "", picture)
 
 
-@pytest.mark.parametrize(("angle_deg", "shown"), [(-3.0, "█─{8,}"), (453.0, "─{8,}█")])
-def test_beyond_an_end_the_antenna_stands_at_the_end(angle_deg: float, shown: str) -> None:
-    azimuth = replace(STATUS.azimuth, angle_deg=angle_deg, target_deg=None)
-    assert re.search(rf"---\s+{shown}\s", axis_row(show(replace(STATUS, azimuth=azimuth)), Axis.AZIMUTH))
+def test_a_list_says_at_which_point_it_is() -> None:
+    assert "orders from gs232b#1, point 3 of 12" in show(replace(STATUS, timed_point=3, timed_points=12))
+
+
+def test_on_target() -> None:
+    there = replace(STATUS, azimuth=replace(AZIMUTH, angle_deg=234.6, drive=Direction.OFF, moving=False))
+    assert "ON TARGET" in show(there)
+
+
+def test_motor_starts_in_this_pass_where_relays_start_them() -> None:
+    assert "motor starts in this pass: azimuth 12, elevation 3" in show()
+    moteus = {axis.value: replace(STATUS.axis(axis), starts=None) for axis in Axis}
+    assert "motor starts" not in show(replace(STATUS, **moteus))  # type: ignore[arg-type]
+
+
+def test_without_a_reading_the_angle_is_the_last_one_seen() -> None:
+    picture = show(BOTH_OUT)
+    assert picture.count("last seen") == 2
+    assert "0.0000" not in picture
+
+
+def test_the_angle_s_source() -> None:
+    counted = replace(STATUS, azimuth=replace(AZIMUTH, source=AngleSource.COUNTED))
+    assert "counted" in row(show(counted), "off by")
+
+
+# --- what else it shows
+
+
+def test_the_display_as_it_looks() -> None:
+    upper, lower = (line for line in show().splitlines() if "A:" in line)
+    assert GLASS[0] in upper
+    assert GLASS[1] in lower
 
 
 def test_links_with_the_last_bytes_each_way(wires: list[Wire]) -> None:
@@ -134,81 +312,63 @@ def test_bytes_that_are_no_text_are_escaped(wires: list[Wire]) -> None:
     assert "\x1b" not in picture
 
 
-def test_who_gives_the_orders() -> None:
-    assert "under gs232b#1" in show()
-    assert "under nobody's orders" in show(replace(STATUS, controlled_by=""))
-    assert "point 3 of 12" in show(replace(STATUS, timed_point=3, timed_points=12))
-
-
 def test_simulated_is_said_in_the_title() -> None:
     assert "SIMULATED" in show().splitlines()[0]
     assert "SIMULATED" not in show(replace(STATUS, simulated=False))
 
 
-def test_a_fault_says_everything() -> None:
-    picture = words(show(replace(STATUS, elevation=replace(STATUS.elevation, fault=FAULT))))
-    assert str(FAULT) in picture
+def test_a_fault_says_everything_and_what_to_do() -> None:
+    picture = words(show(STATES["one fault"]))
+    assert str(STILL) in picture
+    assert "Check the motor's fuse and supply" in picture
+    passing = replace(STATUS, elevation=replace(ELEVATION, fault=replace(STILL, passing=True)))
+    assert "This ends by itself when the cause is gone." in show(passing)
 
 
-def test_a_latched_stop_says_who_and_how_on() -> None:
-    assert "held by console: nothing moves until resume" in show(replace(STATUS, latched="console"))
+def test_uncalibrated_says_what_is_missing_and_what_the_sensor_reads() -> None:
+    picture = words(show(STATES["uncalibrated"]))
+    assert "azimuth UNCALIBRATED: it needs calibration, limits, direction check (its sensor reads 0.5125)" in picture
 
 
-@pytest.mark.parametrize(
-    "missing",
-    [
-        (Missing.CALIBRATION,),
-        (Missing.LIMITS,),
-        (Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK),
-    ],
-)
-def test_uncalibrated_says_so_and_what_is_missing_first(missing: tuple[Missing, ...]) -> None:
-    picture = words(show(replace(STATUS, azimuth=replace(STATUS.azimuth, missing=missing))))
-    assert f"UNCALIBRATED: {missing[0].text}" in picture
+def test_orders_without_effect_are_shown_with_the_reason() -> None:
+    ignored = "orders from rotctld#1 are ignored: gs232b#1 has stopped the antenna; orders count again after a pause"
+    assert ignored in words(show(replace(STATUS, notices=(ignored,))))
 
 
 def test_log_and_keys() -> None:
     picture = show(log=["12:00:00 W gs232b: refused"])
     assert "12:00:00 W gs232b: refused" in picture
-    for key in ("space STOP", "q quit", "park, resume: type the word and Enter"):
+    for key in ("space STOP", "q quit", "park + Enter: storm park", "resume + Enter: go on"):
         assert key in picture
 
 
-def test_it_fits_its_width(wires: list[Wire]) -> None:
-    wires[1].where = "a-very-long-host-name.of-somebody.example.org:4533"
-    rows = show(wires=wires, log=["long " * 50]).splitlines()
-    assert {len(row.rstrip()) for row in rows if row.strip()} == {frame.WIDTH}
+# --- what a larger terminal gains, and what a simple one can show
 
 
-@pytest.mark.parametrize(("columns", "rows"), [(80, 24), (100, 30), (60, 20), (40, 12), (80, 10)])
-@pytest.mark.parametrize("trouble", [False, True])
-def test_on_a_small_terminal_its_frame_is_whole_and_what_matters_stays(
-    wires: list[Wire], columns: int, rows: int, trouble: bool
-) -> None:
-    for wire in wires:
-        wire.last_in, wire.last_out = b"C2\r" * 21, b"AZ=231  EL=024\r\n" * 4
-    now = STATUS
-    if trouble:
-        hot = (Notice("motor hot: 30 min"),)
-        elevation = replace(STATUS.elevation, fault=FAULT, missing=(Missing.LIMITS,), notices=hot)
-        now = replace(STATUS, latched="panel", elevation=elevation)
-    screen = Console(file=StringIO(), width=columns, height=rows, force_terminal=True, legacy_windows=False)
-    log = [f"12:00:0{second} W gs232b: refused {'long ' * 20}" for second in range(6)]
-    lines = screen.render_lines(terminal.picture("0.1.0", now, GLASS, wires, log), pad=False)
-    seen = ["".join(segment.text for segment in line) for line in lines]
-    assert len(seen) <= rows
-    assert {len(line) for line in seen} == {min(columns, frame.WIDTH)}
-    assert [line[0] + line[-1] for line in seen] == ["╭╮", *["││"] * (len(seen) - 2), "╰╯"]
-    whole = words("\n".join(seen))
-    assert "space STOP q quit park, resume: type the word and Enter" in whole
-    for word in ("held by panel", "elevation: motor runs and pot stands", "azimuth 231.3°", *GLASS):
-        assert word in whole or (not trouble and word.startswith(("held", "elevation:")))
-    if columns >= 60 and rows >= 20:
-        for axis in Axis:
-            assert re.search(rf"{axis.value} .*°.*0…\d+°.*\d\.\d{{4}} measured", "\n".join(seen))
-        for word in ("gs232b ", "run/gs232 ", "127.0.0.1:4533 ", *GLASS):
-            assert word in "\n".join(seen)
-        assert trouble or any("12:00:05" in line for line in seen), "the newest log line"
+def test_a_wide_terminal_gains_longer_bars_and_the_sky() -> None:
+    assert "◆" not in show(size=(80, 24))
+    wide, wider = show(size=(132, 43)), show(size=(200, 60))
+    for picture in (wide, wider):
+        assert "◆ antenna" in picture
+        assert len(re.findall("[◆◈]", picture)) == 2, "the antenna in the sky, and in the legend"
+    assert row(wider, "azimuth").count("█") > row(wide, "azimuth").count("█")
+
+
+def test_a_high_terminal_gains_the_sky_below_and_more_of_the_log() -> None:
+    picture = show(log=LOG[:2], size=(80, 60))
+    assert "◆ antenna" in picture
+    assert show(log=LOG, size=(80, 60)).count("refused") > show(log=LOG, size=(80, 40)).count("refused")
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_plain_characters_have_the_same_places(size: tuple[int, int]) -> None:
+    around: dict[str, Any] = {"mount": MOUNT, "trail": [(0.0, 0.0), (10.0, 30.0)]}
+    fine, plain = (show(STATUS, BUSY, size=size, ascii_only=only, **around) for only in (False, True))
+    assert not set(plain) - {chr(code) for code in range(128)} - set("°\n")
+    letters = re.compile(r"[A-Z0-9a-np-z°]")
+    assert [letters.findall(line) for line in plain.splitlines()[1:5]] == [
+        letters.findall(line) for line in fine.splitlines()[1:5]
+    ]
 
 
 def test_a_table_takes_what_room_there_is() -> None:
@@ -230,49 +390,6 @@ def test_a_table_takes_what_room_there_is() -> None:
 
 
 def test_the_arduino(wires: list[Wire]) -> None:
-    picture = text(terminal.sketch_picture(GLASS, (-1, 1), wires[:1]))
+    picture = "\n".join(on_screen(terminal.sketch_picture(GLASS, (-1, 1), wires[:1]), 80, 24))
     for word in (*GLASS, "● CCW", "● UP", "○ CW", "○ DOWN", "F1EFW sketch", "SIMULATED", "q quit"):
         assert word in picture
-
-
-# --- plain lines
-
-
-def test_greeting(wires: list[Wire]) -> None:
-    assert terminal.greeting("0.1.0", "sim", wires) == [
-        "rotator 0.1.0: a SIMULATED rotor",
-        "  gs232b      run/gs232  (open as /dev/pts/3)",
-        "  rotctld     127.0.0.1:4533  (2 clients)",
-    ]
-    assert terminal.greeting("0.1.0", "pi", []) == ["rotator 0.1.0: the rotor on this Pi"]
-
-
-def test_line() -> None:
-    assert terminal.line(STATUS) == "azimuth 231° to 235.0° CW  elevation 24°"
-
-
-def test_the_line_stays_while_only_noise_changes() -> None:
-    moments = [
-        replace(STATUS, at_s=at_s, azimuth=replace(STATUS.azimuth, angle_deg=231.26 + noise, raw=0.5 + noise))
-        for at_s, noise in [(1.0, 0.0), (2.0, 0.1), (3.0, -0.1)]
-    ]
-    assert len({terminal.line(moment) for moment in moments}) == 1
-
-
-def test_a_pot_that_reads_just_below_zero_is_at_zero() -> None:
-    assert "azimuth 0°" in terminal.line(replace(STATUS, azimuth=replace(STATUS.azimuth, angle_deg=-0.04)))
-
-
-def test_trouble_in_a_line() -> None:
-    now = replace(STATUS, latched="console", elevation=AxisStatus(0, 180, fault=FAULT, missing=(Missing.LIMITS,)))
-    line = terminal.line(now)
-    assert "elevation --- UNCALIBRATED (limits; reads None)" in line
-    assert "STOPPED by console" in line
-    assert line.endswith(f"FAULT {FAULT}")
-
-
-def test_orders_without_effect_are_shown_with_the_reason() -> None:
-    ignored = "orders from rotctld#1 are ignored: gs232b#1 has stopped the antenna; they count again after 10 s"
-    now = replace(STATUS, notices=(ignored,))
-    assert ignored in words(show(now))
-    assert ignored not in terminal.line(now), "the plain lines stand among those of the log, which has it"

@@ -117,7 +117,6 @@ class ContactWatch:
         if changed:
             self._changed_s, self._blind_s = at_s, 0.0
         if self._driven is not Direction.OFF:
-            self._supplied_s = self._since_s
             if changed:
                 self._moments_s.append(at_s)
         elif not condition.supplied:

@@ -5,6 +5,7 @@ Knows the motion as observed. Decides nothing: it returns a fault, and the axis 
 
 from __future__ import annotations
 
+from hw.ports import Direction
 from rotator.control.axis.observed_motion import ObservedMotion, Window
 from rotator.control.axis.run_watch import endless
 from rotator.faults import Fault, FaultKind
@@ -33,8 +34,9 @@ class DrivenWatch:
         limit_dps = WRONG_WAY_SHARE * seen.reference_dps
         if slope is None or slope.speed_dps * direction > -max(limit_dps, 3.0 * slope.rough_dps):
             return None
-        measured = f"driven {seen.name(direction)}, it reads {slope.speed_dps:+.1f}°/s"
-        return Fault(FaultKind.WRONG_WAY, seen.axis, measured, f"{limit_dps:.2g}°/s backwards")
+        ways = seen.name(direction), seen.name(Direction(-direction))
+        measured = f"its motor runs {ways[0]}, the angle goes {ways[1]} at {abs(slope.speed_dps):.1f}°/s"
+        return Fault(FaultKind.WRONG_WAY, seen.axis, measured, f"{limit_dps:.2g}°/s")
 
     def _standing(self, at_s: float, angle_deg: float) -> Fault | None:
         seen, direction = self._seen, self._seen.relays.direction
@@ -53,10 +55,10 @@ class DrivenWatch:
         way = seen.name(direction)
         end_deg = seen.limits.max_deg if direction > 0 else seen.limits.min_deg
         if (end_deg - angle_deg) * direction <= NEAR_END_DEG:
-            measured = f"stands at {angle_deg:.1f}°, driven {way}"
-            return Fault(FaultKind.END_STOP, seen.axis, measured, f"{end_deg:g}° without touching the stop")
-        measured = f"driven {way}, it reads {slope.speed_dps + 0.0:.2f}°/s at {angle_deg:.1f}°"
-        return Fault(FaultKind.STANDS_STILL, seen.axis, measured, f"{limit_dps:.2g}°/s within 2 s")
+            measured = f"its motor runs {way}, but it stands at {angle_deg:.1f}°"
+            return Fault(FaultKind.END_STOP, seen.axis, measured, f"{end_deg:g}°, which must lie before the stop")
+        measured = f"its motor runs {way}, but the angle stays at {angle_deg:.1f}° ({slope.speed_dps + 0.0:.2f}°/s)"
+        return Fault(FaultKind.STANDS_STILL, seen.axis, measured, f"at least {limit_dps:.2g}°/s after 2 s")
 
     def _endless(self, at_s: float) -> Fault | None:
         seen, relays = self._seen, self._seen.relays

@@ -42,4 +42,4 @@ class Endurance:
         """Why the motor does not move; None while it may run."""
         if not self.resting:
             return None
-        return Notice(f"motor hot: it has run for {self._longest_run_s:g} s and rests", "MOTOR HOT")
+        return Notice(f"motor hot: it has run for {self._longest_run_s:g} s and has to rest", "MOTOR HOT")

@@ -43,7 +43,7 @@ class HomeGoal:
 
 
 def limit_reached(axis: Axis, direction: Direction) -> Fault:
-    measured = f"its switch is open, and it was to turn {WAYS[axis, direction]}"
+    measured = f"its switch has opened on the way {WAYS[axis, direction]}"
     return Fault(FaultKind.LIMIT_SWITCH, axis, measured)
 
 

@@ -106,7 +106,7 @@ class Homing:
         if self.homed or self.failure:
             return Direction.OFF
         if now_s - self._since_s > self._longest_s:
-            return self._fail("it was driven for longer than its whole travel takes, and pulses still come")
+            return self._fail("its motor ran for longer than the whole travel takes, and pulses still come")
         still_s = now_s - self._still_s
         quiet = driven is _MOTOR[self._phase] and still_s > self._quiet_after_s
         stands = driven is Direction.OFF and still_s >= self._settings.coast_s + READ_S
@@ -140,7 +140,9 @@ class Homing:
         if self._up is not None and abs(back - self._up) <= ALIKE:
             self.homed = True
         elif self._up is not None and self._tries >= TRIES:
-            self._fail(f"{self._up} edges came on the way up and {back} on the way back, in the last of {TRIES} tries")
+            self._fail(
+                f"its contact changed {self._up} times on the way up, {back} times on the way back, also in try {TRIES}"
+            )
         else:
             self._tries += 1
             self._base = changes

@@ -44,7 +44,7 @@ class MetStops:
     def notices(self) -> tuple[Notice, ...]:
         return tuple(
             Notice(
-                f"stood at {angle_deg:.0f}°, driven {WAYS[self._axis, direction]}: "
+                f"it stopped at {angle_deg:.0f}° while its motor ran {WAYS[self._axis, direction]}: "
                 "it goes there again only after `resume`",
                 "STOP MET",
             )

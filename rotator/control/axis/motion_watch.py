@@ -24,7 +24,7 @@ LATE_S = 0.5
 
 
 def late(axis: Axis, gap_s: float, period_s: float) -> Fault:
-    measured = f"{gap_s:.1f} s from one cycle to the next"
+    measured = f"the box did nothing for {gap_s:.1f} s while a motor ran"
     return Fault(FaultKind.CONTROL_LATE, axis, measured, f"{period_s + LATE_S:g} s")
 
 

@@ -17,19 +17,11 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import dataclass
 
 from hw.ports import Direction
 from rotator.control.axis.observed_motion import RELAY_S, ObservedMotion
-from rotator.control.axis.seen_run import (
-    END_WINDOWS_S,
-    FED_SHARE,
-    SLOWED_SHARE,
-    STEADY_S,
-    UNSEEN_S,
-    EndedRun,
-    SeenRun,
-)
+from rotator.control.axis.seen_run import END_WINDOWS_S, FED_SHARE, SLOWED_SHARE, STEADY_S, UNSEEN_S, EndedRun, SeenRun
+from rotator.control.axis.standing import HeldPlaces, Rest
 from rotator.control.axis.trend import Slope
 from rotator.status import Trust, Trusts
 
@@ -48,23 +40,8 @@ MOVED_DEG = 0.5
 """An axis this far, and four times the noise, from where it stood has been moved."""
 COASTS_NOISES, COASTS_S = 5.0, 1.5
 """Two places that differ by so many times the noise are not the same: each is the mean of three readings."""
-SURE_ERRORS = 4.0
-"""Two means of more readings are not the same place if they differ by so many standard errors."""
 SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
 """An axis is looked at for so long before it is taken to stand: longer where the readings scatter more."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Rest:
-    """Where the axis stood: the mean of so many readings."""
-
-    mean_deg: float
-    count: int
-
-    def differs(self, other: _Rest, noise_deg: float) -> bool:
-        """Whether these two are not the same place, for certain."""
-        error_deg = noise_deg * math.sqrt(1.0 / self.count + 1.0 / other.count)
-        return abs(self.mean_deg - other.mean_deg) > SURE_ERRORS * error_deg
 
 
 class OpeningWatch:
@@ -97,7 +74,7 @@ class OpeningWatch:
         """Since when it stands."""
         self._seen_s = -math.inf
         """When the latest reading was taken."""
-        self._from: _Rest | None = None
+        self._from: Rest | None = None
         """Where it stood when it had last been seen to turn."""
         self._from_here = False
         """It stands there still."""
@@ -105,8 +82,7 @@ class OpeningWatch:
         """For how long relays were closed since the axis was last seen to turn."""
         self._lagged_deg: float | None = None
         """Where the axis was when it had fallen behind a motor with current."""
-        self._held_deg: dict[Direction, float] = {}
-        """Where the axis stood while it was driven that way."""
+        self._held = HeldPlaces()
 
     @property
     def trusts(self) -> Trusts:
@@ -147,7 +123,7 @@ class OpeningWatch:
         """A person has looked at both relays: they are open."""
         self._trust = {PLUS: Trust.OPEN, MINUS: Trust.OPEN}
         self._run.ended, self._blind_s, self.ran_on = None, 0.0, False
-        self._held_deg.clear()
+        self._held.forget_all()
 
     def driven(self, now_s: float, direction: Direction, was: Direction, since_s: float) -> None:
         """The relays change to `direction`; they were at `was` since `since_s`."""
@@ -189,12 +165,10 @@ class OpeningWatch:
         run.see(at_s)
         if run.line is not None:
             self._blind_s, self._from = 0.0, None
-            for way, held_deg in list(self._held_deg.items()):
-                if (self._place_deg - held_deg) * way > 2.0 * BEYOND_DEG:
-                    del self._held_deg[way]
+            self._held.turned_to(self._place_deg)
         elif at_s - max(relays.since_s, run.turned_s) > max(BLIND_S, 1.5 * run.unseen_s):
-            self._held_deg[relays.direction] = self._place_deg
-            self._from = self._from or _Rest(self._place_deg, len(self._latest))
+            self._held.note(relays.direction, self._place_deg)
+            self._from = self._from or Rest(self._place_deg, len(self._latest))
 
     def _end(self, now_s: float, direction: Direction, lasted_s: float) -> None:
         if self._run.line is None:
@@ -260,7 +234,7 @@ class OpeningWatch:
             self._rested_s = at_s
             while len(self._resting) > 3:
                 self._resting.popleft()  # it was coasting
-        rest = _Rest(sum(self._resting) / len(self._resting), len(self._resting))
+        rest = Rest(sum(self._resting) / len(self._resting), len(self._resting))
         self._rest_deg = rest.mean_deg
         if self._from is None or self._from_here:
             self._from, self._from_here = rest, True
@@ -268,9 +242,7 @@ class OpeningWatch:
             if self._moved_from(self._from.mean_deg):
                 self._run.turned_s = -math.inf
                 # It has left what held it, or its readings had stood still.
-                for way, held_deg in list(self._held_deg.items()):
-                    if self._moved_from(held_deg):
-                        del self._held_deg[way]
+                self._held.left(self._place_deg, self._moved_deg)
             self._from, self._from_here, self._blind_s = rest, True, 0.0
         for way in (PLUS, MINUS):
             if self._trust[way] is Trust.OPEN:
@@ -298,8 +270,12 @@ class OpeningWatch:
         """So long an axis stands before a doubt is raised: more readings may still show that it has moved."""
         return DOUBTS_AFTER_S + 2.0 * (self._run.unseen_s - UNSEEN_S)
 
+    @property
+    def _moved_deg(self) -> float:
+        return MOVED_DEG + 4.0 * self._seen.trend.noise_deg
+
     def _moved_from(self, rest_deg: float) -> bool:
-        return abs(self._place_deg - rest_deg) > MOVED_DEG + 4.0 * self._seen.trend.noise_deg
+        return abs(self._place_deg - rest_deg) > self._moved_deg
 
     def _note_moved(self, rest_deg: float) -> None:
         """Something turns it, and no relay was closed: the one that would is not taken for open any more."""
@@ -311,13 +287,11 @@ class OpeningWatch:
         if self._trust[against] is Trust.DOUBTED:
             # It has been turned away from what may have held it.
             self._trust[against], self._blind_s, self._run.ended = Trust.UNSEEN, 0.0, None
-            self._held_deg.pop(against, None)
+            self._held.forget(against)
 
     def _free(self, way: Direction, place_deg: float) -> bool:
         """Whether a motor with current could turn on that way from there."""
-        held_deg = self._held_deg.get(way)
-        if held_deg is not None and (held_deg - place_deg) * way < 2.0 * BEYOND_DEG:
-            return False
         limits = self._seen.limits
         limit_deg = limits.max_deg if way > 0 else limits.min_deg
-        return not self._placed or (place_deg - limit_deg) * way <= BEYOND_DEG
+        placed = not self._placed or (place_deg - limit_deg) * way <= BEYOND_DEG
+        return placed and not self._held.hold(way, place_deg)

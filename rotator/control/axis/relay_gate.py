@@ -25,7 +25,7 @@ from rotator.status import Trust, Trusts
 SETTLED_AFTER_S = 1.0
 """A motor counts as moving until it has been off this long."""
 WAITS_TOLD_AFTER_S = 4.0
-WAITS = Notice("waits until it is seen to stand: only then may its relay close")
+WAITS = Notice("waits until it stands still before its relay closes")
 
 
 class RelayGate:
@@ -106,7 +106,11 @@ class RelayGate:
         if trust is Trust.OPEN or runs.direction is not Direction.OFF or runs.off_s(now_s) < SETTLED_AFTER_S:
             return fault
         way = WAYS[self._settings.axis, runs.last]
-        return replace(fault, measured=f"{fault.measured}, {way} not seen to stop; the master is opened", cut=True)
+        return replace(
+            fault,
+            measured=f"{fault.measured}, and it may still run {way}; the box has switched the motors' supply off",
+            cut=True,
+        )
 
     def notices(self, now_s: float) -> tuple[Notice, ...]:
         waits = (WAITS,) if now_s - self._waits_s >= WAITS_TOLD_AFTER_S else ()

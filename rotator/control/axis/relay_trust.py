@@ -21,8 +21,8 @@ WAYS = {
 def unstoppable(kind: FaultKind, axis: Axis, measured: str, limit: str, *, master: bool) -> Fault:
     """A fault that no relay of this axis ends: only the supply does. `master`: an output switches the supply."""
     if master:
-        return Fault(kind, axis, f"{measured}; the master is opened", limit, cut=True)
-    measured += "; no master is wired, so switch the motors' supply off by hand NOW"
+        return Fault(kind, axis, f"{measured}; the box has switched the motors' supply off", limit, cut=True)
+    measured += "; switch the motors' supply off by hand NOW, the box has no relay for that"
     return Fault(kind, axis, measured, limit, cut=True, act_now=CUT_BY_HAND)
 
 
@@ -32,14 +32,13 @@ def accusation(axis: Axis, direction: Direction, trust: Trust, place: str, *, ma
     `place`: where the axis stood when the doubt arose, for a person; empty: not known any more.
     """
     way = WAYS[axis, direction]
-    cure = f"one run {way} that ends by itself"
     match trust:
         case Trust.WELDED:
-            return unstoppable(FaultKind.RELAY_WELDED, axis, f"{way} found closed", cure, master=master)
+            return unstoppable(FaultKind.RELAY_WELDED, axis, f"the relay {way} was found closed", "", master=master)
         case Trust.DOUBTED:
-            measured = f"{way}{place}: standing there does not show it"
+            measured = f"the relay {way} is off, and it{place or ' stands'}, where a motor with current would stand too"
             # The motor may have current and be held by its stop: with a master it is spared that.
-            return Fault(FaultKind.RELAY_UNSEEN, axis, measured, cure, cut=master)
+            return Fault(FaultKind.RELAY_UNSEEN, axis, measured, cut=master)
         case _:
             return None
 
@@ -48,8 +47,8 @@ def doubts(axis: Axis, trusts: Trusts) -> tuple[Notice, ...]:
     """What a person who drives the axis to its stops on purpose should know: the relays in doubt forbid nothing."""
     return tuple(
         Notice(
-            f"the relay {WAYS[axis, way]} is not seen to open, as at a stop: if it does not turn "
-            f"{WAYS[axis, Direction(-way)]} now, let go, and look at that relay"
+            f"the box could not see the relay {WAYS[axis, way]} open, because the axis stood still: if it does not "
+            f"turn {WAYS[axis, Direction(-way)]} now, release the key and look at that relay"
         )
         for way, trust in zip((Direction.PLUS, Direction.MINUS), trusts, strict=True)
         if trust is Trust.DOUBTED

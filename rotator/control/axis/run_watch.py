@@ -28,7 +28,7 @@ def endless(axis: Axis, direction: Direction, run_s: float, limits: Range, speed
     longest_s = TRAVEL_SHARE * (limits.max_deg - limits.min_deg) / speed_dps + TRAVEL_MORE_S
     if run_s <= longest_s:
         return None
-    measured = f"{run_s:.0f} s {WAYS[axis, direction]} in one go"
+    measured = f"its motor ran {WAYS[axis, direction]} for {run_s:.0f} s without a pause"
     return Fault(FaultKind.RUN_TOO_LONG, axis, measured, f"{longest_s:.0f} s")
 
 

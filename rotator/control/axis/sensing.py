@@ -196,8 +196,8 @@ class Sensing:
         angle_deg = self._degrees(reading.raw)
         places = self._sparks.believe(reading.at_s, angle_deg, noise_deg)
         if not places:
-            measured = f"{angle_deg:.0f}°, a moment after {self._degrees(self.raw or 0.0):.0f}°"
-            self._off_line = Fault(FaultKind.POT_JUMPS, self._axis, measured, f"{JUMP_DEG:g}° beyond what it can turn")
+            measured = f"from {self._degrees(self.raw or 0.0):.0f}° to {angle_deg:.0f}° in a moment"
+            self._off_line = Fault(FaultKind.POT_JUMPS, self._axis, measured, JUMP_LIMIT)
             self._loose = self._loose or self._off_line
             return self._off_line
         self._off_line = None
@@ -214,7 +214,7 @@ class Sensing:
         if len(self._moved_s) == MOVES and now_s - self._moved_s[0] < MOVES_WITHIN_S:
             self._moved_s.clear()
             measured = f"to another place, {MOVES} times in {MOVES_WITHIN_S:g} s"
-            return Fault(FaultKind.POT_JUMPS, self._axis, measured, f"{JUMP_DEG:g}° beyond what it can turn")
+            return Fault(FaultKind.POT_JUMPS, self._axis, measured, JUMP_LIMIT)
         count = self._rate.count
         if not self._rate.too_many(now_s):
             return None
@@ -244,3 +244,6 @@ class Sensing:
         measured = f"by {max(map(abs, sizes_deg)):.0f}°, {JUMPS} times in {JUMPS_WITHIN_S:g} s"
         self._jumped = Fault(FaultKind.POT_JUMPS, self._axis, measured, f"{JUMP_DEG:g}° from one reading to the next")
         return self._jumped
+
+
+JUMP_LIMIT = f"{JUMP_DEG:g}° more than its motor can turn"

@@ -115,14 +115,15 @@ class ShortRuns:
     def _judge(self, smoothed_deg: float) -> Fault | None:
         name, moved_deg = WAYS[self._axis, self._way], self._moved_deg
         if self._backwards >= STOOD_RUNS:
-            measured = f"driven {name} {self._backwards} times, it went back each time"
-            return Fault(FaultKind.WRONG_WAY, self._axis, measured, f"{moved_deg:.1f}° backwards")
+            measured = f"its motor ran {name} {self._backwards} times, and the angle went back each time"
+            return Fault(FaultKind.WRONG_WAY, self._axis, measured, f"{moved_deg:.1f}°")
         # A slow motor among noisy readings needs longer to show that it moves.
         enough_s = max(STOOD_S if self._known else UNKNOWN_STOOD_S, moved_deg / (TOLD_SHARE * self._speed_dps))
         if self._stood_s < enough_s and self._runs < STOOD_RUNS:
             return None
-        measured = f"driven {name} and stands at {smoothed_deg:.1f}°, after short runs of {self._stood_s:.1f} s in all"
-        return Fault(FaultKind.STANDS_STILL, self._axis, measured, f"{moved_deg:.1f}° in {enough_s:g} s")
+        runs = f"short runs {name}, {self._stood_s:.1f} s in all"
+        measured = f"its motor made {runs}, but the angle stays at {smoothed_deg:.1f}°"
+        return Fault(FaultKind.STANDS_STILL, self._axis, measured, f"at least {moved_deg:.1f}° in {enough_s:g} s")
 
     def _count(self) -> None:
         """The last run is over: has it moved the axis?"""

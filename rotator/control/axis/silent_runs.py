@@ -60,5 +60,6 @@ class SilentRuns:
         if silent_s <= SILENT_PERIODS * period_s:
             return None
         self._silent_s, self._turns_s = 0.0, at_s
-        measured = f"driven {WAYS[self._axis, self._direction]} for {silent_s:.1f} s in all, its contact did not change"
+        way = WAYS[self._axis, self._direction]
+        measured = f"its motor ran {way} for {silent_s:.1f} s in all, and the contact did not change"
         return Fault(FaultKind.NO_PULSES, self._axis, measured)

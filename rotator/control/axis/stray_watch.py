@@ -84,5 +84,5 @@ class StrayWatch:
         comes = self._nearer_deg - min(nearer_deg for _, nearer_deg in self._kept) >= coming_deg
         if near or comes or self._kept[0][0] > since_s:
             return None
-        measured = f"stands at {angle_deg:.1f}°, {abs(ahead_deg):.1f}° from where it was told to be"
+        measured = f"it is at {angle_deg:.1f}°, {abs(ahead_deg):.1f}° from where it should be"
         return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{STRAY_DEG:g}° for {patience_s:.2g} s")

@@ -34,7 +34,7 @@ ABOUT_DEG = 0.5
 """What readings scatter of an axis at rest."""
 JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
-BLIND = Notice("blind to a broken pot wire: without end resistors it looks like an angle")
+BLIND = Notice("a broken pot wire would look like an angle: fit end resistors")
 
 
 class SwitchedAxis:
@@ -314,9 +314,11 @@ class SwitchedAxis:
             min_deg=self.settings.limits.min_deg,
             max_deg=self.settings.limits.max_deg,
             angle_deg=self._sensing.angle_deg,
+            seen=now_s <= self._sensing.ridden_until_s,
             raw=self._sensing.raw,
             source=self.settings.source,
             target_deg=self.aiming.target_deg if self.aiming else None,
+            tolerance_deg=self.aiming.tolerance_deg if self.aiming else None,
             drive=self._runs.direction,
             moving=self.moving(now_s),
             missing=self.missing,

@@ -65,8 +65,8 @@ class WeldWatch:
         if self._noticed_s is None or self._seen.trend.last_s > self._noticed_s + NOTICED_FOR_S:
             return ()
         if self._master and self._noticed_s - self._cut_s > CUT_IN_S:
-            return (Notice(f"still turning with the master open: {CUT_BY_HAND}", "STILL TURNS"),)
-        return (Notice("turning with no relay on: a hand may be on the control box's switch", "TURNS BY SELF"),)
+            return (Notice(f"still turning, though the motors' supply should be off: {CUT_BY_HAND}", "STILL TURNS"),)
+        return (Notice("turning with no relay on: wind, or a hand at the control box's switch", "TURNS BY SELF"),)
 
     def judge(self, at_s: float) -> Fault | None:
         """The fault that the latest reading shows, with no relay on."""
@@ -105,7 +105,7 @@ class WeldWatch:
         if not opening.ran_on or way is Direction.OFF or opening.trust(way) is not Trust.DOUBTED:
             return None
         opening.found_closed(way)
-        measured = f"ran on {seen.name(way)} after its relay opened,{opening.place or ' and stands'}"
+        measured = f"it went on {seen.name(way)} after its relay was switched off, and{opening.place or ' stands'}"
         return self._closed(FaultKind.RELAY_WELDED, measured, f"{TURNING_SHARE:g} of its speed")
 
     @property
@@ -132,7 +132,8 @@ class WeldWatch:
         self._opening.found_closed(way)
         self._cut_s = min(self._cut_s, at_s)
         welded = not self._rested and way is seen.relays.last
-        measured = f"{abs(slope.speed_dps):.1f}°/s {seen.name(way)}" + (" after its relay opened" if welded else "")
+        after = " after its relay was switched off" if welded else ""
+        measured = f"it turns {seen.name(way)} at {abs(slope.speed_dps):.1f}°/s{after}"
         kind = FaultKind.RELAY_WELDED if welded else FaultKind.TURNS_BY_ITSELF
         return self._closed(kind, measured, f"{limit_dps:.2g}°/s for {TURNING.least_s:g} s")
 

@@ -15,9 +15,9 @@ from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.pointing import LEAST_WEIGHT
 from rotator.control.sky.route import STEP_S, Speeds
-from rotator.control.sky.steps import GRID_S, Trail, best_steps
+from rotator.control.sky.steps import Trail, best_steps
 from rotator.control.sky.ways import Leg, Route, best_route
-from rotator.orders import AxisPlan, Fly, Step
+from rotator.orders import PLAN_STEP_S, AxisPlan, Fly, Step
 
 PRICE = 2.9
 """Degrees squared times seconds that a start is worth, for a tolerance of one degree; it grows with the cube."""
@@ -43,20 +43,23 @@ class FlightPlan:
     order: Fly
 
 
-def plan_flight(
-    mount: Mount,
-    name: str,
-    path: KnownPath,
-    now_s: float,
-    from_deg: tuple[float, float],
-    azimuth: PlannedMotor,
-    elevation: PlannedMotor,
-) -> FlightPlan:
-    """The plan for an antenna that stands at `from_deg` on its axes now. A path that has begun is flown from now on."""
+@dataclass(frozen=True, slots=True)
+class Antenna:
+    """The antenna as the plan sees it: `stands_deg` on its axes now."""
+
+    mount: Mount
+    azimuth: PlannedMotor
+    elevation: PlannedMotor
+    stands_deg: tuple[float, float]
+
+
+def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float) -> FlightPlan:
+    """A path that has begun already is flown from now on."""
+    mount, azimuth, elevation = antenna.mount, antenna.azimuth, antenna.elevation
     begin_s = max(path.begin_s, now_s)
     speeds = Speeds(azimuth.speed_dps, elevation.speed_dps)
-    route = best_route(mount, path.directions(begin_s, STEP_S), from_deg, begin_s - now_s, speeds)
-    directions = path.directions(begin_s, GRID_S)
+    route = best_route(mount, path.directions(begin_s, STEP_S), antenna.stands_deg, begin_s - now_s, speeds)
+    directions = path.directions(begin_s, PLAN_STEP_S)
     azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs)
     up = [1.0 if elevation_deg > 0 else DOWN_WEIGHT for _, elevation_deg in directions]
     flat = [
@@ -88,8 +91,8 @@ def _steps(trail: Trail, motor: PlannedMotor, now_s: float) -> tuple[Step, ...]:
 def _axis_angles(
     mount: Mount, directions: Sequence[tuple[float, float]], legs: Sequence[Leg]
 ) -> tuple[list[float], list[float]]:
-    """Within the limits, every `GRID_S`, on the way that is in force at each moment."""
-    per_look = round(STEP_S / GRID_S)
+    """Within the limits, every `PLAN_STEP_S`, on the way that is in force at each moment."""
+    per_look = round(STEP_S / PLAN_STEP_S)
     azimuths_deg, elevations_deg = [], []
     for index, leg in enumerate(legs):
         begin = leg.look * per_look

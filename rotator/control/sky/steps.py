@@ -3,10 +3,10 @@
 Knows one axis's path, what an error weighs at each moment, how fast the motor is, and the price of a start. Knows
 nothing of sensors, relays or the sky.
 
-An on/off motor follows a path in steps: it stands, lets the target drift past, and moves on. Without the motor's speed,
-the best steps are the best piecewise constant curve through the path with a price for each piece; that is found exactly,
-by dynamic programming over the moments of change (`_pieces`). A motor takes its time, so each step is then shifted in
-time and place, a little at a time, for as long as the error along the motor's real way falls (`_settled`).
+An on/off motor follows a path in steps: it stands, lets the target drift past, and moves on. If the motor were
+infinitely fast, the best steps would be the best piecewise constant curve through the path with a price for each piece.
+That curve is found exactly, by dynamic programming over the moments of change (`_pieces`). A real motor takes its time:
+each step is then shifted in time and in place for as long as the error along the motor's real way falls (`_Settling`).
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ from itertools import accumulate, pairwise
 
 from rotator.orders import PLAN_STEP_S, Step
 
-GRID_S = PLAN_STEP_S
 LONGEST_S = 240.0
-"""No motor stands still for longer while its target moves by more than nothing."""
+"""No piece of the curve is longer. A motor that stands for longer gets two steps with the same place."""
 HOPELESS = 50.0
-"""A piece whose error has cost so many starts is not made longer."""
+"""A piece whose error has cost as much as so many starts is not made longer."""
 ROUNDS = 5
 FIRST_SHIFT_S, FIRST_SHIFT_DEG = 2.0, 1.0
 FINER = 1.7
-"""How the shifts shrink from round to round."""
+"""The shifts shrink by this factor from round to round."""
+SAME_DEG = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
 class Trail:
-    """Axis angles every `GRID_S` from `begin_s` on, and the weight of an error squared there."""
+    """Axis angles every `PLAN_STEP_S` from `begin_s` on, and the weight of an error squared at each of them."""
 
     begin_s: float
     angles_deg: Sequence[float]
@@ -39,33 +39,34 @@ class Trail:
 
 
 def best_steps(trail: Trail, speed_dps: float, price: float, play_deg: float = 0.0) -> list[Step]:
-    """The first step leads to where the path is met first; the motor may set off for it at any time before.
+    """The first step leads to where the path is met first; the motor may leave for it at any time before.
 
-    `price`: what a start is worth, in degrees squared times seconds. `play_deg`: of the gear between the sensor and the
-    antenna; a place is where the sensor is to be for the antenna to be right.
+    `price`: the price of a start, in degrees squared times seconds. `play_deg`: the play of the gear between sensor and
+    antenna; a step's place is the sensor's, so that the antenna is right.
     """
-    steps = _settled(_pieces(trail, price), trail, speed_dps)
-    placed, before_deg = [], None
-    for step in steps:
-        side = 0.0 if before_deg is None else math.copysign(play_deg / 2, step.place_deg - before_deg)
-        placed.append(Step(trail.begin_s + step.leave_s, step.place_deg + side))
+    placed: list[Step] = []
+    before_deg: float | None = None
+    for step in _Settling(trail, speed_dps).settled(_pieces(trail, price)):
+        if before_deg is not None and abs(step.place_deg - before_deg) < SAME_DEG:
+            continue
+        side_deg = 0.0 if before_deg is None else math.copysign(play_deg / 2, step.place_deg - before_deg)
+        placed.append(Step(trail.begin_s + step.leave_s, step.place_deg + side_deg))
         before_deg = step.place_deg
     return placed
 
 
 def _pieces(trail: Trail, price: float) -> list[Step]:
-    """The least sum of weighted squared errors and prices, over all piecewise constant curves."""
-    shares = [weight * GRID_S for weight in trail.weights]
+    """The least sum of weighted squared errors and prices over all piecewise constant curves, from time 0 on."""
     base_deg = trail.angles_deg[0]
+    shares = [weight * PLAN_STEP_S for weight in trail.weights]
     relative = [angle_deg - base_deg for angle_deg in trail.angles_deg]
     sums = [0.0, *accumulate(shares)]
     firsts = [0.0, *accumulate(share * deg for share, deg in zip(shares, relative, strict=True))]
     seconds = [0.0, *accumulate(share * deg * deg for share, deg in zip(shares, relative, strict=True))]
-    longest = int(LONGEST_S / GRID_S)
+    longest, hopeless = int(LONGEST_S / PLAN_STEP_S), HOPELESS * price
     costs, froms = [0.0], [0]
     for end in range(1, len(relative) + 1):
         least, start = math.inf, end - 1
-        hopeless = HOPELESS * price
         for begin in range(end - 1, max(-1, end - longest - 1), -1):
             first = firsts[end] - firsts[begin]
             error = seconds[end] - seconds[begin] - first * first / (sums[end] - sums[begin])
@@ -78,65 +79,65 @@ def _pieces(trail: Trail, price: float) -> list[Step]:
     steps, end = [], len(relative)
     while end:
         begin = froms[end]
-        place_deg = base_deg + (firsts[end] - firsts[begin]) / (sums[end] - sums[begin])
-        steps.append(Step(begin * GRID_S, place_deg))
+        mean_deg = base_deg + (firsts[end] - firsts[begin]) / (sums[end] - sums[begin])
+        steps.append(Step(begin * PLAN_STEP_S, mean_deg))
         end = begin
     return steps[::-1]
 
 
-def _settled(steps: list[Step], trail: Trail, speed_dps: float) -> list[Step]:
-    """The steps shifted to where a motor of this speed, which leaves earlier than it arrives, errs least."""
-    # Half of a move lies before the moment at which a motor without mass would jump.
-    steps = [
-        steps[0],
-        *(
-            Step(max(0.0, b.leave_s - abs(b.place_deg - a.place_deg) / speed_dps / 2), b.place_deg)
-            for a, b in pairwise(steps)
-        ),
-    ]
-    steps = [step for step, after in pairwise(steps) if step.leave_s < after.leave_s] + steps[-1:]
-    shift_s, shift_deg = FIRST_SHIFT_S, FIRST_SHIFT_DEG
-    for _ in range(ROUNDS):
-        for index in range(len(steps)):
-            for by_s, by_deg in ((shift_s, 0.0), (-shift_s, 0.0), (0.0, shift_deg), (0.0, -shift_deg)):
-                _shift(steps, index, by_s, by_deg, trail, speed_dps)
-        shift_s, shift_deg = shift_s / FINER, shift_deg / FINER
-    return steps
+class _Settling:
+    """Shifts steps to where a motor of this speed errs least. Moments count from the beginning of the trail."""
 
+    def __init__(self, trail: Trail, speed_dps: float) -> None:
+        self._trail = trail
+        self._speed_dps = speed_dps
+        self._steps: list[Step] = []
 
-def _shift(steps: list[Step], index: int, by_s: float, by_deg: float, trail: Trail, speed_dps: float) -> None:
-    """Keep the shift if the error around the step falls by it."""
-    if by_s and index == 0:
-        return
-    before = steps[index]
-    after = Step(before.leave_s + by_s, before.place_deg + by_deg)
-    if index and after.leave_s <= steps[index - 1].leave_s:
-        return
-    if index + 1 < len(steps) and after.leave_s >= steps[index + 1].leave_s:
-        return
-    cost = _cost_around(steps, index, trail, speed_dps)
-    steps[index] = after
-    if _cost_around(steps, index, trail, speed_dps) >= cost:
-        steps[index] = before
+    def settled(self, pieces: Sequence[Step]) -> list[Step]:
+        self._steps = self._on_the_way(pieces)
+        shift_s, shift_deg = FIRST_SHIFT_S, FIRST_SHIFT_DEG
+        for _ in range(ROUNDS):
+            for index, _ in enumerate(self._steps):
+                for by_s, by_deg in ((shift_s, 0.0), (-shift_s, 0.0), (0.0, shift_deg), (0.0, -shift_deg)):
+                    self._shift(index, by_s, by_deg)
+            shift_s, shift_deg = shift_s / FINER, shift_deg / FINER
+        return self._steps
 
+    def _on_the_way(self, pieces: Sequence[Step]) -> list[Step]:
+        """Half of each move lies before the moment at which an infinitely fast motor would jump."""
+        moves = [
+            Step(max(0.0, to.leave_s - abs(to.place_deg - at.place_deg) / self._speed_dps / 2), to.place_deg)
+            for at, to in pairwise(pieces)
+        ]
+        steps = [pieces[0], *moves]
+        # A slow motor that would have to leave before it has arrived goes on to the later place at once.
+        return [step for step, later in pairwise(steps) if step.leave_s < later.leave_s] + steps[-1:]
 
-def _cost_around(steps: list[Step], index: int, trail: Trail, speed_dps: float) -> float:
-    """The error from the step before to the second step after, along the motor's way."""
-    first = max(0, index - 1)
-    angle_deg = steps[first].place_deg
-    begin = math.ceil(steps[first].leave_s / GRID_S) if first else 0
-    # The motor may be on its way to the first place when the time begins: its step counts from where it comes from.
-    if first:
-        angle_deg = steps[first - 1].place_deg
-    until = index + 2
-    end = math.ceil(steps[until].leave_s / GRID_S) if until < len(steps) else len(trail.angles_deg)
-    travel_deg = speed_dps * GRID_S
-    cost, at = 0.0, first
-    for moment in range(begin, end):
-        while at + 1 < len(steps) and steps[at + 1].leave_s <= moment * GRID_S:
-            at += 1
-        off_deg = trail.angles_deg[moment] - angle_deg
-        cost += trail.weights[moment] * off_deg * off_deg
-        left_deg = steps[at].place_deg - angle_deg
-        angle_deg += max(-travel_deg, min(travel_deg, left_deg))
-    return cost
+    def _shift(self, index: int, by_s: float, by_deg: float) -> None:
+        """Shift one step, and keep that if the error around it falls."""
+        before = self._steps[index]
+        after = Step(before.leave_s + by_s, before.place_deg + by_deg)
+        earliest_s = self._steps[index - 1].leave_s if index else -math.inf
+        latest_s = self._steps[index + 1].leave_s if index + 1 < len(self._steps) else math.inf
+        if (by_s and not index) or not earliest_s < after.leave_s < latest_s:
+            return
+        error = self._error_around(index)
+        self._steps[index] = after
+        if self._error_around(index) >= error:
+            self._steps[index] = before
+
+    def _error_around(self, index: int) -> float:
+        """The weighted squared error from the step before this one to the second step after it."""
+        steps, travel_deg = self._steps, self._speed_dps * PLAN_STEP_S
+        at, until = max(0, index - 1), index + 2
+        angle_deg = steps[max(0, at - 1)].place_deg
+        begin = math.ceil(steps[at].leave_s / PLAN_STEP_S)
+        end = math.ceil(steps[until].leave_s / PLAN_STEP_S) if until < len(steps) else len(self._trail.angles_deg)
+        error = 0.0
+        for moment in range(begin, end):
+            while at + 1 < len(steps) and steps[at + 1].leave_s <= moment * PLAN_STEP_S:
+                at += 1
+            off_deg = self._trail.angles_deg[moment] - angle_deg
+            error += self._trail.weights[moment] * off_deg * off_deg
+            angle_deg += max(-travel_deg, min(travel_deg, steps[at].place_deg - angle_deg))
+        return error

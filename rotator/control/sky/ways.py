@@ -1,4 +1,4 @@
-"""Which way the antenna takes through a whole pass: which turn of the overlap, over the top or not, and when it changes.
+"""The way of the antenna through a whole pass: which turn of the overlap, over the top or not, and when it changes.
 
 Knows the target's path to its end, the ranges and the motors' speeds. A moment at which the antenna points elsewhere is
 lost; the least loss over the whole pass is found by going back from its end (dynamic programming). Knows nothing of
@@ -36,8 +36,10 @@ class Route:
 def best_route(
     mount: Mount, directions: Sequence[Direction], from_deg: tuple[float, float], early_s: float, speeds: Speeds
 ) -> Route:
-    """Through directions that are `STEP_S` apart, for an antenna that stands at `from_deg` on its axes and has `early_s`
-    before the first of them."""
+    """Through directions that are `STEP_S` apart.
+
+    `from_deg`: where the axes stand. `early_s`: how long it is until the first of the directions.
+    """
     ways = [Flown(mount, directions, way) for way in _ways(mount, directions[0])]
     # least[way][look]: what is lost from this look on, being on this way; then where to change to, if anywhere.
     least = [[0.0] * (len(directions) + 1) for _ in ways]
@@ -55,9 +57,8 @@ def best_route(
                 cost_s = spent_s + least[other][arrival]
                 if cost_s < least[index][look] - EVEN_S:
                     least[index][look], changes[index][look] = cost_s, (other, arrival)
-    first = min(
-        range(len(ways)), key=lambda index: _first_cost(ways[index], from_deg, early_s, speeds, least[index][0])
-    )
+    costs = [_first_cost(way, from_deg, early_s, speeds, lost[0]) for way, lost in zip(ways, least, strict=True)]
+    first = costs.index(min(costs))
     legs, look, index = [Leg(0, ways[first])], 0, first
     while look < len(directions):
         change = changes[index][look]

@@ -1,1 +1,1 @@
-"""The reference tables of docs/protocols.md, made from the code's own command tables."""
+"""The reference tables of docs/reference/wire.md, made from the code's own command tables."""

@@ -1,4 +1,4 @@
-"""The lists of docs/protocols.md for PstRotator's UDP control and PstRotatorAz's page, made as the tables in gs232.py.
+"""The lists of docs/reference/wire.md for PstRotator's UDP and PstRotatorAz's page, made as the tables in gs232.py.
 
 Knows one example of each tag. Does not know what a tag does or answers: the protocol's session is asked.
 """

@@ -1,4 +1,4 @@
-"""The command tables of docs/protocols.md, made from the code's own tables and answered by the code's own sessions.
+"""The command tables of docs/reference/wire.md, made from the code's own tables, answered by the code's own sessions.
 
 Knows Markdown and one example of each command. Does not know what any command does or answers: it asks.
 """

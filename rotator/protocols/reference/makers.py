@@ -1,4 +1,4 @@
-"""More command tables of docs/protocols.md: EasyComm, SPID, DCU-1, Prosistel and M2, made as those in gs232.py.
+"""More command tables of docs/reference/wire.md: EasyComm, SPID, DCU-1, Prosistel and M2, made as those in gs232.py.
 
 Knows one example of each command, and how binary bytes are shown. Does not know what a command does or answers: the
 protocol's session is asked.

@@ -43,7 +43,7 @@ PROGRAMS = (
         ("rotctld",),
         "TCP",
         "host, port 4533; Az type 0 → 180 → 360; Max El 90, unless your rotor goes over the top: "
-        "[see below](#gpredict)",
+        "[its page](../paths/gpredict.md)",
         (b"p\n", b"P 174.46 12.00\n", b"P 174,46 12,00\n", b"S\n"),
         VERIFIED,
     ),
@@ -96,8 +96,7 @@ PROGRAMS = (
         "predict",
         ("easycomm2",),
         "pty or serial",
-        "`-a` and the port, of at most 13 characters, which it cuts silently: "
-        "[a short name](#predict-cuts-its-ports-name)",
+        "`-a` and the port, of at most 13 characters, which it cuts silently: a short name, such as `/tmp/rotor`",
         (b"AZ235.0 EL25.0 \r\n",),
         "its source",
     ),
@@ -185,16 +184,16 @@ PROGRAMS = (
     Program(
         "Stellarium",
         ("stellarium",),
-        "TCP `0.0.0.0:10001`, and [`[station]`](configuration.md#station)",
+        "TCP `0.0.0.0:10001`, and [`[station]`](keys.md#station)",
         "Telescope Control plug-in: external software or a remote computer, the Pi's address, port 10001, J2000: "
-        "[see below](#stellarium-and-other-telescope-programs)",
+        "[more](../protocols.md#stellarium-and-other-telescope-programs)",
         (bytes.fromhex("1400 0000 0040075fda650600 00000040 72efff3f"),),
         "its source",
     ),
     Program(
         "SkySafari, KStars and other telescope programs",
         ("lx200",),
-        "TCP or serial, and [`[station]`](configuration.md#station)",
+        "TCP or serial, and [`[station]`](keys.md#station)",
         "Meade LX200 Classic, alt-az; JNow",
         (b"#:Q#", b":GR#", b"#:GD#", b"\x06"),
         "Meade's protocol",
@@ -229,7 +228,7 @@ PROGRAMS = (
     Program(
         "Look4Sat (Android), Bluetooth",
         ("easycomm2",),
-        "[the Pi's own Bluetooth](wiring-servos.md#a-phone), `/dev/rfcomm0`",
+        "[the Pi's own Bluetooth](../paths/servos.md#a-phone), `/dev/rfcomm0`",
         "the format `AZ$AZ EL$EL\\r`",
         (b"AZ114.8 EL9.05\r",),
         "its source",

@@ -1,4 +1,4 @@
-"""The tables of docs/protocols.md for telescope programs: LX200 and Stellarium, made as those in gs232.py.
+"""The tables of docs/reference/wire.md for telescope programs: LX200 and Stellarium, made as those in gs232.py.
 
 Knows a station, a moment, and one example of each command. Does not know what a command does or answers: the protocol's
 session is asked.

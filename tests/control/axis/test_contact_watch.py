@@ -30,20 +30,30 @@ class Shaft:
         self._changes = 0
         self.supplied = True
         self.ahead = EITHER_WAY
+        self.angle_deg = 100.0
+        self.lost = ""
 
     def pass_by(self, seconds: float) -> None:
         end_s = self.now_s + seconds
         while self.now_s < end_s - 1e-9:
             self.now_s += 0.05
-            self.watch.see(
-                self.now_s, 100.0, Condition(changes=self._changes, ahead=self.ahead, supplied=self.supplied)
-            )
+            self.watch.see(self.now_s, self.angle_deg, self._condition)
+
+    @property
+    def _condition(self) -> Condition:
+        return Condition(changes=self._changes, ahead=self.ahead, supplied=self.supplied, lost=self.lost)
 
     def turn(self, changes: int) -> None:
         """So many changes of the contact, at full speed."""
         for count in range(changes):
             self.pass_by((CLOSED_S, OPEN_S)[count % 2])
             self._changes += 1
+        self.pass_by(0.05)
+
+    def turn_back(self, way: Direction) -> None:
+        """One change, counted against that way."""
+        self._changes += 1
+        self.angle_deg -= 5.0 * way
         self.pass_by(0.05)
 
     def run(self, way: Direction, changes: int = 6) -> None:
@@ -90,7 +100,9 @@ def test_silence_without_a_supply_shows_nothing() -> None:
     shaft.pass_by(60.0)
     assert shaft.watch.forbids(MINUS)
     shaft.supplied = True
-    shaft.pass_by(3.0)
+    shaft.pass_by(0.8)
+    assert shaft.watch.forbids(MINUS), "it has just come back: a welded relay would turn it soon"
+    shaft.pass_by(2.2)
     assert not shaft.watch.forbids(MINUS)
 
 
@@ -123,3 +135,165 @@ def test_before_its_first_relay_the_contact_is_seen_to_be_silent(way: Direction)
     assert shaft.watch.forbids(way)
     shaft.pass_by(3.0)
     assert not shaft.watch.forbids(way)
+
+
+# --- a doubt, and what ends it
+
+
+def doubted(way: Direction = PLUS) -> Shaft:
+    """It ran into its stop and was held there: the relay of that run is in doubt."""
+    shaft = Shaft()
+    shaft.ahead = frozenset((Direction(-way),))
+    shaft.run(way)
+    shaft.pass_by(10.0)
+    assert shaft.watch.accuse(Direction(-way)) is not None
+    shaft.ahead = EITHER_WAY
+    return shaft
+
+
+@pytest.mark.parametrize("way", [PLUS, MINUS], ids=["plus", "minus"])
+def test_standing_elsewhere_for_ever_ends_no_doubt_only_a_run_of_its_own_does(way: Direction) -> None:
+    shaft = doubted(way)
+    shaft.pass_by(60.0)
+    assert shaft.watch.accuse(Direction(-way)) is not None
+    shaft.run(way)
+    assert shaft.watch.accuse(Direction(-way)) is not None, "not before it has been silent"
+    shaft.pass_by(3.0)
+    assert shaft.watch.trusts == (Trust.OPEN, Trust.OPEN)
+
+
+@pytest.mark.parametrize("way", [PLUS, MINUS], ids=["plus", "minus"])
+def test_a_tap_in_which_the_contact_did_not_change_ends_no_doubt(way: Direction) -> None:
+    shaft = doubted(way)
+    shaft.run(way, changes=0)
+    shaft.pass_by(10.0)
+    assert shaft.watch.accuse(Direction(-way)) is not None
+    shaft.run(way, changes=1)
+    shaft.pass_by(10.0)
+    assert shaft.watch.accuse(Direction(-way)) is None
+
+
+def test_a_run_the_other_way_says_nothing_of_the_relay_in_doubt() -> None:
+    shaft = doubted(PLUS)
+    shaft.run(MINUS)
+    shaft.pass_by(10.0)
+    assert shaft.watch.trusts == (Trust.DOUBTED, Trust.OPEN)
+
+
+def test_taps_without_a_change_are_trusted_for_three_periods_in_all() -> None:
+    shaft, trusts = Shaft(), []
+    shaft.run(PLUS)
+    for _ in range(12):
+        shaft.pass_by(4.0)
+        shaft.watch.driven(shaft.now_s, PLUS)
+        shaft.pass_by(0.3)
+        shaft.watch.driven(shaft.now_s, OFF)
+        shaft.pass_by(4.0)
+        trusts.append(shaft.watch.trusts[0])
+    assert trusts[:7] == [Trust.OPEN] * 7
+    assert trusts[-1] is Trust.DOUBTED
+
+
+# --- the contact changes though no relay is closed
+
+
+@pytest.mark.parametrize("way", [PLUS, MINUS], ids=["plus", "minus"])
+def test_after_a_run_that_is_over_a_change_of_the_contact_accuses_its_relay(way: Direction) -> None:
+    shaft = Shaft()
+    shaft.run(way)
+    shaft.pass_by(COAST_S)
+    shaft.turn(4)
+    assert shaft.watch.turns
+    assert shaft.watch.accuse(Direction(-way)) is not None
+    shaft.pass_by(60.0)
+    assert not shaft.watch.turns
+    assert shaft.watch.accuse(Direction(-way)) is not None, "silence alone does not end it"
+
+
+def test_while_it_turns_by_itself_no_relay_closes_and_silence_ends_that() -> None:
+    """A hand, or the wind: which way it turns the contact does not say."""
+    shaft = Shaft()
+    shaft.pass_by(5.0)
+    shaft.turn(4)
+    assert shaft.watch.turns
+    assert shaft.watch.forbids(PLUS)
+    assert shaft.watch.forbids(MINUS)
+    shaft.pass_by(5.0)
+    assert not shaft.watch.turns
+    assert shaft.watch.trusts == (Trust.OPEN, Trust.OPEN)
+
+
+def test_a_change_while_it_still_coasts_is_no_turning_by_itself() -> None:
+    shaft = Shaft()
+    shaft.run(PLUS)
+    shaft.turn(1)
+    assert not shaft.watch.turns
+    shaft.pass_by(4.0)
+    assert shaft.watch.trusts == (Trust.OPEN, Trust.OPEN)
+
+
+# --- where the stop may be
+
+
+@pytest.mark.parametrize(("way", "near_deg"), [(PLUS, 357.0), (MINUS, 3.0)], ids=["plus", "minus"])
+@pytest.mark.parametrize("near", [True, False])
+def test_a_change_counted_back_after_a_run_may_have_been_one_ahead_so_no_stop_may_be_near(
+    way: Direction, near_deg: float, near: bool
+) -> None:
+    """Two pulses are 10°: there the count is not sure that an edge lies ahead."""
+    shaft = Shaft()
+    shaft.angle_deg = near_deg if near else 180.0
+    shaft.run(way)
+    shaft.pass_by(0.2)
+    shaft.turn_back(way)
+    shaft.pass_by(5.0)
+    assert shaft.watch.trusts[0 if way > 0 else 1] is (Trust.DOUBTED if near else Trust.OPEN)
+
+
+def test_near_its_stop_with_an_edge_ahead_silence_shows_it_where_no_change_was_counted_back() -> None:
+    shaft = Shaft()
+    shaft.angle_deg = 352.0
+    shaft.run(PLUS)
+    shaft.pass_by(5.0)
+    assert shaft.watch.trusts == (Trust.OPEN, Trust.OPEN)
+
+
+@pytest.mark.parametrize(("held_s", "trust"), [(0.5, Trust.OPEN), (2.0, Trust.DOUBTED)])
+def test_without_a_count_it_must_have_changed_as_lately_as_one_that_turns(held_s: float, trust: Trust) -> None:
+    """It may have met its stop anywhere."""
+    shaft = Shaft()
+    shaft.lost = "power was cut"
+    shaft.watch.driven(shaft.now_s, PLUS)
+    shaft.turn(6)
+    shaft.pass_by(held_s)
+    shaft.watch.driven(shaft.now_s, OFF)
+    shaft.pass_by(8.0)
+    assert shaft.watch.trusts[0] is trust
+
+
+# --- homing
+
+
+def test_while_it_looks_for_its_stop_it_may_turn_back_there_and_afterwards_not() -> None:
+    shaft = Shaft()
+    shaft.ahead = frozenset((PLUS,))
+    shaft.watch.homes(homing=True, failed=False)
+    shaft.run(MINUS)
+    shaft.watch.homes(homing=False, failed=False)
+    shaft.pass_by(4.0)
+    shaft.watch.homes(homing=False, failed=False)
+    assert not shaft.watch.forbids(PLUS), "it was seen to stand there, and a person watches"
+    shaft.watch.homes(homing=False, failed=False)
+    shaft.run(MINUS)
+    shaft.pass_by(4.0)
+    assert shaft.watch.forbids(PLUS), "nobody watches any more"
+
+
+def test_homing_that_failed_leaves_the_relay_to_be_seen_like_any_other() -> None:
+    shaft = Shaft()
+    shaft.ahead = frozenset((PLUS,))
+    shaft.watch.homes(homing=True, failed=False)
+    shaft.run(MINUS)
+    shaft.watch.homes(homing=False, failed=True)
+    shaft.pass_by(8.0)
+    assert shaft.watch.forbids(PLUS)

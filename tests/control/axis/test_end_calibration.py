@@ -71,3 +71,23 @@ def test_a_calibrated_axis_keeps_its_curve_and_moves_one_end() -> None:
         (pytest.approx(0.6), 200.0),
         (pytest.approx(0.9), 440.0),
     )
+
+
+@pytest.mark.parametrize("low_raw", [0.1, 0.9], ids=["rising", "falling"])
+@pytest.mark.parametrize(
+    ("beyond_deg", "taken"), [(-50.0, True), (0.0, True), (0.9, True), (1.1, False), (40.0, False)]
+)
+@pytest.mark.parametrize("high_end", [False, True])
+def test_an_end_is_taken_up_to_a_degree_beyond_the_calibrated_one(
+    high_end: bool, beyond_deg: float, taken: bool, low_raw: float
+) -> None:
+    """The coast and the noise of the sensor put it so far out; a link never widens the range."""
+    given = Calibration(((low_raw, -10.0), (1.0 - low_raw, 440.0)))
+    ends = EndCalibration(RANGE, (), given)
+    angle_deg = 440.0 + beyond_deg if high_end else -10.0 - beyond_deg
+    raw = low_raw + (1.0 - 2.0 * low_raw) * (angle_deg + 10.0) / 450.0
+    if taken:
+        assert ends.take(raw, given, high_end=high_end) == given.with_end(raw, high_end=high_end)
+    else:
+        with pytest.raises(ValueError, match=f"stands at {angle_deg:.1f}°, outside of its calibrated -10 to 440"):
+            ends.take(raw, given, high_end=high_end)

@@ -41,7 +41,7 @@ def test_no_limit_is_no_limit() -> None:
 def test_it_says_for_how_long_it_has_run() -> None:
     endurance = Endurance(300.0, 900.0)
     after(endurance, (300.0, True))
-    assert str(endurance.notice) == "motor hot: it has run for 300 s and rests"
+    assert str(endurance.notice) == "motor hot: it has run for 300 s and has to rest"
 
 
 def test_half_cooled_it_may_run_again_and_not_before() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.goals import JogGoal, jog, limit_reached
+from rotator.control.axis.goals import LONGEST_WAIT_S, JogGoal, jog, limit_reached
 from rotator.faults import FaultKind
 
 MINUS, OFF, PLUS = Direction
@@ -32,6 +32,28 @@ def test_a_jog_without_a_direction_is_a_stop() -> None:
     assert jog(OFF, None, 100.0, commissioned=False) is None
 
 
+def test_while_its_relay_waits_the_time_of_a_press_does_not_pass() -> None:
+    press = JogGoal(PLUS, 105.0)
+    for _ in range(3):
+        press = press.put_off(0.5)
+    assert press == JogGoal(PLUS, 106.5, waits_s=LONGEST_WAIT_S - 1.5)
+
+
+def test_a_press_that_has_waited_six_seconds_waits_no_longer() -> None:
+    press = JogGoal(PLUS, 105.0)
+    for _ in range(1000):
+        press = press.put_off(0.5)
+    assert press.until_s == 111.0
+
+
+def test_a_jog_without_a_time_has_none_to_put_off() -> None:
+    assert JogGoal(PLUS, None).put_off(0.5) == JogGoal(PLUS, None)
+
+
+def test_what_is_put_off_keeps_its_way_and_its_end() -> None:
+    assert JogGoal(MINUS, 105.0, end_deg=90.0).put_off(1.0) == JogGoal(MINUS, 106.0, waits_s=5.0, end_deg=90.0)
+
+
 @pytest.mark.parametrize(
     ("axis", "way", "word"),
     [
@@ -44,4 +66,4 @@ def test_a_jog_without_a_direction_is_a_stop() -> None:
 def test_an_open_limit_switch_names_the_axis_and_the_way(axis: Axis, way: Direction, word: str) -> None:
     fault = limit_reached(axis, way)
     assert (fault.kind, fault.axis) == (FaultKind.LIMIT_SWITCH, axis)
-    assert fault.measured.endswith(f"to turn {word}")
+    assert fault.measured.endswith(f" {word}")

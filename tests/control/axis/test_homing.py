@@ -137,7 +137,7 @@ def test_pulses_without_end_are_no_axis_of_this_travel() -> None:
     rig = PulseRig(300.0)
     homing = Homing(HomingSettings(PERIOD_S, 20.0, COAST_S, home_deg=0.0))
     assert fly(rig, homing) == pytest.approx(35.0, abs=0.2)
-    assert "longer than its whole travel" in homing.failure
+    assert "longer than the whole travel" in homing.failure
 
 
 def test_given_up_it_drives_nothing() -> None:
@@ -277,7 +277,20 @@ def test_after_three_ways_up_that_do_not_agree_it_gives_up() -> None:
         hand.step(1.0, 7)
         hand.to_the_end()
     assert hand.driven is Direction.OFF
-    assert hand.homing.failure == "2 edges came on the way up and 7 on the way back, in the last of 3 tries"
+    assert hand.homing.failure == "its contact changed 2 times on the way up, 7 times on the way back, also in try 3"
+
+
+def test_it_has_begun_once_its_motor_was_driven() -> None:
+    """Before that the contact's silence has its own meaning: no run of homing has ended yet."""
+    homing = ordered()
+    for driven, begun in (
+        (Direction.OFF, False),
+        (Direction.OFF, False),
+        (Direction.MINUS, True),
+        (Direction.OFF, True),
+    ):
+        homing.step(10.0, driven, Condition())
+        assert homing.begun is begun
 
 
 def test_while_it_still_coasts_nothing_is_judged() -> None:

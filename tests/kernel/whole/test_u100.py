@@ -11,8 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.cli.console import ConsoleClient
-from rotator.protocols.console import Ask
+from rotator.cli.box import RunningBox
 from tests.kernel.bench.waiting import until
 from tests.kernel.whole.site import Nursery, Site
 
@@ -68,12 +67,11 @@ def site(nursery: Nursery, tmp_path_factory: pytest.TempPathFactory) -> Iterator
 
 def homed(site: Site) -> None:
     """A person's word for each axis, and the world's word that it is at its stop."""
-    with ConsoleClient(site.config) as console:
+    with RunningBox(site.config) as console:
         for axis in ("azimuth", "elevation"):
-            console.line(f"home {axis}\n".encode())
-            missing = f"missing: {axis}"
+            console.order(f"home {axis}")
             until(
-                lambda text=missing: not any(line.startswith(text) for line in console.send(Ask.STATUS)),  # type: ignore[misc]  # mypy sees no type for a default
+                lambda axis=axis: not console.status()[axis]["missing"],  # type: ignore[misc]  # mypy sees no type for a default
                 f"{axis} homed; the box said:\n{site.log.read_text()}",
                 MOVE_S,
             )

@@ -1,4 +1,4 @@
-"""docs/protocols.md lists PstRotator's tags that the program knows, with its answers."""
+"""docs/reference/wire.md lists PstRotator's tags that the program knows, with its answers."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from rotator.protocols import pstrotator
 from rotator.protocols.reference.datagrams import pstrotator_table, pstrotatoraz_table
 
-PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "wire.md"
 
 
 def test_page_holds_the_table() -> None:

@@ -1,4 +1,4 @@
-"""docs/protocols.md lists the commands that the program knows, with the answers that it gives."""
+"""docs/reference/wire.md lists the commands that the program knows, with the answers that it gives."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from rotator.protocols import gs232, rotctld
 from rotator.protocols.reference.gs232 import gs232_table, rotctld_table
 
-PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "wire.md"
 
 
 @pytest.mark.parametrize(("name", "table"), [("gs232", gs232_table()), ("rotctld", rotctld_table())])

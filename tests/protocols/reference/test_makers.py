@@ -1,4 +1,4 @@
-"""docs/protocols.md lists the commands of EasyComm, SPID, DCU-1, Prosistel and M2 that the program knows, answered."""
+"""docs/reference/wire.md lists the commands of EasyComm, SPID, DCU-1, Prosistel and M2 that the program knows."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from rotator.protocols import dcu1, easycomm, prosistel, rc2800, spid
 from rotator.protocols.reference.makers import dcu1_table, easycomm_table, prosistel_table, rc2800_table, spid_table
 
-PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "wire.md"
 TABLES = {"easycomm": easycomm_table(), "spid": spid_table(), "dcu1": dcu1_table()}
 TABLES |= {"prosistel": prosistel_table(), "rc2800": rc2800_table()}
 

@@ -1,4 +1,4 @@
-"""docs/protocols.md lists the programs that the box is meant for; what each says, the protocol named for it takes."""
+"""docs/reference/programs.md lists programs; what each says, the protocol named for it takes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rotator.orders import Order
 from rotator.protocols.reference.programs import PROGRAMS, Program, programs_table
 from rotator.status import AxisStatus, Status
 
-PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "programs.md"
 PLACES: dict[str, dict[str, str]] = {
     "pstrotator": {"udp": "127.0.0.1:12000"},
     "n1mm": {"udp": "127.0.0.1:12040", "rotor_name": "mast"},

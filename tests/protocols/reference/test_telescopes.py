@@ -1,4 +1,4 @@
-"""docs/protocols.md lists the commands of telescope programs that the program knows, with its answers."""
+"""docs/reference/wire.md lists the commands of telescope programs that the program knows, with its answers."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from rotator.protocols import lx200
 from rotator.protocols.reference.telescopes import lx200_table, stellarium_table
 
-PAGE = Path(__file__).parents[3] / "docs" / "protocols.md"
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "wire.md"
 TABLES = {"lx200": lx200_table(), "stellarium": stellarium_table()}
 
 

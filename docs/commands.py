@@ -1,0 +1,35 @@
+"""docs/reference/commands.md from the commands themselves: `make reference` writes it anew, a test compares it.
+
+Knows the page's order and its few sentences. The exit codes and the fields are the program's.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rotator.cli.failed import EXIT_CODES
+from rotator.protocols.status_object import tables
+
+PAGE = Path(__file__).parent / "reference" / "commands.md"
+HEAD = """# Commands
+
+For a person, or a script, at the Pi. `rotator --help` lists the commands, `rotator COMMAND --help` has examples. A
+number may have a decimal point or a comma. `point`, `jog`, `park` and `home` wait until the antenna stands; Ctrl-C
+stops it.
+
+"""
+STATUS = """
+## `rotator where --json`
+
+The fields stay; new ones may come. `rotator tell status json` prints the same on one line.
+
+"""
+
+
+def page() -> str:
+    codes = "\n".join(f"| {code} | {meaning} |" for code, meaning in EXIT_CODES.items())
+    return f"{HEAD}## Exit codes\n\n| code | meaning |\n| --- | --- |\n{codes}\n{STATUS}{tables()}\n"
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")

@@ -1,0 +1,79 @@
+"""The running box as a command sees it: one connection to its console, orders in words, and its status as an object.
+
+Knows the form of the console's answers (`rotator.protocols.console_session`), and loads nothing of the box itself, for
+its commands must be quick. The box decides whether it obeys.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Self
+
+from rotator.cli.failed import CommandFailed
+from rotator.cli.reach import consoles, reach
+
+ANSWER_S = 5.0
+"""The longest wait for an answer, in seconds."""
+OK, ERROR = "ok", "error: "
+AXES = ("azimuth", "elevation")
+
+BoxStatus = dict[str, Any]
+"""The fields of `rotator.protocols.status_object`."""
+
+
+class Refused(CommandFailed):
+    """The box refuses the order. The text says why."""
+
+
+class RunningBox:
+    """One connection to the console. Raises CommandFailed when no box answers; ConfigError."""
+
+    def __init__(self, path: Path | None) -> None:
+        self._box = reach(path, consoles)
+        self._box.settimeout(ANSWER_S)
+        self._answers = self._box.makefile(encoding="utf-8", errors="replace", newline="\n")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._answers.close()
+        self._box.close()
+
+    def order(self, words: str) -> list[str]:
+        """Send one line. Returns the lines of the answer before its `ok`. Raises Refused, CommandFailed."""
+        answers: list[str] = []
+        try:
+            self._box.sendall(" ".join(words.split()).encode("utf-8", "replace") + b"\n")
+            while (answer := self._answers.readline()).endswith("\n"):
+                answer = answer.rstrip("\n")
+                if answer == OK:
+                    return answers
+                if answer.startswith(ERROR):
+                    raise Refused(answer.removeprefix(ERROR))
+                answers.append(answer)
+        except TimeoutError:
+            raise CommandFailed(f"the box does not answer within {ANSWER_S:g} s") from None
+        except OSError:
+            pass
+        raise CommandFailed("the box has ended")
+
+    def status(self) -> BoxStatus:
+        (line,) = self.order("status json")
+        return dict(json.loads(line))
+
+
+def faults(status: BoxStatus, axes: Sequence[str] = AXES) -> list[str]:
+    """The faults of these axes, each as a sentence."""
+    return [str(status[axis]["fault"]["text"]) for axis in axes if status[axis]["fault"]]
+
+
+def stands(status: BoxStatus, axis: str) -> str:
+    """Where the axis is, in a few words."""
+    now = status[axis]
+    if now["angle_deg"] is None:
+        return f"{axis} not known"
+    source = now["angle_source"] if now["angle_is_current"] else "when last seen, no reading now"
+    return f"{axis} {now['angle_deg']:.1f}° {source}"

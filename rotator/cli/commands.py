@@ -1,0 +1,92 @@
+"""What all commands share on the command line: the groups in `--help`, examples, numbers, and the common options.
+
+Knows click. Does not know what a command does.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
+
+CONFIG = click.option(
+    "--config", "path", type=click.Path(path_type=Path, dir_okay=False), help="The box's file (TOML)."
+)
+FAULT = click.option(
+    "--fault",
+    "faults",
+    multiple=True,
+    metavar="NAME[@SECONDS]",
+    help="Begin this fault in the simulator; `list` prints the names.",
+)
+YES = click.option("--yes", is_flag=True, help="Do not ask.")
+PLAIN = click.option("--plain", is_flag=True, help="Plain lines even in a terminal.")
+ANY_WORDS = {"ignore_unknown_options": True}
+"""What the command does not know itself goes to the box as it is: `-12` is a word, not an option."""
+
+MINUS = "\u2212"
+"""The minus sign of typography. A number that begins with it is not taken for an option; copied texts have it too."""
+_NUMBER = re.compile(r"[-+]?[0-9]{1,9}(?:[.,][0-9]{0,9})?")
+_NEGATIVE = re.compile(r"-[0-9.,].*")
+
+
+class Number(click.ParamType[float]):
+    """A number as a person types it: a decimal comma is a decimal point. `what`: its unit."""
+
+    def __init__(self, what: str, least: float = -math.inf, most: float = math.inf) -> None:
+        self.name = self._what = what
+        self._least, self._most = least, most
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        if isinstance(value, float):
+            return value
+        text = value.replace(MINUS, "-")
+        if not _NUMBER.fullmatch(text):
+            self.fail(f"{text[:40]!r} is no number of {self._what}; write it like 38.5 or 38,5", param, ctx)
+        number = float(text.replace(",", "."))
+        if not self._least <= number <= self._most:
+            most = "" if math.isinf(self._most) else f", {self._most:g} at most"
+            self.fail(f"{text} {self._what}: {self._least:g} at least{most}", param, ctx)
+        return number
+
+
+class NumbersCommand(click.Command):
+    """A command whose arguments may be negative numbers."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        return super().parse_args(ctx, [MINUS + arg[1:] if _NEGATIVE.fullmatch(arg) else arg for arg in args])
+
+
+def examples(*lines: str) -> str:
+    """The text after the options of `--help`. Its lines stay as they are."""
+    return "\n".join(("\b", "Example:" if len(lines) == 1 else "Examples:", *(f"  {line}" for line in lines)))
+
+
+class Commands(click.Group):
+    """A group whose commands stand in `--help` under headings, in the order they were added."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._headings: dict[str, list[str]] = {}
+
+    def under(self, heading: str, *commands: click.Command) -> None:
+        for command in commands:
+            self.add_command(command)
+            self._headings.setdefault(heading, []).append(str(command.name))
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return [name for names in self._headings.values() for name in names]
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        width = max(len(name) for name in self.commands)
+        for heading, names in self._headings.items():
+            with formatter.section(heading):
+                formatter.write_dl(
+                    [(f"{name:<{width}}", self.commands[name].get_short_help_str(200)) for name in names]
+                )

@@ -1,0 +1,184 @@
+"""The commands that move the antenna: give the order, show the way, and end when it stands, or when it will not arrive.
+
+Knows from the box's status whether an order has had its effect. The box alone decides what moves, and keeps the rules
+of safety. Ctrl-C stops the antenna. When the terminal closes, an antenna that points goes on to its place, as if a
+program had sent it there; one that homes is stopped, for a person must watch that.
+"""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+
+from rotator.cli.agree import agree
+from rotator.cli.box import AXES, BoxStatus, Refused, RunningBox, faults, stands
+from rotator.cli.failed import FAULTY, CommandFailed
+from rotator.cli.reach import consoles
+from rotator.cli.stop import STOPPED, stop_boxes
+
+LOOK_S = 0.2
+"""The time between two looks at the antenna, in seconds."""
+TAKEN_LOOKS = 5
+"""An order shows in the status after so many looks at the latest. A relay's dead time is shorter too."""
+HOMING_LOOKS = 15
+"""An axis that homes pauses within its homing, for less than so many looks."""
+CONSOLE = "console"
+"""How the name of a console's user begins in a status."""
+
+
+def point(path: Path | None, azimuth_deg: float, elevation_deg: float, *, wait: bool) -> None:
+    """Point there, and return when the antenna has arrived. Raises CommandFailed if it has not."""
+    _travel(path, f"point {azimuth_deg:.4f} {elevation_deg:.4f}", wait=wait)
+
+
+def park(path: Path | None, *, wait: bool) -> None:
+    _travel(path, "park", wait=wait)
+
+
+def jog(path: Path | None, direction: str, seconds: float, *, wait: bool) -> None:
+    """Turn one axis for a time, and return when it stands. Raises CommandFailed if a fault ended it."""
+    axis = "azimuth" if direction in ("cw", "ccw") else "elevation"
+    with RunningBox(path) as box:
+        before = box.status()
+        with _stops_on_ctrl_c(path):
+            box.order(f"jog {direction} {seconds:.3f}")
+            if not wait:
+                return click.echo("The box has the order.")
+            after = _watched(box, (axis,))
+    _judge(after, (axis,), "the jog")
+    if before[axis]["angle_deg"] is None or after[axis]["angle_deg"] is None:
+        return click.echo(f"{axis}: its angle is not known.")
+    moved_deg = after[axis]["angle_deg"] - before[axis]["angle_deg"]
+    return click.echo(f"{stands(after, axis)}: {moved_deg:+.1f}° from before.")
+
+
+def home(path: Path | None, axis: str, *, yes: bool) -> None:
+    """Home an axis, and return when it stands. Any other end stops the antenna. Raises CommandFailed if not homed."""
+    for signum in (signal.SIGTERM, signal.SIGHUP):
+        # A closed terminal means that the user no longer watches: the same as Ctrl-C.
+        signal.signal(signum, signal.default_int_handler)
+    with RunningBox(path) as box:
+        if box.status()[axis]["angle_source"] != "counted":
+            raise Refused(f"{axis} knows where it stands: there is no end stop to be found")
+        agree(f"Watch the antenna: {axis} turns to its low end. Ctrl-C stops it. Begin?", yes=yes)
+        with _stops_unless_done(path):
+            box.order(f"home {axis}")
+            after = _watched(box, (axis,), patience=HOMING_LOOKS)
+    _judge(after, (axis,), "the homing")
+    if after[axis]["missing"]:
+        raise CommandFailed(f"{axis} is not homed: it needs {', '.join(after[axis]['missing'])}")
+    click.echo(f"{stands(after, axis)}: homed.")
+
+
+def _travel(path: Path | None, words: str, *, wait: bool) -> None:
+    with RunningBox(path) as box, _stops_on_ctrl_c(path):
+        box.order(words)
+        if not wait:
+            return click.echo("The box has the order. `rotator where` shows what comes of it.")
+        after = _watched(box, AXES)
+    _judge(after, AXES, words.partition(" ")[0])
+    for axis in AXES:
+        if missing := after[axis]["missing"]:
+            raise CommandFailed(f"{axis} did not move: it needs {', '.join(missing)}")
+    return click.echo(f"Arrived: {', '.join(stands(after, axis) for axis in AXES)}.")
+
+
+def _judge(after: BoxStatus, axes: Sequence[str], what: str) -> None:
+    """Raises CommandFailed where an axis did not do what was ordered."""
+    if failed := faults(after, axes):
+        click.echo(f"{', '.join(stands(after, axis) for axis in AXES)}.")
+        raise CommandFailed("\n         ".join(failed), FAULTY)
+    if after["stopped_by"] and not after["storm_park"]:
+        raise CommandFailed(f"{what} was ended: stopped by {after['stopped_by']}; nothing moves until `rotator resume`")
+    mover = str(after["moved_by"] or "")
+    if not mover.startswith(CONSOLE):
+        ended = f"{mover} moves the antenna now" if mover else "the antenna was stopped"
+        raise CommandFailed(f"{what} was ended: {ended}")
+
+
+def _watched(box: RunningBox, axes: Sequence[str], patience: int = TAKEN_LOOKS) -> BoxStatus:
+    """The status when these axes stand and have nothing to do, or when somebody else has the antenna."""
+    still, ours = 0, ""
+    with _row() as show:
+        while True:
+            status = box.status()
+            mover = str(status["moved_by"] or "")
+            if (ours and mover != ours) or (status["stopped_by"] and not status["storm_park"]):
+                return status
+            ours = mover if mover.startswith(CONSOLE) else ours
+            busy = any(_is_busy(status[axis]) for axis in axes)
+            still = 0 if busy else still + 1
+            if still >= patience:
+                return status
+            show("   ".join(_progress(status, axis) for axis in axes))
+            time.sleep(LOOK_S)
+
+
+def _is_busy(axis: BoxStatus) -> bool:
+    on_its_way = axis["target_deg"] is not None and not axis["at_target"] and not axis["fault"]
+    return bool(axis["moving"] or axis["homing"] or on_its_way)
+
+
+def _progress(status: BoxStatus, axis: str) -> str:
+    now = status[axis]
+    angle = "---" if now["angle_deg"] is None else f"{now['angle_deg']:.1f}°"
+    target = "" if now["target_deg"] is None else f" to {now['target_deg']:.1f}°"
+    return f"{axis} {angle}{target}" + (" FAULT" if now["fault"] else "")
+
+
+class _Row:
+    """One row of a terminal that is written over; nothing where the errors go to no terminal."""
+
+    def __init__(self) -> None:
+        self._shown = sys.stderr.isatty()
+
+    def __call__(self, text: str) -> None:
+        if self._shown:
+            click.echo(f"\r\x1b[K{text}", nl=False, err=True)
+
+
+@contextmanager
+def _row() -> Iterator[_Row]:
+    row = _Row()
+    try:
+        yield row
+    finally:
+        row("")
+
+
+@contextmanager
+def _stops_on_ctrl_c(path: Path | None) -> Iterator[None]:
+    """Ctrl-C meanwhile stops the antenna. Raises CommandFailed then."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        _stop(path)
+        raise CommandFailed(f"Ctrl-C. {STOPPED}") from None
+
+
+@contextmanager
+def _stops_unless_done(path: Path | None) -> Iterator[None]:
+    """Every end but the expected one, and the box's own refusal, stops the antenna: a box that does not answer, too."""
+    try:
+        with _stops_on_ctrl_c(path):
+            yield
+    except Refused:
+        raise
+    except CommandFailed as fault:
+        if STOPPED in str(fault):
+            raise
+        _stop(path)
+        raise CommandFailed(f"{fault}. {STOPPED}") from None
+
+
+def _stop(path: Path | None) -> None:
+    """On a connection of its own: an answer may be under way on the other. Raises CommandFailed."""
+    # A second Ctrl-C must not interrupt the stop.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    stop_boxes(consoles(path), all_of_them=path is None)

@@ -1,0 +1,164 @@
+"""`rotator setup network`: opens rotctld to the local network, says what to type on the PC, and waits for it to ask.
+
+Knows the questions and the test. `rotator.setup.network` plans the changes; the monitor of the running box
+says who has asked.
+"""
+
+from __future__ import annotations
+
+import re
+import select
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import click
+
+from rotator.cli.failed import CommandFailed
+from rotator.cli.reach import monitors, reach
+from rotator.cli.setup import SETTINGS, propose
+from rotator.monitor.transcript import LinkNote, Peer, Piece, Way, parse
+from rotator.orders import Source
+from rotator.setup import network, tree
+from rotator.setup.machine import Machine, this_machine
+from rotator.setup.plan import SetupError
+from rotator.setup.questions import network as network_of
+
+PATIENCE_S = 300.0
+_POSITION = re.compile(rb"\s*[+;|,]?\s*(?:p|\\get_pos)\s*")
+
+
+def open_network(root: Path, settings: Path | None, allow: str | None, *, undo: bool, yes: bool) -> None:
+    """`allow`: a network, "all", or None to ask."""
+    path = settings or root / SETTINGS
+    files = tree.read(path, root / network.ANNOUNCEMENT)
+    restart = "Done. It takes effect when the box starts again: sudo systemctl restart rotator"
+    done = "Done. It takes effect when the Pi starts from this card." if tree.is_card(root) else restart
+    if undo:
+        propose(network.undone(files, root, path), yes=yes, done=done)
+        return
+    machine = this_machine(root)
+    name = _host_name(root) or machine.name
+    if not tree.is_card(root):
+        here = ", ".join(str(address.ip) for address in machine.addresses) or "none in a local network"
+        click.echo(f"This machine: {name}, address {here}.")
+    chosen = _chosen(allow, machine, yes=yes)
+    plan, port = network.plan(files, root, path, chosen)
+    changed = propose(plan, yes=yes, done=done)
+    host = f"{name}.local" if (root / network.ANNOUNCEMENT).parent.is_dir() else None
+    own = host or next((str(address.ip) for address in machine.addresses), name)
+    _say_what_to_type(own, [str(address.ip) for address in machine.addresses] if host else [], port)
+    if not yes and not tree.is_card(root) and sys.stdin.isatty():
+        _try_it(path, port, restart=changed)
+
+
+def _chosen(allow: str | None, machine: Machine, *, yes: bool) -> str | None:
+    """The network that may; None: every machine."""
+    if allow is None and yes:
+        if not machine.networks:
+            raise SetupError("no local network here: say which may with --allow 192.168.1.0/24")
+        allow = machine.networks[0]
+    while allow is None:
+        click.echo("Who may turn the antenna over the network? There is no password.")
+        for number, each in enumerate(machine.networks, 1):
+            click.echo(f"{number:>4}  computers in {each}")
+        click.echo(f"{len(machine.networks) + 1:>4}  every computer that reaches this one")
+        click.echo("      or type a network or an address, such as 192.168.1.20")
+        try:
+            typed = str(click.prompt("Number", default="1" if machine.networks else None)).strip()
+        except click.Abort:
+            raise SetupError("nothing was changed") from None
+        offered = [*machine.networks, "all"]
+        if typed.isdigit() and 1 <= int(typed) <= len(offered):
+            allow = offered[int(typed) - 1]
+            break
+        try:
+            allow = network_of(typed)
+        except ValueError as fault:
+            click.echo(str(fault))
+    if allow.lower() == "all":
+        return None
+    try:
+        return network_of(allow)
+    except ValueError as fault:
+        raise SetupError(f"--allow: {fault}") from None
+
+
+def _say_what_to_type(host: str, addresses: list[str], port: int) -> None:
+    instead = f" (or {addresses[0]} where the name is not found)" if addresses else ""
+    click.echo(f"""
+On the PC{instead}:
+  Gpredict   Edit, Preferences, Interfaces, Rotators, Add New:
+             Host {host}, Port {port}
+  Hamlib     rotctl -m 2 -r {host}:{port} p
+  Look4Sat   Settings, rotator: {host}, port {port}""")
+
+
+def _try_it(path: Path, port: int, *, restart: bool) -> None:
+    """Restart the box if the person wants that, and wait for the PC."""
+    if restart and _service_runs():
+        if not click.confirm("\nStart the box again now? A moving antenna stops.", default=False):
+            return
+        subprocess.run(["systemctl", "restart", "rotator"], check=False)
+        time.sleep(1.0)
+    if not click.confirm("Wait here for the PC's first question?", default=True):
+        return
+    wait_for_the_pc(path, port)
+
+
+def wait_for_the_pc(path: Path, port: int, patience_s: float = PATIENCE_S) -> bool:
+    """Say who has asked for the position through `port`; False: no other computer has, in that time."""
+    try:
+        box = reach(path, monitors)
+    except CommandFailed as fault:
+        raise SetupError(f"{fault}; then type the line for Hamlib on the PC") from fault
+    click.echo("Waiting for the PC (Ctrl-C ends) ...")
+    with box, suppress(KeyboardInterrupt):
+        for host in _asking(box, port, time.monotonic() + patience_s):
+            if not host.startswith(("127.", "::1")):
+                click.echo(f"{host} has just asked for the position: it works.")
+                return True
+    click.echo(
+        "No computer has asked. Is the PC in the same network (no guest Wi-Fi), and in the one that may?\n"
+        "`journalctl -u rotator` says who was turned away."
+    )
+    return False
+
+
+def _asking(box: socket.socket, port: int, deadline_s: float) -> Iterator[str]:
+    """The address of each machine that asks for the position on the link with this port."""
+    names: set[str] = set()
+    hosts: dict[Source, str] = {}
+    rest = b""
+    while (left_s := deadline_s - time.monotonic()) > 0:
+        ready, _, _ = select.select([box], [], [], left_s)
+        data = box.recv(65536) if ready else b""
+        if not data:
+            return
+        *lines, rest = (rest + data).split(b"\n")
+        for line in lines:
+            match parse(line.decode("ascii", "replace")):
+                case LinkNote(name, keys) if str(keys.get("tcp", "")).endswith(f":{port}"):
+                    names.add(name)
+                case Peer(source, host):
+                    hosts[source] = host
+                case Piece(source=source, way=Way.IN, data=asked) if source.link in names and source in hosts:
+                    if any(_POSITION.fullmatch(each) for each in asked.split(b"\n")):
+                        yield hosts[source]
+
+
+def _service_runs() -> bool:
+    if not Path("/run/systemd/system").is_dir():
+        return False
+    asked = subprocess.run(["systemctl", "--quiet", "is-active", "rotator"], check=False)
+    return asked.returncode == 0
+
+
+def _host_name(root: Path) -> str | None:
+    with suppress(OSError):
+        return (root / "etc/hostname").read_text().strip() or None
+    return None

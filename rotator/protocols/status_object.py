@@ -1,0 +1,116 @@
+"""The status as one object of plain values, for programs: `rotator where --json`, and every API of the box.
+
+Knows the names of the fields, what each means, and how it is read from a status. The documentation is made from the
+same table. Does not know JSON, nor who asks. A field is never renamed or removed while FORMAT stays; fields may come.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from hw.ports import Axis
+from rotator.faults import Fault
+from rotator.status import AxisStatus, Status
+
+FORMAT = 1
+DIGITS = 2
+"""Angles have so many decimals: more than any sensor of a rotor."""
+
+Plain = str | int | float | bool | None | list["Plain"] | dict[str, "Plain"]
+Of = TypeVar("Of")
+
+
+@dataclass(frozen=True, slots=True)
+class Field(Generic[Of]):
+    name: str
+    kind: str
+    """The type in JSON, for the documentation."""
+    meaning: str
+    of: Callable[[Of], Plain]
+
+
+FAULT_FIELDS: Sequence[Field[Fault]] = (
+    Field("kind", "text", "the name of the fault, as in docs/troubleshooting.md", lambda fault: fault.kind.text),
+    Field("measured", "text", "what was measured", lambda fault: fault.measured),
+    Field("limit", "text or null", "the limit that was exceeded", lambda fault: fault.limit or None),
+    Field("page", "text", "the page and the heading that explain it", lambda f: f"{f.page}#{f.kind.anchor}"),
+    Field("act_now", "text or null", "what a person must do this moment", lambda fault: fault.act_now or None),
+    Field("text", "text", "all of it in one sentence", str),
+)
+AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
+    Field("angle_deg", "number or null", "where it stands on the rotor's own scale; null: not known",
+          lambda axis: _angle(axis.shown_deg)),
+    Field("angle_is_current", "true or false", "false: the sensor is out, and the angle is its last good one",
+          lambda axis: axis.angle_deg is not None and axis.seen),
+    Field("angle_source", "text", '"measured", "counted" or "modelled"', lambda axis: axis.source.value),
+    Field("target_deg", "number or null", "the angle that it turns to; null: it has nothing to do",
+          lambda axis: _angle(axis.target_deg)),
+    Field("at_target", "true or false", "it stands, and is as near to its target as the tolerance asks",
+          lambda axis: axis.at_target),
+    Field("moving", "true or false", "it turns, or still coasts", lambda axis: axis.moving),
+    Field("drive", "number", "1: driven clockwise or up; -1: the other way; 0: off", lambda axis: int(axis.drive)),
+    Field("homing", "true or false", "it looks for its end stop", lambda axis: axis.homing),
+    Field("min_deg", "number", "the low end of its range", lambda axis: _angle(axis.min_deg)),
+    Field("max_deg", "number", "the high end of its range", lambda axis: _angle(axis.max_deg)),
+    Field("fault", "object or null", "the fault that holds it", lambda axis: _fault(axis.fault)),
+    Field("missing", "list of text", "what it needs before it may be aimed: calibration, homing …",
+          lambda axis: [each.text for each in axis.missing]),
+    Field("notes", "list of text", "what a person should know though it stops nothing",
+          lambda axis: [str(notice) for notice in axis.notices]),
+)  # fmt: skip
+FIELDS: Sequence[Field[Status]] = (
+    Field("format", "number", f"{FORMAT}; another number only when a field is renamed or removed", lambda _: FORMAT),
+    Field("azimuth", "object", "the axis, as below", lambda status: _axis(status.azimuth)),
+    Field("elevation", "object", "the axis, as below", lambda status: _axis(status.elevation)),
+    Field("wanted_azimuth_deg", "number or null", "the direction last ordered, as ordered; null: none",
+          lambda status: _angle(status.wanted_azimuth_deg)),
+    Field("wanted_elevation_deg", "number or null", "the same for elevation",
+          lambda status: _angle(status.wanted_elevation_deg)),
+    Field("moving", "true or false", "an axis turns or coasts", lambda status: status.moving),
+    Field("moved_by", "text or null", "whose orders move the antenna", lambda status: status.controlled_by or None),
+    Field("stopped_by", "text or null", "who stopped or storm-parked it; nothing else moves it until `rotator resume`",
+          lambda status: status.latched or None),
+    Field("storm_park", "true or false", "`stopped_by` is a storm park", lambda status: status.storm),
+    Field("panel_mode", "text", 'the panel\'s mode switch: "auto", "manual", "jog" or "park"',
+          lambda status: status.mode.value),
+    Field("supply_cut", "true or false", "a fault cuts the motors' supply", lambda status: status.cut),
+    Field("notes", "list of text", "whose orders have no effect, and why", lambda status: list(status.notices)),
+    Field("simulated", "true or false", "nothing real turns", lambda status: status.simulated),
+)  # fmt: skip
+
+
+def as_object(status: Status) -> dict[str, Plain]:
+    return {field.name: field.of(status) for field in FIELDS}
+
+
+def tables() -> str:
+    """The fields, for the documentation."""
+    return "\n\n".join(
+        (
+            _table("field", FIELDS),
+            f"Each of `{Axis.AZIMUTH.value}` and `{Axis.ELEVATION.value}`:",
+            _table("field", AXIS_FIELDS),
+            "A `fault`:",
+            _table("field", FAULT_FIELDS),
+        )
+    )
+
+
+def _axis(axis: AxisStatus) -> dict[str, Plain]:
+    return {field.name: field.of(axis) for field in AXIS_FIELDS}
+
+
+def _fault(fault: Fault | None) -> dict[str, Plain] | None:
+    return None if fault is None else {field.name: field.of(fault) for field in FAULT_FIELDS}
+
+
+def _angle(angle_deg: float | None) -> float | None:
+    # Adding zero turns -0.0, from a noisy pot at its stop, into 0.0.
+    return None if angle_deg is None else round(angle_deg, DIGITS) + 0.0
+
+
+def _table(head: str, fields: Sequence[Field[Of]]) -> str:
+    rows = (f"| `{field.name}` | {field.kind} | {field.meaning} |" for field in fields)
+    return "\n".join((f"| {head} | type | meaning |", "| --- | --- | --- |", *rows))

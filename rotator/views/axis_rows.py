@@ -1,0 +1,111 @@
+"""Both axes on a screen: where each is, where it should be, how far it is off, and which way its motor runs.
+
+Knows the numbers and the bars of an axis, on a wide and on a narrow screen. Does not know what else is shown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from rich.text import Text
+
+from hw.ports import Axis, Direction
+from rotator.control.sky.mount import Mount
+from rotator.status import AxisStatus, Status
+from rotator.views.bars import Bar, Zone, forbidden, overlap
+from rotator.views.frame import Row
+from rotator.views.sky_plot import ANTENNA_STYLE, TARGET_STYLE
+from rotator.views.words import ALARMS, TURNS, degrees
+
+WIDE = 60
+"""From this width on, the numbers stand beside the bars."""
+_NUMBERS, _LAMPS = 18, 10
+"""Cells for the numbers at the left of a bar, and for the lamps at its right."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ranks:
+    """Of the rows of an axis: the numbers, then what a low terminal leaves out, one after the other."""
+
+    numbers: int
+    bars: int
+    scales: int
+
+
+def axis_rows(status: Status, mount: Mount | None, width: int, ranks: Ranks) -> Iterator[Row]:
+    for axis in Axis:
+        each = status.axis(axis)
+        if width >= WIDE:
+            yield from _wide(axis, each, _bar(status, axis, mount, width - _NUMBERS - _LAMPS - 2), ranks)
+        else:
+            yield from _narrow(axis, each, _bar(status, axis, mount, width - 2), ranks)
+
+
+def lamps(drives: Mapping[Axis, Direction], axis: Axis) -> list[Text]:
+    """The relays of an axis: clockwise or up, then the other one."""
+    texts = []
+    for direction in (Direction.PLUS, Direction.MINUS):
+        on = drives[axis] is direction
+        texts.append(Text(f"{'●' if on else '○'} {TURNS[axis, direction]}", style="bold green" if on else "dim"))
+    return texts
+
+
+def _wide(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]:
+    one, other = lamps({axis: each.drive}, axis)
+    if not each.seen and each.drive is Direction.OFF:
+        one = _unseen(each)
+    rows = (
+        (axis.value, each.shown_deg, _filled(bar, each), one, ranks.numbers),
+        ("target", each.target_deg, bar.filled_to(each.target_deg, TARGET_STYLE, names=True), other, ranks.bars),
+    )
+    for name, angle_deg, filled, lamp, row_rank in rows:
+        text = Text(f"{name:<9} {degrees(angle_deg):>7} ", style="bold" if name == axis.value else "")
+        yield Row(Text.assemble(text, "▕", filled, "│ ", lamp), row_rank)
+    off = Text(f"{'off by':<9} {degrees(_off_deg(each), sign=True) if each.target_deg is not None else '':>7} ")
+    yield Row(Text.assemble(off, " ", bar.scale(), "  ", Text(each.source.value, style="dim")), ranks.scales)
+
+
+def _narrow(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]:
+    words = Text(f"{axis.value[:2] if axis is Axis.ELEVATION else 'az'} {degrees(each.shown_deg)}", style="bold")
+    if not each.seen:
+        words.append(" ").append_text(_unseen(each))
+    elif each.target_deg is not None:
+        words.append(f" → {degrees(each.target_deg)}").append(f" off {degrees(_off_deg(each), sign=True)}")
+    if each.drive is not Direction.OFF:
+        words.append(f" {TURNS[axis, each.drive]}", style="bold green")
+    yield Row(words, ranks.numbers)
+    yield Row(Text.assemble("▕", _filled(bar, each), "│"), ranks.bars)
+    yield Row(Text.assemble("▕", bar.filled_to(each.target_deg, TARGET_STYLE, names=True), "│"), ranks.scales)
+    yield Row(Text.assemble(" ", bar.scale()), ranks.scales)
+
+
+def _unseen(each: AxisStatus) -> Text:
+    """What an angle is worth while the sensor is out."""
+    return Text("no signal") if each.shown_deg is None else Text("last seen", style=ALARMS)
+
+
+def _filled(bar: Bar, each: AxisStatus) -> Text:
+    return bar.filled_to(each.angle_deg, ANTENNA_STYLE if each.seen else "dim")
+
+
+def _off_deg(each: AxisStatus) -> float | None:
+    """How far the axis has to turn, clockwise or up where it is positive."""
+    return None if each.target_deg is None or each.shown_deg is None else each.target_deg - each.shown_deg
+
+
+def _bar(status: Status, axis: Axis, mount: Mount | None, cells: int) -> Bar:
+    each = status.axis(axis)
+    zones = [*_forbidden(status, axis, mount), *(overlap(each.min_deg, each.max_deg) if axis is Axis.AZIMUTH else ())]
+    return Bar(each.min_deg, each.max_deg, max(cells, 8), zones)
+
+
+def _forbidden(status: Status, axis: Axis, mount: Mount | None) -> Iterator[Zone]:
+    """Where this axis must not go while the other one stands where it does."""
+    other = status.axis(Axis.ELEVATION if axis is Axis.AZIMUTH else Axis.AZIMUTH).angle_deg
+    for sector in mount.sectors if mount else ():
+        here, there = sector.azimuth, sector.elevation
+        if axis is Axis.ELEVATION:
+            here, there = there, here
+        if other is None or there.widened(sector.margin_deg).holds(other):
+            yield forbidden(sector.name, here.min_deg, here.max_deg)

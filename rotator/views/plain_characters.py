@@ -1,0 +1,35 @@
+"""The same picture where the terminal has no more than ASCII: each character becomes one other.
+
+Knows characters. The console of a Raspberry Pi's own screen, for example, has neither dots nor parts of blocks.
+"""
+
+from __future__ import annotations
+
+from rich.text import Text
+
+_ASCII = str.maketrans(
+    {
+        **dict.fromkeys("╭╮╰╯┏┓┗┛", "+"),
+        **dict.fromkeys("─━", "-"),
+        **dict.fromkeys("│┃▕", "|"),
+        **dict.fromkeys("▏▎", "."),
+        **dict.fromkeys("▍▌▋", ":"),
+        **dict.fromkeys("▊▉█", "#"),
+        **dict(zip("░▒●○◆◇◈→…–—✓✗", ":x*.#o@>~--vx", strict=True)),
+        **{chr(code): "." for code in range(0x2801, 0x2900)},
+    }
+)
+_NO_UNICODE = frozenset({"linux", "vt100", "vt102", "vt220", "ansi", "cons25", "dumb", "unknown"})
+"""Values of TERM. The text mode of Linux has some hundred characters, whatever its encoding."""
+
+
+def ascii_only(encoding: str, term: str) -> bool:
+    """Whether a terminal of this name, with this encoding, shows no more than ASCII."""
+    return term in _NO_UNICODE or "utf" not in encoding.lower()
+
+
+def in_ascii(text: Text) -> Text:
+    """The same with the same cells and colours. The degree sign stays: Latin-1 and the Linux console have it."""
+    plain = text.copy()
+    plain.plain = text.plain.translate(_ASCII)
+    return plain

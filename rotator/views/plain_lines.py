@@ -1,0 +1,45 @@
+"""The box where no picture can be drawn: a greeting, and a line for each change.
+
+Knows words. Does not know when a line is printed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hw.ports import Axis, Direction
+from rotator.status import Status
+from rotator.views.words import TURNS, WireView, degrees, notes
+
+
+def greeting(version: str, hardware: str, wires: Sequence[WireView]) -> list[str]:
+    """The version, and the address of each link."""
+    what = "a SIMULATED rotor" if hardware == "sim" else "the rotor on this Pi"
+    return [f"rotator {version}: {what}", *(f"  {wire.protocol:<11} {wire.where}  ({wire.state})" for wire in wires)]
+
+
+def line(status: Status) -> str:
+    """The status in one line. It has no time and no counter, so equal lines mean that nothing has changed."""
+    parts = [_axis(status, axis) for axis in Axis]
+    if status.mode_switch:
+        parts.append(f"mode {status.mode.name}")
+    if status.latched:
+        parts.append(f"STOPPED by {status.latched}")
+    parts += [f"FAULT {fault}" for fault in status.faults]
+    parts += [f"NOTE {notice}" for notice in notes(status)]
+    return "  ".join(parts)
+
+
+def _axis(status: Status, axis: Axis) -> str:
+    each = status.axis(axis)
+    words = [f"{axis.value} {degrees(each.shown_deg, 0)}"]
+    if not each.seen and each.shown_deg is not None:
+        words.append("LAST SEEN")
+    if each.target_deg is not None:
+        words.append(f"to {degrees(each.target_deg)}")
+    if each.drive is not Direction.OFF:
+        words.append(TURNS[axis, each.drive])
+    if each.uncalibrated:
+        reads = "" if each.raw is None else f"; its sensor reads {round(each.raw, 3)}"
+        words.append(f"UNCALIBRATED (needs {each.uncalibrated}{reads})")
+    return " ".join(words)

@@ -1,0 +1,187 @@
+"""The sky from below the antenna: north up, the zenith in the middle, the horizon as a circle.
+
+Shows the antenna, its target, where the antenna has been, the horizon of trees and roofs, the forbidden sectors and
+the ends of an azimuth that does not go all the way round. Draws with dots: eight in each cell. Knows directions and
+dots. Knows no motor.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Iterable, Sequence
+from functools import lru_cache
+from itertools import groupby
+
+from rich.text import Text
+
+from rotator.control.sky.angles import great_circle_deg
+from rotator.control.sky.mount import Mount
+from rotator.status import Status
+
+ANTENNA, TARGET, BOTH = "◆", "◇", "◈"
+ANTENNA_STYLE, TARGET_STYLE, FORBIDDEN_STYLE = "bold cyan", "bold green", "red"
+LEAST_CELLS = 24, 12
+"""The smallest plot that can be read: columns and rows."""
+_BRAILLE = 0x2800
+_DOTS = ((0x01, 0x02, 0x04, 0x40), (0x08, 0x10, 0x20, 0x80))
+"""The bit of each dot of a cell: by column, then by row from the top."""
+_ROUNDED = 0.4999
+"""Half a dot, and no more: what lies between two dots, but for the last digit, is always the same one."""
+_TRAIL_STEP_DEG, _TRAIL_S = 1.5, 1200.0
+
+Way = tuple[float, float]
+"""A direction: azimuth and elevation in degrees, elevation up to 90."""
+
+
+def direction(azimuth_deg: float, elevation_deg: float) -> Way:
+    """Where an antenna at these axis angles points: also on another turn, or over the top."""
+    if elevation_deg > 90.0:
+        azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
+    return azimuth_deg % 360.0, elevation_deg
+
+
+def pointing(status: Status) -> Way | None:
+    """Where the antenna points; None while an angle is not known."""
+    azimuth_deg, elevation_deg = status.azimuth.shown_deg, status.elevation.shown_deg
+    return None if azimuth_deg is None or elevation_deg is None else direction(azimuth_deg, elevation_deg)
+
+
+def aimed_at(status: Status) -> Way | None:
+    """Where it should point: each axis at its target, or where it rests without one. None: no axis has a target."""
+    azimuth, elevation = status.azimuth, status.elevation
+    if azimuth.target_deg is None and elevation.target_deg is None:
+        return None
+    azimuth_deg = azimuth.shown_deg if azimuth.target_deg is None else azimuth.target_deg
+    elevation_deg = elevation.shown_deg if elevation.target_deg is None else elevation.target_deg
+    return None if azimuth_deg is None or elevation_deg is None else direction(azimuth_deg, elevation_deg)
+
+
+def off_deg(status: Status) -> float | None:
+    """The angle on the sky between the antenna and its target."""
+    antenna, target = pointing(status), aimed_at(status)
+    return None if antenna is None or target is None else great_circle_deg(*antenna, *target)
+
+
+class Trail:
+    """Where the antenna has pointed in the last 20 minutes."""
+
+    def __init__(self) -> None:
+        self._points: deque[tuple[float, Way]] = deque()
+
+    def note(self, status: Status) -> None:
+        while self._points and status.at_s - self._points[0][0] > _TRAIL_S:
+            self._points.popleft()
+        here = pointing(status)
+        if here and (not self._points or great_circle_deg(*self._points[-1][1], *here) >= _TRAIL_STEP_DEG):
+            self._points.append((status.at_s, here))
+
+    @property
+    def ways(self) -> list[Way]:
+        return [way for _, way in self._points]
+
+
+class _Canvas:
+    """Cells of dots, and marks that take a whole cell. The centre and the radius are in dots."""
+
+    def __init__(self, columns: int, rows: int) -> None:
+        self.columns, self.rows = columns, rows
+        self.dots: dict[tuple[int, int], tuple[int, str]] = {}
+        self.marks: dict[tuple[int, int], tuple[str, str]] = {}
+        self.centre = columns - 0.5, 2.0 * rows - 0.5
+        # A cell on each side is left for the letters of the compass.
+        self.radius = min(columns - 6.0, 2.0 * rows - 7.0)
+
+    def copy(self) -> _Canvas:
+        other = _Canvas(self.columns, self.rows)
+        other.dots, other.marks = dict(self.dots), dict(self.marks)
+        return other
+
+    def place(self, way: Way) -> tuple[int, int]:
+        out = self.radius * (90.0 - max(way[1], 0.0)) / 90.0
+        angle = math.radians(way[0])
+        x, y = self.centre[0] + out * math.sin(angle), self.centre[1] - out * math.cos(angle)
+        return math.floor(x + _ROUNDED), math.floor(y + _ROUNDED)
+
+    def dot(self, way: Way, style: str) -> None:
+        x, y = self.place(way)
+        cell = x // 2, y // 4
+        bits, _ = self.dots.get(cell, (0, ""))
+        self.dots[cell] = bits | _DOTS[x % 2][y % 4], style
+
+    def mark(self, way: Way, mark: str, style: str) -> None:
+        x, y = self.place(way)
+        self.marks[x // 2, y // 4] = mark, style
+
+    def letter(self, azimuth_deg: float, letter: str) -> None:
+        angle = math.radians(azimuth_deg)
+        x = self.centre[0] + (self.radius + 4.0) * math.sin(angle)
+        y = self.centre[1] - (self.radius + 5.0) * math.cos(angle)
+        self.marks[round(x) // 2, round(y) // 4] = letter, "bold"
+
+    def texts(self) -> list[Text]:
+        columns = range(self.columns)
+        return [Text.assemble(*_runs(self._cell(column, row) for column in columns)) for row in range(self.rows)]
+
+    def _cell(self, column: int, row: int) -> tuple[str, str]:
+        if (mark := self.marks.get((column, row))) is not None:
+            return mark
+        bits, style = self.dots.get((column, row), (0, ""))
+        return (chr(_BRAILLE + bits), style) if bits else (" ", "")
+
+
+def _runs(cells: Iterable[tuple[str, str]]) -> Iterable[tuple[str, str]]:
+    """Neighbours of one style together: that is drawn much faster."""
+    for style, run in groupby(cells, lambda cell: cell[1]):
+        yield "".join(text for text, _ in run), style
+
+
+def plot(columns: int, rows: int, status: Status, mount: Mount | None, trail: Iterable[Way] = ()) -> list[Text]:
+    """The plot with a legend as its last row, each row `columns` cells wide."""
+    canvas = _backdrop(columns, rows - 1, mount).copy()
+    _curve(canvas, list(trail), "cyan")
+    antenna, target = pointing(status), aimed_at(status)
+    if target:
+        canvas.mark(target, TARGET, TARGET_STYLE)
+    if antenna:
+        same = target is not None and canvas.place(target) == canvas.place(antenna)
+        canvas.mark(antenna, BOTH if same else ANTENNA, ANTENNA_STYLE)
+    legend = Text.assemble((ANTENNA, ANTENNA_STYLE), " antenna   ", (TARGET, TARGET_STYLE), " target")
+    legend.align("center", columns)
+    return [*canvas.texts(), legend]
+
+
+@lru_cache(maxsize=4)
+def _backdrop(columns: int, rows: int, mount: Mount | None) -> _Canvas:
+    """What stays the same while the terminal has this size."""
+    canvas = _Canvas(columns, rows)
+    for elevation_deg, step_deg in ((0.0, 1.0), (30.0, 6.0), (60.0, 10.0)):
+        _curve(canvas, [(step * step_deg, elevation_deg) for step in range(round(360.0 / step_deg))], "dim")
+    if mount:
+        _obstacles(canvas, mount)
+    for at, letter in enumerate("NESW"):
+        canvas.letter(90.0 * at, letter)
+    return canvas
+
+
+def _obstacles(canvas: _Canvas, mount: Mount) -> None:
+    if mount.horizon:
+        lowest_deg = max(mount.elevation.min_deg, 0.0)
+        _curve(canvas, [(az / 2, mount.clear_deg(az / 2, lowest_deg)) for az in range(720)], "yellow")
+    if mount.azimuth.max_deg - mount.azimuth.min_deg < 360.0:
+        for end_deg in (mount.azimuth.min_deg, mount.azimuth.max_deg):
+            _curve(canvas, [(end_deg, float(elevation)) for elevation in range(0, 90, 3)], FORBIDDEN_STYLE)
+    for sector in mount.sectors:
+        azimuths = _steps(sector.azimuth.min_deg, sector.azimuth.max_deg)
+        elevations = _steps(max(sector.elevation.min_deg, 0.0), sector.elevation.max_deg)
+        _curve(canvas, [direction(az, el) for az in azimuths for el in elevations], FORBIDDEN_STYLE)
+
+
+def _steps(low_deg: float, high_deg: float) -> Sequence[float]:
+    count = max(round((high_deg - low_deg) / 4.0), 1)
+    return [low_deg + (high_deg - low_deg) * step / count for step in range(count + 1)]
+
+
+def _curve(canvas: _Canvas, ways: Iterable[Way], style: str) -> None:
+    for way in ways:
+        canvas.dot(way, style)

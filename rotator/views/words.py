@@ -1,0 +1,112 @@
+"""The state of the box in the words of its screens: one for what it does, who orders it, and what lets it go on.
+
+Knows a status. Does not know where on a screen the words stand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from hw.ports import Axis, Direction
+from rotator.orders import Mode
+from rotator.status import Status
+from rotator.views.sky_plot import off_deg
+
+TURNS = {
+    (Axis.AZIMUTH, Direction.PLUS): "CW",
+    (Axis.AZIMUTH, Direction.MINUS): "CCW",
+    (Axis.ELEVATION, Direction.PLUS): "UP",
+    (Axis.ELEVATION, Direction.MINUS): "DOWN",
+}
+GOOD, PLAIN, WARNS, ALARMS = "bold green", "bold", "bold yellow", "bold white on red"
+RELEASE = "resume + Enter: it may move again"
+RELEASE_FAULT = "resume + Enter: go on when repaired"
+PASSES = "This ends by itself when the cause is gone."
+
+
+class WireView(Protocol):
+    """The properties of a link that a screen shows."""
+
+    name: str
+    protocol: str
+    where: str
+    state: str
+    last_in: bytes
+    last_out: bytes
+
+
+def headline(status: Status) -> tuple[str, str]:
+    """What the box does, in a few words, and their style. The worst comes first."""
+    faulted = [axis.value for axis in Axis if status.axis(axis).fault]
+    homing = [axis.value for axis in Axis if status.axis(axis).homing]
+    lacking = [axis.value for axis in Axis if status.axis(axis).missing]
+    if loud := next((fault.act_now for fault in status.faults if fault.act_now), ""):
+        return loud, ALARMS
+    if status.latched:
+        return (
+            f"STORM PARK by {status.latched.partition(':')[0]}" if status.storm else f"STOPPED by {status.latched}",
+            ALARMS,
+        )
+    if faulted:
+        return f"FAULT {' and '.join(faulted)}", ALARMS
+    if homing:
+        return f"HOMING {' and '.join(homing)}: turns to its end stop", WARNS
+    if status.mode is not Mode.AUTO:
+        return f"The panel's switch is at {status.mode.name}", WARNS
+    if lacking:
+        return f"UNCALIBRATED {' and '.join(lacking)}", WARNS
+    if status.moving:
+        return "TURNING", GOOD
+    return ("ON TARGET", GOOD) if off_deg(status) is not None else ("AT REST", PLAIN)
+
+
+def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
+    """Who has given the order in force."""
+    source = status.controlled_by
+    if not source:
+        return "no orders"
+    where = next((wire.where for wire in wires if source.partition("#")[0] == wire.name), "")
+    point = f", point {status.timed_point} of {status.timed_points}" if status.timed_points else ""
+    return f"orders from {source}{point}" + (f" ({where})" if where else "")
+
+
+def off_target(status: Status) -> str:
+    off = off_deg(status)
+    return "" if off is None else f"{off:.1f}° off target on the sky"
+
+
+def pass_starts(status: Status) -> str:
+    """How often the motors were started; empty: no relay starts them."""
+    counts = [f"{axis.value} {count}" for axis in Axis if (count := status.axis(axis).starts) is not None]
+    return f"motor starts in this pass: {', '.join(counts)}" if counts else ""
+
+
+def release(status: Status) -> str:
+    """Which keys let the antenna move again; empty: it may."""
+    if status.latched:
+        return RELEASE
+    if not status.faults:
+        return ""
+    return PASSES if all(fault.passing for fault in status.faults) else RELEASE_FAULT
+
+
+def notes(status: Status) -> list[str]:
+    return [f"{axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
+
+
+def lacks(status: Status) -> list[str]:
+    """What each axis needs before it may be aimed."""
+    texts = []
+    for axis in Axis:
+        each = status.axis(axis)
+        if each.uncalibrated:
+            reads = "" if each.raw is None else f" (its sensor reads {round(each.raw, 4) + 0.0:.4f})"
+            texts.append(f"{axis.value} UNCALIBRATED: it needs {each.uncalibrated}{reads}")
+    return texts
+
+
+def degrees(angle_deg: float | None, digits: int = 1, *, sign: bool = False) -> str:
+    """`---` for an unknown angle."""
+    # Adding zero turns -0.0, from a noisy pot at its stop, into 0.0.
+    return "---" if angle_deg is None else f"{round(angle_deg, digits) + 0.0:{'+' if sign else ''}.{digits}f}°"

@@ -1,0 +1,90 @@
+"""`rotator calibrate` in a terminal, typed by a person who slips: keys held, letters in numbers, narrow windows."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hw.ports import Axis, Direction
+from rotator.calibrating.axis_guide import AxisFacts
+from rotator.calibrating.entries import NUMBER_STARTS, Enter, Entry, Keyboard, Number, Press, Quit, StopNow, Unknown
+from rotator.calibrating.table_guide import TableGuide
+from rotator.status import AxisStatus, Status
+
+StartInTerminal = Callable[..., Any]
+
+
+@pytest.mark.parametrize("columns", [40, 80])
+def test_words_stay_whole_and_a_held_key_is_counted(
+    start_in_terminal: StartInTerminal, config: Path, columns: int
+) -> None:
+    guide = start_in_terminal("calibrate", "azimuth", "--config", config, columns=columns)
+    seen = guide.until(r"Press r \(clockwise\)")
+    guide.press("z" * 300)
+    seen += guide.until(r"\(300 times\)")
+    guide.press("q")
+    assert guide.ends() == 1
+    seen += guide.rest
+    rows = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", seen).replace("\r", "\n").split("\n")
+    assert max(map(len, rows)) <= columns
+    assert len([row for row in rows if "'z' means nothing here." in row]) <= 1
+    text = " ".join(" ".join(rows).split())
+    assert "The box does not know its limits yet: be ready to cut the motors' supply." in text
+    assert "Ctrl-C or q leaves at any moment: the motors stop, nothing is saved." in text
+
+
+def typed(keys: str) -> list[Entry]:
+    keyboard = Keyboard()
+    return [entry for key in keys if (entry := keyboard.key(key)) is not None]
+
+
+@given(
+    st.integers(-360, 720),
+    st.integers(0, 9999),
+    st.text("abcdefghijkmnopqrtuvwxyzABCDEFGHIJKLMNOPQRTUVWXYZ!?;:'", min_size=1, max_size=3),
+    st.integers(0, 9),
+    st.sampled_from(",."),
+)
+def test_a_slip_in_a_number_never_makes_another_number(
+    whole: int, decimals: int, slip: str, at: int, mark: str
+) -> None:
+    """Each of these, wherever it stands after the first digit, leaves the number refused and on the screen."""
+    number = f"{whole}{mark}{decimals}"
+    start = 2 if whole < 0 else 1
+    cut = min(start + at, len(number))
+    entries = typed(f"{number[:cut]}{slip}{number[cut:]}\r")
+    assert [type(entry) for entry in entries] == [Unknown]
+
+
+@given(st.text(f"{NUMBER_STARTS}rludsynfbq \r\x7f\x1b[ABCDz", max_size=40))
+def test_any_keys_make_no_number_that_was_not_on_the_screen(keys: str) -> None:
+    keyboard = Keyboard()
+    for key in keys:
+        shown = keyboard.typed
+        entry = keyboard.key(key)
+        if isinstance(entry, Number):
+            assert key == "\r"
+            assert entry.value == float(shown.replace(",", "."))
+        assert not isinstance(entry, Press | Quit) or not shown, "inside a number no letter acts"
+
+
+STANDS = Status(
+    0.0, AxisStatus(0.0, 450.0, raw=0.5, drive=Direction.OFF), AxisStatus(0.0, 180.0, raw=0.5, drive=Direction.OFF)
+)
+
+
+@pytest.mark.parametrize("entry", [Enter(), Number(438.5), Unknown("x")])
+def test_an_answer_without_a_question_is_not_lost_in_silence(entry: Entry) -> None:
+    guide = TableGuide(AxisFacts(Axis.AZIMUTH, 0.0, 450.0, 0.02, 0.98), 3.3)
+    assert "Not taken: wait until the box asks." in guide.step(STANDS, entry).lines
+
+
+def test_a_stop_needs_no_question() -> None:
+    guide = TableGuide(AxisFacts(Axis.AZIMUTH, 0.0, 450.0, 0.02, 0.98), 3.3)
+    assert "Not taken: wait until the box asks." not in guide.step(STANDS, StopNow()).lines

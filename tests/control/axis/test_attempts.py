@@ -1,0 +1,158 @@
+"""What a motor was tried for in vain: how often, where it stood, and who may have it tried again."""
+
+from __future__ import annotations
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.attempts import Attempts
+from rotator.control.sky.mount import Range
+from rotator.faults import Fault, FaultKind
+
+MINUS, OFF, PLUS = Direction
+LIMITS = Range(0.0, 450.0)
+END = Fault(FaultKind.END_STOP, Axis.AZIMUTH, "stands at 448.0°")
+STANDS = Fault(FaultKind.STANDS_STILL, Axis.AZIMUTH, "0.00°/s")
+WRONG = Fault(FaultKind.WRONG_WAY, Axis.AZIMUTH, "-6.0°/s")
+JUMPS = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "3 jumps")
+
+
+class Tried:
+    """An axis that stands wherever it is put, at 20 readings a second."""
+
+    def __init__(self, at_deg: float = 448.0) -> None:
+        self.attempts = Attempts(Axis.AZIMUTH, LIMITS)
+        self.at_deg, self.now_s = at_deg, 100.0
+        self.look(1.0)
+
+    def look(self, seconds: float) -> Fault | None:
+        """The first fault that its short runs show."""
+        told = None
+        for _ in range(round(seconds / 0.05)):
+            self.now_s += 0.05
+            found = self.attempts.see(self.now_s, self.at_deg, 0.1)
+            self.attempts.note(found, self.now_s, cause=None)
+            told = told or found
+        return told
+
+    def drive(self, way: Direction) -> None:
+        self.attempts.driven(self.now_s, way, 6.0)
+
+    def run_into(self, fault: Fault, way: Direction = PLUS) -> None:
+        """Drive it until this fault ends the run."""
+        self.drive(way)
+        self.look(0.2)
+        self.attempts.note(fault, self.now_s, cause=None)
+        self.drive(OFF)
+
+    def acknowledged(self, *, by_person: bool = False) -> bool:
+        return self.attempts.acknowledge(self.now_s, by_person=by_person)
+
+
+def test_the_stop_is_where_the_axis_stood_when_the_fault_struck_not_where_a_hand_turns_it_later() -> None:
+    tried = Tried(at_deg=448.0)
+    tried.run_into(END)
+    assert tried.attempts.limits == Range(0.0, 446.0)
+    tried.at_deg = 300.0
+    tried.look(1.0)
+    tried.attempts.note(END, tried.now_s, cause=None)
+    assert tried.attempts.limits == Range(0.0, 446.0)
+    assert len(tried.attempts.notices) == 1
+
+
+def test_the_stop_is_on_the_side_to_which_it_was_driven_though_the_relay_is_off_already() -> None:
+    tried = Tried(at_deg=3.0)
+    tried.drive(MINUS)
+    tried.look(0.2)
+    tried.drive(OFF)
+    tried.attempts.fail(END)
+    assert tried.attempts.limits == Range(5.0, 450.0)
+
+
+@pytest.mark.parametrize("fault", [WRONG, JUMPS])
+def test_a_fault_of_another_kind_meets_no_stop(fault: Fault) -> None:
+    tried = Tried()
+    for _ in range(2):
+        tried.run_into(fault)
+        tried.acknowledged()
+    assert tried.attempts.limits == LIMITS
+
+
+def test_a_fault_at_rest_before_any_run_meets_no_stop() -> None:
+    tried = Tried()
+    tried.attempts.note(END, tried.now_s, cause=None)
+    assert tried.attempts.limits == LIMITS
+
+
+def test_a_fault_may_come_before_the_first_reading_of_the_axis() -> None:
+    attempts = Attempts(Axis.AZIMUTH, LIMITS)
+    assert attempts.fail(JUMPS)
+    assert attempts.acknowledge(0.0, by_person=False)
+    assert attempts.fault is None
+
+
+def test_a_link_keeps_the_stop_and_a_person_s_release_forgets_it() -> None:
+    tried = Tried()
+    tried.run_into(END)
+    assert tried.acknowledged()
+    assert (tried.attempts.fault, tried.attempts.limits) == (None, Range(0.0, 446.0))
+    assert tried.acknowledged(by_person=True)
+    assert (tried.attempts.notices, tried.attempts.limits) == ((), LIMITS)
+
+
+def test_three_runs_in_vain_are_a_person_s_to_release() -> None:
+    tried = Tried(at_deg=200.0)
+    for counts in (True, True, False):
+        tried.run_into(STANDS)
+        assert tried.acknowledged() is counts
+    assert tried.acknowledged(by_person=True)
+    tried.run_into(STANDS)
+    assert tried.acknowledged(), "the count begins anew"
+
+
+@pytest.mark.parametrize(("fault", "tries"), [(STANDS, 1), (END, 1), (WRONG, 1), (JUMPS, 0)])
+def test_just_after_a_run_a_fault_of_the_motor_is_a_try_and_one_of_the_sensor_is_none(fault: Fault, tries: int) -> None:
+    tried = Tried(at_deg=200.0)
+    for _ in range(3):
+        tried.drive(PLUS)
+        tried.look(0.2)
+        tried.drive(OFF)
+        tried.attempts.fail(fault)
+        tried.acknowledged()
+    assert (tried.attempts.fault is None) is (tries == 0)
+
+
+def test_short_presses_in_vain_are_a_fault_and_each_of_them_is_a_try() -> None:
+    tried = Tried(at_deg=200.0)
+    pressed = 0
+    while tried.attempts.fault is None:
+        tried.drive(PLUS)
+        tried.look(0.4)
+        tried.drive(OFF)
+        tried.look(1.0)
+        pressed += 1
+    assert tried.attempts.fault.kind is FaultKind.STANDS_STILL
+    assert pressed > 3
+    assert not tried.acknowledged(), "so many presses are as many tries"
+
+
+@pytest.mark.parametrize("by_person", [False, True])
+def test_after_a_link_s_acknowledgement_one_press_in_vain_is_a_fault_and_after_a_person_s_release_not(
+    by_person: bool,
+) -> None:
+    tried = Tried(at_deg=200.0)
+    tried.drive(PLUS)
+    for _ in range(20):
+        tried.at_deg += 0.3
+        tried.look(0.05)
+    tried.drive(OFF)
+    tried.look(2.0)
+    tried.run_into(STANDS)
+    tried.look(1.0)
+    assert tried.acknowledged(by_person=by_person)
+    tried.look(1.0)
+    tried.drive(PLUS)
+    tried.look(0.5)
+    tried.drive(OFF)
+    told = tried.look(2.0)
+    assert (told is None) is by_person

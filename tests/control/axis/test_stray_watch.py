@@ -1,0 +1,152 @@
+"""Whether a positioned axis follows: it comes nearer to where it was sent, or it is told."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from hw.ports import Axis
+from rotator.control.axis.stray_watch import StrayWatch
+from rotator.control.commands import Steer
+from rotator.faults import Fault
+
+STEP_S = 0.05
+
+
+class Sent:
+    """An axis that turns as fast as the test says, and is sent where the test says."""
+
+    def __init__(
+        self, speed_dps: float = 30.0, accel_dps2: float | None = None, noise_deg: float = 0.0, at_deg: float = 90.0
+    ) -> None:
+        self.watch = StrayWatch(Axis.ELEVATION, speed_dps, accel_dps2)
+        self.now_s, self.at_deg = 100.0, at_deg
+        self._noise_deg, self._chance = noise_deg, random.Random(3)
+
+    def go(
+        self, seconds: float, to_deg: float | None, dps: float = 0.0, rate_dps: float = 0.0, *, settling: bool = False
+    ) -> tuple[float, Fault] | None:
+        """Sent there (None: it holds) for so long. Returns the first fault, and after what time it came."""
+        for step in range(1, round(seconds / STEP_S) + 1):
+            self.now_s += STEP_S
+            self.at_deg += dps * STEP_S
+            if to_deg is not None:
+                to_deg += rate_dps * STEP_S
+            steered = None if to_deg is None else Steer(to_deg, rate_dps, self.now_s + 0.3)
+            read_deg = self.at_deg + self._chance.gauss(0.0, self._noise_deg)
+            fault = self.watch.see(self.now_s, steered, read_deg, self._noise_deg, settling=settling)
+            if fault is not None:
+                return step * STEP_S, fault
+        return None
+
+
+@pytest.mark.parametrize("way", [1, -1], ids=["up", "down"])
+@pytest.mark.parametrize("noise_deg", [0.0, 0.1, 0.4])
+def test_an_axis_that_stays_where_it_is_is_told_after_1_7_s(way: int, noise_deg: float) -> None:
+    told = Sent(noise_deg=noise_deg).go(5.0, 90.0 + way * 40.0)
+    assert told is not None
+    after_s, fault = told
+    assert after_s == pytest.approx(1.75, abs=0.051)
+    assert fault.name == "axis does not follow"
+    assert fault.measured.count("°") == 2, "where it is, and how far that is from where it should be"
+    assert fault.limit == "5° for 1.7 s"
+
+
+@pytest.mark.parametrize("way", [1, -1], ids=["up", "down"])
+@pytest.mark.parametrize("share", [0.3, 0.6, 1.0])
+def test_an_axis_that_comes_nearer_is_none(way: int, share: float) -> None:
+    sent = Sent(at_deg=90.0 - way * 60.0)
+    dps = share * 30.0 * way
+    assert sent.go(100.0 / abs(dps), 90.0 + way * 60.0, dps) is None
+
+
+@pytest.mark.parametrize("way", [1, -1], ids=["up", "down"])
+def test_an_axis_that_goes_away_is_told(way: int) -> None:
+    told = Sent().go(5.0, 90.0 + way * 40.0, -10.0 * way)
+    assert told is not None
+    assert told[0] <= 1.8
+
+
+@pytest.mark.parametrize(("off_deg", "told"), [(4.9, False), (-4.9, False), (5.1, True), (-5.1, True)])
+def test_less_than_five_degrees_off_is_near_enough(off_deg: float, told: bool) -> None:
+    assert (Sent().go(10.0, 90.0 + off_deg) is not None) is told
+
+
+def test_a_motor_that_has_to_turn_back_first_has_the_time_for_it() -> None:
+    """From 30°/s at 20°/s² it stands after 1.5 s."""
+    for accel_dps2, told_s in ((None, 1.75), (20.0, 1.95), (10.0, 3.45)):
+        told = Sent(accel_dps2=accel_dps2).go(5.0, 130.0)
+        assert told is not None
+        assert told[0] == pytest.approx(told_s, abs=0.051)
+
+
+def test_one_that_turned_back_and_comes_is_none() -> None:
+    sent = Sent(accel_dps2=20.0)
+    assert sent.go(1.5, 30.0, 15.0) is None
+    assert sent.go(3.0, 30.0, -15.0) is None
+
+
+def test_a_slow_motor_has_longer_until_it_can_be_seen_to_come() -> None:
+    told = Sent(speed_dps=0.5).go(20.0, 130.0)
+    assert told is not None
+    assert told[0] == pytest.approx(0.5 / (0.25 * 0.5), abs=0.11)
+    assert Sent(speed_dps=0.5).go(20.0, 130.0, 0.3) is None
+
+
+def test_orders_in_between_and_holding_lose_nothing_of_what_was_seen() -> None:
+    """A program that sends, stops and sends: 1.7 s in all."""
+    sent = Sent()
+    for _ in range(3):
+        assert sent.go(0.5, 130.0) is None
+        assert sent.go(2.0, None) is None
+    assert sent.go(0.5, 130.0) is not None
+
+
+def test_an_axis_that_moves_while_it_holds_has_not_come_nearer_by_itself() -> None:
+    """A hand turns it: that shows nothing of its motor."""
+    sent = Sent()
+    for _ in range(3):
+        assert sent.go(0.5, 130.0) is None
+        assert sent.go(1.0, None, 5.0) is None
+        assert sent.go(0.3, None) is None
+    assert sent.go(0.5, 130.0) is not None
+
+
+def test_acknowledged_it_has_its_whole_time_again() -> None:
+    sent = Sent()
+    assert sent.go(5.0, 130.0) is not None
+    sent.watch.clear()
+    told = sent.go(5.0, 130.0)
+    assert told is not None
+    assert told[0] == pytest.approx(1.8, abs=0.11)
+
+
+def test_while_the_rotor_says_that_it_settles_nothing_is_told() -> None:
+    sent = Sent()
+    assert sent.go(20.0, 130.0, settling=True) is None
+    told = sent.go(5.0, 130.0)
+    assert told is not None
+    assert told[0] >= 1.6
+
+
+def test_having_arrived_it_has_its_whole_time_for_the_next_place() -> None:
+    sent = Sent()
+    assert sent.go(1.5, 130.0) is None
+    assert sent.go(1.0, 92.0) is None
+    assert sent.go(1.5, 130.0) is None
+
+
+@pytest.mark.parametrize("way", [1, -1], ids=["up", "down"])
+def test_a_fast_target_that_leaves_a_stuck_axis_is_told_soon_after_it_is_five_degrees_away(way: int) -> None:
+    """What was seen while it was near counts: a target at 15°/s is 5° away after 0.33 s."""
+    told = Sent().go(5.0, 90.0, rate_dps=15.0 * way)
+    assert told is not None
+    assert told[0] == pytest.approx(1.75, abs=0.11)
+    assert Sent().go(4.0, 90.0, dps=15.0 * way, rate_dps=15.0 * way) is None
+
+
+def test_without_a_reading_nothing_is_told() -> None:
+    watch = StrayWatch(Axis.AZIMUTH, 30.0)
+    for step in range(200):
+        assert watch.see(step * STEP_S, Steer(100.0, 0.0, 1e9), None, settling=False) is None

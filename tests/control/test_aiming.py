@@ -1,0 +1,75 @@
+"""What the order in force is: which orders are repeated with the panel's nudges, and which are over."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, Jog, Nudge, Order, Park, Source, Stop
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+PANEL = Source("panel")
+
+
+def targets(desk: Any) -> tuple[float | None, float | None]:
+    return desk.status.azimuth.target_deg, desk.status.elevation.target_deg
+
+
+@pytest.mark.parametrize(
+    ("order", "before", "after"),
+    [
+        (Aim(200.0, 40.0), (200.0, 40.0), (203.0, 38.0)),
+        (Aim(200.0, None), (200.0, None), (203.0, None)),
+        (Aim(None, 40.0), (None, 40.0), (None, 38.0)),
+    ],
+)
+def test_a_nudge_shifts_the_target_of_the_order_in_force(
+    desk: Any, order: Order, before: tuple[float | None, ...], after: tuple[float | None, ...]
+) -> None:
+    desk.step(order)
+    assert targets(desk) == pytest.approx(before)
+    desk.step(Nudge(AZ, 3.0), Nudge(EL, -2.0), by=PANEL)
+    assert targets(desk) == pytest.approx(after)
+
+
+@pytest.mark.parametrize("over", [Stop(), Jog(AZ, Direction.PLUS, 0.1), Park(), Aim(10.0, 10.0, engaged=False)])
+def test_what_ends_an_order_is_not_undone_by_a_nudge(desk: Any, over: Order) -> None:
+    desk.step(Aim(200.0, 40.0))
+    desk.step(over)
+    desk.run(30.0)
+    stood = targets(desk)
+    desk.step(Nudge(AZ, 3.0), by=PANEL)
+    assert targets(desk) == stood
+    assert targets(desk)[0] != 203.0
+
+
+@pytest.mark.parametrize(("at_deg", "azimuth_deg", "target_deg"), [(430.0, 60.0, 420.0), (20.0, 60.0, 60.0)])
+def test_of_two_turns_the_nearer_one_is_taken(
+    new_desk: Any, at_deg: float, azimuth_deg: float, target_deg: float
+) -> None:
+    desk = new_desk(at=(at_deg, 10.0))
+    desk.step()
+    desk.step(Aim(azimuth_deg, 10.0))
+    assert targets(desk) == pytest.approx((target_deg, 10.0))
+
+
+def test_before_the_azimuth_has_been_read_the_first_turn_is_taken(new_desk: Any) -> None:
+    desk = new_desk(at=(430.0, 10.0))
+    desk.instead[AZ] = None
+    desk.step(Aim(60.0, 10.0))
+    assert targets(desk) == pytest.approx((60.0, 10.0))
+
+
+def test_between_the_orders_of_a_stream_the_target_moves_on_and_stands_when_the_stream_ends(desk: Any) -> None:
+    for second in range(6):
+        desk.step(Aim(110.0 + 3.0 * second, 20.0))
+        desk.run(0.95)
+    target_deg = desk.status.azimuth.target_deg
+    desk.run(0.5)
+    assert desk.status.azimuth.target_deg > target_deg + 1.0
+    desk.step(Aim(None, 30.0))
+    target_deg = desk.status.azimuth.target_deg
+    desk.run(1.0)
+    assert desk.status.azimuth.target_deg == target_deg

@@ -1,0 +1,195 @@
+"""`rotator setup network`: rotctld opens for one network by one question, and closes again to the byte."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotator.cli.network import wait_for_the_pc
+from rotator.config.load import SIMULATED, parse, profiles, shipped
+from rotator.monitor.transcript import LinkNote, Peer, Way, encode_link, encode_peer, encode_piece
+from rotator.orders import Source
+from rotator.setup.machine import addresses
+from rotator.setup.network import BEGIN, END, closed, open_to
+from tests.setup.conftest import ROTATOR, Card
+
+PORT = 4533
+ANNOUNCED = "etc/avahi/services/rotator.service"
+BLOCK = f"""\
+{BEGIN}
+# was: tcp = "127.0.0.1:4533"
+tcp = "0.0.0.0:4533"
+allow = ["192.168.1.0/24"]
+{END}
+"""
+
+
+@pytest.fixture
+def with_avahi(card: Card) -> Card:
+    (card.root / "etc/avahi/services").mkdir(parents=True)
+    (card.root / "etc/hostname").write_text("shack\n")
+    return card
+
+
+def test_one_link_opens_and_the_rest_of_the_file_stays(with_avahi: Card) -> None:
+    said = with_avahi.setup("network", "--allow", "192.168.1.7/24", "--yes")
+    assert said.code == 0, said.text
+    assert with_avahi.rotator.read_text() == ROTATOR.replace('tcp = "127.0.0.1:4533"\n', BLOCK)
+    link = parse(with_avahi.rotator.read_text(), "x").link[0]
+    assert (link.tcp, link.allow) == ("0.0.0.0:4533", ["192.168.1.0/24"])
+    assert "<port>4533</port>" in (with_avahi.root / ANNOUNCED).read_text()
+    assert "Host shack.local, Port 4533" in said.text
+    assert "rotctl -m 2 -r shack.local:4533 p" in said.text
+
+
+def test_it_is_shown_first_and_no_is_the_default(with_avahi: Card) -> None:
+    before = with_avahi.files()
+    said = with_avahi.setup("network", "--allow", "all", answer="\n")
+    assert said.code == 1
+    assert '+tcp = "0.0.0.0:4533"' in said.text
+    assert with_avahi.files() == before
+
+
+def test_the_way_back(with_avahi: Card) -> None:
+    before = with_avahi.files()
+    with_avahi.setup("network", "--allow", "192.168.1.0/24", "--yes")
+    assert with_avahi.setup("network", "--undo", "--yes").code == 0
+    assert with_avahi.files() == before
+    assert "Nothing to change" in with_avahi.setup("network", "--undo").text
+    assert [copy.name.split(".before")[0] for copy in with_avahi.copies()] == ["rotator.toml", "rotator.toml"]
+
+
+def test_another_network_takes_the_place_of_the_first(with_avahi: Card) -> None:
+    with_avahi.setup("network", "--allow", "10.0.0.0/8", "--yes")
+    with_avahi.setup("network", "--allow", "192.168.1.0/24", "--yes")
+    assert with_avahi.rotator.read_text() == ROTATOR.replace('tcp = "127.0.0.1:4533"\n', BLOCK)
+
+
+def test_the_question(with_avahi: Card) -> None:
+    last = len({address.network for address in addresses()}) + 1
+    said = with_avahi.setup("network", answer=f"192.168.1\n{last}\ny\n")
+    assert '"192.168.1" is no network: type one such as 192.168.1.0/24' in said.text
+    assert said.code == 0
+    assert parse(with_avahi.rotator.read_text(), "x").link[0].allow is None
+
+
+def test_without_avahi_it_says_what_to_do(card: Card) -> None:
+    said = card.setup("network", "--allow", "all", "--yes")
+    assert "sudo apt install avahi-daemon" in said.text
+    assert not (card.root / ANNOUNCED).exists()
+
+
+def test_a_file_without_rotctld_gets_one(card: Card) -> None:
+    text = '[rotor]\nhardware = "sim"'
+    card.rotator.write_text(text)
+    card.setup("network", "--allow", "192.168.1.0/24", "--yes")
+    assert parse(card.rotator.read_text(), "x").link[0].tcp == "0.0.0.0:4533"
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [(("--allow", "192.168.1"), "--allow: "), (("--allow", "all", "--config", "none.toml"), "there is no none.toml")],
+)
+def test_what_cannot_be(card: Card, words: tuple[str, ...], said: str) -> None:
+    before = card.files()
+    done = card.setup("network", *words, "--yes")
+    assert (done.code, said in done.text) == (1, True)
+    assert card.files() == before
+
+
+def test_a_line_of_the_person_s_between_the_marks_stays(card: Card) -> None:
+    card.setup("network", "--allow", "all", "--yes")
+    card.rotator.write_text(card.rotator.read_text().replace(END, f"read_only = true\n{END}"))
+    before = card.files()
+    said = card.setup("network", "--undo", "--yes")
+    assert '"read_only = true" between the marks' in said.text
+    assert card.files() == before
+
+
+def test_the_installer_announces_the_same(with_avahi: Card) -> None:
+    """Else each of the two would rewrite what the other wrote."""
+    with_avahi.setup("network", "--allow", "all", "--yes")
+    template = (Path(__file__).parents[2] / "install/avahi.service").read_text()
+    assert (with_avahi.root / ANNOUNCED).read_text() == template.replace("@PORT@", "4533")
+
+
+@given(
+    st.sampled_from([SIMULATED, *profiles()]),
+    st.sampled_from([None, "10.0.0.0/8"]),
+    st.sampled_from(["\n", "\r\n"]),
+    st.sampled_from(["", '\nallow = [\n  "10.1.0.0/16",  # home\n]', '\nallow = ["10.1.0.0/16"]']),
+)
+def test_every_shipped_file_opens_and_comes_back_to_the_byte(name: str, allow: str | None, end: str, more: str) -> None:
+    text = shipped(name).replace('tcp = "127.0.0.1:4533"', f'tcp = "127.0.0.1:4533"{more}').replace("\n", end)
+    opened = open_to(text, allow)
+    link = next(link for link in parse(opened.text, name).link if link.protocol == "rotctld")
+    assert (link.tcp, link.allow) == ("0.0.0.0:4533", allow and [allow])
+    assert closed(opened.text) == text
+
+
+# --- the test from the PC
+
+
+class Box:
+    """What a running box shows on its monitor."""
+
+    def __init__(self, folder: Path) -> None:
+        self.config = folder / "box.toml"
+        self.config.write_text(f'[monitor]\npath = "{folder}/monitor"\n[[link]]\nprotocol = "gs232b"\npty = "x"\n')
+        self.monitor = socket.socket(socket.AF_UNIX)
+        self.monitor.bind(f"{folder}/monitor")
+        self.monitor.listen()
+
+
+@pytest.fixture
+def box(tmp_path: Path) -> Iterator[Box]:
+    made = Box(tmp_path)
+    yield made
+    made.monitor.close()
+
+
+@pytest.mark.parametrize("question", [b"p\n", b"+p\n", b"\\get_pos\n", b"\\dump_state\np\n"])
+def test_the_first_question_is_told_with_the_address_of_the_pc(
+    box: Box, capsys: pytest.CaptureFixture[str], question: bytes
+) -> None:
+    here, there = Source("rotctld", 1), Source("rotctld", 2)
+
+    def show() -> None:
+        watcher, _ = box.monitor.accept()
+        lines = [
+            "# rotator",
+            encode_link(LinkNote("rotctld", {"tcp": f"0.0.0.0:{PORT}"})),
+            encode_peer(Peer(here, "127.0.0.1")),
+            encode_peer(Peer(there, "192.168.1.20")),
+            encode_piece(datetime.now(), there, Way.IN, b"\\dump_state\n", text=True),
+            encode_piece(datetime.now(), here, Way.IN, b"p\n", text=True),
+            encode_piece(datetime.now(), there, Way.IN, question, text=True),
+        ]
+        watcher.sendall("".join(f"{line}\n" for line in lines).encode())
+        watcher.close()
+
+    shower = threading.Thread(target=show)
+    shower.start()
+    assert wait_for_the_pc(box.config, PORT, 20.0)
+    shower.join()
+    said = capsys.readouterr().out.splitlines()
+    assert said[-1] == "192.168.1.20 has just asked for the position: it works."
+
+
+def test_a_box_that_ends_is_no_answer(box: Box, capsys: pytest.CaptureFixture[str]) -> None:
+    def end() -> None:
+        watcher, _ = box.monitor.accept()
+        watcher.close()
+
+    shower = threading.Thread(target=end)
+    shower.start()
+    assert not wait_for_the_pc(box.config, PORT, 20.0)
+    shower.join()
+    assert "No computer has asked" in capsys.readouterr().out
