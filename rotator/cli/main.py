@@ -59,7 +59,10 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
 @FAULT
 @click.argument("pass_file", required=False, metavar="[PASS.csv|NAME]")
 @click.option(
-    "--via", type=click.Choice(["gs232", "rotctld", "track"]), default="gs232", help="The protocol of the orders."
+    "--via",
+    type=click.Choice(["gs232", "rotctld", "track"]),
+    default="gs232",
+    help="The protocol of the orders; `track`: the box knows the pass beforehand.",
 )
 @click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the flight to this CSV file.")
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")

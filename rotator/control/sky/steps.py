@@ -85,6 +85,27 @@ def _pieces(trail: Trail, price: float) -> list[Step]:
     return steps[::-1]
 
 
+@dataclass(frozen=True, slots=True)
+class _Move:
+    """From one place to another, half of it before `middle_s`."""
+
+    middle_s: float
+    from_deg: float
+    to_deg: float
+
+    def begins_s(self, speed_dps: float) -> float:
+        return self.middle_s - abs(self.to_deg - self.from_deg) / speed_dps / 2
+
+    def ends_s(self, speed_dps: float) -> float:
+        return self.middle_s + abs(self.to_deg - self.from_deg) / speed_dps / 2
+
+    def joined(self, later: _Move) -> _Move:
+        """Both in one; its middle is between theirs, nearer to the longer one's."""
+        size_deg, later_deg = abs(self.to_deg - self.from_deg), abs(later.to_deg - later.from_deg)
+        share = later_deg / (size_deg + later_deg) if size_deg + later_deg else 0.0
+        return _Move(self.middle_s + share * (later.middle_s - self.middle_s), self.from_deg, later.to_deg)
+
+
 class _Settling:
     """Shifts steps to where a motor of this speed errs least. Moments count from the beginning of the trail."""
 
@@ -105,20 +126,24 @@ class _Settling:
 
     def _on_the_way(self, pieces: Sequence[Step]) -> list[Step]:
         """Half of each move lies before the moment at which an infinitely fast motor would jump."""
-        moves = [
-            Step(max(0.0, to.leave_s - abs(to.place_deg - at.place_deg) / self._speed_dps / 2), to.place_deg)
-            for at, to in pairwise(pieces)
-        ]
-        steps = [pieces[0], *moves]
-        # A slow motor that would have to leave before it has arrived goes on to the later place at once.
-        return [step for step, later in pairwise(steps) if step.leave_s < later.leave_s] + steps[-1:]
+        moves: list[_Move] = []
+        for at, to in pairwise(pieces):
+            move = _Move(to.leave_s, at.place_deg, to.place_deg)
+            # Moves that a slow motor cannot tell apart are one.
+            while moves and moves[-1].ends_s(self._speed_dps) >= move.begins_s(self._speed_dps):
+                move = moves.pop().joined(move)
+            moves.append(move)
+        begun = [Step(max(0.0, move.begins_s(self._speed_dps)), move.to_deg) for move in moves]
+        first = pieces[0] if not begun or begun[0].leave_s > pieces[0].leave_s else begun.pop(0)
+        return [first, *begun]
 
     def _shift(self, index: int, by_s: float, by_deg: float) -> None:
         """Shift one step, and keep that if the error around it falls."""
         before = self._steps[index]
         after = Step(before.leave_s + by_s, before.place_deg + by_deg)
         earliest_s = self._steps[index - 1].leave_s if index else -math.inf
-        latest_s = self._steps[index + 1].leave_s if index + 1 < len(self._steps) else math.inf
+        end_s = PLAN_STEP_S * len(self._trail.angles_deg)
+        latest_s = self._steps[index + 1].leave_s if index + 1 < len(self._steps) else end_s
         if (by_s and not index) or not earliest_s < after.leave_s < latest_s:
             return
         error = self._error_around(index)
