@@ -66,6 +66,8 @@ def best_route(
             look += 1
             continue
         index = change[0]
+        if legs[-1].look == look:  # it sets off on the other way at once
+            legs.pop()
         legs.append(Leg(look, ways[index]))
         look = change[1]
     return Route(tuple(legs), least[first][0])

@@ -1,0 +1,113 @@
+"""The way through a whole pass: no unwinding where the range holds it, and the best moment for it where it does not."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotator.control.sky.angles import turn_deg
+from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.mount import Mount, Range
+from rotator.control.sky.route import STEP_S, Speeds
+from rotator.control.sky.ways import EVEN_S, Route, best_route
+from rotator.rehearsal.passes import SHIPPED, read_pass
+
+G5500 = Speeds(6.0, 2.7)
+FULL = Mount(Range(0, 450), Range(0, 180))
+SINGLE = Mount(Range(0, 360), Range(0, 90))
+OVER = Mount(Range(0, 360), Range(0, 180), flip=True)
+NORTH = ("north-1-iss", "north-2-so-50", "north-3-rs-44")
+EVERY = sorted(path.stem for path in SHIPPED.glob("*.csv"))
+
+
+def path_of(name: str, *, mirrored: bool = False) -> KnownPath:
+    rows = read_pass(SHIPPED / f"{name}.csv").rows
+    return KnownPath(tuple((t_s, -az_deg % 360 if mirrored else az_deg, el_deg) for t_s, az_deg, el_deg in rows))
+
+
+def routed(mount: Mount, path: KnownPath, from_deg: tuple[float, float] = (0.0, 0.0), early_s: float = 120.0) -> Route:
+    return best_route(mount, path.directions(path.begin_s, STEP_S), from_deg, early_s, G5500)
+
+
+def fits(path: KnownPath) -> bool:
+    """Whether one turn of 450° holds the whole pass."""
+    azimuth_deg, turned_deg = path.rows[0][1], [0.0]
+    for _, each_deg, _ in path.rows:
+        turned_deg.append(turned_deg[-1] + turn_deg(azimuth_deg, each_deg))
+        azimuth_deg = each_deg
+    low_deg, high_deg = path.rows[0][1] + min(turned_deg), path.rows[0][1] + max(turned_deg)
+    return any(low_deg + turn >= 0 and high_deg + turn <= 450 for turn in (-360, 0, 360))
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("name", EVERY)
+def test_no_pass_is_unwound_that_fits_into_450_degrees(name: str, mirrored: bool) -> None:
+    path = path_of(name, mirrored=mirrored)
+    route = routed(FULL, path)
+    if fits(path):
+        assert (len(route.legs), route.lost_s) == (1, pytest.approx(0.0, abs=0.5))
+    else:
+        assert name in NORTH
+        assert route.lost_s < 62
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("name", NORTH)
+def test_over_the_top_no_pass_through_north_is_unwound(name: str, mirrored: bool) -> None:
+    route = routed(OVER, path_of(name, mirrored=mirrored))
+    assert [leg.flown.way.flipped for leg in route.legs] == [True]
+    assert route.lost_s == pytest.approx(0.0, abs=0.5)
+
+
+@pytest.mark.parametrize("name", NORTH)
+def test_where_it_must_be_unwound_that_takes_one_turn_and_is_told(name: str) -> None:
+    """A turn takes 60 s at 6°/s; before and after it the antenna waits at an end of its range."""
+    route = routed(SINGLE, path_of(name))
+    assert len(route.legs) == 2
+    assert 30 < route.lost_s < 62
+
+
+def test_a_pass_that_ends_just_beyond_north_is_not_unwound() -> None:
+    """The last 20 s are lost by a few degrees: less than a turn would cost."""
+    path = KnownPath(tuple((10.0 * step, (300 + step * 1.0) % 360, 20.0) for step in range(66)))
+    assert len(routed(SINGLE, path).legs) == 1
+
+
+@pytest.mark.parametrize(("early_s", "begins_deg"), [(120.0, 20.0), (0.0, 380.0)])
+def test_an_antenna_in_the_overlap_stays_there_when_there_is_no_time_to_unwind(
+    early_s: float, begins_deg: float
+) -> None:
+    """From 20° to 120° on a rotor of 450°: only the first turn holds all of it."""
+    path = KnownPath(tuple((10.0 * step, 20.0 + step, 30.0) for step in range(101)))
+    route = routed(FULL, path, from_deg=(380.0, 30.0), early_s=early_s)
+    assert route.legs[0].flown.way.azimuth_deg == begins_deg
+
+
+SATELLITES = st.builds(
+    lambda begin_deg, rate_dps, seconds, high_deg: KnownPath(
+        tuple(
+            (
+                5.0 * step,
+                (begin_deg + rate_dps * 5.0 * step) % 360,
+                high_deg * 4 * (step / seconds) * (1 - step / seconds),
+            )
+            for step in range(seconds + 1)
+        )
+    ),
+    st.floats(0, 359),
+    st.floats(-1.5, 1.5),
+    st.integers(20, 120),
+    st.floats(5, 80),
+)
+
+
+@given(path=SATELLITES, from_deg=st.tuples(st.floats(0, 360), st.floats(0, 90)), early_s=st.floats(0, 300))
+def test_no_way_loses_more_than_staying_on_the_one_it_begins_with(
+    path: KnownPath, from_deg: tuple[float, float], early_s: float
+) -> None:
+    for mount in (FULL, SINGLE, OVER):
+        route = routed(mount, path, from_deg, early_s)
+        assert route.lost_s <= route.legs[0].flown.lost_s[-1] + 2 * EVEN_S
+        looks = [leg.look for leg in route.legs]
+        assert looks == sorted(set(looks))
