@@ -65,7 +65,7 @@ def home(path: Path | None, axis: str, *, yes: bool) -> None:
         signal.signal(signum, signal.default_int_handler)
     with RunningBox(path) as box:
         if box.status()[axis]["angle_source"] != "counted":
-            raise Refused(f"{axis} knows where it stands: there is no end stop to be found")
+            raise Refused(f"{axis} knows its angle: it needs no homing")
         agree(f"Watch the antenna: {axis} turns to its low end. Ctrl-C stops it. Begin?", yes=yes)
         with _stops_unless_done(path):
             box.order(f"home {axis}")

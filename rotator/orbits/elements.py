@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 
-MOST_REV_PER_DAY = 18.0
-"""Faster, and the orbit would be inside the atmosphere."""
+LEAST_REV_PER_DAY, MOST_REV_PER_DAY = 0.01, 18.0
+"""Slower, and the Moon would take the satellite away; faster, and it would fly inside the atmosphere."""
 DAY_S = 86_400.0
 
 
@@ -47,7 +47,7 @@ class Elements:
             value = getattr(self, field.name)
             if isinstance(value, float) and not math.isfinite(value):
                 raise NotAnOrbit(f"{field.name} is {value}")
-        if not 0 < self.mean_motion_rev_per_day <= MOST_REV_PER_DAY:
+        if not LEAST_REV_PER_DAY <= self.mean_motion_rev_per_day <= MOST_REV_PER_DAY:
             raise NotAnOrbit(f"a mean motion of {self.mean_motion_rev_per_day:g} revolutions a day is no orbit")
         if not 0 <= self.eccentricity < 1:
             raise NotAnOrbit(f"an eccentricity of {self.eccentricity:g} is no closed orbit")

@@ -56,8 +56,8 @@ class Satellite:
 
     def sight(self, utc_s: float) -> Sight:
         error, place_km, _ = self._record.sgp4_tsince((utc_s - self.elements.epoch_utc_s) / 60.0)
-        if error:
-            raise NotThere(f"{self.name}: {SGP4_ERRORS.get(error, error)}")
+        if error or not all(map(math.isfinite, place_km)):
+            raise NotThere(f"{self.name}: {SGP4_ERRORS.get(error, 'its elements give no place')}")
         turned = _earth_turned_rad(utc_s)
         x, y, z = place_km
         cos, sin = math.cos(turned), math.sin(turned)
