@@ -55,22 +55,21 @@ def let_go(path: Path | None, *, yes: bool) -> None:
 
 
 def confirm(path: Path | None, axis: str, angle_deg: float) -> None:
-    """Give an axis its angle, and say what the box takes it for afterwards. Raises CommandFailed if it is another."""
+    """Give an axis its angle, and say what the box takes it for afterwards. Raises CommandFailed if nothing changed.
+
+    A sensor that knows the angle within a turn keeps its own, and takes the turn alone from the person.
+    """
     with RunningBox(path) as box:
         before = box.status()
         box.order(f"confirm {axis} {angle_deg:.4f}")
         until_s = time.monotonic() + CONFIRMED_S
         while not (taken := _is_near(after := box.status(), axis, angle_deg)) and time.monotonic() < until_s:
             time.sleep(LOOK_S)
-    before_deg = before[axis]["angle_deg"]
-    if not taken and (before_deg is None or _is_near(after, axis, before_deg)):
+    before_deg, after_deg = before[axis]["angle_deg"], after[axis]["angle_deg"]
+    if after_deg is None or (not taken and before_deg is not None and _is_near(after, axis, before_deg)):
         raise CommandFailed(f"{angle_deg:g}° had no effect: {stands(after, axis)}")
-    if not taken:
-        raise CommandFailed(
-            f"not {angle_deg:g}°: the box now has {stands(after, axis)}, the nearest that fits its sensor. Before: "
-            f"{stands(before, axis)}. Look at the antenna, and confirm it again"
-        )
-    click.echo(f"Taken: {stands(after, axis)}. Before: {stands(before, axis)}.")
+    fitted = "" if taken else f", the nearest to {angle_deg:g}° that fits its sensor"
+    click.echo(f"Taken: {stands(after, axis)}{fitted}. Before: {stands(before, axis)}.")
 
 
 def _is_near(status: BoxStatus, axis: str, angle_deg: float) -> bool:

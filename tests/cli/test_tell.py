@@ -239,12 +239,21 @@ def test_a_confirmation_without_effect_is_no_success(scripted: Any, rotator: Rot
     assert why(done) == "rotator: 300° had no effect: azimuth 20.0° counted\n"
 
 
-def test_a_gear_allows_only_some_angles(scripted: Any, rotator: Rotator, config: Path) -> None:
+def test_a_sensor_that_knows_the_angle_within_a_turn_keeps_its_own(
+    scripted: Any, rotator: Rotator, config: Path
+) -> None:
     scripted(counted(0), counted(0), counted(36))
-    done = rotator("confirm", "azimuth", "20", "--config", config)
-    assert why(done) == (
-        "rotator: not 20°: the box now has azimuth 36.0° counted, the nearest that fits its sensor. "
-        "Before: azimuth 0.0° counted. Look at the antenna, and confirm it again\n"
+    assert said(rotator("confirm", "azimuth", "20", "--config", config)) == (
+        "Taken: azimuth 36.0° counted, the nearest to 20° that fits its sensor. Before: azimuth 0.0° counted.\n"
+    )
+
+
+def test_an_angle_that_was_not_known_is_known_now(scripted: Any, rotator: Rotator, config: Path) -> None:
+    """A moteus after power-on: the person sees 38°, and the encoder knows it better."""
+    lost, found = pointed(AxisStatus(0.0, 450.0, None)), pointed(AxisStatus(0.0, 450.0, 34.7))
+    scripted(lost, lost, found)
+    assert said(rotator("confirm", "azimuth", "38", "--config", config)) == (
+        "Taken: azimuth 34.7° measured, the nearest to 38° that fits its sensor. Before: azimuth not known.\n"
     )
 
 
