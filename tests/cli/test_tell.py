@@ -389,3 +389,10 @@ def test_both_axes_with_a_fault(scripted: Any, rotator: Rotator, config: Path) -
     told = json.loads(done.stdout)
     assert [told[axis.value]["fault"]["text"] for axis in Axis] == [str(fault) for fault in faults]
     assert [told[axis.value]["angle_is_current"] for axis in Axis] == [False, False]
+
+
+def test_a_fault_whose_cause_is_still_there_is_not_called_mended(scripted: Any, rotator: Rotator, config: Path) -> None:
+    fault = Fault(FaultKind.POT_OPEN, Axis.AZIMUTH, "reads 0.000", "0.02 to 0.98")
+    scripted(pointed(AxisStatus(0.0, 450.0, 120.0, fault=fault)))
+    done = rotator("resume", "--config", config)
+    assert why(done, 3) == f"rotator: the cause is still there:\n         {fault}\n"
