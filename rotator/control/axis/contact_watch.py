@@ -60,7 +60,7 @@ class ContactWatch:
         self._read_s = -math.inf
         """When the latest reading was taken."""
         self._late_changes = 0
-        """The changes at a time when a motor without current stands, since the contact was last silent."""
+        """The changes at a time when a motor without current stands, until the contact is silent again."""
         self._changed_s = -math.inf
         self._angle_deg = 0.0
         self._ahead: frozenset[Direction] = frozenset()
@@ -86,7 +86,8 @@ class ContactWatch:
         """Whether that relay stays open, because nothing has shown yet that its opposite is open."""
         if self._driven is direction:
             return False
-        return not self.looked or self._trust[Direction(-direction)] is not Trust.OPEN
+        # A late change may be the first of a motor with current: the contact must be silent first.
+        return not self.looked or self._late_changes > 0 or self._trust[Direction(-direction)] is not Trust.OPEN
 
     @property
     def settles(self) -> bool:
