@@ -27,7 +27,7 @@ class _Loads(HTMLParser):
 
 
 def from_elsewhere(folder: Path) -> list[str]:
-    """What a browser would fetch from the network while somebody reads."""
+    """What a browser would fetch from the network while a person reads."""
     found = []
     for page in sorted(folder.rglob("*.html")):
         loads = _Loads()

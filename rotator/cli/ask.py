@@ -19,13 +19,13 @@ from pathlib import Path
 import click
 
 from rotator.config.load import SIMULATED, parse
+from rotator.config.places import INSTALLED
 from rotator.setup import tree
 from rotator.setup.machine import Machine, this_machine
 from rotator.setup.new_file import for_the_service, new_file
 from rotator.setup.plan import Change, ChangeSet, SetupError
 from rotator.setup.questions import Question, questions
 
-SERVICE_FILE = Path("/etc/rotator/rotator.toml")
 BACK, HELP = ("b", "back", "<"), ("?", "h", "help")
 
 
@@ -81,14 +81,14 @@ class Dialogue:
 
 def ask(name: str, to: Path | None, *, today: Callable[[], date] = date.today, machine: Machine | None = None) -> None:
     """Ask, show where the file goes, and write it. Raises SetupError; then nothing is written."""
-    path = to or (SERVICE_FILE if SERVICE_FILE.parent.is_dir() else Path("rotator.toml"))
+    path = to or (INSTALLED if INSTALLED.parent.is_dir() else Path("rotator.toml"))
     dialogue = Dialogue(_line, shutil.get_terminal_size().columns)
     try:
         dialogue.say("A few questions, and your configuration file is written. Enter takes the answer in brackets, "
                      "b goes back, ? helps, Ctrl-C ends and writes nothing.")  # fmt: skip
         answers = _answers(dialogue, machine or this_machine(), name)
         text = f"# Written by `rotator config --ask` on {today().isoformat()}.\n{new_file(answers)}"
-        if path == SERVICE_FILE:
+        if path == INSTALLED:
             text = for_the_service(text)
         parse(text, str(path))
         click.echo()
@@ -139,7 +139,7 @@ def _write(dialogue: Dialogue, path: Path, text: str, today: date) -> None:
 
 def _what_next(dialogue: Dialogue, path: Path, answers: dict[str, str]) -> None:
     dialogue.say(f"{path} is written. Next:")
-    if path == SERVICE_FILE:
+    if path == INSTALLED:
         click.echo("  sudo systemctl restart rotator")
     else:
         click.echo(f"  rotator run --config {path}")

@@ -42,8 +42,13 @@ def where(path: Path | None, *, as_json: bool) -> int:
 
 
 def resume(path: Path | None) -> None:
+    """Release the antenna. Raises CommandFailed for a fault whose cause is still there."""
     with RunningBox(path) as box:
         box.order("resume")
+        time.sleep(LOOK_S)
+        after = box.status()
+    if failed := faults(after):
+        raise CommandFailed("\n         ".join(("the cause is still there:", *failed)), FAULTY)
     click.echo("The antenna may move again.")
 
 

@@ -13,19 +13,19 @@ import click
 from rich.console import Console, RenderableType
 
 from rotator import __version__
+from rotator.config.places import INSTALLED
 from rotator.doctor.checks import examine
 from rotator.doctor.machine import this_machine
 from rotator.views.examination import as_object, report
 
-INSTALLED = "/etc/rotator/rotator.toml"
 PLAIN_WIDTH = 110
 
 
 def examine_box(path: Path | None, *, as_json: bool) -> int:
     """Check and print. Returns the exit code: 0 without errors, 1 with errors, 2 for an unusable configuration."""
     machine = this_machine()
-    if path is None and machine.at(INSTALLED).exists():
-        path = machine.at(INSTALLED)
+    if path is None and machine.at(str(INSTALLED)).exists():
+        path = machine.at(str(INSTALLED))
     examination = examine(machine, path)
     if as_json:
         found = as_object(examination.findings, program=__version__, ok=examination.exit_code == 0)

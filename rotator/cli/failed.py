@@ -14,7 +14,7 @@ INTERRUPTED = 130
 
 EXIT_CODES = {
     DONE: "done; for `where` and the commands that move the antenna also: no axis has a fault",
-    NOT_DONE: "not done: no box runs, it refuses, or somebody else took or stopped the antenna",
+    NOT_DONE: "not done: no box runs, it refuses, or another sender took or stopped the antenna",
     MISTAKEN: "the command line or the configuration file is wrong; nothing was done",
     FAULTY: "an axis has a fault; the last lines name it",
     INTERRUPTED: "Ctrl-C, before anything was begun",

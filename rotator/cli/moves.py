@@ -50,8 +50,8 @@ def jog(path: Path | None, direction: str, seconds: float, *, wait: bool) -> Non
             box.order(f"jog {direction} {seconds:.3f}")
             if not wait:
                 return click.echo("The box has the order.")
-            after = _watched(box, (axis,))
-    _judge(after, (axis,), "the jog")
+            after, ours = _watched(box, before, (axis,))
+    _judge(after, ours, (axis,), "the jog")
     if before[axis]["angle_deg"] is None or after[axis]["angle_deg"] is None:
         return click.echo(f"{axis}: its angle is not known.")
     moved_deg = after[axis]["angle_deg"] - before[axis]["angle_deg"]
@@ -64,13 +64,14 @@ def home(path: Path | None, axis: str, *, yes: bool) -> None:
         # A closed terminal means that the user no longer watches: the same as Ctrl-C.
         signal.signal(signum, signal.default_int_handler)
     with RunningBox(path) as box:
-        if box.status()[axis]["angle_source"] != "counted":
+        before = box.status()
+        if before[axis]["angle_source"] != "counted":
             raise Refused(f"{axis} knows its angle: it needs no homing")
         agree(f"Watch the antenna: {axis} turns to its low end. Ctrl-C stops it. Begin?", yes=yes)
         with _stops_unless_done(path):
             box.order(f"home {axis}")
-            after = _watched(box, (axis,), patience=HOMING_LOOKS)
-    _judge(after, (axis,), "the homing")
+            after, ours = _watched(box, before, (axis,), patience=HOMING_LOOKS)
+    _judge(after, ours, (axis,), "the homing")
     if after[axis]["missing"]:
         raise CommandFailed(f"{axis} is not homed: it needs {', '.join(after[axis]['missing'])}")
     click.echo(f"{stands(after, axis)}: homed.")
@@ -78,44 +79,52 @@ def home(path: Path | None, axis: str, *, yes: bool) -> None:
 
 def _travel(path: Path | None, words: str, *, wait: bool) -> None:
     with RunningBox(path) as box, _stops_on_ctrl_c(path):
+        before = box.status()
         box.order(words)
         if not wait:
             return click.echo("The box has the order. `rotator where` shows what comes of it.")
-        after = _watched(box, AXES)
-    _judge(after, AXES, words.partition(" ")[0])
+        after, ours = _watched(box, before, AXES)
+    _judge(after, ours, AXES, words.partition(" ")[0])
     for axis in AXES:
         if missing := after[axis]["missing"]:
             raise CommandFailed(f"{axis} did not move: it needs {', '.join(missing)}")
     return click.echo(f"Arrived: {', '.join(stands(after, axis) for axis in AXES)}.")
 
 
-def _judge(after: BoxStatus, axes: Sequence[str], what: str) -> None:
-    """Raises CommandFailed where an axis did not do what was ordered."""
+def _judge(after: BoxStatus, ours: str, axes: Sequence[str], what: str) -> None:
+    """Raises CommandFailed where an axis did not do what was ordered. `ours`: this command, as the box calls it."""
     if failed := faults(after, axes):
         click.echo(f"{', '.join(stands(after, axis) for axis in AXES)}.")
         raise CommandFailed("\n         ".join(failed), FAULTY)
     if after["stopped_by"] and not after["storm_park"]:
         raise CommandFailed(f"{what} was ended: stopped by {after['stopped_by']}; nothing moves until `rotator resume`")
     mover = str(after["moved_by"] or "")
-    if not mover.startswith(CONSOLE):
-        ended = f"{mover} moves the antenna now" if mover else "the antenna was stopped"
+    if not mover.startswith(CONSOLE) or (ours and mover != ours):
+        other = "another command" if mover.startswith(CONSOLE) else mover
+        ended = f"{other} moves the antenna now" if mover else "the antenna was stopped"
         raise CommandFailed(f"{what} was ended: {ended}")
 
 
-def _watched(box: RunningBox, axes: Sequence[str], patience: int = TAKEN_LOOKS) -> BoxStatus:
-    """The status when these axes stand and have nothing to do, or when somebody else has the antenna."""
+def _watched(
+    box: RunningBox, before: BoxStatus, axes: Sequence[str], patience: int = TAKEN_LOOKS
+) -> tuple[BoxStatus, str]:
+    """The status when these axes stand and have nothing to do, or when another sender has the antenna.
+
+    And what the box calls this command; empty: it was never seen to move the antenna. `before`: the status before the
+    order. The box gives each connection a new name, so who moved the antenna then is not this command.
+    """
     still, ours = 0, ""
     with _row() as show:
         while True:
             status = box.status()
             mover = str(status["moved_by"] or "")
             if (ours and mover != ours) or (status["stopped_by"] and not status["storm_park"]):
-                return status
-            ours = mover if mover.startswith(CONSOLE) else ours
+                return status, ours
+            ours = mover if mover.startswith(CONSOLE) and mover != before["moved_by"] else ours
             busy = any(_is_busy(status[axis]) for axis in axes)
             still = 0 if busy else still + 1
             if still >= patience:
-                return status
+                return status, ours
             show("   ".join(_progress(status, axis) for axis in axes))
             time.sleep(LOOK_S)
 

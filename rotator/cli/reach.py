@@ -15,9 +15,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from rotator.cli.failed import CommandFailed
-from rotator.config.places import STATE, console_path, monitor_places
-
-SERVICE_FILE = "/etc/rotator/rotator.toml"
+from rotator.config.places import INSTALLED, STATE, console_path, monitor_places
 
 
 def monitors(path: Path | None) -> list[Path]:
@@ -63,7 +61,7 @@ def reach(path: Path | None, places: Callable[[Path | None], Sequence[Path]]) ->
         box.close()
         raise CommandFailed(
             f"two boxes run: one started in this folder ({place}), and the service. For the service add "
-            f"--config {SERVICE_FILE}; for the other end the service first: sudo systemctl stop rotator"
+            f"--config {INSTALLED}; for the other end the service first: sudo systemctl stop rotator"
         )
     return box
 

@@ -46,7 +46,8 @@ class RunKeys:
         elif any(word.startswith(self._typed + pressed.lower()) for word in WORDS):
             self._show(self._typed + pressed.lower())
         elif pressed.isprintable():
-            self._show(self._typed, f"{pressed} is no key here")
+            # A slip ends the word: what is left of other words must not become one that turns the antenna.
+            self._show("", f"{pressed} is no key here; begin again" if self._typed else f"{pressed} is no key here")
         return False
 
     def _enter(self) -> None:

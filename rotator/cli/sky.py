@@ -18,6 +18,7 @@ from rotator.assembly.sky import build_catalogue, build_site
 from rotator.cli.utc import day_and_time, iso, local_time
 from rotator.config.load import load
 from rotator.config.model import Config
+from rotator.config.places import INSTALLED
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import Pass
@@ -33,7 +34,7 @@ NO_PASS = "no pass in this time"
 
 
 def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bool) -> None:
-    config = load(path)
+    config = load(path or (INSTALLED if INSTALLED.exists() else None))
     site, catalogue = _sky(config)
     at_s = time.time() if at_s is None else at_s
     try:
@@ -67,7 +68,7 @@ def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bo
 def show_passes(
     path: Path | None, names: tuple[str, ...], from_s: float | None, hours: float, least_deg: float, *, as_json: bool
 ) -> None:
-    config = load(path)
+    config = load(path or (INSTALLED if INSTALLED.exists() else None))
     site, catalogue = _sky(config)
     from_s = time.time() if from_s is None else from_s
     try:

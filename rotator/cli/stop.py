@@ -1,8 +1,8 @@
 """`rotator stop`: stops the antenna without loading the rest of the program, not even the command line's parser.
 
 A person who calls it sees the antenna run into something, and the whole program takes a second to load on a Pi. Without
-a file it stops every box that runs here. Where the arguments or the file are unusual, it leaves the command to the slow
-way, which has the error texts.
+a file it stops the box of this folder, and the service. Where the arguments or the file are unusual, it leaves the
+command to the slow way, which has the error texts.
 """
 
 from __future__ import annotations

@@ -8,13 +8,13 @@ the model knows. The file itself changes only when a calibration is saved in it.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
-import tomlkit
-from tomlkit import TOMLDocument
+if TYPE_CHECKING:
+    from tomlkit import TOMLDocument
 
-Step = Callable[[TOMLDocument], None]
+Step = Callable[["TOMLDocument"], None]
 """Changes a document of one format into the next."""
 STEPS: tuple[Step, ...] = ()
 """The first from format 1 to 2. Beside a new one, files of the format before it go into tests/formats."""
@@ -28,15 +28,32 @@ class FormatError(ValueError):
 
 def values(text: str, steps: Sequence[Step] = STEPS) -> dict[str, Any]:
     """The keys of the file as today's model knows them, without the number. Raises like `brought_up`."""
-    found = tomllib.loads(brought_up(text, steps))
+    found = tomllib.loads(text)
+    if _number(found, steps) <= len(steps):
+        found = tomllib.loads(brought_up(text, steps))
     found.pop(KEY, None)
     return found
 
 
 def brought_up(text: str, steps: Sequence[Step] = STEPS) -> str:
     """The text in today's format. Raises FormatError, and TOMLDecodeError where it is no TOML."""
-    number = tomllib.loads(text).get(KEY, 1)
-    today = 1 + len(steps)
+    number, today = _number(tomllib.loads(text), steps), 1 + len(steps)
+    if number == today:
+        return text
+    import tomlkit  # noqa: PLC0415 - slow to load, and a file of today's format does without it
+
+    document = tomlkit.parse(text)
+    for step in steps[number - 1 :]:
+        step(document)
+    if KEY in document:
+        document[KEY] = today
+        return tomlkit.dumps(document)
+    return f"{KEY} = {today}\n\n{tomlkit.dumps(document)}"
+
+
+def _number(keys: Mapping[str, Any], steps: Sequence[Step]) -> int:
+    """The format of a file with these keys. Raises FormatError."""
+    number, today = keys.get(KEY, 1), 1 + len(steps)
     if not isinstance(number, int) or isinstance(number, bool) or number < 1:
         raise FormatError(
             f"{KEY} = {number!r}: must be a whole number from 1 to {today}; a file without it is of format 1"
@@ -46,12 +63,4 @@ def brought_up(text: str, steps: Sequence[Step] = STEPS) -> str:
             f"{KEY} = {number}: a later version of the program wrote this file, and this one reads {KEY}s up to "
             f"{today}: update the program, or take the file from before the update (.bak)"
         )
-    if number == today:
-        return text
-    document = tomlkit.parse(text)
-    for step in steps[number - 1 :]:
-        step(document)
-    if KEY in document:
-        document[KEY] = today
-        return tomlkit.dumps(document)
-    return f"{KEY} = {today}\n\n{tomlkit.dumps(document)}"
+    return number

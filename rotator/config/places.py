@@ -10,6 +10,8 @@ from pathlib import Path
 
 STATE = "run/state.json"
 """The state file, where the configuration names none."""
+INSTALLED = Path("/etc/rotator/rotator.toml")
+"""The service's configuration file."""
 MONITOR = "monitor"
 MONITOR_OF_THE_SERVICE = Path("/run/rotator/monitor")
 

@@ -83,7 +83,7 @@ class Catalogue:
 
         Raises Unknown.
         """
-        numbers = self._names.get(_plain(name), set())
+        numbers = self._names.get(plain(name), set())
         if len(numbers) == 1:
             return self._sets[next(iter(numbers))]
         if numbers:
@@ -91,7 +91,7 @@ class Catalogue:
             raise Unknown(f'"{name}" may be {several}: name one by its number')
         if not self._sets:
             raise Unknown(f'"{name}" is not known: there are no elements ([sky] elements names files of them)')
-        near = difflib.get_close_matches(_plain(name), self._names, n=3, cutoff=0.6)
+        near = difflib.get_close_matches(plain(name), self._names, n=3, cutoff=0.6)
         meant = list(dict.fromkeys(self._sets[min(self._names[each])].name for each in near))
         raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known' + _perhaps(meant))
 
@@ -155,10 +155,11 @@ def _files(places: Sequence[str]) -> tuple[list[Path], list[str]]:
 def _spoken(elements: Elements) -> set[str]:
     """`OSCAR 7 (AO-7)` is said whole, or as one of the two; `ISS (ZARYA)` too. And the number."""
     names = {elements.name, *_PARENTHESES.findall(elements.name), _PARENTHESES.sub("", elements.name)}
-    return {_plain(name) for name in names} - {""} | {str(elements.catalogue_number)}
+    return {plain(name) for name in names} - {""} | {str(elements.catalogue_number)}
 
 
-def _plain(name: str) -> str:
+def plain(name: str) -> str:
+    """The name without capitals, hyphens and blanks: as names are compared."""
     return "".join(each for each in name.casefold() if each.isalnum())
 
 

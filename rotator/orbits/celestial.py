@@ -15,11 +15,9 @@ from enum import Enum
 import astronomy
 
 from rotator.orbits.earth import Site
+from rotator.orbits.moments import DAY_S, J2000_S
 from rotator.orbits.sight import Sight
 
-J2000_S = 946_728_000.0
-"""Noon of 1 January 2000 UTC, in seconds since 1970."""
-DAY_S = 86_400.0
 DEG_PER_H = 15.0
 
 
@@ -87,15 +85,15 @@ class Body:
 
 
 class RadioSource:
-    """One of `RADIO_SOURCES`, so far away that its range is told as infinite."""
+    """One of `RADIO_SOURCES`. Its range is infinite."""
 
     def __init__(self, name: str, site: Site) -> None:
         self.name = name
-        self._sky = Sky(site, lambda: 0.0)
+        self._observer = astronomy.Observer(site.latitude_deg, site.longitude_deg, site.altitude_m)
         self._star = RADIO_SOURCES[name]
 
     def sight(self, utc_s: float) -> Sight:
-        return Sight(*self._sky.direction(self._star, utc_s), math.inf)
+        return Sight(*_direction(self._star, self._observer, _time(utc_s)), math.inf)
 
     def late_s(self, _utc_s: float) -> float:
         return 0.0
@@ -109,20 +107,16 @@ class Sky:
         self.utc = utc
         self._observer = astronomy.Observer(site.latitude_deg, site.longitude_deg, site.altitude_m)
 
-    def direction(self, star: Star, utc_s: float | None = None) -> tuple[float, float]:
-        """Azimuth from 0 to below 360, and elevation, below zero under the horizon; now, or at that moment."""
-        now = _time(self.utc() if utc_s is None else utc_s)
-        sphere = astronomy.Spherical(star.declination_deg, star.right_ascension_deg, 1.0)
-        turned = astronomy.RotateVector(self._to_horizon(now, star.equinox), astronomy.VectorFromSphere(sphere, now))
-        seen = astronomy.HorizonFromVector(turned, astronomy.Refraction.Airless)
-        return seen.lon % 360.0, seen.lat
+    def direction(self, star: Star) -> tuple[float, float]:
+        """Azimuth from 0 to below 360, and elevation, below zero under the horizon."""
+        return _direction(star, self._observer, _time(self.utc()))
 
     def star(self, azimuth_deg: float, elevation_deg: float, equinox: Equinox) -> Star:
         """The place among the stars to which an antenna at this azimuth and elevation points."""
         now = _time(self.utc())
         sphere = astronomy.Spherical(elevation_deg, azimuth_deg, 1.0)
         vector = astronomy.VectorFromHorizon(sphere, now, astronomy.Refraction.Airless)
-        back = astronomy.InverseRotation(self._to_horizon(now, equinox))
+        back = astronomy.InverseRotation(_to_horizon(now, self._observer, equinox))
         place = astronomy.EquatorFromVector(astronomy.RotateVector(back, vector))
         return Star(place.ra * DEG_PER_H % 360.0, place.dec, equinox)
 
@@ -130,10 +124,18 @@ class Sky:
         """The local apparent sidereal time in hours."""
         return float((astronomy.SiderealTime(_time(self.utc())) + self.site.longitude_deg / DEG_PER_H) % 24.0)
 
-    def _to_horizon(self, now: astronomy.Time, equinox: Equinox) -> astronomy.RotationMatrix:
-        if equinox is Equinox.J2000:
-            return astronomy.Rotation_EQJ_HOR(now, self._observer)
-        return astronomy.Rotation_EQD_HOR(now, self._observer)
+
+def _direction(star: Star, observer: astronomy.Observer, now: astronomy.Time) -> tuple[float, float]:
+    sphere = astronomy.Spherical(star.declination_deg, star.right_ascension_deg, 1.0)
+    turned = astronomy.RotateVector(_to_horizon(now, observer, star.equinox), astronomy.VectorFromSphere(sphere, now))
+    seen = astronomy.HorizonFromVector(turned, astronomy.Refraction.Airless)
+    return seen.lon % 360.0, seen.lat
+
+
+def _to_horizon(now: astronomy.Time, observer: astronomy.Observer, equinox: Equinox) -> astronomy.RotationMatrix:
+    if equinox is Equinox.J2000:
+        return astronomy.Rotation_EQJ_HOR(now, observer)
+    return astronomy.Rotation_EQD_HOR(now, observer)
 
 
 def _time(utc_s: float) -> astronomy.Time:

@@ -9,9 +9,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 
+from rotator.orbits.moments import DAY_S
+
 LEAST_REV_PER_DAY, MOST_REV_PER_DAY = 0.01, 18.0
 """Slower, and the Moon would take the satellite away; faster, and it would fly inside the atmosphere."""
-DAY_S = 86_400.0
 
 
 class NotAnOrbit(ValueError):  # noqa: N818 - a sentence about numbers

@@ -12,10 +12,10 @@ from bisect import bisect_right
 from sgp4.api import SGP4_ERRORS, WGS72, Satrec
 
 from rotator.orbits.earth import Horizon, Site
-from rotator.orbits.elements import DAY_S, Elements
+from rotator.orbits.elements import Elements
+from rotator.orbits.moments import DAY_S, J2000_S
 from rotator.orbits.sight import NotThere, Sight
 
-J2000_UTC_S = 946_728_000.0
 _SGP4_EPOCH_UTC_S = -631_238_400.0
 """31 December 1949, from which sgp4 counts days, in seconds since 1970."""
 _OF_NO_NUMBER = 1
@@ -97,7 +97,7 @@ def _record(elements: Elements) -> Satrec:
 def _earth_turned_rad(utc_s: float) -> float:
     """Greenwich mean sidereal time of 1982, the angle between TEME and the earth (Vallado 2006, equation C-5)."""
     ut1_s = utc_s + _ut1_minus_utc_s(utc_s)
-    centuries = (ut1_s - J2000_UTC_S) / DAY_S / 36_525.0
+    centuries = (ut1_s - J2000_S) / DAY_S / 36_525.0
     sidereal_s = 67_310.54841 + centuries * (
         876_600 * 3600 + 8_640_184.812866 + centuries * (0.093104 - 6.2e-6 * centuries)
     )
@@ -105,7 +105,7 @@ def _earth_turned_rad(utc_s: float) -> float:
 
 
 def _ut1_minus_utc_s(utc_s: float) -> float:
-    year = 2000.0 + (utc_s - J2000_UTC_S) / _YEAR_S
+    year = 2000.0 + (utc_s - J2000_S) / _YEAR_S
     at = bisect_right(UT1_MINUS_UTC, year, key=lambda point: point[0])
     if at in (0, len(UT1_MINUS_UTC)):
         return UT1_MINUS_UTC[min(at, len(UT1_MINUS_UTC) - 1)][1]

@@ -9,7 +9,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from rotator.orbits.catalogue import Catalogue, Unknown
+from rotator.orbits.catalogue import Catalogue, Unknown, plain
 from rotator.orbits.celestial import BODIES, RADIO_SOURCES, Body, RadioSource
 from rotator.orbits.earth import Site, direction
 from rotator.orbits.locator import distance_and_bearing, from_locator, long_path_km
@@ -44,10 +44,10 @@ def find(words: str, site: Site, catalogue: Catalogue) -> Target:
     there = _direction(words)
     if there is not None:
         return Fixed(words, there)
-    plain = _plain(words)
-    if plain in BODIES:
-        return Body(plain, site)
-    source = next((name for name in RADIO_SOURCES if _plain(name) == plain), None)
+    said = plain(words)
+    if said in BODIES:
+        return Body(said, site)
+    source = next((name for name in RADIO_SOURCES if plain(name) == said), None)
     if source is not None:
         return RadioSource(source, site)
     # A satellite may be called as a locator is written: SO50 is one, and a field with the squares 50.
@@ -85,7 +85,3 @@ def _station(words: str, site: Site) -> Fixed | None:
     if path.casefold() in _LONG_PATH:
         return Fixed(words, Sight((seen[0] + 180.0) % 360.0, 0.0, long_path_km(km)))
     return Fixed(words, Sight(seen[0], 0.0, km))
-
-
-def _plain(name: str) -> str:
-    return "".join(each for each in name.casefold() if each.isalnum())

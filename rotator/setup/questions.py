@@ -130,7 +130,7 @@ def _port(answers: Answers, machine: Machine) -> Question:
 def _network(machine: Machine) -> Question:
     return Question(
         "network", "Which computers may reach the box over the network (rotctld, port 4533)?",
-        "There is no password: whoever reaches it turns the antenna. A network is written 192.168.1.0/24.",
+        "There is no password: every program that reaches it turns the antenna. A network is written 192.168.1.0/24.",
         "here",
         (
             Choice("here", "only programs on this machine"),

@@ -51,6 +51,9 @@ def test_help_loads_the_command_line_alone(tmp_path: Path, words: list[str]) -> 
     assert found & SLOW == set()
 
 
+HEALTHY = b'{"azimuth": {"fault": null}, "elevation": {"fault": null}}\n'
+
+
 @pytest.fixture
 def console(tmp_path: Path) -> Iterator[Path]:
     """A box's console that agrees to everything, beside the configuration that names it."""
@@ -67,8 +70,8 @@ def console(tmp_path: Path) -> Iterator[Path]:
             except OSError:
                 return
             with user:
-                while user.recv(4096):
-                    user.sendall(b"ok\n")
+                while asked := user.recv(4096):
+                    user.sendall((HEALTHY if asked.startswith(b"status") else b"") + b"ok\n")
 
     threading.Thread(target=serve, daemon=True).start()
     yield config

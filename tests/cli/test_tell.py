@@ -10,6 +10,7 @@ import socket
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -148,6 +149,10 @@ def test_no_box(rotator: Rotator, config: Path) -> None:
 # --- what a pot rotor does not understand: with a console that follows a script
 
 
+COMMAND = "console#1"
+"""What the scripted box calls the command of the test."""
+
+
 class ScriptedConsole:
     """Where the box would have it. `heard` is what was said to it, but for the questions about its status."""
 
@@ -182,13 +187,15 @@ class ScriptedConsole:
     def _answer(self, line: str) -> str:
         if line == "status json":
             told = self._statuses.pop(0) if len(self._statuses) > 1 else self._statuses[0]
+            if not self.ordered.is_set() and told.controlled_by == COMMAND:
+                told = replace(told, controlled_by="")  # before its order it moves nothing
             return json.dumps(as_object(told)) + "\nok\n"
         self.heard.append(line)
         self.ordered.set()
         return "ok\n"
 
 
-def counted(azimuth_deg: float, *, turns: bool = False, by: str = "console#1", **more: Any) -> Status:
+def counted(azimuth_deg: float, *, turns: bool = False, by: str = COMMAND, **more: Any) -> Status:
     """A box that counts its azimuth."""
     drive = Direction.MINUS if turns else Direction.OFF
     azimuth = AxisStatus(
@@ -278,6 +285,16 @@ def test_an_axis_that_still_needs_homing(scripted: Any, rotator: Rotator, config
     assert why(done) == "rotator: azimuth is not homed: it needs homing\n"
 
 
+@pytest.mark.parametrize("order", [["home", "azimuth", "--yes"], ["point", 0, 0], ["park"], ["jog", "ccw", 3]])
+def test_an_order_that_shows_late_is_not_another_command(
+    scripted: Any, rotator: Rotator, config: Path, order: list[Any]
+) -> None:
+    """A box on a busy computer: the first look after the order still shows the command before."""
+    earlier = counted(0, by="console#7")
+    scripted(earlier, earlier, counted(0, turns=True), counted(0))
+    said(rotator(*order, "--config", config))
+
+
 @pytest.mark.parametrize("who_told", [("gs232b#1", "gs232b#1 moves the antenna now"), ("", "the antenna was stopped")])
 @pytest.mark.parametrize("order", [["home", "azimuth", "--yes"], ["point", 0, 0], ["park"], ["jog", "ccw", 3]])
 def test_somebody_else_takes_or_stops_it(
@@ -324,7 +341,7 @@ def test_a_terminal_that_closes_stops_an_axis_that_homes(scripted: Any, start: S
 # --- a box that is pointed, as its status tells it
 
 
-def pointed(azimuth: AxisStatus, by: str = "console#1", **more: Any) -> Status:
+def pointed(azimuth: AxisStatus, by: str = COMMAND, **more: Any) -> Status:
     return Status(0.0, azimuth, AxisStatus(0.0, 180.0, 45.0), controlled_by=by, **more)
 
 
@@ -389,3 +406,10 @@ def test_both_axes_with_a_fault(scripted: Any, rotator: Rotator, config: Path) -
     told = json.loads(done.stdout)
     assert [told[axis.value]["fault"]["text"] for axis in Axis] == [str(fault) for fault in faults]
     assert [told[axis.value]["angle_is_current"] for axis in Axis] == [False, False]
+
+
+def test_a_fault_whose_cause_is_still_there_is_not_called_mended(scripted: Any, rotator: Rotator, config: Path) -> None:
+    fault = Fault(FaultKind.POT_OPEN, Axis.AZIMUTH, "reads 0.000", "0.02 to 0.98")
+    scripted(pointed(AxisStatus(0.0, 450.0, 120.0, fault=fault)))
+    done = rotator("resume", "--config", config)
+    assert why(done, 3) == f"rotator: the cause is still there:\n         {fault}\n"

@@ -29,7 +29,10 @@ PRIVATE = ("unshare", "--mount", "--propagation", "private")
 """debootstrap mounts /proc in what it makes: unseen from here, so that clearing away half a root never reaches it."""
 THE_WAY_OUT = ("/etc/resolv.conf", "/etc/ssl/certs/ca-certificates.crt", "/etc/pip.conf")
 """How this machine reaches the network; a root in it has to go the same way."""
-PASSING = ("/proc", "/dev", "/sys", "/run", "/tmp", "/src", "/newer", "/wheels", "/var/cache/apt", "/var/log")
+PASSING = (
+    *("/proc", "/dev", "/sys", "/run", "/tmp", "/src", "/newer", "/wheels"),
+    *("/var/cache/apt", "/var/cache/debconf", "/var/log"),
+)
 """Where things come and go: not part of what an installer leaves."""
 
 

@@ -55,7 +55,8 @@ def test_a_day(shack: Callable[..., Shack], chance: random.Random) -> None:
 def test_pstrotator_asks_five_times_a_second_and_points(shack: Callable[..., Shack], chance: random.Random) -> None:
     """Its bytes: `M` for azimuth alone, `W` for both, `C2` again and again, `S` from its stop button."""
     machine = shack("g5500")
-    place = chance.uniform(0, 450), chance.uniform(0, 175)
+    # Near the zenith 40° of azimuth are less than the tolerance on the sky: nothing would start.
+    place = chance.uniform(0, 450), chance.choice([chance.uniform(0, 80), chance.uniform(100, 175)])
     machine.turned_by_hand(*place)
     machine.start()
     program = Terminal(machine.ptys[0])

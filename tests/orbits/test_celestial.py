@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.orbits.celestial import DAY_S, J2000_S, Equinox, Sky, Star
+from rotator.orbits.celestial import Equinox, Sky, Star
 from rotator.orbits.earth import Site
+from rotator.orbits.moments import DAY_S, J2000_S
 
 J2000_JD = 2_451_545.0
 PROMISED_DEG = 0.02

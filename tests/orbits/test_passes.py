@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from rotator.orbits.celestial import Body
 from rotator.orbits.earth import Site
-from rotator.orbits.elements import DAY_S
+from rotator.orbits.moments import DAY_S
 from rotator.orbits.passes import passes
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import Sight

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from rotator.orbits import tle
 from rotator.orbits.earth import Site
-from rotator.orbits.elements import DAY_S, Elements, NotAnOrbit
+from rotator.orbits.elements import Elements, NotAnOrbit
+from rotator.orbits.moments import DAY_S
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, expected_error_deg, motion
 from tests.orbits import skyfield_oracle

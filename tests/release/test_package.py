@@ -63,6 +63,7 @@ def test_it_names_no_place_of_the_builders(package: tuple[Path, Path], tmp_path:
         path.name
         for path in (tmp_path / "all").rglob("*")
         if path.is_file()
+        and not path.is_symlink()  # to the machine's own Python
         and path.suffix in (".json", ".txt", "", ".cfg")
         and any(h in path.read_bytes() for h in hosts)
     ]

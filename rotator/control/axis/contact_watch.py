@@ -28,6 +28,11 @@ UNSURE_PERIODS = 2.0
 """Where a change of the contact may have been counted the wrong way, no stop may be nearer than this."""
 BLIND_PERIODS = 3.0
 """Driven for so many periods in all without a change, an axis was not seen to turn."""
+TURNING_CHANGES = 2
+"""So many late changes make a motor with current. One alone does not: a coasting axis may end just beyond an edge.
+
+Where the count is lost one is enough, for the next may lie behind a stop.
+"""
 
 
 class ContactWatch:
@@ -52,6 +57,10 @@ class ContactWatch:
         self._since_s = -math.inf
         self._supplied_s: float | None = None
         self._changes: int | None = None
+        self._read_s = -math.inf
+        """When the latest reading was taken."""
+        self._late_changes = 0
+        """The changes at a time when a motor without current stands, until the contact is silent again."""
         self._changed_s = -math.inf
         self._angle_deg = 0.0
         self._ahead: frozenset[Direction] = frozenset()
@@ -77,7 +86,8 @@ class ContactWatch:
         """Whether that relay stays open, because nothing has shown yet that its opposite is open."""
         if self._driven is direction:
             return False
-        return not self.looked or self._trust[Direction(-direction)] is not Trust.OPEN
+        # A late change may be the first of a motor with current: the contact must be silent first.
+        return not self.looked or self._late_changes > 0 or self._trust[Direction(-direction)] is not Trust.OPEN
 
     @property
     def settles(self) -> bool:
@@ -102,13 +112,14 @@ class ContactWatch:
             if self._trust[direction] is Trust.OPEN:
                 self._trust[direction] = Trust.UNSEEN
             self._moments_s.clear()
-            self._turned_back = False
+            self._turned_back, self._late_changes = False, 0
             self._ran_since[direction] = True
         self._driven, self._since_s = direction, now_s
 
     def see(self, at_s: float, angle_deg: float, condition: Condition) -> None:
-        changed = self._changes is not None and condition.changes != self._changes
-        self._changes = condition.changes
+        changes = 0 if self._changes is None else condition.changes - self._changes
+        changed = changes != 0
+        self._changes, before_s, self._read_s = condition.changes, self._read_s, at_s
         if changed and self._driven is Direction.OFF:
             went_back = (angle_deg - self._angle_deg) * self._last < 0.0
             again_ahead = self._last in condition.ahead - self._ahead
@@ -123,13 +134,15 @@ class ContactWatch:
             self._supplied_s = None
         else:
             self._supplied_s = at_s if self._supplied_s is None else self._supplied_s
-            self._see_rest(at_s, condition, changed=changed)
+            still_s = self._since_s + self._coast_s + READ_S
+            if before_s > still_s:
+                self._late_changes += changes
+            if changed and self._late_changes >= (1 if condition.lost else TURNING_CHANGES):
+                self._turns_by_itself()
+            else:
+                self._see_rest(at_s, still_s, condition)
 
-    def _see_rest(self, at_s: float, condition: Condition, *, changed: bool) -> None:
-        still_s = self._since_s + self._coast_s + READ_S
-        if changed and at_s > still_s:
-            self._turns_by_itself()
-            return
+    def _see_rest(self, at_s: float, still_s: float, condition: Condition) -> None:
         assert self._supplied_s is not None
         if at_s - max(still_s, self._changed_s, self._supplied_s) >= self._pause_s:
             self._note_standing(condition)
@@ -167,7 +180,7 @@ class ContactWatch:
                 self._trust[way] = Trust.UNSEEN
 
     def _note_standing(self, condition: Condition) -> None:
-        self.looked, self.turns = True, False
+        self.looked, self.turns, self._late_changes = True, False, 0
         ahead = BOTH_WAYS if condition.lost or self.homing else condition.ahead
         if self._turned_back and not self.homing and self._room_deg < UNSURE_PERIODS * self._period_deg:
             ahead -= {self._last}

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Iterable
 
 from hw.ports import Axis
 from rotator.control.commands import Steer
@@ -80,9 +81,18 @@ class StrayWatch:
         since_s = self._sent_for_s - patience_s
         while len(self._kept) > 1 and self._kept[1][0] <= since_s:
             self._kept.popleft()
-        # An axis that has to turn back first comes nearer from where it turned.
-        comes = self._nearer_deg - min(nearer_deg for _, nearer_deg in self._kept) >= coming_deg
+        comes = _rise_deg(self._kept) >= coming_deg
         if near or comes or self._kept[0][0] > since_s:
             return None
         measured = f"it is at {angle_deg:.1f}°, {abs(ahead_deg):.1f}° from where it should be"
         return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{STRAY_DEG:g}° for {patience_s:.2g} s")
+
+
+def _rise_deg(kept: Iterable[tuple[float, float]]) -> float:
+    """The most by which it has come nearer in that time. An axis that has to turn back first came nearer before that,
+    to where it was sent then."""
+    least_deg, rise_deg = math.inf, 0.0
+    for _, nearer_deg in kept:
+        least_deg = min(least_deg, nearer_deg)
+        rise_deg = max(rise_deg, nearer_deg - least_deg)
+    return rise_deg

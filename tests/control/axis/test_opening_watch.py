@@ -114,14 +114,7 @@ def test_taps_that_turn_the_axis_never_add_up(way: Direction) -> None:
 @BOTH_WAYS
 def test_held_in_mid_travel_the_relay_is_in_doubt(way: Direction) -> None:
     """Ice: with a welded relay the motor would stand there just the same."""
-    rotor = WatchedMotor()
-    rotor.look(2.0)
-    rotor.relays(way)
-    rotor.look(1.0)
-    rotor.motor.stalled = True
-    rotor.look(1.5)
-    rotor.relays(OFF)
-    rotor.look(3.0)
+    rotor = stalled(way)
     assert of(rotor.watch.trusts, way) is DOUBTED
     assert rotor.watch.forbids(against(way))
     accused = rotor.watch.accuse(against(way))
@@ -129,8 +122,8 @@ def test_held_in_mid_travel_the_relay_is_in_doubt(way: Direction) -> None:
     assert float(accused.measured.split("stands at ")[1].split("°")[0]) == pytest.approx(rotor.at_deg, abs=0.2)
 
 
-def held(way: Direction) -> WatchedMotor:
-    """Ice held it in mid-travel, and melts."""
+def stalled(way: Direction) -> WatchedMotor:
+    """Ice holds it in mid-travel, and its relay opens."""
     rotor = WatchedMotor()
     rotor.look(2.0)
     rotor.relays(way)
@@ -139,6 +132,12 @@ def held(way: Direction) -> WatchedMotor:
     rotor.look(1.5)
     rotor.relays(OFF)
     rotor.look(3.0)
+    return rotor
+
+
+def held(way: Direction) -> WatchedMotor:
+    """The ice has melted."""
+    rotor = stalled(way)
     rotor.motor.stalled = False
     assert of(rotor.watch.trusts, way) is DOUBTED
     return rotor

@@ -150,3 +150,15 @@ def test_without_a_reading_nothing_is_told() -> None:
     watch = StrayWatch(Axis.AZIMUTH, 30.0)
     for step in range(200):
         assert watch.see(step * STEP_S, Steer(100.0, 0.0, 1e9), None, settling=False) is None
+
+
+@pytest.mark.parametrize("way", [1, -1], ids=["up", "down"])
+def test_sent_the_other_way_at_full_speed_it_has_the_time_to_turn_back(way: int) -> None:
+    """30°/s and 20°/s²: it runs on for 1.5 s and 22°, away from its new place, and then comes."""
+    sent = Sent(accel_dps2=20.0, at_deg=0.0)
+    for _ in range(60):
+        assert sent.go(STEP_S, way * 200.0, way * 30.0) is None
+    dps = way * 30.0
+    for _ in range(60):
+        dps = max(-30.0, min(30.0, dps - way * 20.0 * STEP_S))
+        assert sent.go(STEP_S, way * -20.0, dps) is None
