@@ -137,4 +137,4 @@ def test_a_reader_that_has_gone_is_no_traceback(tmp_path: Path) -> None:
             check=False,
         )
     os.close(full)
-    assert (done.returncode, done.stderr) == (0, b"")
+    assert (done.returncode, done.stderr) == (0, f"rotator: {stop.STOPPED}\n".encode()), "it has stopped, and says so"
