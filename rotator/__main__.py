@@ -8,7 +8,6 @@ import sys
 
 from rotator.cli.failed import INTERRUPTED, NOT_DONE
 
-
 UNWRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EPIPE)
 """The errors of a write to an open file or pipe: a full disk, a reader that has gone."""
 

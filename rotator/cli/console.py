@@ -14,7 +14,7 @@ from pathlib import Path
 import click
 
 from rotator.cli.agree import agree
-from rotator.cli.box import OK, BoxStatus, RunningBox, faults, stands
+from rotator.cli.box import OK, BoxStatus, RunningBox, faults, stands, typed
 from rotator.cli.failed import FAULTY, CommandFailed
 
 LOOK_S = 0.1
@@ -66,7 +66,7 @@ def confirm(path: Path | None, axis: str, angle_deg: float) -> None:
     """
     with RunningBox(path) as box:
         before = box.status()
-        box.order(f"confirm {axis} {angle_deg:.4f}")
+        box.order(f"confirm {axis} {typed(angle_deg)}")
         until_s = time.monotonic() + CONFIRMED_S
         while not (taken := _is_near(after := box.status(), axis, angle_deg)) and time.monotonic() < until_s:
             time.sleep(LOOK_S)

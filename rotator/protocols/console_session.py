@@ -22,6 +22,7 @@ from rotator.status import Status
 
 MAX_LINE = 200
 OK, ERROR = "ok", "error: "
+FULL_TURN_DEG, ZENITH_DEG = 360.0, 90.0
 
 
 Hands = Callable[[Hand], str]
@@ -73,7 +74,7 @@ class ConsoleSession:
                 return self._obey(command)
 
     def _obey(self, order: Order) -> bytes:
-        if reason := self._blocked(order):
+        if reason := self._blocked(order) or _beyond(order, self._box.status()):
             return _error(reason)
         match order:
             case Aim() | Jog() | Home():
@@ -92,6 +93,28 @@ class ConsoleSession:
         deed = deed_of(order)
         state = hindrance(held, deed) if deed else None
         return held[state] if state else ""
+
+
+def _beyond(order: Order, status: Status) -> str:
+    """Why the rotor has no such angle; empty: it has. A person who names one is not led to another one instead.
+
+    A program's order means a direction all the same: it sends what its satellite does.
+    """
+    match order:
+        case Aim(float() as azimuth_deg, float() as elevation_deg):
+            pass
+        case _:
+            return ""
+    azimuth, elevation = status.azimuth, status.elevation
+    if azimuth_deg > FULL_TURN_DEG and azimuth_deg > azimuth.max_deg:
+        return (
+            f"azimuth {azimuth_deg:g}° names a turn beyond the range of {azimuth.min_deg:g}° to {azimuth.max_deg:g}°; "
+            f"the same direction is {azimuth_deg % FULL_TURN_DEG:g}°"
+        )
+    below = elevation_deg < min(0.0, elevation.min_deg)
+    if below or elevation_deg > max(ZENITH_DEG, elevation.max_deg):
+        return f"elevation {elevation_deg:g}° is outside the range of {elevation.min_deg:g}° to {elevation.max_deg:g}°"
+    return ""
 
 
 def report(status: Status) -> list[str]:

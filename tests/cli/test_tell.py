@@ -97,7 +97,13 @@ def test_transcript_of_a_person_who_points(box: Any, rotator: Rotator, config: P
         r"azimuth \d+\.\d° measured: \+\d+\.\d° from before\.\n", said(rotator("jog", "cw", 1, "--config", config))
     )
     assert why(rotator("point", 700, 30, "--config", config)) == (
-        "rotator: '700.0000' is no azimuth: degrees from -180 to 540\n"
+        "rotator: '700' is no azimuth: degrees from -180 to 540\n"
+    )
+    assert why(rotator("point", 500, 20, "--config", config)) == (
+        "rotator: azimuth 500° names a turn beyond the range of 0° to 450°; the same direction is 140°\n"
+    )
+    assert why(rotator("point", 20, "-5", "--config", config)) == (
+        "rotator: elevation -5° is outside the range of 0° to 180°\n"
     )
     assert json.loads(said(rotator("where", "--json", "--config", config)))["wanted_azimuth_deg"] is None
 
@@ -116,7 +122,7 @@ def test_anything_the_console_knows(box: Any, rotator: Rotator, config: Path) ->
 
 def test_an_angle_that_is_none(box: Any, rotator: Rotator, config: Path) -> None:
     done = rotator("confirm", "elevation", "-100", "--config", config)
-    assert why(done) == "rotator: '-100.0000' is no elevation: degrees from -90 to 180\n"
+    assert why(done) == "rotator: '-100' is no elevation: degrees from -90 to 180\n"
     assert rotator("confirm", "polarisation", "10", "--config", config).returncode == 2
     assert rotator("confirm", "azimuth", "north", "--config", config).returncode == 2
     assert rotator("confirm", "azimuth", "43,8,5", "--config", config).returncode == 2
@@ -237,7 +243,7 @@ def test_what_was_confirmed_is_what_the_box_then_reads(scripted: Any, rotator: R
     assert said(rotator("confirm", "azimuth", "123,4", "--config", config)) == (
         "Taken: azimuth 123.4° counted. Before: azimuth 20.0° counted.\n"
     )
-    assert console.heard == ["confirm azimuth 123.4000"]
+    assert console.heard == ["confirm azimuth 123.4"]
 
 
 def test_a_confirmation_without_effect_is_no_success(scripted: Any, rotator: Rotator, config: Path) -> None:
@@ -355,7 +361,15 @@ def test_pointing_ends_when_the_antenna_is_there(scripted: Any, rotator: Rotator
     assert said(rotator("point", "180", "45", "--config", config)) == (
         "Arrived: azimuth 178.2° measured, elevation 45.0° measured.\n"
     )
-    assert console.heard == ["point 180.0000 45.0000"]
+    assert console.heard == ["point 180 45"]
+
+
+def test_an_antenna_above_the_trees_is_told_so(scripted: Any, rotator: Rotator, config: Path) -> None:
+    azimuth, elevation = AxisStatus(0.0, 450.0, 180.0), AxisStatus(0.0, 180.0, 14.7, target_deg=15.0, tolerance_deg=4.0)
+    scripted(Status(0.0, azimuth, elevation, controlled_by=COMMAND))
+    assert said(rotator("point", "180", "3", "--config", config)).splitlines()[1] == (
+        "It points no lower than 15.0° there: its range, [mount] horizon, or a forbidden sector."
+    )
 
 
 def test_a_fault_on_the_way_is_named(scripted: Any, rotator: Rotator, config: Path) -> None:
@@ -387,7 +401,7 @@ def test_the_storm_park_is_no_stop(scripted: Any, rotator: Rotator, config: Path
 def test_a_jog_says_how_far_it_went(scripted: Any, rotator: Rotator, config: Path) -> None:
     console = scripted(counted(20), counted(30, turns=True), counted(32.5))
     assert said(rotator("jog", "cw", "1,5", "--config", config)) == "azimuth 32.5° counted: +12.5° from before.\n"
-    assert console.heard == ["jog cw 1.500"]
+    assert console.heard == ["jog cw 1.5"]
 
 
 @pytest.mark.parametrize("order", [["point", 180, 45], ["park"], ["jog", "up", 1]])
