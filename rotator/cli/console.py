@@ -14,7 +14,7 @@ from pathlib import Path
 import click
 
 from rotator.cli.agree import agree
-from rotator.cli.box import OK, BoxStatus, RunningBox, faults, stands, typed
+from rotator.cli.box import OK, BoxStatus, Refused, RunningBox, faults, stands, typed
 from rotator.cli.failed import FAULTY, CommandFailed
 
 LOOK_S = 0.1
@@ -84,9 +84,12 @@ def _is_near(status: BoxStatus, axis: str, angle_deg: float) -> bool:
 
 def relays_checked(path: Path | None, axis: str, *, yes: bool) -> None:
     with RunningBox(path) as box:
+        if box.status()[axis]["moving"]:
+            raise Refused(f"{axis} turns: first `rotator stop`, then look at its relays")
         agree(f"With both relays of {axis} switched off: does its motor have no current, from either of them?", yes=yes)
         box.order(f"relays-checked {axis}")
-    click.echo(f"The relays of {axis} count as open. Acknowledge the fault with `rotator resume`.")
+        failed = faults(box.status(), (axis,))
+    click.echo(f"The relays of {axis} count as open." + (" Acknowledge the fault with `rotator resume`." if failed else ""))
 
 
 def hand(path: Path | None, words: Sequence[str]) -> None:
