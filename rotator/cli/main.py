@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from io import TextIOWrapper
+from io import StringIO, TextIOWrapper
 from pathlib import Path
 
 import click
@@ -17,8 +17,10 @@ from rotator import __version__
 from rotator.cli import console_commands as console
 from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples
 from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
+from rotator.cli.lines import say
 from rotator.cli.sky_commands import sky
 
+INDENT = len("rotator: ")
 START = """Start here: `rotator run` begins a simulated box; `rotator point 180 45` in another terminal turns it.
 `rotator COMMAND --help` has an example of each command."""
 
@@ -290,16 +292,18 @@ def main() -> None:
     try:
         sys.exit(cli(standalone_mode=False))
     except click.ClickException as mistake:
-        mistake.show()
+        text = StringIO()
+        mistake.show(text)
+        say(text.getvalue().rstrip("\n"), err=True)
         sys.exit(mistake.exit_code)
     except click.Abort:
         raise KeyboardInterrupt from None
     except CommandFailed as fault:
-        click.echo(f"rotator: {fault}", err=True)
+        say(f"rotator: {fault}", err=True, indent=INDENT)
         sys.exit(fault.exit_code)
     except Exception as fault:
         text, code = _explained(fault)
-        click.echo(text, err=True)
+        say(text, err=True, indent=INDENT)
         sys.exit(code)
 
 

@@ -21,6 +21,7 @@ from rotator.cli.box import AXES, BoxStatus, Refused, RunningBox, faults, stands
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.reach import consoles
 from rotator.cli.stop import STOPPED, stop_boxes
+from rotator.spoken import spoken
 
 LOOK_S = 0.2
 """The time between two looks at the antenna, in seconds."""
@@ -107,7 +108,9 @@ def _judge(after: BoxStatus, ours: str, axes: Sequence[str], what: str) -> None:
         click.echo(f"{', '.join(stands(after, axis) for axis in AXES)}.")
         raise CommandFailed("\n         ".join(failed), FAULTY)
     if after["stopped_by"] and not after["storm_park"]:
-        raise CommandFailed(f"{what} was ended: stopped by {after['stopped_by']}; nothing moves until `rotator resume`")
+        raise CommandFailed(
+            f"{what} was ended: stopped by {spoken(after['stopped_by'])}; nothing moves until `rotator resume`"
+        )
     mover = str(after["moved_by"] or "")
     if not mover.startswith(CONSOLE) or (ours and mover != ours):
         other = "another command" if mover.startswith(CONSOLE) else mover

@@ -18,6 +18,7 @@ from rotator.protocols.lines import LineReader
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Box
 from rotator.protocols.status_object import as_object
+from rotator.spoken import spoken
 from rotator.status import Status
 
 MAX_LINE = 200
@@ -138,7 +139,7 @@ def report(status: Status) -> list[str]:
     lines += [f"note: {axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
     if status.simulated:
         lines.append("simulated: nothing real turns")
-    return lines
+    return [spoken(line) for line in lines]
 
 
 def _stands(status: Status, axis: Axis) -> str:
@@ -160,7 +161,7 @@ def _shown(angle_deg: float) -> str:
 
 
 def _error(reason: str) -> bytes:
-    return _reply(ERROR + reason)
+    return _reply(ERROR + spoken(reason))
 
 
 def _reply(*lines: str) -> bytes:
