@@ -62,9 +62,10 @@ class Aiming:
             self._asked = asked
 
     def fly(self, order: Fly, now_s: float) -> None:
-        """Fly a planned pass from now on."""
+        """Fly a planned pass from now on. Raises Unreachable; then everything is as it was."""
+        flight = Flight(order, self._mount)
         self.forget(BOTH)
-        self._flight = Flight(order)
+        self._flight = flight
         self._fly_on(now_s)
 
     def park(self, now_s: float) -> None:

@@ -9,6 +9,7 @@ from bisect import bisect_right
 
 from hw.ports import Axis
 from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.mount import Mount, Range, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import EVEN, AimGoal
 from rotator.orders import PLAN_STEP_S, Aim, AxisPlan, Fly
@@ -20,7 +21,11 @@ AGAIN_S = 0.5
 
 
 class Flight:
-    def __init__(self, order: Fly) -> None:
+    """Raises Unreachable where the plan leaves the limits of an axis."""
+
+    def __init__(self, order: Fly, mount: Mount) -> None:
+        _check(order.azimuth, mount.azimuth, Axis.AZIMUTH)
+        _check(order.elevation, mount.elevation, Axis.ELEVATION)
         self._path = KnownPath(order.path)
         self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
         self._given: dict[Axis, int] = {}
@@ -43,6 +48,12 @@ class Flight:
                 self._given[axis] = number
                 found[axis] = _goal(plan, number, now_s)
         return found
+
+
+def _check(plan: AxisPlan, limits: Range, axis: Axis) -> None:
+    for angle_deg in (*plan.angles_deg, *(step.place_deg for step in plan.steps)):
+        if not limits.holds(angle_deg):
+            raise Unreachable(f"the plan takes {axis.value} to {angle_deg:g}°, beyond its limits")
 
 
 def _number(plan: AxisPlan, now_s: float) -> int:
