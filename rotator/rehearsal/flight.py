@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Protocol
 
 from firmware_sim.clock import SimClock
@@ -70,8 +70,10 @@ class Summary:
     max_deg: float
     relay_starts: int | None
     motor_s: float
+    faults: tuple[str, ...] = ()
+    """The faults that hold an axis at the end, each in a sentence."""
 
-    def as_dict(self) -> dict[str, float | int | None]:
+    def as_dict(self) -> dict[str, float | int | tuple[str, ...] | None]:
         return {key: round(value, 3) if isinstance(value, float) else value for key, value in asdict(self).items()}
 
 
@@ -93,6 +95,9 @@ class Plant(Protocol):
 
     def relay_starts(self) -> int | None:
         """None: there are no relays."""
+
+    def faults(self) -> tuple[str, ...]:
+        """The faults that hold an axis now, each in a sentence."""
 
 
 class BoxPlant:
@@ -161,6 +166,9 @@ class BoxPlant:
     def relay_starts(self) -> int | None:
         return self.world.relay_starts
 
+    def faults(self) -> tuple[str, ...]:
+        return tuple(map(str, self.status.faults))
+
 
 class ArduinoPlant:
     """The emulated Arduino that the box replaces. Its motors and ranges come from the box's configuration."""
@@ -185,6 +193,9 @@ class ArduinoPlant:
 
     def relay_starts(self) -> int:
         return self._station.relay_starts
+
+    def faults(self) -> tuple[str, ...]:
+        return ()  # the sketch knows none
 
 
 Faults = Callable[[SimRotor], Sequence[tuple[float, str]]]
@@ -244,7 +255,7 @@ def fly(
     else:
         clock.every(1.0, order)
     plant.run_until(begin_s + flown.end_s)
-    return trace, summarise(trace, plant.relay_starts())
+    return trace, replace(summarise(trace, plant.relay_starts()), faults=plant.faults())
 
 
 def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:

@@ -65,19 +65,19 @@ def ask_link(folder: Path, line: bytes, answer: bytes) -> None:
 
 def test_transcript_of_a_stop_at_the_box(box: Any, rotator: Rotator, config: Path, send: Send, tmp_path: Path) -> None:
     assert said(rotator("stop", "--config", config)) == "Stopped. Nothing moves until `rotator resume`.\n"
-    box.until("STOPPED by console")
+    box.until("STOPPED by a rotator command")
     send(b"W090 030\r")
     ask_link(tmp_path, b"C2\r", b"AZ=000  EL=000\r\n")
     here = said(rotator("where", "--config", config))
     assert re.fullmatch(
         r"azimuth: -?0\.\d° measured\nelevation: -?0\.\d° measured\nmoved by: nobody\n"
-        r"stopped by: console#\d+; nothing moves until resume\n"
-        r"note: orders from gs232b(#\d+)? are ignored: stopped by console#\d+: nothing moves until resume\n"
+        r"stopped by: a rotator command; nothing moves until resume\n"
+        r"note: orders from gs232b(#\d+)? are ignored: stopped by a rotator command: nothing moves until resume\n"
         r"simulated: nothing real turns\n",
         here,
     )
     assert re.fullmatch(
-        r"rotator: stopped by console#\d+: nothing moves until resume\n",
+        r"rotator: stopped by a rotator command: nothing moves until resume\n",
         why(rotator("tell", "point", 90, 30, "--config", config)),
     )
     assert said(rotator("resume", "--config", config)) == "The antenna may move again.\n"
@@ -115,9 +115,12 @@ def test_anything_the_console_knows(box: Any, rotator: Rotator, config: Path) ->
     assert why(rotator("tell", "--config", config, "jgo cw 1")).startswith(
         "rotator: there is no command 'jgo'; did you mean jog? There are: status, "
     )
+    assert why(rotator("tell", "--config", config, "where")) == (
+        "rotator: where is no word of the console but a command: rotator where\n"
+    )
     # One line, however it is typed: no `resume` is behind this stop.
     assert said(rotator("tell", "--config", config, "stop\nresume")) == "ok\n"
-    assert "stopped by: console" in said(rotator("where", "--config", config))
+    assert "stopped by: a rotator command" in said(rotator("where", "--config", config))
 
 
 def test_an_angle_that_is_none(box: Any, rotator: Rotator, config: Path) -> None:
@@ -150,6 +153,21 @@ def test_no_box(rotator: Rotator, config: Path) -> None:
             "rotator: no box runs here: nothing answers at nowhere/console. Start it with `rotator run`, "
             "or name its file with --config\n"
         )
+
+
+def test_a_narrow_terminal_breaks_no_word(start_in_terminal: StartInTerminal, box: Any, config: Path) -> None:
+    refused = start_in_terminal("point", "500", "20", "--config", config, columns=40)
+    assert refused.ends() == 1
+    lines = refused.rest.replace("\r", "").splitlines()[-4:]
+    assert " ".join(line.strip() for line in lines) == (
+        "rotator: azimuth 500° names a turn beyond the range of 0° to 450°; the same direction is 140°"
+    )
+    assert all(len(line) <= 40 for line in lines)
+    assert all(line.startswith(" " * 9) for line in lines[1:])
+
+
+def test_the_help_says_what_becomes_of_the_order_when_the_terminal_closes(rotator: Rotator) -> None:
+    assert "a terminal that closes does not: it goes on to its place" in " ".join(said(rotator("point", "-h")).split())
 
 
 # --- what a pot rotor does not understand: with a console that follows a script

@@ -289,10 +289,10 @@ def test_transcript_of_a_stop_at_the_box(box: BenchBox) -> None:
     assert link.receive(b"W300 025\r") == []
     assert link.receive(b"C2\r") == [b"AZ=235  EL=025\r\n"]
     assert not turns_within(20)
-    assert person.receive(b"point 300 25\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
-    assert person.receive(b"jog cw 1\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
-    assert person.receive(b"home azimuth\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
-    assert person.receive(b"park\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
+    assert person.receive(b"point 300 25\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
+    assert person.receive(b"jog cw 1\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
+    assert person.receive(b"home azimuth\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
+    assert person.receive(b"park\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
     assert not turns_within(20)
     assert person.receive(b"resume\n") == [b"ok\n"]
     assert not turns_within(20)
@@ -314,13 +314,13 @@ def test_what_follows_resume_need_not_wait_for_the_status(new_box: type[BenchBox
 def test_a_later_stop_is_told_again(box: BenchBox) -> None:
     session = ConsoleSession(AtTheBox(box))
     assert session.receive(b"stop\nresume\npoint 300 25\nstop\n") == [b"ok\n"] * 4
-    assert session.receive(b"point 300 25\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
+    assert session.receive(b"point 300 25\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
 
 
 def test_a_storm_park_holds_like_a_stop(box: BenchBox) -> None:
     session = ConsoleSession(AtTheBox(box))
     assert session.receive(b"park\n") == [b"ok\n"]
-    why = b"error: stopped by console#1: storm park: nothing moves until resume\n"
+    why = b"error: stopped by a rotator command: storm park: nothing moves until resume\n"
     assert session.receive(b"point 300 25\n") == [why]
 
 
