@@ -96,7 +96,7 @@ def park(path: Path | None, wait: bool) -> None:
 def stop(path: Path | None) -> None:
     """Stop the antenna until `rotator resume`. Until then no link can move it.
 
-    Without --config it stops the box of this folder, and the service.
+    Without --config it stops every box that you run, in whichever folder, and the service.
     """
     from rotator.cli import reach
     from rotator.cli.stop import STOPPED, stop_boxes

@@ -80,7 +80,8 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
 ) -> None:
     """Fly a satellite pass on the simulated rotor.
 
-    It prints how far off the antenna was; the exit code is 3 where a --fault holds an axis at the end. The pass is a NAME of the list that `rotator rehearse` prints, or a file.
+    It prints how far off the antenna was; the exit code is 3 where a --fault holds an axis at the end. The pass is a
+    NAME of the list that `rotator rehearse` prints, or a file.
 
     The first line of such a file is t,az,el. Each further line is a moment in seconds, and the satellite's azimuth and
     elevation in degrees, with decimal points: 12.5,274.6,8.1. Your tracking program can export them.
