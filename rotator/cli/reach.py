@@ -15,7 +15,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from rotator.cli.announced import boxes
-from rotator.cli.failed import CommandFailed
+from rotator.cli.failed import CommandFailed, NoBox
 from rotator.config import places
 from rotator.config.places import INSTALLED, STATE, console_path, monitor_places
 
@@ -107,9 +107,9 @@ def connected(place: Path) -> socket.socket | None:
     return None
 
 
-def no_box(tried: Sequence[Path]) -> CommandFailed:
+def no_box(tried: Sequence[Path]) -> NoBox:
     where = " or ".join(map(str, tried))
-    return CommandFailed(
+    return NoBox(
         f"no box runs here: nothing answers at {where}. Start it with `rotator run`, or name its file with --config"
     )
 
