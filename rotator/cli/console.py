@@ -47,12 +47,15 @@ def where(path: Path | None, *, as_json: bool) -> int:
 def resume(path: Path | None) -> None:
     """Release the antenna. Raises CommandFailed for a fault whose cause is still there."""
     with RunningBox(path) as box:
+        parks = box.status()["storm_park"]
         box.order("resume")
         time.sleep(LOOK_S)
         after = box.status()
     if failed := faults(after):
         raise CommandFailed("\n         ".join(("the cause is still there:", *failed)), FAULTY)
     click.echo("The antenna may move again.")
+    if parks and after["moving"]:
+        click.echo("It still goes to its park position; `rotator stop` ends that.")
 
 
 def let_go(path: Path | None, *, yes: bool) -> None:

@@ -37,7 +37,7 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     """Raises CommandFailed where a box runs already with these sockets."""
     config = load(path)
     monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
-    _make_sure_of(monitor)
+    _make_sure_of(monitor, path)
     app = App(config, path)
     recent = LogRows()
     screen, errors = Output(sys.stdout, LINES if plain else PICTURES), Output(sys.stderr)
@@ -52,14 +52,18 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
         errors.close()
 
 
-def _make_sure_of(monitor: Path) -> None:
-    """That no box runs here. Two with one state file and one console would be one too many: `rotator stop` would find
-    the other one. Raises CommandFailed.
-    """
-    if (other := connected(console_path(monitor))) is None:
+def _make_sure_of(monitor: Path, path: Path | None) -> None:
+    """That no box runs with these sockets, or with this file: it drives the same rotor. Raises CommandFailed."""
+    file = path.resolve() if path else None
+    same = [box for box in boxes() if box.monitor == monitor.absolute() or (file is not None and box.config == file)]
+    names = {monitor: "a box"} | {box.monitor: box.named for box in same}
+    for place, name in reversed(names.items()):
+        if (other := connected(console_path(place))) is not None:
+            other.close()
+            running = name
+            break
+    else:
         return
-    other.close()
-    running = next((box.named for box in boxes() if box.monitor == monitor.absolute()), "a box")
     raise CommandFailed(
         f"{running} runs already. `rotator where` shows what it does, `rotator stop` stops its antenna; Ctrl-C in its "
         "terminal ends it. A second box needs a folder of its own, or a [state] path of its own in its file"

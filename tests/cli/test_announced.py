@@ -119,6 +119,8 @@ def test_a_stop_from_another_folder_and_a_second_start_in_the_same_one(
     code, told = ends(tmp_path, "run", "--plain", "--config", str(config))
     assert code == 1
     assert told.startswith(f"rotator: the box in {tmp_path} (--config {config}) runs already. `rotator where` shows ")
+    code, told = ends(elsewhere, "run", "--plain", "--config", "../station.toml")
+    assert (code, " runs already. " in told) == (1, True), "the same file in another folder is the same rotor"
     for words in (["stop"], ["resume", "--config", "../station.toml"], ["stop", "--config", str(config)]):
         assert ends(elsewhere, *words) == (0, ""), words
     box.until("STOPPED by a rotator command")

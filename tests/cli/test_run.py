@@ -135,7 +135,9 @@ def test_a_port_in_use(rotator: Rotator, config: Path) -> None:
 def test_a_second_box_on_the_same_terminal(start: Start, rotator: Rotator, config: Path) -> None:
     first = start("run", "--config", config)
     first.until("elevation 0°\n")
-    second = rotator("run", "--config", config)
+    other = config.with_name("other.toml")
+    other.write_text(f'{config.read_text()}[state]\npath = "other/state.json"\n')
+    second = rotator("run", "--config", other)
     assert second.returncode == 1
     assert second.stderr == "rotator: gs232: another program of this kind has it\n"
     assert first.stop() == 0
@@ -154,7 +156,10 @@ def test_the_faults_there_are(rotator: Rotator, config: Path) -> None:
 
 @pytest.mark.parametrize(
     ("fault", "said"),
-    [("gremlins", "no fault called gremlins; --fault list shows them"), ("adc-gone@noon", "adc-gone@noon: the moment")],
+    [
+        ("gremlins", "no fault called gremlins; --fault list shows them"),
+        ("adc-gone@noon", "adc-gone@noon: after @ stands the moment"),
+    ],
 )
 def test_a_fault_there_is_not(rotator: Rotator, config: Path, fault: str, said: str) -> None:
     done = rotator("run", "--config", config, "--fault", fault)

@@ -429,6 +429,14 @@ def test_without_waiting(scripted: Any, rotator: Rotator, config: Path, order: l
     assert len(console.heard) == 1
 
 
+def test_a_resume_in_a_storm_park_says_that_it_goes_on(scripted: Any, rotator: Rotator, config: Path) -> None:
+    moving = AxisStatus(0.0, 450.0, 120.0, target_deg=0.0, tolerance_deg=4.0, moving=True)
+    scripted(pointed(moving, latched="console#3: storm park", storm=True), pointed(moving))
+    assert said(rotator("resume", "--config", config)) == (
+        "The antenna may move again.\nIt still goes to its park position; `rotator stop` ends that.\n"
+    )
+
+
 def test_both_axes_with_a_fault(scripted: Any, rotator: Rotator, config: Path) -> None:
     faults = [Fault(FaultKind.POT_OPEN, axis, "reads 0.000", "0.02 to 0.98") for axis in Axis]
     azimuth, elevation = (AxisStatus(0.0, 180.0, 10.0, fault=fault, seen=False) for fault in faults)
