@@ -54,6 +54,7 @@ from rotator.orders import (
     Source,
     Speed,
     Stop,
+    Stream,
 )
 from rotator.status import AxisStatus, Status
 
@@ -103,6 +104,7 @@ class Controller:
         if any(control.fault for control in self._axes.values()):
             # A list that went on when the fault is acknowledged would start a motor without an order.
             self._timed.halt()
+            self._aiming.end_following()
         if (point := self._timed.due(now_s)) is not None:
             self._point_at(Aim(*point), now_s)
         self._home_next(now_s)
@@ -150,6 +152,7 @@ class Controller:
             speed_level=self._speed_level,
             mode=self._authority.mode,
             mode_switch=self._settings.mode is not Mode.AUTO,
+            recognised=self._aiming.recognised,
             notices=self._authority.ignored(now_s),
             cycle_late_s=late_s,
         )
@@ -212,6 +215,8 @@ class Controller:
                 self._jogs.end(source)
                 if self._authority.left(source, now_s):
                     self._aiming.end_stream()
+            case Fly(stream=Stream()):
+                self._fly_for_stream(order, source, now_s)
             case _ if deed and self._authority.may_move(source, now_s, aims_of(order), deed=deed, homing=homing):
                 self._move(order, source, now_s)
 
@@ -222,6 +227,8 @@ class Controller:
         if not isinstance(order, Home):
             self._homing.clear()
         match order:
+            case Aim() if self._aiming.flies_on(source, order, now_s):
+                pass
             case Aim():
                 self._point_at(order, now_s)
             case Fly():
@@ -240,6 +247,13 @@ class Controller:
                 self._timed.run(now_s)
         if self._timed.running or any(control.busy for control in self._axes.values()):
             self._moved_s = now_s
+
+    def _fly_for_stream(self, order: Fly, source: Source, now_s: float) -> None:
+        """What a recognised stream asks for, flown as planned. It takes the antenna from nobody: the plan took a while
+        to compute, and what has happened since stays in force."""
+        moves = self._authority.controlled_by == source and not self._timed.running
+        if moves and not any(control.fault for control in self._axes.values()):
+            self._aiming.fly_for_stream(order, source, now_s)
 
     def _point_at(self, aim: Aim, now_s: float) -> None:
         try:

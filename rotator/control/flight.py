@@ -8,9 +8,12 @@ from __future__ import annotations
 from bisect import bisect_right
 
 from hw.ports import Axis
+from rotator.control.following import Following
 from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.mount import ZENITH_DEG
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import EVEN, AimGoal
+from rotator.control.sky.route import Way
 from rotator.orders import PLAN_STEP_S, Aim, AxisPlan, Fly
 
 STEP_TOLERANCE_DEG = 0.3
@@ -20,7 +23,11 @@ AGAIN_S = 0.5
 
 
 class Flight:
-    def __init__(self, order: Fly) -> None:
+    """`following`: the stream in whose place it is flown; None: it is flown for itself."""
+
+    def __init__(self, order: Fly, following: Following | None = None) -> None:
+        self.name = order.name
+        self.following = following
         self._path = KnownPath(order.path)
         self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
         self._given: dict[Axis, int] = {}
@@ -30,8 +37,18 @@ class Flight:
         """The target's direction, for the display."""
         return Aim(*self._path.direction(now_s))
 
+    def way(self, now_s: float) -> Way:
+        """The way that it has chosen, as far as it is flown."""
+        azimuth_deg, elevation_deg = (_angle_deg(plan, now_s) for plan in self._plans.values())
+        return Way(azimuth_deg, elevation_deg > ZENITH_DEG)
+
     def ended(self, now_s: float) -> bool:
-        """Whether the target stands still from now on."""
+        """Whether it is over: the target stands still from now on, or the stream has ended in whose place it is flown.
+
+        The program may go on for a while after the target has set.
+        """
+        if self.following is not None:
+            return self.following.silent(now_s)
         return now_s >= self._path.end_s and all(now_s >= _end_s(plan) for plan in self._plans.values())
 
     def goals(self, now_s: float) -> dict[Axis, AimGoal]:

@@ -24,7 +24,7 @@ from rotator.orbits.stream_fit import (
     clocks_that_explain,
     rounding_deg,
 )
-from rotator.orders import Aim, Calibrate, ClearTimed, Order, Release, Remark, Source, Speed, Stream
+from rotator.orders import Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Source, Speed, Stream
 
 ORDERS = 10
 """So many orders tell a satellite, where they leave no other reading."""
@@ -70,6 +70,8 @@ class StreamWatch:
     def __init__(self, satellites: Iterable[Target] = ()) -> None:
         self._satellites = tuple(satellites)
         self._listeners: dict[Source, _Listener] = {}
+        self._planners: set[Source] = set()
+        """Programs that plan by themselves: they name the turn of the overlap, or flip."""
 
     def know(self, satellites: Iterable[Target]) -> None:
         """The elements have changed. What is followed stays so, by the elements of then."""
@@ -89,6 +91,8 @@ class StreamWatch:
                 and 0 <= azimuth_deg <= 360
                 and 0 <= elevation_deg <= 90
             ):
+                if source in self._planners:
+                    return None
                 if source not in self._listeners:
                     self._forget_silent(utc_s)
                     self._listeners[source] = _Listener(source)
@@ -96,7 +100,11 @@ class StreamWatch:
                 return self._listeners[source].hear(heard, self._satellites)
             case Speed() | ClearTimed() | Calibrate() | Release() | Remark():
                 return None
-            case _:  # it ends the stream: a stop, a place, an angle that names its turn
+            case _:  # it ends the stream
+                if isinstance(order, Leave):
+                    self._planners.discard(source)
+                elif isinstance(order, Aim) and ((order.azimuth_deg or 0) > 360 or (order.elevation_deg or 0) > 90):
+                    self._planners.add(source)
                 listener = self._listeners.pop(source, None)
                 followed = listener.recognised if listener else None
                 return Departed(source, followed.satellite) if followed else None
