@@ -71,20 +71,24 @@ class Aiming:
             self._asked = asked
 
     def fly(self, order: Fly, now_s: float) -> None:
-        """Fly a planned pass from now on."""
+        """Fly a planned pass from now on. Raises Unreachable; then everything is as it was."""
+        flight = Flight(order, self._mount)
         self.forget(BOTH)
-        self._flight = Flight(order)
+        self._flight = flight
         self._fly_on(now_s)
 
     def fly_for_stream(self, order: Fly, source: Source, now_s: float) -> None:
-        """Fly a planned pass in place of a stream, where the order in force is one of that stream."""
+        """Fly a planned pass in place of a stream, where the order in force is one of that stream.
+
+        Raises Unreachable; then everything is as it was.
+        """
         asked = self._asked
         if asked is None or self._nudges.applied(asked) != asked:
             return
         following = Following(order, source, now_s)
         if not following.agrees(source, asked, self._asked_s):
             return
-        self._flight = Flight(order, following)
+        self._flight = Flight(order, self._mount, following)
         self._fly_on(now_s)
 
     def flies_on(self, source: Source, aim: Aim, now_s: float) -> bool:

@@ -229,10 +229,8 @@ class Controller:
         match order:
             case Aim() if self._aiming.flies_on(source, order, now_s):
                 pass
-            case Aim():
+            case Aim() | Fly():
                 self._point_at(order, now_s)
-            case Fly():
-                self._aiming.fly(order, now_s)
             case Park():
                 self._park(now_s)
                 return
@@ -252,12 +250,19 @@ class Controller:
         """What a recognised stream asks for, flown as planned. It takes the antenna from nobody: the plan took a while
         to compute, and what has happened since stays in force."""
         moves = self._authority.controlled_by == source and not self._timed.running
-        if moves and not any(control.fault for control in self._axes.values()):
-            self._aiming.fly_for_stream(order, source, now_s)
-
-    def _point_at(self, aim: Aim, now_s: float) -> None:
+        if not moves or any(control.fault for control in self._axes.values()):
+            return
         try:
-            self._aiming.point_at(aim, now_s)
+            self._aiming.fly_for_stream(order, source, now_s)
+        except Unreachable as reason:
+            self.troubles.append(str(reason))
+
+    def _point_at(self, order: Aim | Fly, now_s: float) -> None:
+        try:
+            if isinstance(order, Fly):
+                self._aiming.fly(order, now_s)
+            else:
+                self._aiming.point_at(order, now_s)
         except Unreachable as reason:
             self.troubles.append(str(reason))
 

@@ -10,7 +10,7 @@ from bisect import bisect_right
 from hw.ports import Axis
 from rotator.control.following import Following
 from rotator.control.sky.known_path import KnownPath
-from rotator.control.sky.mount import ZENITH_DEG
+from rotator.control.sky.mount import ZENITH_DEG, Mount, Range, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import EVEN, AimGoal
 from rotator.control.sky.route import Way
@@ -23,9 +23,14 @@ AGAIN_S = 0.5
 
 
 class Flight:
-    """`following`: the stream in whose place it is flown; None: it is flown for itself."""
+    """`following`: the stream in whose place it is flown; None: it is flown for itself.
 
-    def __init__(self, order: Fly, following: Following | None = None) -> None:
+    Raises Unreachable where the plan leaves the limits of an axis.
+    """
+
+    def __init__(self, order: Fly, mount: Mount, following: Following | None = None) -> None:
+        _check(order.azimuth, mount.azimuth, Axis.AZIMUTH)
+        _check(order.elevation, mount.elevation, Axis.ELEVATION)
         self.name = order.name
         self.following = following
         self._path = KnownPath(order.path)
@@ -60,6 +65,12 @@ class Flight:
                 self._given[axis] = number
                 found[axis] = _goal(plan, number, now_s)
         return found
+
+
+def _check(plan: AxisPlan, limits: Range, axis: Axis) -> None:
+    for angle_deg in (*plan.angles_deg, *(step.place_deg for step in plan.steps)):
+        if not limits.holds(angle_deg):
+            raise Unreachable(f"the plan takes {axis.value} to {angle_deg:g}°, beyond its limits")
 
 
 def _number(plan: AxisPlan, now_s: float) -> int:
