@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 
+from rotator.config.model import Config
 from rotator.config.sky import SkyTable
 from rotator.config.station import StationTable
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
 from rotator.orbits.locator import from_locator
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import NotThere
 
 
 def build_site(station: StationTable) -> Site | None:
@@ -31,3 +35,15 @@ def build_sky(station: StationTable) -> Sky | None:
 def build_catalogue(sky: SkyTable) -> Catalogue:
     """Files that cannot be read are among its faults."""
     return Catalogue(sky.elements)
+
+
+def build_satellites(config: Config) -> list[Satellite]:
+    """Those whose elements the configuration names, as the station sees them; none without a place."""
+    site = build_site(config.station)
+    if site is None:
+        return []
+    satellites = []
+    for elements in build_catalogue(config.sky).satellites:
+        with suppress(NotThere):  # sgp4 refuses these elements
+            satellites.append(Satellite(elements, site))
+    return satellites

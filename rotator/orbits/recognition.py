@@ -47,6 +47,13 @@ RATES_SQUARE_DPS = math.pi
 """What moves in the sky without following a satellite does so at up to 1°/s, in any direction."""
 
 
+CLOCKS_ASIDE_S = 10.0
+"""A path begins so long before now, for the orders of a clock that is behind."""
+AFTER_SET_S = 30.0
+"""Programs send for a while after the target has set."""
+LONGEST_PASS_S = 1800.0
+
+
 @dataclass(frozen=True, slots=True)
 class Recognised:
     """The orders of this source follow this satellite. A flight that takes their place is posted as `source`'s own."""
@@ -239,3 +246,16 @@ def _chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> floa
     place = wide_deg * (wide_deg + (CLOCKS_S[-1] - CLOCKS_S[0]) * travelled_dps) / SKY_SQUARE_DEG
     loose_dps = (rounding + 2 * UNSTEADY_S * travelled_dps) / (last_s - first_s)
     return place * min(1.0, loose_dps**2 / RATES_SQUARE_DPS)
+
+
+def rest_of_pass(satellite: Target, utc_s: float) -> list[tuple[float, float, float]]:
+    """The path to be flown from now on: moments of UTC, azimuth, elevation, each second. Raises NotThere."""
+    rows: list[tuple[float, float, float]] = []
+    last_up_s, at_s = utc_s, utc_s - CLOCKS_ASIDE_S
+    while at_s <= min(last_up_s + AFTER_SET_S, utc_s + LONGEST_PASS_S):
+        seen = satellite.sight(at_s)
+        rows.append((at_s, seen.azimuth_deg, seen.elevation_deg))
+        if seen.elevation_deg > 0:
+            last_up_s = max(last_up_s, at_s)
+        at_s += 1.0
+    return rows
