@@ -17,11 +17,12 @@ from rotator.orbits.earth import Site
 from rotator.orbits.locator import from_locator
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.orders import Order
+from rotator.orders import Order, Source
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
 from rotator.tracking import system_clock
 from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.listener import StreamListener
 from rotator.tracking.planner import ProcessPlanner
 from rotator.tracking.thread import TrackingThread
 from rotator.tracking.tracker import TRACK, Tracker
@@ -53,10 +54,13 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
     site = build_site(config.station)
     if site is None:
         return None
-    sky, planner = KnownSky(site, build_catalogue(config.sky)), ProcessPlanner()
+    sky, planner, box = KnownSky(site, build_catalogue(config.sky)), ProcessPlanner(), TrackedBox(config, loop, mount)
     # A simulated rotor may live at any time.
     trusted = system_clock.is_set if config.rotor.hardware == "pi" else lambda: True
-    return TrackingThread(Tracker(sky, planner, TrackedBox(config, loop, mount), trusted), sky, planner)
+    tracker = Tracker(sky, planner, box, trusted)
+    listener = StreamListener(sky, planner, box, time.time, tracker.clock_trusted)
+    loop.overhear(listener.hear)
+    return TrackingThread(tracker, listener, sky, planner)
 
 
 class TrackedBox:
@@ -76,8 +80,8 @@ class TrackedBox:
             return None
         return Antenna(self._mount, *self._motors, (azimuth_deg, elevation_deg))
 
-    def order(self, order: Order) -> None:
-        self._loop.post(TRACK, order)
+    def order(self, order: Order, source: Source = TRACK) -> None:
+        self._loop.post(source, order)
 
 
 def build_satellites(config: Config) -> list[Satellite]:
