@@ -21,6 +21,7 @@ CAPTIONS = {
     "rotator.assembly": "puts it together",
     "rotator.monitor": "tap, transcripts",
     "rotator.links": "move bytes",
+    "rotator.tracking": "which pass, when",
     "rotator.runtime": "threads, loop",
     "rotator.setup": "boot pins, USB port",
     "rotator.rotors": "one file a kind",

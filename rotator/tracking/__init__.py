@@ -1,0 +1,1 @@
+"""Which passes of the followed targets the antenna flies, and when it sets off."""
