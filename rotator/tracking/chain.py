@@ -133,10 +133,12 @@ class _Later:
         most, found = 0.0, None
         if anywhere:
             most, _, found = self._begins[self._best[anywhere - 1]]
-        for index in range(anywhere, bisect_right(self._before_s, -ready_s)):
-            worth, there, begin = self._begins[index]
-            if worth > most + EVEN and self._travel.reaches(place, there, -self._before_s[index] - ready_s):
-                most, found = worth, begin
+        soon = range(anywhere, bisect_right(self._before_s, -ready_s))
+        better = [index for index in soon if self._begins[index][0] > most + EVEN]
+        for index in sorted(better, key=lambda index: -self._begins[index][0]):
+            _, there, begin = self._begins[index]
+            if self._travel.reaches(place, there, -self._before_s[index] - ready_s):
+                return begin
         return found
 
 

@@ -48,7 +48,12 @@ class Wanted:
     def cuts(self) -> Sequence[int]:
         """The looks at which it may be begun late or left early, and its two ends."""
         last = len(self.moments_s) - 1
-        return [*range(0, last, max(1, round(CUT_S / self.step_s), math.ceil(last / CUTS))), last]
+        return [*range(0, last, self.apart), last]
+
+    @property
+    def apart(self) -> int:
+        """So many looks are from one cut to the next."""
+        return max(1, round(CUT_S / self.step_s), math.ceil(len(self.moments_s) / CUTS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,16 +124,16 @@ def _reaching(one: Wanted, mount: Mount) -> list[Way]:
 
 def _on_one_way(one: Wanted, mount: Mount, way: Way, travel: Travel) -> Course:
     flown = Flown(mount, one.directions, way)
-    step_s = one.step_s
-    gains, losses_s = [0.0], [0.0]
-    for look, rate in enumerate(one.rates[:-1]):
-        share = flown.loss_s(look) / STEP_S
-        gains.append(rate * (1.0 - share) * step_s / 60.0)
-        losses_s.append(step_s if share >= 1.0 and rate > 0 else 0.0)
     places = [
         (azimuth_deg, mount.clear_deg(azimuth_deg, elevation_deg))
         for azimuth_deg, elevation_deg in zip(flown.azimuths_deg, flown.elevations_deg, strict=True)
     ]
+    step_s = one.step_s
+    gains, losses_s = [0.0], [0.0]
+    for look, rate in enumerate(one.rates[:-1]):
+        share = flown.loss_s(look) / STEP_S if travel.on_this_side(places[look]) else 1.0
+        gains.append(rate * (1.0 - share) * step_s / 60.0)
+        losses_s.append(step_s if share >= 1.0 and rate > 0 else 0.0)
     over = [way.flipped] * len(places)
     stands = [travel.may_stand(place) for place in places]
     return Course(places, over, stands, list(accumulate(gains)), list(accumulate(losses_s)))

@@ -17,11 +17,15 @@ NEAR_S = 300.0
 
 
 def too_low(found: Pass, followed: Followed) -> str:
-    return f"culminates at {found.highest.elevation_deg:.0f}°, below the {followed.min_culmination_deg:g}° asked"
+    high_deg, asked_deg = found.highest.elevation_deg, followed.min_culmination_deg
+    shown = f"{high_deg:.0f}" if round(high_deg) < asked_deg else f"{high_deg:.2f}"
+    return f"culminates at {shown}°, below the {asked_deg:g}° asked"
 
 
 def unseen(one: Wanted) -> str:
     """No course of this pass is worth anything."""
+    if one.found.aos_s is None or one.found.aos_s < one.moments_s[0]:
+        return "is nearly over"
     if not any(one.rates):
         return "stays behind the horizon of trees and roofs"
     return "the rotor does not reach it"
@@ -52,7 +56,9 @@ def left_out(one: Wanted, flown: Sequence[PlannedPass]) -> str:
 
 def in_part(part: Part, before: str | None, after: str | None) -> str:
     """Which flights take its beginning or its end; empty for a pass that is flown whole."""
-    late = f"begins late: after {before}" if part.first and before else ""
+    late = (
+        f"begins late: {f'after {before}' if before else 'the antenna has to turn there first'}" if part.first else ""
+    )
     early = f"ends early: for {after}" if part.last < len(part.one.moments_s) - 1 and after else ""
     return "; ".join(filter(None, (late, early)))
 

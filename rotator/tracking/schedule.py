@@ -55,7 +55,7 @@ def widened(parts: Sequence[Part], stands_deg: Place, travel: Travel, from_s: fl
     for index, part in enumerate(parts):
         after = parts[index + 1] if index + 1 < len(parts) else None
         begun = part
-        for look in range(part.first):
+        for look in range(max(0, part.first - part.one.apart), part.first):
             earlier = replace(part, first=look)
             if earlier.may_begin and travel.reaches(
                 place, earlier.wait_deg, ready_s(part.one, earlier.begin_s, from_s) - free_s
@@ -63,7 +63,7 @@ def widened(parts: Sequence[Part], stands_deg: Place, travel: Travel, from_s: fl
                 begun = earlier
                 break
         kept = begun
-        for look in range(len(part.one.moments_s) - 1, part.last, -1):
+        for look in range(min(part.last + part.one.apart, len(part.one.moments_s) - 1), part.last, -1):
             later = replace(begun, last=look)
             if later.may_end and (
                 after is None or travel.reaches(later.end_deg, after.wait_deg, after.begin_s - SPARE_S - later.end_s)

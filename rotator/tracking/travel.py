@@ -24,6 +24,14 @@ class Travel:
         self._about_deg = azimuth.play_deg + ABOUT_DEG, elevation.play_deg + ABOUT_DEG
         self._zones = [kept(sector, *room_deg) for sector in mount.sectors]
         self._detours = Detours(mount, room_deg, self._about_deg, self._speeds)
+        self._walls_deg = [
+            zone.box.azimuth.middle_deg
+            for zone in self._zones
+            if zone.box.elevation.min_deg <= mount.elevation.min_deg
+            and zone.box.elevation.max_deg >= mount.elevation.max_deg
+        ]
+        """Sectors from the lowest elevation to the highest: no way leads past them."""
+        self._side = self._side_of(antenna.stands_deg)
         azimuth_s = (mount.azimuth.max_deg - mount.azimuth.min_deg) / azimuth.speed_dps
         elevation_s = (mount.elevation.max_deg - mount.elevation.min_deg) / elevation.speed_dps
         # Round a sector elevation turns to the other end and back while azimuth waits.
@@ -49,7 +57,14 @@ class Travel:
 
     def may_stand(self, place: Place) -> bool:
         """Whether it is free of sectors, and of the room that a motor needs before one."""
-        return not any(zone.box.meets(box_at(place)) for zone in self._zones)
+        return not any(zone.box.meets(box_at(place)) for zone in self._zones) and self.on_this_side(place)
+
+    def on_this_side(self, place: Place) -> bool:
+        """Whether no sector over all elevations stands between this place and the antenna."""
+        return not self._walls_deg or self._side_of(place) == self._side
+
+    def _side_of(self, place: Place) -> int:
+        return sum(wall_deg < place[0] for wall_deg in self._walls_deg)
 
 
 def _room_deg(motor: PlannedMotor) -> float:
