@@ -56,9 +56,8 @@ def left_out(one: Wanted, flown: Sequence[PlannedPass]) -> str:
 
 def in_part(part: Part, before: str | None, after: str | None) -> str:
     """Which flights take its beginning or its end; empty for a pass that is flown whole."""
-    late = (
-        f"begins late: {f'after {before}' if before else 'the antenna has to turn there first'}" if part.first else ""
-    )
+    cause = f"after {before}" if before else "the antenna has to turn there first"
+    late = f"begins late: {cause}" if part.first else ""
     early = f"ends early: for {after}" if part.last < len(part.one.moments_s) - 1 and after else ""
     return "; ".join(filter(None, (late, early)))
 
