@@ -23,7 +23,7 @@ from rotator.tracking.travel import Travel
 LOOKS = 720
 """The path of a pass is looked at every `STEP_S`, and that of a long one so many times."""
 CUTS = 240
-CUT_S = 30.0
+CUT_S = 15.0
 """Where a pass may be begun late or left early: this far apart, or so many places in a long pass."""
 WORST_SHARE = 0.5
 """Of the worth that the best course has: a course with less is not looked at."""
@@ -118,7 +118,7 @@ def _reaching(one: Wanted, mount: Mount) -> list[Way]:
     return [
         way
         for way in possible_ways(mount, one.directions[0])
-        if way.azimuth_deg + least_deg < mount.azimuth.max_deg and way.azimuth_deg + most_deg > mount.azimuth.min_deg
+        if way.azimuth_deg + least_deg <= mount.azimuth.max_deg and way.azimuth_deg + most_deg >= mount.azimuth.min_deg
     ]
 
 
