@@ -1,8 +1,8 @@
 """The chain of parts of passes that is worth most, one after another, with the time to turn from each to the next.
 
-Each pass may be begun late or left early at moments a quarter of a minute apart, on each of its courses. The best chain is
-found by going back from the end (dynamic programming): what a part is worth is known when all that may follow it is.
-Knows no satellite and no mount.
+Each pass may be begun late or left early at its cuts, on each of its courses. The best chain is found by going back
+from the end (dynamic programming): what a part is worth is known when all that may follow it is. Knows no satellite
+and no mount.
 """
 
 from __future__ import annotations
