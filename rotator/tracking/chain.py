@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from math import inf
 
 from rotator.control.sky.sectors import Place
-from rotator.tracking.courses import Course, Wanted
+from rotator.tracking.courses import Course, SeenPass
 from rotator.tracking.planned import SPARE_S
 from rotator.tracking.travel import Travel
 
@@ -29,7 +29,7 @@ NEARLY = 0.01
 class Part:
     """A pass flown on one course from one look to another."""
 
-    one: Wanted
+    one: SeenPass
     course: Course
     first: int
     last: int
@@ -66,7 +66,7 @@ class Part:
 class _Line:
     """A course with its cuts. `worth[at]`: of the best chain that begins this course at a cut."""
 
-    def __init__(self, one: Wanted, course: Course, least: float) -> None:
+    def __init__(self, one: SeenPass, course: Course, least: float) -> None:
         self.one, self.course, self.looks = one, course, one.cuts
         count = len(self.looks)
         self.gained = [course.gained[look] for look in self.looks]
@@ -143,7 +143,7 @@ class _Later:
 
 
 def best_chain(
-    flyable: Sequence[tuple[Wanted, Sequence[Course]]], stands_deg: Place, travel: Travel, from_s: float
+    flyable: Sequence[tuple[SeenPass, Sequence[Course]]], stands_deg: Place, travel: Travel, from_s: float
 ) -> list[Part]:
     """In order. `flyable`: each pass with its courses. `stands_deg`: where the antenna stands at `from_s`."""
     of_pass = [[_Line(one, course, _least(one, ways)) for course in ways] for one, ways in flyable]
@@ -168,7 +168,7 @@ def best_chain(
     return parts
 
 
-def ready_s(one: Wanted, begin_s: float, from_s: float) -> float:
+def ready_s(one: SeenPass, begin_s: float, from_s: float) -> float:
     """When the antenna must stand waiting, in a plan that is made at `from_s`. What is up already waits for nothing."""
     up_already = one.found.aos_s is None or one.found.aos_s < from_s
     return begin_s if up_already else begin_s - SPARE_S
@@ -199,7 +199,7 @@ def _nearest(begin: _Begin, place: Place, free_s: float, travel: Travel, from_s:
     return _Begin(begin.others, nearest, at)
 
 
-def _least(one: Wanted, ways: Sequence[Course]) -> float:
+def _least(one: SeenPass, ways: Sequence[Course]) -> float:
     """What a part has to be worth."""
     most = max(course.gained[-1] for course in ways)
     return min(LEAST_SHARE * most, LEAST_WORTH * one.followed.priority) * (1 - EVEN)

@@ -30,7 +30,7 @@ WORST_SHARE = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class SeenPass:
     """A pass of a followed target, as far as it is not over yet, looked at at even moments."""
 
     found: Pass
@@ -70,7 +70,7 @@ class Course:
     """For how long the antenna is more than 10° off up to each look."""
 
 
-def wanted(found: Pass, followed: Followed, mount: Mount, from_s: float, until_s: float) -> Wanted:
+def seen_pass(found: Pass, followed: Followed, mount: Mount, from_s: float, until_s: float) -> SeenPass:
     begin_s = from_s if found.aos_s is None else max(found.aos_s, from_s)
     end_s = max(until_s, begin_s + STEP_S) if found.los_s is None else found.los_s
     count = min(max(1, math.ceil((end_s - begin_s) / STEP_S)), LOOKS)
@@ -82,7 +82,7 @@ def wanted(found: Pass, followed: Followed, mount: Mount, from_s: float, until_s
         directions.append((azimuth_deg, elevation_deg))
         seen = elevation_deg >= mount.horizon_deg(azimuth_deg)
         rates.append(followed.priority * (1 + math.sin(math.radians(elevation_deg))) / 2 if seen else 0.0)
-    return Wanted(found, followed, moments_s, directions, rates)
+    return SeenPass(found, followed, moments_s, directions, rates)
 
 
 def _sight(found: Pass, followed: Followed, at_s: float) -> Sight:
@@ -93,7 +93,7 @@ def _sight(found: Pass, followed: Followed, at_s: float) -> Sight:
         return found.highest
 
 
-def courses(one: Wanted, mount: Mount, travel: Travel) -> list[Course]:
+def courses(one: SeenPass, mount: Mount, travel: Travel) -> list[Course]:
     """Every course that is worth flying."""
     plain = [_on_one_way(one, mount, way, travel) for way in _reaching(one, mount)]
     found = [course for course in plain if course.gained[-1] > 0]
@@ -106,7 +106,7 @@ def courses(one: Wanted, mount: Mount, travel: Travel) -> list[Course]:
     return [course for course in found if course.gained[-1] >= WORST_SHARE * most]
 
 
-def _reaching(one: Wanted, mount: Mount) -> list[Way]:
+def _reaching(one: SeenPass, mount: Mount) -> list[Way]:
     """The ways of which a part is within the range."""
     turned_deg = list(
         accumulate(
@@ -122,7 +122,7 @@ def _reaching(one: Wanted, mount: Mount) -> list[Way]:
     ]
 
 
-def _on_one_way(one: Wanted, mount: Mount, way: Way, travel: Travel) -> Course:
+def _on_one_way(one: SeenPass, mount: Mount, way: Way, travel: Travel) -> Course:
     flown = Flown(mount, one.directions, way)
     places = [
         (azimuth_deg, mount.clear_deg(azimuth_deg, elevation_deg))
@@ -139,7 +139,7 @@ def _on_one_way(one: Wanted, mount: Mount, way: Way, travel: Travel) -> Course:
     return Course(places, over, stands, list(accumulate(gains)), list(accumulate(losses_s)))
 
 
-def _changed(one: Wanted, before: Course, after: Course, travel: Travel) -> Course | None:
+def _changed(one: SeenPass, before: Course, after: Course, travel: Travel) -> Course | None:
     """From one way to another in the middle of the pass, at the best moment; None where no moment is worth it."""
     last = len(one.moments_s) - 1
     step_s = one.step_s

@@ -45,8 +45,10 @@ class Flight:
 
 @dataclass(frozen=True, slots=True)
 class PlannedPass:
+    """Plain values, so that another process may have computed it."""
+
     found: Pass
-    followed: Followed
+    priority: float
     flight: Flight | None
     """None: the pass is left out."""
     reason: str = ""

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 from rotator.orbits.passes import Pass
 from rotator.tracking.chain import Part
-from rotator.tracking.courses import Wanted
+from rotator.tracking.courses import SeenPass
 from rotator.tracking.planned import SPARE_S, Followed, PlannedPass
 
 NEAR_S = 300.0
@@ -22,7 +22,7 @@ def too_low(found: Pass, followed: Followed) -> str:
     return f"culminates at {shown}°, below the {asked_deg:g}° asked"
 
 
-def unseen(one: Wanted) -> str:
+def unseen(one: SeenPass) -> str:
     """No course of this pass is worth anything."""
     if one.found.aos_s is None or one.found.aos_s < one.moments_s[0]:
         return "is nearly over"
@@ -31,7 +31,7 @@ def unseen(one: Wanted) -> str:
     return "the rotor does not reach it"
 
 
-def left_out(one: Wanted, flown: Sequence[PlannedPass]) -> str:
+def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
     """Which flights are worth more."""
     begin_s, end_s = one.moments_s[0], one.moments_s[-1]
     during = _between(flown, begin_s - SPARE_S, end_s + SPARE_S)
@@ -41,13 +41,13 @@ def left_out(one: Wanted, flown: Sequence[PlannedPass]) -> str:
         return "sets before the antenna can be there"
     if not during:
         return f"no time to turn there beside {_and(names)}"
-    higher = [each.name for each in during if each.followed.priority > one.followed.priority]
+    higher = [each.name for each in during if each.priority > one.followed.priority]
     if higher:
         return f"{_and(list(dict.fromkeys(higher)))} {_has(higher)} the higher priority"
     if len(names) > 1:
         return f"{_and(names)} are worth more together"
     (rival, *_) = rivals
-    if rival.followed.priority == one.followed.priority:
+    if rival.priority == one.followed.priority:
         high_deg, its_deg = one.found.highest.elevation_deg, rival.found.highest.elevation_deg
         if round(its_deg) > round(high_deg):
             return f"{rival.name} rises higher, to {its_deg:.0f}°"

@@ -13,7 +13,7 @@ from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.sectors import Place
 from rotator.orbits.passes import passes
 from rotator.tracking.chain import Part, best_chain, ready_s
-from rotator.tracking.courses import Course, Wanted, courses, wanted
+from rotator.tracking.courses import Course, SeenPass, courses, seen_pass
 from rotator.tracking.planned import SPARE_S, Flight, Followed, PlannedPass
 from rotator.tracking.reasons import in_part, left_out, too_low, unseen
 from rotator.tracking.travel import Travel
@@ -28,23 +28,23 @@ def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, unti
     """
     travel = Travel(antenna)
     planned: list[PlannedPass] = []
-    flyable: list[tuple[Wanted, list[Course]]] = []
+    flyable: list[tuple[SeenPass, list[Course]]] = []
     for each in followed:
         for found in passes(each.target, from_s, until_s):
             if found.highest.elevation_deg < each.min_culmination_deg:
-                planned.append(PlannedPass(found, each, None, too_low(found, each)))
+                planned.append(PlannedPass(found, each.priority, None, too_low(found, each)))
                 continue
-            one = wanted(found, each, antenna.mount, from_s, until_s)
+            one = seen_pass(found, each, antenna.mount, from_s, until_s)
             if ways := courses(one, antenna.mount, travel):
                 flyable.append((one, ways))
             else:
-                planned.append(PlannedPass(found, each, None, unseen(one)))
+                planned.append(PlannedPass(found, each.priority, None, unseen(one)))
     parts = widened(best_chain(flyable, antenna.stands_deg, travel, from_s), antenna.stands_deg, travel, from_s)
     flown = list(_flights(parts, travel, from_s))
     chosen = {id(part.one) for part in parts}
     for one, _ in flyable:
         if id(one) not in chosen:
-            planned.append(PlannedPass(one.found, one.followed, None, left_out(one, flown)))
+            planned.append(PlannedPass(one.found, one.followed.priority, None, left_out(one, flown)))
     return tuple(sorted([*planned, *flown], key=lambda each: _order(each, from_s)))
 
 
@@ -89,7 +89,7 @@ def _flights(parts: Sequence[Part], travel: Travel, from_s: float) -> Iterator[P
             over_the_top=part.course.over[part.first],
             lost_s=part.course.lost_s[part.last] - part.course.lost_s[part.first],
         )
-        yield PlannedPass(part.one.found, part.one.followed, flight, in_part(part, before, after))
+        yield PlannedPass(part.one.found, part.one.followed.priority, flight, in_part(part, before, after))
         free_s = part.end_s
 
 

@@ -99,10 +99,10 @@ def seconds_between(begin_s: float, end_s: float, step_s: float) -> Sequence[flo
     return [begin_s + step_s * (count + 0.5) for count in range(max(1, round((end_s - begin_s) / step_s)))]
 
 
-def places_at_end(each: PlannedPass, mount: Mount) -> list[tuple[float, float]]:
+def places_at_end(each: PlannedPass, target: Target, mount: Mount) -> list[tuple[float, float]]:
     """Where the antenna may stand when a flight ends: one place if it followed the target all the way, else every
     turn on which it may have ended."""
-    flight, target = each.flight, each.followed.target
+    flight = each.flight
     assert flight is not None
     last = target.sight(flight.end_s)
     azimuth_deg, before_deg = flight.wait_deg[0], target.sight(flight.begin_s).azimuth_deg

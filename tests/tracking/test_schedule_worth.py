@@ -20,16 +20,22 @@ PROMISED = 0.95
 Place = tuple[float, float]
 
 ARCS = st.builds(
-    lambda after_s, seconds, from_deg, turn_deg, top_deg: Arc(
-        "arc", EPOCH_S + after_s, seconds, from_deg, turn_deg, top_deg
+    lambda name, after_s, seconds, from_deg, turn_deg, top_deg: Arc(
+        name, EPOCH_S + after_s, seconds, from_deg, turn_deg, top_deg
     ),
+    st.sampled_from("abcdefgh"),
     st.floats(30, 700),
     st.floats(150, 300),
     st.floats(0, 359),
     st.floats(-90, 90),
     st.floats(5, 85),
 )
-FOLLOWED = st.lists(st.builds(Followed, ARCS, st.sampled_from([1.0, 2.0, 5.0])), min_size=2, max_size=4)
+FOLLOWED = st.lists(
+    st.builds(Followed, ARCS, st.sampled_from([1.0, 2.0, 5.0])),
+    min_size=2,
+    max_size=4,
+    unique_by=lambda each: each.target.name,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,8 +95,8 @@ def test_no_other_plan_is_worth_much_more(followed: list[Followed], mount: Mount
     for each in plan:
         if each.flight is None:
             continue
-        flight, target = each.flight, each.followed.target
-        points_deg = target.sight(flight.begin_s).azimuth_deg + 180.0 * flight.over_the_top
+        flight, whose = each.flight, next(one for one in followed if one.target.name == each.name)
+        points_deg = whose.target.sight(flight.begin_s).azimuth_deg + 180.0 * flight.over_the_top
         turn = round((flight.wait_deg[0] - points_deg) / 360.0)
-        total += worth(each.followed, flight.begin_s, flight.end_s, points_deg + 360.0 * turn, mount)
+        total += worth(whose, flight.begin_s, flight.end_s, points_deg + 360.0 * turn, mount)
     assert total >= PROMISED * best_of_all([pieces(each, mount) for each in followed], EPOCH_S, (stands_deg, 0.0))
