@@ -36,8 +36,9 @@ def where(path: Path | None, as_json: bool) -> None:
 def point(path: Path | None, wait: bool, azimuth: float, elevation: float) -> None:
     """Point the antenna, and wait until it has arrived.
 
-    AZIMUTH counts from north over east, ELEVATION from the horizon, in degrees. Ctrl-C stops the antenna. The exit
-    code is 0 when it has arrived, 3 when a fault stopped it.
+    AZIMUTH counts from north over east, ELEVATION from the horizon, in degrees. Above 360 AZIMUTH names a turn of the
+    rotor. Ctrl-C stops the antenna; a terminal that closes does not: it goes on to its place. The exit code is 0 when
+    it has arrived, 3 when a fault stopped it.
     """
     from rotator.cli import moves
 
@@ -84,7 +85,7 @@ def jog(path: Path | None, wait: bool, direction: str, seconds: float) -> None:
 def park(path: Path | None, wait: bool) -> None:
     """Go to the park position, and stay until `rotator resume`.
 
-    It goes now, and ends what a tracking program does. Ctrl-C stops the antenna.
+    It goes now, and ends what a tracking program does. Ctrl-C stops the antenna; a terminal that closes does not.
     """
     from rotator.cli import moves
 
@@ -96,7 +97,7 @@ def park(path: Path | None, wait: bool) -> None:
 def stop(path: Path | None) -> None:
     """Stop the antenna until `rotator resume`. Until then no link can move it.
 
-    Without --config it stops the box of this folder, and the service.
+    Without --config it stops every box that you run, in whichever folder, and the service.
     """
     from rotator.cli import reach
     from rotator.cli.stop import STOPPED, stop_boxes

@@ -72,6 +72,8 @@ VERBS = (
     Verb("help", "", "This list"),
 )
 _BY_TEXT = {verb.text: verb for verb in VERBS}
+COMMANDS = ("where", "monitor", "doctor", "calibrate", "config", "rehearse", "sky", "run")
+"""Commands of the program that a person takes for words of the console."""
 TURN_WORDS = {turn: word for word, turn in TURNS.items()}
 _SECONDS = re.compile(r"[0-9]{1,3}(?:[.,][0-9]{1,3})?")
 
@@ -129,6 +131,8 @@ def _seconds(text: str) -> float:
 
 
 def _unknown(word: str) -> str:
+    if word in COMMANDS:
+        return f"{word} is no word of the console but a command: rotator {word}"
     meant = difflib.get_close_matches(word, _BY_TEXT, n=1)
     hint = f"; did you mean {meant[0]}?" if meant else "."
     return f"there is no command {_quoted(word)}{hint} There are: {', '.join(_BY_TEXT)}"
