@@ -74,7 +74,8 @@ class NorthGuide(CompassGuide):
                 "   Or type the angle on the rotor's own scale as your eye sees it; the compass then gives the offset.",
             )
             while position_unknown(self._axis):
-                match (yield from self._ask("y, or the angle:", may_turn=False)):
+                accepts = f"y: the offset is right; n leaves. Else the angle: {NUMBER_FORM}"
+                match (yield from self._ask("y, or the angle:", accepts, may_turn=False)):
                     case Yes():
                         return True
                     case Number(angle_deg):
@@ -83,7 +84,7 @@ class NorthGuide(CompassGuide):
                     case No():
                         raise Abandoned("Left: nothing is saved.")
                     case _:
-                        self._say(f"y, or a number of degrees, please. {NUMBER_FORM}")
+                        self._say(self._accepts)
         axis = self._axis
         if axis.fault is not None:
             raise Abandoned(f"Refused: {axis.fault}. Nothing is saved.")
@@ -107,7 +108,8 @@ class NorthGuide(CompassGuide):
         by_hand = "r l u d: you do; " if may_sweep else "turn it by hand; "
         self._learning = True
         while self._calibration.magnetometer < 3:
-            match (yield from self._ask(f"{offer}{by_hand}Enter goes on.")):
+            accepts = "Turn it about; Enter when the magnetometer says 2 or 3; q leaves."
+            match (yield from self._ask(f"{offer}{by_hand}Enter goes on.", accepts)):
                 case CompassReady():
                     break
                 case Yes() if may_sweep:
@@ -117,7 +119,7 @@ class NorthGuide(CompassGuide):
                 case Enter():
                     self._say(f"   Not yet: {self._calibration}.")
                 case _:
-                    self._say("   Turn it about; Enter when the magnetometer says 2 or 3; q leaves.")
+                    self._say(self._accepts)
         self._learning = False
 
     def _sweep(self) -> Steps:

@@ -83,7 +83,7 @@ def test_the_high_end_where_the_low_one_should_be(calibration: Any) -> None:
 def test_an_angle_that_is_none(calibration: Any) -> None:
     run = at_the_low_end(calibration())
     assert "-360 to 720" in run.say("", "999")
-    assert "A number of degrees" in run.say("y")
+    assert "Type one number of degrees, for example 438.5 or -2, and press Enter. Enter alone takes 0;" in run.say("y")
     run.say("n")
     assert run.guide.prompt.startswith("At the low end")
 
@@ -122,6 +122,57 @@ def test_an_operator_who_does_not_want_it(calibration: Any, answer: str) -> None
     run.say("", "450", "f", "", "", answer)
     assert run.guide.ended
     assert run.guide.result is None
+
+
+# --- keys that a person tries
+
+
+STAGES = {
+    "the first turn": ([], "Turn it first: r is clockwise, l is counter-clockwise."),
+    "a question": (["r"], "Type y for yes or n for no."),
+    "an end": (["r", "y", "l"], "Drive there with r (clockwise) and l (counter-clockwise); then Enter reads it."),
+    "an angle": (["r", "y", "l", ""], "Enter alone takes 0; n or b: one step back."),
+}
+
+
+@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("key", ["?", "h"])
+def test_help_says_what_this_question_takes_and_all_keys(calibration: Any, stage: str, key: str) -> None:
+    way, accepted = STAGES[stage]
+    run = calibration()
+    run.say(*way)
+    prompt = run.guide.prompt
+    said = run.say(key)
+    assert accepted in said
+    assert "? helps; q leaves, and nothing is saved." in said
+    assert run.guide.prompt == prompt
+
+
+def test_back_before_there_is_anything_says_so(calibration: Any) -> None:
+    run = calibration()
+    assert "nothing to take back here. Turn it first" in run.say("b")
+    assert "nothing to take back here. Type y" in run.say("r", "b")
+    assert "no point to take back" in run.say("y", "l", "b")
+
+
+def test_back_at_the_angle_goes_back_to_the_end(calibration: Any) -> None:
+    run = at_the_low_end(calibration())
+    run.say("", "b")
+    assert run.guide.prompt.startswith("At the low end")
+    run.say("", "0", *["r"] * 40)
+    run.say("", "450", "f", "", "b")
+    assert run.guide.prompt.startswith("Lowest angle")
+
+
+def test_yes_at_the_end_reads_it(calibration: Any) -> None:
+    run = at_the_low_end(calibration())
+    assert "It reads 0." in run.say("y")
+
+
+def test_an_entry_that_means_nothing_says_what_is_accepted(calibration: Any) -> None:
+    run = calibration()
+    run.say("r")
+    assert "'é' means nothing here. Type y for yes or n for no. ? lists all keys." in run.say("é")
 
 
 # --- readings
