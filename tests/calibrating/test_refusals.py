@@ -127,25 +127,20 @@ def test_an_operator_who_does_not_want_it(calibration: Any, answer: str) -> None
 # --- keys that a person tries
 
 
-STAGES = {
-    "the first turn": ([], "Turn it first: r is clockwise, l is counter-clockwise."),
-    "a question": (["r"], "Type y for yes or n for no."),
-    "an end": (["r", "y", "l"], "Drive there with r (clockwise) and l (counter-clockwise); then Enter reads it."),
-    "an angle": (["r", "y", "l", ""], "Enter alone takes 0; n or b: one step back."),
-}
-
-
-@pytest.mark.parametrize("stage", STAGES)
-@pytest.mark.parametrize("key", ["?", "h"])
-def test_help_says_what_this_question_takes_and_all_keys(calibration: Any, stage: str, key: str) -> None:
-    way, accepted = STAGES[stage]
+def test_help_says_what_each_question_takes_and_all_keys(calibration: Any) -> None:
     run = calibration()
-    run.say(*way)
-    prompt = run.guide.prompt
-    said = run.say(key)
-    assert accepted in said
-    assert "? helps; q leaves, and nothing is saved." in said
-    assert run.guide.prompt == prompt
+    for way, accepted in (
+        ([], "Turn it first: r is clockwise, l is counter-clockwise."),
+        (["r"], "Type y for yes or n for no."),
+        (["y", "l"], "Drive there with r (clockwise) and l (counter-clockwise); then Enter reads it."),
+        ([""], "Enter alone takes 0; n or b: one step back."),
+    ):
+        run.say(*way)
+        prompt = run.guide.prompt
+        said = run.say("?")
+        assert f"{accepted} All keys" in said.replace(" b takes the last point back.", "")
+        assert "? helps; q leaves, and nothing is saved." in said
+        assert run.guide.prompt == prompt
 
 
 def test_back_before_there_is_anything_says_so(calibration: Any) -> None:
@@ -155,24 +150,23 @@ def test_back_before_there_is_anything_says_so(calibration: Any) -> None:
     assert "no point to take back" in run.say("y", "l", "b")
 
 
-def test_back_at_the_angle_goes_back_to_the_end(calibration: Any) -> None:
+def test_back_at_the_angle_goes_back_to_the_end_and_yes_reads_it(calibration: Any) -> None:
     run = at_the_low_end(calibration())
     run.say("", "b")
     assert run.guide.prompt.startswith("At the low end")
+    assert "It reads 0." in run.say("y")
+
+
+def test_back_at_the_highest_angle_asks_for_the_lowest_again(calibration: Any) -> None:
+    run = at_the_low_end(calibration())
     run.say("", "0", *["r"] * 40)
     run.say("", "450", "f", "", "b")
     assert run.guide.prompt.startswith("Lowest angle")
 
 
-def test_yes_at_the_end_reads_it(calibration: Any) -> None:
-    run = at_the_low_end(calibration())
-    assert "It reads 0." in run.say("y")
-
-
 def test_an_entry_that_means_nothing_says_what_is_accepted(calibration: Any) -> None:
     run = calibration()
-    run.say("r")
-    assert "'é' means nothing here. Type y for yes or n for no. ? lists all keys." in run.say("é")
+    assert "'é' means nothing here. Turn it first: r is clockwise" in run.say("é")
 
 
 # --- readings
