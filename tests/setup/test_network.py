@@ -80,6 +80,26 @@ def test_the_question(with_avahi: Card) -> None:
     assert parse(with_avahi.rotator.read_text(), "x").link[0].allow is None
 
 
+def test_a_card_is_named_by_its_own_name_and_no_address_of_this_machine(with_avahi: Card) -> None:
+    said = with_avahi.setup("network", "--allow", "all", "--yes").text
+    assert "The card of shack. Its address is known only after it has started." in said
+    assert "rotctl -m 2 -r shack.local:4533 p" in said
+    for here in (socket.gethostname(), *(str(each.ip) for each in addresses())):
+        assert here not in said
+
+
+def test_a_card_without_name_and_avahi_leaves_the_address_open(card: Card) -> None:
+    said = card.setup("network", "--allow", "all", "--yes").text
+    assert "On the PC, where ADDRESS is what `hostname -I` prints on the Pi:" in said
+    assert "rotctl -m 2 -r ADDRESS:4533 p" in said
+
+
+def test_the_network_of_a_card_has_to_be_said(with_avahi: Card) -> None:
+    said = with_avahi.setup("network", "--yes")
+    assert said.code == 1
+    assert "no local network is known on this card: say which may with --allow 192.168.1.0/24" in said.text
+
+
 def test_without_avahi_it_says_what_to_do(card: Card) -> None:
     said = card.setup("network", "--allow", "all", "--yes")
     assert "sudo apt install avahi-daemon" in said.text
