@@ -273,7 +273,7 @@ def _draws() -> bool:
 cli.under("The antenna", console.where, console.point, console.jog, console.park, console.stop, console.resume)
 cli.under("An axis that asks for a person", console.home, console.confirm, console.relays_checked, console.let_go)
 cli.under("The box", run, doctor, monitor, console.tell, off)
-cli.under("The sky", sky)
+cli.under("The sky", sky, console.track)
 cli.under("Setting up", show_config, calibrate, set_up)
 cli.under("Without a rotor", rehearse, arduino, console.panel)
 
