@@ -15,7 +15,7 @@ import click
 
 from rotator import __version__
 from rotator.cli import console_commands as console
-from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples
+from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples, say
 from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
 from rotator.cli.sky_commands import sky
 
@@ -290,7 +290,7 @@ def main() -> None:
     try:
         sys.exit(cli(standalone_mode=False))
     except click.ClickException as mistake:
-        mistake.show()
+        say(mistake)
         sys.exit(mistake.exit_code)
     except click.Abort:
         raise KeyboardInterrupt from None
