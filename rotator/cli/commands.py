@@ -16,7 +16,9 @@ from click.exceptions import NoArgsIsHelpError
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
-CONFIG = click.option("--config", "path", type=click.Path(path_type=Path), help="The box's file (TOML).")
+CONFIG = click.option(
+    "--config", "path", type=click.Path(path_type=Path), metavar="FILE", help="The box's file (TOML)."
+)
 FAULT = click.option(
     "--fault",
     "faults",

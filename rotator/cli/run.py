@@ -66,6 +66,8 @@ async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, rec
     finally:
         watcher.cancel()
         await asyncio.gather(watcher, return_exceptions=True)
+    # Below the terminal as it was before the picture.
+    screen.write(f"{plain_lines.farewell(app.loop.status)}\n")
 
 
 async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:

@@ -60,6 +60,7 @@ def test_orders_move_it(start: Start, config: Path, send: Send) -> None:
     send(b"W235 025\r")
     box.until(r"azimuth 23\d°[^A-Z\n]*elevation 2\d°[^A-Z\n]*\n")
     assert box.stop() == 0
+    assert re.search(r"The box has ended .* azimuth 23\d\.\d°, elevation 2\d\.\d°\.\n$", box.rest)
 
 
 # --- a configuration that cannot be used
