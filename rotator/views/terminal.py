@@ -110,7 +110,8 @@ def picture(
             yield from _trouble(to_go_on, width)
         for note in (*status.notices, *lacks(status), *notes(status)):
             yield from wrapped(note, width, WARNS, _NOTE)
-        yield from (Row(Text(line, style="dim"), _LOG + age) for age, line in _newest_last(log_rows))
+        for age, line in _newest_last(log_rows):
+            yield from wrapped(line, width, "dim", _LOG + age)
         if around.typed:
             yield Row(Text(around.typed, style="bold reverse"), _KEYS)
         yield from _keys(width)
