@@ -9,10 +9,26 @@ from rotator.cli.failed import INTERRUPTED
 
 
 def main() -> None:
+    _open_closed_streams()
     try:
         _run()
     except KeyboardInterrupt:  # while the program still loads or starts: later each command handles it itself
         sys.exit(INTERRUPTED)
+
+
+def _open_closed_streams() -> None:
+    """A caller may have closed standard input or output (`<&-`). Python then has no such stream, and the next file or
+    relay line that is opened would get its number."""
+    for fd, name, mode in ((0, "stdin", "r"), (1, "stdout", "w"), (2, "stderr", "w")):
+        try:
+            os.fstat(fd)
+        except OSError:
+            nothing = os.open(os.devnull, os.O_RDWR)
+            if nothing != fd:
+                os.dup2(nothing, fd)
+                os.close(nothing)
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(fd, mode, closefd=False))  # noqa: SIM115 - it stays open to the end
 
 
 def _run() -> None:

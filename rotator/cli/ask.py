@@ -100,7 +100,10 @@ def ask(name: str, to: Path | None, *, today: Callable[[], date] = date.today, m
         parse(text, str(path))
         click.echo()
         _write(dialogue, path, text, today())
-    except (click.Abort, KeyboardInterrupt, EOFError):
+    except EOFError:
+        click.echo()
+        raise SetupError("the input ended before the last answer: nothing was written") from None
+    except (click.Abort, KeyboardInterrupt):
         click.echo()
         raise SetupError("nothing was written") from None
     _what_next(dialogue, path, answers)

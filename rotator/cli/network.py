@@ -76,7 +76,7 @@ def _chosen(allow: str | None, machine: Machine, *, yes: bool, card: bool) -> st
         try:
             typed = str(click.prompt("Number", default="1" if machine.networks else None)).strip()
         except click.Abort:
-            raise SetupError("nothing was changed") from None
+            raise SetupError("nothing was changed (--allow NETWORK --yes does it without asking)") from None
         offered = [*machine.networks, "all"]
         if typed.isdigit() and 1 <= int(typed) <= len(offered):
             allow = offered[int(typed) - 1]
