@@ -25,7 +25,7 @@ from rotator.setup.machine import Machine, this_machine
 from rotator.setup.new_file import for_the_service, new_file
 from rotator.setup.plan import Change, ChangeSet, SetupError
 from rotator.setup.question import Question
-from rotator.setup.questions import questions
+from rotator.setup.questions import USB_CABLE, questions
 
 KEYS = "Enter takes the answer in brackets, b goes back, ? helps, Ctrl-C ends and writes nothing."
 BACK, HELP = ("b", "back", "<"), ("?", "h", "help")
@@ -150,14 +150,16 @@ def _write(dialogue: Dialogue, path: Path, text: str, today: date) -> None:
 
 def _what_next(dialogue: Dialogue, path: Path, answers: dict[str, str]) -> None:
     dialogue.say(f"{path} is written. Next:")
-    if path == INSTALLED:
-        click.echo("  sudo systemctl restart rotator")
-    else:
-        click.echo(f"  rotator run --config {path}")
+    installed = path == INSTALLED
+    file = "" if installed else f" --config {path}"
+    next_ones = ["sudo systemctl restart rotator" if installed else f"rotator run{file}"]
     if answers["hardware"] == "pi":
-        click.echo(f"  rotator doctor --config {path}\n  rotator calibrate --config {path}")
+        next_ones += [f"rotator doctor --config {path}", f"rotator calibrate --config {path}"]
     if answers["network"] != "here":
-        click.echo("  sudo rotator setup network      # its name, and a test from the PC")
+        next_ones.append(f"sudo rotator setup network{file}")
+    if answers.get("port") == USB_CABLE:
+        next_ones.append(f"sudo rotator setup usb-serial{file}")
+    click.echo("\n".join(f"  {command}" for command in next_ones))
 
 
 def _line() -> str:

@@ -117,7 +117,7 @@ def _network(machine: Machine) -> Question:
         "here",
         (
             Choice("here", "only programs on this machine"),
-            *(Choice(network, f"those of {network}") for network in machine.networks),
+            *(Choice(network, f"this machine and those of {network}") for network in machine.networks),
         ),
         network,
     )  # fmt: skip

@@ -26,7 +26,7 @@ BLOCK = f"""\
 {BEGIN}
 # was: tcp = "127.0.0.1:4533"
 tcp = "0.0.0.0:4533"
-allow = ["192.168.1.0/24"]
+allow = ["127.0.0.1", "192.168.1.0/24"]
 {END}
 """
 
@@ -43,7 +43,7 @@ def test_one_link_opens_and_the_rest_of_the_file_stays(with_avahi: Card) -> None
     assert said.code == 0, said.text
     assert with_avahi.rotator.read_text() == ROTATOR.replace('tcp = "127.0.0.1:4533"\n', BLOCK)
     link = parse(with_avahi.rotator.read_text(), "x").link[0]
-    assert (link.tcp, link.allow) == ("0.0.0.0:4533", ["192.168.1.0/24"])
+    assert (link.tcp, link.allow) == ("0.0.0.0:4533", ["127.0.0.1", "192.168.1.0/24"])
     assert "<port>4533</port>" in (with_avahi.root / ANNOUNCED).read_text()
     assert "Host shack.local, Port 4533" in said.text
     assert "rotctl -m 2 -r shack.local:4533 p" in said.text
@@ -150,7 +150,7 @@ def test_every_shipped_file_opens_and_comes_back_to_the_byte(name: str, allow: s
     text = shipped(name).replace('tcp = "127.0.0.1:4533"', f'tcp = "127.0.0.1:4533"{more}').replace("\n", end)
     opened = open_to(text, allow)
     link = next(link for link in parse(opened.text, name).link if link.protocol == "rotctld")
-    assert (link.tcp, link.allow) == ("0.0.0.0:4533", allow and [allow])
+    assert (link.tcp, link.allow) == ("0.0.0.0:4533", allow and ["127.0.0.1", allow])
     assert closed(opened.text) == text
 
 

@@ -58,7 +58,7 @@ def test_every_combination_of_answers_is_a_file_that_loads_and_means_them(data: 
     protocols = [link.protocol for link in config.link]
     assert protocols[-1] == "rotctld"
     assert protocols[:-1] == [each for each in [answers["program"]] if each not in ("rotctld", "none")]
-    assert config.link[-1].allow == (None if answers["network"] == "here" else [answers["network"]])
+    assert config.link[-1].allow == (None if answers["network"] == "here" else ["127.0.0.1", answers["network"]])
     rows = text.split("\n")
     for statement in statements(text):
         if statement.keys and not statement.brackets:
@@ -192,6 +192,12 @@ def test_it_is_kept_beside_the_new_one(here: Path) -> None:
     (copy,) = here.glob("new.toml.before-rotator-*")
     assert copy.read_text() == "# mine\n"
     assert load(here / "new.toml").link
+
+
+def test_what_comes_next_names_the_file(here: Path) -> None:
+    done = config_ask("", "pi", "", "", "pst", "usb cable", "", "192.168.1.0/24", "", "")
+    for command in ("run", "doctor", "calibrate", "setup network", "setup usb-serial"):
+        assert f"rotator {command} --config new.toml\n" in done.output
 
 
 def test_a_name_is_the_default_of_the_first_question(here: Path) -> None:
