@@ -39,8 +39,8 @@ class NorthGuide(CompassGuide):
 
     def _path(self) -> Steps:
         self._say(
-            "Finding north with the compass on the boom. The antenna turns only after you have agreed; all the same",
-            "be ready to cut its supply. Space or s stops it. Ctrl-C or q leaves at any moment, nothing saved.",
+            "Finding north with the compass on the boom. The antenna turns only after you have agreed.",
+            "  Be ready to cut its supply. Space or s stops it; q or Ctrl-C leaves, and nothing is saved.",
             f"  {KEYS}",
         )
         if self._facts.declination_deg is None:
@@ -101,8 +101,8 @@ class NorthGuide(CompassGuide):
         if self._calibration.magnetometer == 3:
             return
         self._say(
-            "   It learns its errors by being turned: slowly, all the way round, and up and down, until the",
-            "   magnetometer says 3. 2 will do, then press Enter.",
+            "   It learns its errors by being turned: slowly, all the way round, and up and down.",
+            "   When the magnetometer says 3, it goes on; 2 will do, then press Enter.",
         )
         offer = "y: the box turns it through its range, raised and level by turns; " if may_sweep else ""
         by_hand = "r l u d: you do; " if may_sweep else "turn it by hand; "

@@ -103,14 +103,14 @@ class Phrases:
     @property
     def homing(self) -> tuple[str, ...]:
         return (
-            f"   Watch the antenna: it turns {self.minus} to its stop, a little back, and there again. The box cannot",
-            "   tell a stop from a branch that the antenna hangs in; you can. Space or s stops it.",
+            f"   Watch the antenna: it turns {self.minus} to its stop, a little back, and there again.",
+            "   The box cannot tell a stop from a branch that the antenna hangs in; you can. Space or s stops it.",
         )
 
     def limit(self, where: str) -> tuple[str, ...]:
         return (
-            f"{where} angle that it may be sent to: drive it there, or type it. A degree or two before its stop,",
-            "   or earlier, where cables, guy wires or a chimney are in the way.",
+            f"{where} angle that it may be sent to: drive it there, or type it.",
+            "   A degree or two before its stop, or earlier, where cables, guy wires or a chimney are in the way.",
         )
 
     def drive_to(self, where: str) -> tuple[str, ...]:
