@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 
 from rotator.assembly.settings import planned_motors
 from rotator.config.model import Config
@@ -14,6 +15,8 @@ from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
 from rotator.orbits.locator import from_locator
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import NotThere
 from rotator.orders import Order
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
@@ -75,3 +78,15 @@ class TrackedBox:
 
     def order(self, order: Order) -> None:
         self._loop.post(TRACK, order)
+
+
+def build_satellites(config: Config) -> list[Satellite]:
+    """Those whose elements the configuration names, as the station sees them; none without a place."""
+    site = build_site(config.station)
+    if site is None:
+        return []
+    satellites = []
+    for elements in build_catalogue(config.sky).satellites:
+        with suppress(NotThere):  # sgp4 refuses these elements
+            satellites.append(Satellite(elements, site))
+    return satellites
