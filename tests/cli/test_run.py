@@ -130,7 +130,10 @@ def test_a_port_in_use(rotator: Rotator, config: Path) -> None:
         config.write_text(f'[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{port}"\n')
         done = rotator("run", "--config", config)
     assert done.returncode == 1
-    assert done.stderr == f"rotator: 127.0.0.1:{port}: cannot listen there: Address already in use\n"
+    assert done.stderr == (
+        f"rotator: 127.0.0.1:{port}: cannot listen there: Address already in use: "
+        "end what has it (another box?), or write another into the file\n"
+    )
 
 
 def test_a_second_box_on_the_same_terminal(start: Start, rotator: Rotator, config: Path) -> None:
