@@ -165,7 +165,7 @@ def test_a_plan_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:
 def test_who_follows_nothing_is_told_how(tmp_path: Path) -> None:
     result = told(tmp_path, "plan")
     assert result.exit_code == 1
-    assert 'write [[sky.follow]] into the file and below it, for example, name = "ISS"' in result.output
+    assert 'write [[sky.follow]] into the file and below it, for example, name = "ISS"' in said_by(result)
 
 
 def test_a_followed_name_that_is_not_known_is_named_and_the_others_are_planned(tmp_path: Path) -> None:
@@ -180,4 +180,4 @@ def test_a_followed_name_that_is_not_known_is_named_and_the_others_are_planned(t
 def test_where_no_followed_name_is_known_there_is_no_plan(tmp_path: Path) -> None:
     result = told(tmp_path, "plan", more='[[sky.follow]]\nname = "isx"\n')
     assert result.exit_code == 1
-    assert "none of the followed targets is known" in result.output
+    assert "none of the followed targets is known" in said_by(result)
