@@ -8,14 +8,14 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from io import StringIO, TextIOWrapper
+from io import TextIOWrapper
 from pathlib import Path
 
 import click
 
 from rotator import __version__
 from rotator.cli import console_commands as console
-from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples
+from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples, say_mistake
 from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
 from rotator.cli.lines import say
 from rotator.cli.sky_commands import sky
@@ -306,9 +306,7 @@ def main() -> None:
     try:
         sys.exit(cli(standalone_mode=False))
     except click.ClickException as mistake:
-        shown = StringIO()
-        mistake.show(shown)
-        say(shown.getvalue().rstrip("\n"), err=True)
+        say_mistake(mistake)
         sys.exit(mistake.exit_code)
     except click.Abort:
         raise KeyboardInterrupt from None
