@@ -13,6 +13,7 @@ UNWRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EPIPE)
 
 
 def main() -> None:
+    _open_closed_streams()
     try:
         _run()
     except KeyboardInterrupt:  # while the program still loads or starts: later each command handles it itself
@@ -23,6 +24,21 @@ def main() -> None:
         _write_no_more()
         sys.stderr.write(f"rotator: the output cannot be written: {fault.strerror}\n")
         sys.exit(NOT_DONE)
+
+
+def _open_closed_streams() -> None:
+    """A caller may have closed standard input or output (`<&-`). Python then has no such stream, and the next file or
+    relay line that is opened would get its number."""
+    for fd, name, mode in ((0, "stdin", "r"), (1, "stdout", "w"), (2, "stderr", "w")):
+        try:
+            os.fstat(fd)
+        except OSError:
+            nothing = os.open(os.devnull, os.O_RDWR)
+            if nothing != fd:
+                os.dup2(nothing, fd)
+                os.close(nothing)
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(fd, mode, closefd=False))  # noqa: SIM115 - it stays open to the end
 
 
 def _run() -> None:

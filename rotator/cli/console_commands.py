@@ -51,12 +51,13 @@ def point(path: Path | None, wait: bool, azimuth: float, elevation: float) -> No
 )
 @CONFIG
 @click.option("--clock-is-right", is_flag=True, help="You have seen that the computer's clock shows the right time.")
-@click.argument("words", nargs=-1, required=True, metavar="NAME|LOCATOR|AZ EL|off")
+@click.argument("words", nargs=-1, required=True, metavar="NAME|LOCATOR|AZ EL|plan|off")
 def track(path: Path | None, clock_is_right: bool, words: tuple[str, ...]) -> None:
     """Let the box track a target by itself, from pass to pass.
 
     NAME: ISS, 25544, so50, sun, moon, mars, "cas a". It needs [station] in the box's file, and for satellites [sky]
-    elements. The antenna goes to where the target rises and waits there. Any other order ends it.
+    elements. The antenna goes to where the target rises and waits there. Any other order ends it. `plan` goes back to
+    what [[sky.follow]] names; `off` tracks nothing.
     """
     from rotator.cli.track import begin
 

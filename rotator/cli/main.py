@@ -8,14 +8,14 @@ from __future__ import annotations
 import os
 import shutil
 import sys
-from io import StringIO, TextIOWrapper
+from io import TextIOWrapper
 from pathlib import Path
 
 import click
 
 from rotator import __version__
 from rotator.cli import console_commands as console
-from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples
+from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples, say_mistake
 from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
 from rotator.cli.lines import say
 from rotator.cli.sky_commands import sky
@@ -70,7 +70,13 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
 @click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the flight to this CSV file.")
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
 @click.option("--target", metavar="NAME", help="Fly the next pass of a satellite, Sun or Moon, tracked by the box.")
-@click.option("--at", "at_s", type=utc_time, metavar="UTC", help="With --target: its first pass that ends after this.")
+@click.option(
+    "--at",
+    "at_s",
+    type=utc_time,
+    metavar="UTC",
+    help="The pass begins then, and is recognised in the orders; with --target: the first pass that ends after this.",
+)
 @click.option("--arduino", is_flag=True, help="Fly the pass with the emulated Arduino instead of the box.")
 def rehearse(  # noqa: PLR0917 - click calls it by keyword
     path: Path | None,
@@ -300,9 +306,7 @@ def main() -> None:
     try:
         sys.exit(cli(standalone_mode=False))
     except click.ClickException as mistake:
-        shown = StringIO()
-        mistake.show(shown)
-        say(shown.getvalue().rstrip("\n"), err=True)
+        say_mistake(mistake)
         sys.exit(mistake.exit_code)
     except click.Abort:
         raise KeyboardInterrupt from None

@@ -9,7 +9,9 @@ from __future__ import annotations
 import asyncio
 import logging
 import os
+import shutil
 import sys
+import textwrap
 import time
 from contextlib import nullcontext, suppress
 from pathlib import Path
@@ -93,6 +95,15 @@ async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, rec
     finally:
         watcher.cancel()
         await asyncio.gather(watcher, return_exceptions=True)
+    # Below the terminal as it was before the picture.
+    last = plain_lines.farewell(app.loop.status)
+    screen.write("".join(f"{row}\n" for row in (_rows(last) if screen.isatty() else last.split("\n"))))
+
+
+def _rows(text: str) -> list[str]:
+    """Broken between words, for the terminal's width."""
+    columns = shutil.get_terminal_size().columns
+    return [row for line in text.split("\n") for row in textwrap.wrap(line, columns, break_on_hyphens=False)]
 
 
 async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:

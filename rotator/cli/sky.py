@@ -1,4 +1,4 @@
-"""`rotator sky where` and `rotator sky passes`: what the box knows of the sky, for a person or as JSON.
+"""`rotator sky where`, `passes` and `plan`: what the box knows of the sky, for a person or as JSON.
 
 Knows the words and the columns. The sky itself is in `rotator.orbits`.
 """
@@ -15,6 +15,8 @@ from rich.console import Console
 from rich.table import Table
 
 from rotator.assembly.sky import build_catalogue, build_site
+from rotator.cli import sky_plan
+from rotator.cli.failed import CommandFailed
 from rotator.cli.utc import day_and_time, iso, local_time
 from rotator.config.load import load
 from rotator.config.model import Config
@@ -41,7 +43,7 @@ def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bo
         target = find(words, site, catalogue)
         seen, error_deg = motion(target, at_s), expected_error_deg(target, at_s)
     except (Unknown, NotThere) as reason:
-        raise click.ClickException(str(reason)) from None
+        raise CommandFailed(str(reason)) from None
     if as_json:
         told = {
             "name": target.name,
@@ -74,11 +76,14 @@ def show_passes(
     try:
         targets = [find(name, site, catalogue) for name in names] or _all(site, catalogue)
     except (Unknown, NotThere) as reason:
-        raise click.ClickException(str(reason)) from None
+        raise CommandFailed(str(reason)) from None
     found = [each for target in targets for each in passes_of(target, from_s, from_s + hours * 3600, least_deg)]
     found.sort(key=lambda each: each.aos_s or from_s)
     if as_json:
-        click.echo(json.dumps([_as_dict(each) for each in found]))
+        plan = sky_plan.planned(config, site, catalogue, from_s, hours) if config.sky.follow else ()
+        flown = {(each.name, each.found.tca_s): each for each in reversed(plan) if each.flight}
+        told = [(each, flown.get((each.name, each.tca_s))) for each in found]
+        click.echo(json.dumps([{**_as_dict(each), "plan": how and sky_plan.as_dict(how)} for each, how in told]))
         return
     if not found:
         click.echo(NO_PASS)
@@ -86,11 +91,24 @@ def show_passes(
     _table(found)
 
 
+def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json: bool) -> None:
+    config = load(path or (INSTALLED if INSTALLED.exists() else None))
+    site, catalogue = _sky(config)
+    if not config.sky.follow:
+        raise CommandFailed(sky_plan.NOTHING)
+    from_s = time.time() if from_s is None else from_s
+    plan = sky_plan.planned(config, site, catalogue, from_s, hours)
+    if as_json:
+        click.echo(json.dumps([{**_as_dict(each.found), **sky_plan.as_dict(each)} for each in plan]))
+    else:
+        sky_plan.show(plan, from_s)
+
+
 def _sky(config: Config) -> tuple[Site, Catalogue]:
-    """Raises ClickException without a place. Says which files could not be read."""
+    """Raises CommandFailed without a place. Says which files could not be read."""
     site = build_site(config.station)
     if site is None:
-        raise click.ClickException(NO_PLACE)
+        raise CommandFailed(NO_PLACE)
     catalogue = build_catalogue(config.sky)
     for fault in catalogue.faults:
         click.echo(f"[sky] elements: {fault}", err=True)
@@ -119,7 +137,6 @@ def _as_dict(each: Pass) -> dict[str, object]:
         "aos_az_deg": None if each.aos is None else round(each.aos.azimuth_deg, 2),
         "los_az_deg": None if each.los is None else round(each.los.azimuth_deg, 2),
         "max_el_deg": round(each.highest.elevation_deg, 2),
-        "plan": None,
     }
 
 

@@ -66,7 +66,7 @@ VERBS = (
     Verb("park", "", "Go to the park position, even while a program tracks, and stay there until `resume`"),
     Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
     Verb("point", "AZIMUTH ELEVATION", "Point there"),
-    Verb("track", "[NAME|LOCATOR|AZIMUTH ELEVATION|off]", "Track a satellite, Sun, Moon … from pass to pass"),
+    Verb("track", "[NAME|LOCATOR|AZIMUTH ELEVATION|plan|off]", "Track a satellite, Sun, Moon … from pass to pass"),
     Verb("clock-is-right", "", "You have seen that this computer's clock is right: `track` needs it"),
     Verb("panel", OPERANDS, "Move a switch or a knob of the simulated front panel"),
     Verb("help", "", "This list"),

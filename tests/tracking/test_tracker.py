@@ -6,92 +6,16 @@ Time is simulated: UTC runs beside the loop's clock. The plan is computed in the
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
-from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
-from rotator.assembly.settings import build_controller, build_mount
-from rotator.assembly.sky import TrackedBox
-from rotator.assembly.station import Station
-from rotator.config.load import parse
-from rotator.control.sky.angles import great_circle_deg
-from rotator.control.sky.flight_plan import Antenna
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
-from rotator.orbits.passes import Pass, passes
 from rotator.orbits.targets import find
 from rotator.orders import BOTH, Aim, Jog, Release, Source, Stop
-from rotator.runtime.loop import ControlLoop
-from rotator.tracking.known_sky import KnownSky
-from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight
-from rotator.tracking.tracker import CLOCK_UNSURE, Tracker
-
-ELEMENTS = Path(__file__).parents[1] / "orbits" / "elements-2025.tle"
-BERLIN = Site(52.52, 13.4, 40.0)
-FEBRUARY_S = 1_739_000_000.0
-"""8 February 2025, 07:33:20 UTC: some days after the elements' epochs."""
-PERIOD_S = 0.05
-
-
-class InThisProcess:
-    """Plans at once. `plans`: each, with the moment at which it was made."""
-
-    def __init__(self) -> None:
-        self.plans: list[tuple[Now, NextFlight]] = []
-
-    def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
-        self.plans.append((now, next_flight(wanted, antenna, now)))
-        return self.plans[-1][1]
-
-
-class Box:
-    def __init__(self, begin_utc_s: float, site: Site = BERLIN) -> None:
-        config = parse("", "box")
-        self.clock = SimClock()
-        station = Station(config, self.clock, self.clock.sleep, (10.0, 0.0), add_alarm=self.clock.add_alarm)
-        assert station.world is not None
-        self.world = station.world
-        mount = build_mount(config)
-        self.loop = ControlLoop(build_controller(config), station.rotor, self.clock, PERIOD_S)
-        self.planner = InThisProcess()
-        self.clock_trusted = True
-        sky = KnownSky(site, Catalogue((str(ELEMENTS),)))
-        self.tracker = Tracker(sky, self.planner, TrackedBox(config, self.loop, mount), lambda: self.clock_trusted)
-        self._begin_utc_s = begin_utc_s
-        self.wait(1.0)
-
-    @property
-    def utc_s(self) -> float:
-        return self._begin_utc_s + self.clock()
-
-    def set_clock(self, by_s: float) -> None:
-        self._begin_utc_s += by_s
-
-    def wait(self, seconds: float, until: Callable[[], bool] = lambda: False) -> bool:
-        """Let time pass, no longer than until that is so."""
-        end_s = self.clock() + seconds
-        while self.clock() < end_s:
-            if until():
-                return True
-            for _ in range(10):
-                self.clock.sleep(PERIOD_S)
-                self.loop.cycle()
-            self.tracker.step(Now(self.utc_s, self.clock()))
-        return until()
-
-    def off_deg(self, name: str) -> float:
-        """Between the boom and the target, as the world has them."""
-        sight = find(name, BERLIN, Catalogue((str(ELEMENTS),))).sight(self.utc_s)
-        boom = self.world.antenna()
-        return great_circle_deg(*boom, sight.azimuth_deg, sight.elevation_deg)
-
-
-def pass_of(name: str, least_deg: float = 20.0) -> Pass:
-    target = find(name, BERLIN, Catalogue((str(ELEMENTS),)))
-    return next(passes(target, FEBRUARY_S + 600.0, FEBRUARY_S + 2 * 86_400.0, least_deg))
+from rotator.tracking.tracker import CLOCK_UNSURE
+from tests.tracking.tracked_box import BERLIN, ELEMENTS, Box, pass_of
 
 
 @pytest.fixture
@@ -232,3 +156,38 @@ def test_a_target_that_never_rises_is_told(rise: Box) -> None:
     assert south.tracker.track("cas a") == ""
     south.wait(2.0)
     assert south.tracker.state == "ended: Cas A does not rise within 7 days"
+
+
+# --- a program sends the directions of a satellite
+
+
+def sends(box: Box, seconds: int, off_deg: float = 0.0) -> None:
+    """Whole degrees, once a second, by a clock that is three seconds ahead."""
+    iss = find("iss", BERLIN, Catalogue((str(ELEMENTS),)))
+    for _ in range(seconds):
+        sight = iss.sight(box.utc_s + 3.0)
+        box.loop.post(PC, Aim(round(sight.azimuth_deg + off_deg) % 360.0, max(0.0, round(sight.elevation_deg))))
+        box.wait(1.0)
+
+
+@pytest.fixture
+def up(rise: Box) -> Box:
+    """The ISS rose half a minute ago."""
+    return Box(rise.utc_s + 210.0)
+
+
+def test_its_satellite_is_named_and_flown_until_its_orders_depart(up: Box) -> None:
+    sends(up, 14)
+    assert up.loop.status.recognised.startswith("ISS")
+    assert up.loop.status.controlled_by == str(PC), "the antenna is the program's still"
+    sends(up, 60)
+    assert up.loop.status.recognised.startswith("ISS")
+    sends(up, 1, off_deg=8.0)
+    assert up.loop.status.recognised == ""
+    assert up.loop.status.flown is None
+
+
+def test_while_the_clock_may_be_wrong_no_satellite_is_flown(up: Box) -> None:
+    up.clock_trusted = False
+    sends(up, 20)
+    assert up.loop.status.recognised == ""
