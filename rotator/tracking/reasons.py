@@ -14,6 +14,8 @@ from rotator.tracking.planned import SPARE_S, Followed, PlannedPass
 
 NEAR_S = 300.0
 """A flight that begins or ends so near may leave no time to turn the antenna."""
+LITTLE = 0.02
+"""Minutes: so little is not worth a word."""
 
 
 def too_low(found: Pass, followed: Followed) -> str:
@@ -55,11 +57,13 @@ def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
 
 
 def in_part(part: Part, before: str | None, after: str | None) -> str:
-    """Which flights take its beginning or its end; empty for a pass that is flown whole."""
+    """Which flights take its beginning or its end; empty for a pass of which nothing is lost."""
+    gained, priority = part.course.gained, part.one.followed.priority
+    late = gained[part.first] > LITTLE * priority
+    early = gained[-1] - gained[part.last] > LITTLE * priority
     cause = f"after {before}" if before else "the antenna has to turn there first"
-    late = f"begins late: {cause}" if part.first else ""
-    early = f"ends early: for {after}" if part.last < len(part.one.moments_s) - 1 and after else ""
-    return "; ".join(filter(None, (late, early)))
+    words = [f"begins late: {cause}"] if late else []
+    return "; ".join([*words, f"ends early: for {after}"] if early and after else words)
 
 
 def _between(flown: Sequence[PlannedPass], begin_s: float, end_s: float) -> list[PlannedPass]:

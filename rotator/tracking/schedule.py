@@ -6,6 +6,7 @@ flights. Knows no clock: time is an argument, in seconds since 1970 (UTC).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -54,22 +55,19 @@ def widened(parts: Sequence[Part], stands_deg: Place, travel: Travel, from_s: fl
     place, free_s = stands_deg, from_s
     for index, part in enumerate(parts):
         after = parts[index + 1] if index + 1 < len(parts) else None
-        begun = part
-        for look in range(max(0, part.first - part.one.apart), part.first):
-            earlier = replace(part, first=look)
-            if earlier.may_begin and travel.reaches(
-                place, earlier.wait_deg, ready_s(part.one, earlier.begin_s, from_s) - free_s
-            ):
-                begun = earlier
+        kept = part
+        for look in range(part.first - 1, -1, -1):
+            earlier = replace(kept, first=look)
+            ready = ready_s(part.one, earlier.begin_s, from_s)
+            if not (earlier.may_begin and travel.reaches(place, earlier.wait_deg, ready - free_s)):
                 break
-        kept = begun
-        for look in range(min(part.last + part.one.apart, len(part.one.moments_s) - 1), part.last, -1):
-            later = replace(begun, last=look)
-            if later.may_end and (
-                after is None or travel.reaches(later.end_deg, after.wait_deg, after.begin_s - SPARE_S - later.end_s)
-            ):
-                kept = later
+            kept = earlier
+        for look in range(part.last + 1, len(part.one.moments_s)):
+            later = replace(kept, last=look)
+            left_s = math.inf if after is None else after.begin_s - SPARE_S - later.end_s
+            if not later.may_end or (after and not travel.reaches(later.end_deg, after.wait_deg, left_s)):
                 break
+            kept = later
         found.append(kept)
         place, free_s = kept.end_deg, kept.end_s
     return found

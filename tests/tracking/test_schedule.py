@@ -25,6 +25,7 @@ from tests.tracking.arcs import (
     places_at_end,
     round_s,
     satellites,
+    seconds_between,
     travel_s,
 )
 
@@ -98,24 +99,25 @@ def test_it_waits_where_the_target_will_be(planned: tuple[Mount, tuple[PlannedPa
 
 
 def test_every_pass_is_told_once_in_order(planned: tuple[Mount, tuple[PlannedPass, ...]]) -> None:
-    _, plan = planned
-    moments = [(each.name, each.found.aos_s) for each in plan]
-    assert len(set(moments)) == len(moments)
+    mount, plan = planned
+    told = [(each.name, each.found.aos_s) for each in plan]
+    assert len(set(told)) == len(told)
     aos_s = [each.found.aos_s or 0.0 for each in plan]
     assert aos_s == sorted(aos_s)
     assert all(each.reason for each in plan if each.flight is None)
     for each, flight in flights(plan):
         assert each.found.aos_s is not None
         assert each.found.los_s is not None
-        whole = flight.begin_s <= max(each.found.aos_s, EPOCH_S) + 0.1 and flight.end_s >= each.found.los_s - 0.1
-        assert whole or each.reason or mountless(each)
+        moments = seconds_between(max(each.found.aos_s, EPOCH_S), each.found.los_s, 5.0)
+        missed = [at_s for at_s in moments if not flight.begin_s <= at_s <= flight.end_s]
+        assert each.reason or sum(in_sight(mount, each.name, at_s) for at_s in missed) < 3
 
 
-def mountless(each: PlannedPass) -> bool:
-    """It begins or ends beside the chimney."""
-    assert each.flight
-    edges = [TARGETS[each.name].sight(at_s) for at_s in (each.found.aos_s or 0.0, each.found.los_s or 0.0)]
-    return any(CHIMNEY.azimuth.widened(8.0).holds(edge.azimuth_deg) for edge in edges)
+def in_sight(mount: Mount, name: str, at_s: float) -> bool:
+    """Above the trees, and not beside the chimney."""
+    sight = TARGETS[name].sight(at_s)
+    beside = CHIMNEY.azimuth.widened(8.0).holds(sight.azimuth_deg) and mount.sectors != ()
+    return sight.elevation_deg > mount.horizon_deg(sight.azimuth_deg) and not beside
 
 
 @pytest.mark.parametrize("mount", [FULL, OVER], ids=["450", "360 over the top"])
