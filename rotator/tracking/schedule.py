@@ -24,8 +24,8 @@ def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, unti
     """Every pass of the followed targets between two moments, by rise: flown or left out, and why.
 
     `antenna`: where it stands at `from_s`, with mount and motors, as `plan_flight` takes it. To fly one of them:
-    `plan_flight(name, path, replace(antenna, stands_deg=flight.wait_deg), flight.set_off_s)`, with a path from
-    `begin_s` to `end_s`. A long pass may be flown in several parts; each is an item.
+    at `set_off_s` `plan_flight` with a path from `begin_s` to `end_s`, and `begin_on`. A long pass may be flown in
+    several parts; each is an item.
     """
     travel = Travel(antenna)
     planned: list[PlannedPass] = []

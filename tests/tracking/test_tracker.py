@@ -23,10 +23,10 @@ from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import Pass, passes
 from rotator.orbits.targets import find
-from rotator.orders import BOTH, Aim, Jog, Release, Source, Stop
+from rotator.orders import BOTH, Aim, Fly, Jog, Release, Source, Stop
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.known_sky import KnownSky
-from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight
+from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight, rest_flight
 from rotator.tracking.tracker import CLOCK_UNSURE, Tracker
 
 ELEMENTS = Path(__file__).parents[1] / "orbits" / "elements-2025.tle"
@@ -45,6 +45,9 @@ class InThisProcess:
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
         self.plans.append((now, next_flight(wanted, antenna, now)))
         return self.plans[-1][1]
+
+    def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
+        return rest_flight(wanted, antenna, now)
 
 
 class Box:
