@@ -8,13 +8,18 @@ from itertools import pairwise
 import pytest
 
 from rotator.control.sky.mount import Mount, Range, Sector
+from rotator.control.sky.route import STEP_S, Speeds
 from rotator.control.sky.sectors import box_at, kept
+from rotator.control.sky.ways import best_route
 from rotator.orbits.celestial import Body
+from rotator.tracking.next_flight import target_path
 from rotator.tracking.planned import Flight, Followed, PlannedPass
 from rotator.tracking.schedule import schedule
 from tests.tracking.arcs import (
+    AZIMUTH_DPS,
     BERLIN,
     CELL_S,
+    ELEVATION_DPS,
     EPOCH_S,
     FULL,
     OVER,
@@ -118,6 +123,19 @@ def in_sight(mount: Mount, name: str, at_s: float) -> bool:
     sight = TARGETS[name].sight(at_s)
     beside = CHIMNEY.azimuth.widened(8.0).holds(sight.azimuth_deg) and mount.sectors != ()
     return sight.elevation_deg > mount.horizon_deg(sight.azimuth_deg) and not beside
+
+
+@pytest.mark.parametrize("mount", [FULL, SINGLE, OVER], ids=["450", "360", "360 over the top"])
+def test_a_flight_is_planned_on_the_turn_that_the_plan_of_many_has_chosen(mount: Mount) -> None:
+    """The steps of a flight are planned when it is due: they begin where the antenna was sent to wait."""
+    plan = schedule(follow(*satellites(6)), antenna(mount), EPOCH_S, EPOCH_S + 12 * HOUR_S)
+    for each, flight in flights(plan):
+        path = target_path(TARGETS[each.name], flight.begin_s, flight.end_s, 1.0)
+        directions, early_s = path.directions(path.begin_s, STEP_S), flight.begin_s - flight.set_off_s
+        speeds = Speeds(AZIMUTH_DPS, ELEVATION_DPS)
+        route = best_route(mount, directions, (100.0, 0.0), early_s, speeds, begin_on=flight.begin_on)
+        assert route.legs[0].flown.azimuths_deg[0] == pytest.approx(flight.wait_deg[0])
+        assert route.legs[0].flown.way.flipped is flight.over_the_top
 
 
 @pytest.mark.parametrize("mount", [FULL, OVER], ids=["450", "360 over the top"])

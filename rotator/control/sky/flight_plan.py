@@ -59,7 +59,9 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
     mount, azimuth, elevation = antenna.mount, antenna.azimuth, antenna.elevation
     begin_s = max(path.begin_s, now_s)
     speeds = Speeds(azimuth.speed_dps, elevation.speed_dps)
-    route = best_route(mount, path.directions(begin_s, STEP_S), antenna.stands_deg, begin_s - now_s, speeds, begin_on)
+    route = best_route(
+        mount, path.directions(begin_s, STEP_S), antenna.stands_deg, begin_s - now_s, speeds, begin_on=begin_on
+    )
     directions = path.directions(begin_s, PLAN_STEP_S)
     azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs)
     up = [1.0 if elevation_deg > 0 else DOWN_WEIGHT for _, elevation_deg in directions]

@@ -39,6 +39,7 @@ def best_route(
     from_deg: tuple[float, float],
     early_s: float,
     speeds: Speeds,
+    *,
     begin_on: Way | None = None,
 ) -> Route:
     """Through directions that are `STEP_S` apart.
