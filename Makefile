@@ -65,6 +65,7 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.kinds
 	$(BIN)/python -m benchmarks.rotors
 	$(BIN)/python -m benchmarks.mount
+	$(BIN)/python -m benchmarks.schedule
 	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
 	$(BIN)/python -m benchmarks.startup

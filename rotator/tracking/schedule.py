@@ -23,9 +23,9 @@ from rotator.tracking.travel import Travel
 def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, until_s: float) -> tuple[PlannedPass, ...]:
     """Every pass of the followed targets between two moments, by rise: flown or left out, and why.
 
-    `antenna`: where it stands at `from_s`, with mount and motors, as `plan_flight` takes it. To fly one of
-    them: at `set_off_s` `plan_flight` with a path from `begin_s` to `end_s`, and `begin_on`. A long pass may be flown in
-    several parts; each is an item.
+    `antenna`: where it stands at `from_s`, with mount and motors. To fly one of them, at its `set_off_s`: `plan_flight`
+    with the target's path from `begin_s` to `end_s`, and with `begin_on`. A long pass may be flown in several parts;
+    each is an item.
     """
     travel = Travel(antenna)
     planned: list[PlannedPass] = []
