@@ -13,7 +13,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from rotator.assembly.followed import build_followed, build_parked_antenna
+from rotator.assembly.sky import build_antenna, build_followed
 from rotator.cli.utc import clock_time, day, iso, local_time
 from rotator.config.model import Config
 from rotator.orbits.catalogue import Catalogue
@@ -37,7 +37,7 @@ def planned(config: Config, site: Site, catalogue: Catalogue, from_s: float, hou
         click.echo(fault, err=True)
     if faults and not followed:
         raise click.ClickException("none of the followed targets is known")
-    return schedule(followed, build_parked_antenna(config), from_s, from_s + hours * 3600)
+    return schedule(followed, build_antenna(config), from_s, from_s + hours * 3600)
 
 
 def as_dict(each: PlannedPass) -> dict[str, object]:
