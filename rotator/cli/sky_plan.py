@@ -18,7 +18,7 @@ from rotator.cli.utc import clock_time, day, iso, local_time
 from rotator.config.model import Config
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
-from rotator.tracking.planned import PlannedPass
+from rotator.tracking.planned import Followed, PlannedPass
 from rotator.tracking.schedule import schedule
 
 NOTHING = (
@@ -30,13 +30,16 @@ NARROW = 64
 """A table needs so many columns."""
 
 
-def planned(config: Config, site: Site, catalogue: Catalogue, from_s: float, hours: float) -> tuple[PlannedPass, ...]:
-    """The antenna begins at its park position. Says which targets are not known."""
+def followed_by(config: Config, site: Site, catalogue: Catalogue) -> list[Followed]:
+    """What `[[sky.follow]]` names. Says which targets are not known."""
     followed, faults = build_followed(config.sky, site, catalogue)
     for fault in faults:
         click.echo(fault, err=True)
-    if faults and not followed:
-        raise click.ClickException("none of the followed targets is known")
+    return followed
+
+
+def planned(config: Config, followed: Sequence[Followed], from_s: float, hours: float) -> tuple[PlannedPass, ...]:
+    """The antenna begins at its park position."""
     return schedule(followed, build_antenna(config), from_s, from_s + hours * 3600)
 
 

@@ -173,6 +173,10 @@ def test_a_followed_name_that_is_not_known_is_named_and_the_others_are_planned(t
 
 
 def test_where_no_followed_name_is_known_there_is_no_plan(tmp_path: Path) -> None:
-    result = told(tmp_path, "plan", more='[[sky.follow]]\nname = "isx"\n')
+    isx = '[[sky.follow]]\nname = "isx"\n'
+    result = told(tmp_path, "plan", more=isx)
     assert result.exit_code == 1
     assert "none of the followed targets is known" in result.output
+    passes = told(tmp_path, "passes", "--from", EVENING, "--hours", "3", "--json", more=isx)
+    assert '"isx" is not among' in passes.stderr
+    assert {each["plan"] for each in json.loads(passes.stdout)} == {None}

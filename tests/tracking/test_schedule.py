@@ -199,9 +199,12 @@ def test_a_short_overlap_costs_the_end_of_one_or_the_beginning_of_the_other() ->
     [
         (Followed(Arc("low", EPOCH_S + 600, 600, 90, 90, 12), 1, 20), "culminates at 12°, below the 20° asked"),
         (Followed(Arc("low", EPOCH_S + 600, 600, 90, 90, 19.8), 1, 20), "culminates at 19.80°, below the 20° asked"),
-        (Followed(Arc("low", EPOCH_S + 600, 600, 60, 60, 4)), "stays behind the horizon of trees and roofs"),
+        (Followed(Arc("low", EPOCH_S + 600, 600, 60, 60, 4)), "all of it is behind the horizon of trees and roofs"),
         (Followed(Arc("behind", EPOCH_S + 600, 600, 108, 10, 30)), "the rotor does not reach it"),
-        (Followed(Arc("going", EPOCH_S - 597, 600, 108, 10, 30)), "is nearly over"),
+        (
+            Followed(Arc("going", EPOCH_S - 597, 600, 108, 10, 30)),
+            "the rest of it is behind the horizon of trees and roofs",
+        ),
     ],
 )
 def test_why_a_pass_is_left_out(followed: Followed, reason: str) -> None:
