@@ -19,6 +19,9 @@ from rotator.tracking.planned import SPARE_S, Flight, Followed, PlannedPass
 from rotator.tracking.reasons import in_part, left_out, too_low, unseen
 from rotator.tracking.travel import Travel
 
+START_S = 5.0
+"""Where there is time the antenna sets off this much earlier still: the steps are planned then, and motors start."""
+
 
 def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, until_s: float) -> tuple[PlannedPass, ...]:
     """Every pass of the followed targets between two moments, by rise: flown or left out, and why.
@@ -80,7 +83,7 @@ def _flights(parts: Sequence[Part], travel: Travel, from_s: float) -> Iterator[P
         after = parts[index + 1].one.found.name if index + 1 < len(parts) else None
         flight = Flight(
             # So early that it comes in time from anywhere: a person may have moved it since the pass before.
-            set_off_s=max(free_s, part.begin_s - SPARE_S - travel.longest_s),
+            set_off_s=max(free_s, part.begin_s - SPARE_S - travel.longest_s - START_S),
             begin_s=part.begin_s,
             end_s=part.end_s,
             wait_deg=part.wait_deg,
