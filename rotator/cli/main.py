@@ -67,8 +67,13 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
 )
 @click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the flight to this CSV file.")
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
+@click.option("--target", metavar="NAME", help="Fly the next pass of a satellite, Sun or Moon, tracked by the box.")
 @click.option(
-    "--at", "at_s", type=utc_time, metavar="UTC", help="The pass begins then: it is recognised in the orders."
+    "--at",
+    "at_s",
+    type=utc_time,
+    metavar="UTC",
+    help="With --target: its first pass that ends after this; else PASS.csv begins then.",
 )
 @click.option("--arduino", is_flag=True, help="Fly the pass with the emulated Arduino instead of the box.")
 def rehearse(  # noqa: PLR0917 - click calls it by keyword
@@ -78,6 +83,7 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
     via: str,
     trace: Path | None,
     as_json: bool,
+    target: str | None,
     at_s: float | None,
     arduino: bool,
 ) -> None:
@@ -92,7 +98,9 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
     """
     from rotator.cli.rehearse import rehearse_pass
 
-    rehearse_pass(pass_file, path, faults, via=via, trace=trace, as_json=as_json, at_s=at_s, arduino=arduino)
+    rehearse_pass(
+        pass_file, path, faults, via=via, trace=trace, as_json=as_json, arduino=arduino, target=target, at_s=at_s
+    )
 
 
 @click.command(epilog=examples("rotator arduino --pty run/arduino"))
@@ -278,7 +286,7 @@ def _draws() -> bool:
 cli.under("The antenna", console.where, console.point, console.jog, console.park, console.stop, console.resume)
 cli.under("An axis that asks for a person", console.home, console.confirm, console.relays_checked, console.let_go)
 cli.under("The box", run, doctor, monitor, console.tell, off)
-cli.under("The sky", sky)
+cli.under("The sky", sky, console.track)
 cli.under("Setting up", show_config, calibrate, set_up)
 cli.under("Without a rotor", rehearse, arduino, console.panel)
 

@@ -20,6 +20,7 @@ from rotator.control.sky.pointing import Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
 from rotator.orders import BOTH, Aim, Fly, Source
+from rotator.status import Flown
 
 
 class Aiming:
@@ -43,9 +44,9 @@ class Aiming:
         return self._pointing.wanted
 
     @property
-    def recognised(self) -> str:
-        """The satellite whose path is flown in place of a stream of orders; empty: there is none."""
-        return self._flight.name if self._flight is not None and self._flight.following is not None else ""
+    def flown(self) -> Flown | None:
+        """The planned pass that is flown."""
+        return self._flight.flown if self._flight else None
 
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
@@ -130,8 +131,8 @@ class Aiming:
             self.point_at(self._asked, now_s)
 
     def drop(self) -> None:
-        """The order in force is not to be repeated."""
-        self._asked = None
+        """The order in force is not to be repeated, nor flown on."""
+        self._asked = self._flight = None
 
     def end_stream(self) -> None:
         """No more orders come from that sender: the target stands at the last one."""

@@ -152,7 +152,7 @@ class Controller:
             speed_level=self._speed_level,
             mode=self._authority.mode,
             mode_switch=self._settings.mode is not Mode.AUTO,
-            recognised=self._aiming.recognised,
+            flown=self._aiming.flown,
             notices=self._authority.ignored(now_s),
             cycle_late_s=late_s,
         )

@@ -15,6 +15,7 @@ from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import EVEN, AimGoal
 from rotator.control.sky.route import Way
 from rotator.orders import PLAN_STEP_S, Aim, AxisPlan, Fly
+from rotator.status import Flown
 
 STEP_TOLERANCE_DEG = 0.3
 """How near to the place of a step the axis comes to rest. A step is longer."""
@@ -31,10 +32,12 @@ class Flight:
     def __init__(self, order: Fly, mount: Mount, following: Following | None = None) -> None:
         _check(order.azimuth, mount.azimuth, Axis.AZIMUTH)
         _check(order.elevation, mount.elevation, Axis.ELEVATION)
-        self.name = order.name
         self.following = following
         self._path = KnownPath(order.path)
         self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
+        sets_s = self._path.end_s if order.sets_s is None else order.sets_s
+        self.flown = Flown(order.name, self._path.begin_s, sets_s, order.expected_error_deg, following is not None)
+        """For displays."""
         self._given: dict[Axis, int] = {}
         """The number of the step, or of the piece of path, that each axis has."""
 

@@ -269,8 +269,17 @@ def _chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> floa
     return place * min(1.0, loose_dps**2 / RATES_SQUARE_DPS)
 
 
-def rest_of_pass(satellite: Target, utc_s: float) -> list[tuple[float, float, float]]:
-    """The path to be flown from now on: moments of UTC, azimuth, elevation, each second. Raises NotThere."""
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """Of a pass, from now on. Moments are UTC, in seconds since 1970."""
+
+    rows: tuple[tuple[float, float, float], ...]
+    """Each second: the moment, azimuth, elevation."""
+    sets_s: float
+
+
+def rest_of_pass(satellite: Target, utc_s: float) -> Rest:
+    """What is to be flown in place of a stream from this moment on. Raises NotThere."""
     rows: list[tuple[float, float, float]] = []
     last_up_s, at_s = utc_s, utc_s - CLOCKS_ASIDE_S
     while at_s <= min(last_up_s + AFTER_SET_S, utc_s + LONGEST_PASS_S):
@@ -279,4 +288,4 @@ def rest_of_pass(satellite: Target, utc_s: float) -> list[tuple[float, float, fl
         if seen.elevation_deg > 0:
             last_up_s = max(last_up_s, at_s)
         at_s += 1.0
-    return rows
+    return Rest(tuple(rows), last_up_s)

@@ -31,9 +31,11 @@ from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
 from rotator.rehearsal.overhearing import Overhearing, Told
 from rotator.rehearsal.passes import Pass
+from rotator.rehearsal.sky_target import SkyTarget
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
+from rotator.tracking.next_flight import Now
 
 SAMPLE_S = 0.05
 KNOWN_S = 120.0
@@ -102,18 +104,32 @@ class Plant(Protocol):
     def recognised(self) -> Told | None:
         """The satellite that it has recognised in its orders."""
 
+    def true_direction(self, now_s: float) -> tuple[float, float] | None:
+        """Where that satellite really was; None: it has recognised none."""
+
 
 class BoxPlant:
     """The box, from its protocol to its relays, on simulated chips.
 
-    `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand. `utc_s`: the pass begins
-    then, in seconds since 1970, and the box listens which of the satellites it knows the orders follow.
+    `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand.
     """
 
     def __init__(
-        self, config: Config, clock: SimClock, start_deg: tuple[float, float], via: str, utc_s: float | None = None
+        self,
+        config: Config,
+        clock: SimClock,
+        start_deg: tuple[float, float],
+        via: str,
+        *,
+        target: SkyTarget | None = None,
+        begin_utc_s: float | None = None,
     ) -> None:
-        self.early_s = KNOWN_S if via == "track" else 0.0
+        """`target`: what the box tracks by itself, by its own elements; None: the pass is told to it.
+
+        `begin_utc_s`: when the pass begins; the box then listens which satellite the orders follow.
+        """
+        self.early_s = KNOWN_S if via == "track" or target else 0.0
+        self._target = target
         self._clock = clock
         self._period_s = 1 / config.control.rate_hz
         self._shift = build_offsets(config)
@@ -128,8 +144,8 @@ class BoxPlant:
         self._session: Session = RotctldSession(client) if via == "rotctld" else Gs232Session(client, Dialect.B)
         self._encode = _rotctld_order if via == "rotctld" else _gs232_order
         self._overhearing: Overhearing | None = None
-        if utc_s is not None:
-            apart_s = utc_s - clock()
+        if begin_utc_s is not None:
+            apart_s = begin_utc_s - clock()
             watch = StreamWatch(build_satellites(config))
             self._overhearing = Overhearing(self._loop, watch, clock, lambda: clock() + apart_s, self._antenna)
 
@@ -155,6 +171,13 @@ class BoxPlant:
         self._session.receive(self._encode(azimuth_deg, elevation_deg))
 
     def announce(self, flown: Pass, begin_s: float) -> None:
+        if self._target is not None:
+            tracker = self._target.tracker(self._loop, self._mount)
+            if refused := tracker.track(self._target.words):
+                raise ValueError(refused)
+            apart_s = self._target.begin_utc_s - begin_s
+            self._clock.every(1.0, lambda now_s: tracker.step(Now(now_s + apart_s, now_s)))
+            return
         path = KnownPath(tuple((begin_s + t_s, az_deg, el_deg) for t_s, az_deg, el_deg in flown.rows))
         plan = plan_flight(flown.name, path, self._antenna(), self._clock())
         self._loop.post(Source("track"), plan.order)
@@ -185,6 +208,9 @@ class BoxPlant:
     def recognised(self) -> Told | None:
         return self._overhearing.told if self._overhearing else None
 
+    def true_direction(self, now_s: float) -> tuple[float, float] | None:
+        return self._overhearing.true_direction(now_s) if self._overhearing else None
+
 
 class ArduinoPlant:
     """The emulated Arduino that the box replaces. Its motors and ranges come from the box's configuration."""
@@ -213,6 +239,8 @@ class ArduinoPlant:
     def recognised(self) -> None:
         """It knows no satellites."""
 
+    def true_direction(self, now_s: float) -> None: ...
+
 
 Faults = Callable[[SimRotor], Sequence[tuple[float, str]]]
 """Which faults the simulated rotor has: (moment in seconds, name)."""
@@ -228,19 +256,21 @@ def plant_maker(
     via: str = "gs232",
     arduino: bool = False,
     faults: Faults = no_faults,
-    utc_s: float | None = None,
+    target: SkyTarget | None = None,
+    begin_utc_s: float | None = None,
 ) -> Callable[[SimClock, Pass], Plant]:
     """A function that builds the plant for a clock and a pass. The antenna starts at the pass's first azimuth, level.
 
-    `via`: the protocol of the orders. `arduino`: build the emulated Arduino; it ignores all others.
-    `utc_s`: when the pass begins; None: no satellite is recognised.
+    `via`: the protocol of the orders. `arduino`: build the emulated Arduino; it ignores all else. `target`: what the
+    box tracks by itself. `begin_utc_s`: when a pass that it does not track begins; None: it knows no satellites.
     """
 
     def make(clock: SimClock, flown: Pass) -> Plant:
         start_deg = (flown.rows[0][1], 0.0)
         if arduino:
             return ArduinoPlant(config, clock, start_deg)
-        box = BoxPlant(config, clock, start_deg, via, utc_s)
+        listens_s = None if via == "track" or target else begin_utc_s
+        box = BoxPlant(config, clock, start_deg, via, target=target, begin_utc_s=listens_s)
         for at_s, name in faults(box.world):
             box.inject(at_s, name)
         return box
@@ -277,7 +307,14 @@ def fly(
     else:
         clock.every(1.0, order)
     plant.run_until(begin_s + flown.end_s)
+    if plant.recognised() is not None:  # the clock of the program that sent the pass may have been wrong
+        trace = [_judged(sample, plant.true_direction(begin_s + sample.t)) for sample in trace]
     return trace, replace(summarise(trace, plant.relay_starts()), recognised=plant.recognised())
+
+
+def _judged(sample: Sample, true_deg: tuple[float, float] | None) -> Sample:
+    """The same sample, with the target where it really was."""
+    return sample if true_deg is None else replace(sample, target_az=true_deg[0], target_el=true_deg[1])
 
 
 def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:
