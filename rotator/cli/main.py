@@ -73,7 +73,7 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
     "at_s",
     type=utc_time,
     metavar="UTC",
-    help="With --target: its first pass that ends after this; else PASS.csv begins then.",
+    help="The pass begins then, and is recognised in the orders; with --target: the first pass that ends after this.",
 )
 @click.option("--arduino", is_flag=True, help="Fly the pass with the emulated Arduino instead of the box.")
 def rehearse(  # noqa: PLR0917 - click calls it by keyword

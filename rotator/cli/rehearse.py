@@ -44,14 +44,14 @@ def rehearse_pass(
     via: str,
     trace: Path | None,
     as_json: bool,
+    at_s: float | None,
     arduino: bool,
     target: str | None = None,
-    at_s: float | None = None,
 ) -> None:
     """`word`: the name of a shipped pass, or a file; None: list the names.
 
-    `target`: what the box tracks by itself, in its first pass that ends after `at_s` (UTC; None: now). Else `at_s` is
-    when the pass begins, and the box looks which satellite the orders follow; None: it does not.
+    `target`: what the box tracks by itself, in its first pass that ends after `at_s`, in seconds since 1970; None: now.
+    Without a target the pass begins at `at_s`; None: the box knows no satellites.
     """
     logging.basicConfig(level=logging.WARNING, format="%(levelname).1s %(message)s")
     config = load(path)
@@ -73,10 +73,15 @@ def rehearse_pass(
         raise click.UsageError("--trace would write over the pass")
     if arduino and faults:
         raise click.UsageError("--fault is for the box, not for the Arduino")
-    if target is None and at_s is not None and not (config.station.is_known and config.sky.elements):
+    if at_s is not None and target is None and not (config.station.is_known and config.sky.elements):
         raise click.UsageError(NO_SKY)
     make = plant_maker(
-        config, via=via, arduino=arduino, faults=partial(parse_faults, faults), target=tracked, begin_utc_s=at_s
+        config,
+        via=via,
+        arduino=arduino,
+        faults=partial(parse_faults, faults),
+        utc_s=None if target else at_s,
+        target=tracked,
     )
     with _progress(flown) as progress:
         rows, summary = fly(flown, make, progress)

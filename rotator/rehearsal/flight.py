@@ -121,12 +121,12 @@ class BoxPlant:
         start_deg: tuple[float, float],
         via: str,
         *,
+        utc_s: float | None = None,
         target: SkyTarget | None = None,
-        begin_utc_s: float | None = None,
     ) -> None:
         """`target`: what the box tracks by itself, by its own elements; None: the pass is told to it.
 
-        `begin_utc_s`: when the pass begins; the box then listens which satellite the orders follow.
+        `utc_s`: when the pass begins; None: no satellite is recognised.
         """
         self.early_s = KNOWN_S if via == "track" or target else 0.0
         self._target = target
@@ -144,8 +144,8 @@ class BoxPlant:
         self._session: Session = RotctldSession(client) if via == "rotctld" else Gs232Session(client, Dialect.B)
         self._encode = _rotctld_order if via == "rotctld" else _gs232_order
         self._overhearing: Overhearing | None = None
-        if begin_utc_s is not None:
-            apart_s = begin_utc_s - clock()
+        if utc_s is not None:
+            apart_s = utc_s - clock()
             watch = StreamWatch(build_satellites(config))
             self._overhearing = Overhearing(self._loop, watch, clock, lambda: clock() + apart_s, self._antenna)
 
@@ -256,21 +256,21 @@ def plant_maker(
     via: str = "gs232",
     arduino: bool = False,
     faults: Faults = no_faults,
+    utc_s: float | None = None,
     target: SkyTarget | None = None,
-    begin_utc_s: float | None = None,
 ) -> Callable[[SimClock, Pass], Plant]:
     """A function that builds the plant for a clock and a pass. The antenna starts at the pass's first azimuth, level.
 
-    `via`: the protocol of the orders. `arduino`: build the emulated Arduino; it ignores all else. `target`: what the
-    box tracks by itself. `begin_utc_s`: when a pass that it does not track begins; None: it knows no satellites.
+    `via`: the protocol of the orders. `arduino`: build the emulated Arduino; it ignores all others.
+    `utc_s`: when the pass begins; None: no satellite is recognised. `target`: what the box tracks by itself.
     """
 
     def make(clock: SimClock, flown: Pass) -> Plant:
         start_deg = (flown.rows[0][1], 0.0)
         if arduino:
             return ArduinoPlant(config, clock, start_deg)
-        listens_s = None if via == "track" or target else begin_utc_s
-        box = BoxPlant(config, clock, start_deg, via, target=target, begin_utc_s=listens_s)
+        listens_s = None if via == "track" or target else utc_s
+        box = BoxPlant(config, clock, start_deg, via, utc_s=listens_s, target=target)
         for at_s, name in faults(box.world):
             box.inject(at_s, name)
         return box

@@ -72,7 +72,8 @@ class Overhearing:
         match self._watch.hear(source, order, self._utc()):
             case Recognised() as recognised:
                 self._planned = now_s + COMPUTING_S, recognised
-                self._true = recognised.satellite
+                if self.told is None:
+                    self._true = recognised.satellite
 
     def _fly(self, now_s: float) -> None:
         assert self._planned is not None

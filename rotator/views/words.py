@@ -69,15 +69,12 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
     source = status.controlled_by
     if not source:
         return "no orders"
-    if status.flown is not None:
-        return f"{how(status.flown)} {status.flown.name}, {rise_or_set(status.flown, status.at_s)}"
+    if status.flown is not None and not status.flown.recognised:
+        return f"tracks {status.flown.name}, {rise_or_set(status.flown, status.at_s)}"
     where = next((wire.where for wire in wires if source.partition("#")[0] == wire.name), "")
+    recognised = f": {status.flown.name}, {rise_or_set(status.flown, status.at_s)}" if status.flown else ""
     point = f", point {status.timed_point} of {status.timed_points}" if status.timed_points else ""
-    return f"orders from {source}{point}" + (f" ({where})" if where else "")
-
-
-def how(flown: Flown) -> str:
-    return "recognised" if flown.recognised else "tracks"
+    return f"orders from {source}{recognised}{point}" + (f" ({where})" if where else "")
 
 
 def rise_or_set(flown: Flown, now_s: float) -> str:
