@@ -156,6 +156,11 @@ class Status:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
 
     @property
+    def recognised(self) -> str:
+        """The satellite that a program's orders follow, and whose true path the antenna takes; empty: there is none."""
+        return self.flown.name if self.flown is not None and self.flown.recognised else ""
+
+    @property
     def moving(self) -> bool:
         return self.azimuth.moving or self.elevation.moving
 

@@ -137,7 +137,7 @@ def report(status: Status) -> list[str]:
         lines.append("moving: " + " ".join(axis.value for axis in Axis if status.axis(axis).moving))
     lines.append(f"moved by: {status.controlled_by or 'nobody'}")
     if status.flown is not None:
-        how = "recognised" if status.flown.recognised else "tracks"
+        how = "recognised" if status.recognised else "tracks"
         lines.append(f"{how}: {tracked(status.flown, status.at_s)}")
     if status.mode is not Mode.AUTO:
         lines.append(f"panel: {status.mode.name}")

@@ -54,9 +54,9 @@ class Overhearing:
 
     def look(self) -> None:
         """After each cycle: whether the displays name a satellite."""
-        flown = self._loop.status.flown
-        if flown is not None and flown.recognised and self.told is None and self._first_s is not None:
-            self.told = Told(flown.name, self._clock() - self._first_s)
+        name = self._loop.status.recognised
+        if name and self.told is None and self._first_s is not None:
+            self.told = Told(name, self._clock() - self._first_s)
 
     def true_direction(self, now_s: float) -> tuple[float, float] | None:
         """Where the satellite really was that was named; None: none was."""

@@ -69,7 +69,7 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
     source = status.controlled_by
     if not source:
         return "no orders"
-    if status.flown is not None and not status.flown.recognised:
+    if status.flown is not None and not status.recognised:
         return f"tracks {status.flown.name}, {rise_or_set(status.flown, status.at_s)}"
     where = next((wire.where for wire in wires if source.partition("#")[0] == wire.name), "")
     recognised = f": {status.flown.name}, {rise_or_set(status.flown, status.at_s)}" if status.flown else ""

@@ -37,8 +37,7 @@ def order(desk: Any, off_deg: float = 0.0, up_deg: float = 0.0) -> Aim:
 
 
 def recognised(desk: Any) -> str:
-    flown = desk.status.flown
-    return flown.name if flown is not None and flown.recognised else ""
+    return str(desk.status.recognised)
 
 
 def stream(desk: Any, seconds: int) -> None:
