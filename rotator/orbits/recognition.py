@@ -44,8 +44,8 @@ SIEVE_DEG = 2 * FASTEST_DPS * SIEVE_EVERY_S
 TRAVEL_ROUNDINGS = 3.0
 LEAST_TRAVEL_DEG = 0.5
 """So far must the orders have moved for their course and speed to be those of the satellite; less only as it rises:
-hardly anything else begins at the horizon there and then."""
-RISES_DEG = 1.0
+hardly anything else begins low in the sky there and then."""
+RISES_DEG = 5.0
 CHANCE = 1e-5
 """So seldom may a stream that follows no satellite fit as well."""
 SKY_SQUARE_DEG = 20_627.0

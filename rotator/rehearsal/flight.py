@@ -77,6 +77,8 @@ class Summary:
     motor_s: float
     recognised: Told | None = None
     """The satellite that the box has recognised in the stream; None: none."""
+    faults: tuple[str, ...] = ()
+    """The faults that hold an axis at the end, each in a sentence."""
 
     def as_dict(self) -> dict[str, object]:
         return _rounded(asdict(self))
@@ -106,6 +108,9 @@ class Plant(Protocol):
 
     def true_direction(self, now_s: float) -> tuple[float, float] | None:
         """Where that satellite really was; None: it has recognised none."""
+
+    def faults(self) -> tuple[str, ...]:
+        """The faults that hold an axis now, each in a sentence."""
 
 
 class BoxPlant:
@@ -211,6 +216,9 @@ class BoxPlant:
     def true_direction(self, now_s: float) -> tuple[float, float] | None:
         return self._overhearing.true_direction(now_s) if self._overhearing else None
 
+    def faults(self) -> tuple[str, ...]:
+        return tuple(map(str, self.status.faults))
+
 
 class ArduinoPlant:
     """The emulated Arduino that the box replaces. Its motors and ranges come from the box's configuration."""
@@ -239,7 +247,11 @@ class ArduinoPlant:
     def recognised(self) -> None:
         """It knows no satellites."""
 
-    def true_direction(self, now_s: float) -> None: ...
+    def true_direction(self, now_s: float) -> None:
+        """It knows no satellites."""
+
+    def faults(self) -> tuple[str, ...]:
+        return ()  # the sketch knows none
 
 
 Faults = Callable[[SimRotor], Sequence[tuple[float, str]]]
@@ -309,7 +321,7 @@ def fly(
     plant.run_until(begin_s + flown.end_s)
     if plant.recognised() is not None:  # the clock of the program that sent the pass may have been wrong
         trace = [_judged(sample, plant.true_direction(begin_s + sample.t)) for sample in trace]
-    return trace, replace(summarise(trace, plant.relay_starts()), recognised=plant.recognised())
+    return trace, replace(summarise(trace, plant.relay_starts()), recognised=plant.recognised(), faults=plant.faults())
 
 
 def _judged(sample: Sample, true_deg: tuple[float, float] | None) -> Sample:
