@@ -120,6 +120,8 @@ class Flown:
     """When it sets; infinite: it does not."""
     expected_error_deg: float = 0.0
     """How far it may be from where it is computed, from the age of its elements."""
+    recognised: bool = False
+    """In the orders of a program that follows it; else the box tracks it by itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +137,6 @@ class Status:
     storm: bool = False
     """The stop that is latched is a storm park, and the antenna is at it."""
     controlled_by: str = ""
-    recognised: str = ""
-    """The satellite that the orders follow, and whose true path the antenna takes; empty: there is none."""
     timed_point: int = 0
     timed_points: int = 0
     simulated: bool = False
@@ -154,6 +154,11 @@ class Status:
 
     def axis(self, axis: Axis) -> AxisStatus:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
+
+    @property
+    def recognised(self) -> str:
+        """The satellite that a program's orders follow, and whose true path the antenna takes; empty: there is none."""
+        return self.flown.name if self.flown is not None and self.flown.recognised else ""
 
     @property
     def moving(self) -> bool:

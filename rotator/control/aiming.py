@@ -48,11 +48,6 @@ class Aiming:
         """The planned pass that is flown."""
         return self._flight.flown if self._flight else None
 
-    @property
-    def recognised(self) -> str:
-        """The satellite whose path is flown in place of a stream of orders; empty: there is none."""
-        return self._flight.name if self._flight is not None and self._flight.following is not None else ""
-
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
         self._flight = None

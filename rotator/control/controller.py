@@ -153,7 +153,6 @@ class Controller:
             mode=self._authority.mode,
             mode_switch=self._settings.mode is not Mode.AUTO,
             flown=self._aiming.flown,
-            recognised=self._aiming.recognised,
             notices=self._authority.ignored(now_s),
             cycle_late_s=late_s,
         )

@@ -32,12 +32,11 @@ class Flight:
     def __init__(self, order: Fly, mount: Mount, following: Following | None = None) -> None:
         _check(order.azimuth, mount.azimuth, Axis.AZIMUTH)
         _check(order.elevation, mount.elevation, Axis.ELEVATION)
-        self.name = order.name
         self.following = following
         self._path = KnownPath(order.path)
         self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
         sets_s = self._path.end_s if order.sets_s is None else order.sets_s
-        self.flown = Flown(order.name, self._path.begin_s, sets_s, order.expected_error_deg)
+        self.flown = Flown(order.name, self._path.begin_s, sets_s, order.expected_error_deg, following is not None)
         """For displays."""
         self._given: dict[Axis, int] = {}
         """The number of the step, or of the piece of path, that each axis has."""
