@@ -67,13 +67,10 @@ class Aiming:
         self._flight = Flight(order)
         self._fly_on(now_s)
 
-    def park(self, now_s: float) -> None:
+    def park(self) -> None:
         """Go to the park position. Raises Unreachable."""
-        # A place on the rotor's own scale, not a direction: the other turn of the overlap would wind the cables.
         self.forget(BOTH)
-        azimuth_deg, elevation_deg = self._mount.park_azimuth_deg, self._mount.park_elevation_deg
-        park = Aim(azimuth_deg, elevation_deg)
-        self._set_goals(self._pointing.aim(now_s, park, azimuth_deg, elevation_deg))
+        self._set_goals(self._pointing.park())
 
     def nudge(self, axis: Axis, offset_deg: float) -> None:
         """Shift this axis by so much, for all orders from now on."""

@@ -282,7 +282,7 @@ class Controller:
         self._timed.halt()
         self._moved_s = None
         try:
-            self._aiming.park(now_s)
+            self._aiming.park()
         except Unreachable as reason:
             self.troubles.append(f"the park position cannot be reached: {reason}")
 
