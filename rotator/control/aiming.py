@@ -7,6 +7,7 @@ of who asks, of stops that latch, or of faults.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
@@ -19,6 +20,7 @@ from rotator.control.sky.pointing import Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
 from rotator.orders import BOTH, Aim, Fly
+from rotator.status import AxisStatus
 
 
 class Aiming:
@@ -131,6 +133,18 @@ class Aiming:
     def notices(self, axis: Axis) -> tuple[Notice, ...]:
         """What a forbidden sector keeps this axis from."""
         return self._round.notices(axis)
+
+    def pointed(self, azimuth: AxisStatus, elevation: AxisStatus) -> tuple[AxisStatus, AxisStatus]:
+        """With where the boom points beside what the axes read."""
+        mount, axis_deg, raised_deg = self._mount, azimuth.shown_deg, elevation.shown_deg
+        if mount.model.perfect or axis_deg is None:
+            return azimuth, elevation
+        raised_deg = elevation.min_deg if raised_deg is None else raised_deg
+        there_azimuth_deg, there_elevation_deg = mount.pointed(axis_deg, raised_deg)
+        return (
+            replace(azimuth, correction_deg=there_azimuth_deg - axis_deg),
+            replace(elevation, correction_deg=there_elevation_deg - raised_deg),
+        )
 
     def _places(self) -> tuple[float | None, float | None]:
         """Where each axis goes, or stands where it has no target."""
