@@ -5,11 +5,13 @@ Knows keys and bounds. Does not know how a model turns directions into axis angl
 
 from __future__ import annotations
 
+from typing import Annotated
+
 from pydantic import Field, field_validator
 
 from rotator.config.table import Table
 
-SkyRow = tuple[float, float, float, float]
+SkyRow = Annotated[tuple[float, float, float, float], Field(strict=False)]
 """Azimuth and elevation of the axes, on the rotor's own scale; azimuth and elevation of what the boom pointed at."""
 POINT_BOUNDS = ((-360.0, 720.0), (-90.0, 210.0), (0.0, 360.0), (-10.0, 90.0))
 
