@@ -12,6 +12,7 @@ from dataclasses import replace
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.flight import Flight
+from rotator.control.following import Following
 from rotator.control.going_round import GoingRound
 from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount
@@ -19,8 +20,8 @@ from rotator.control.sky.nudges import Nudges
 from rotator.control.sky.pointing import Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
-from rotator.orders import BOTH, Aim, Fly
-from rotator.status import AxisStatus
+from rotator.orders import BOTH, Aim, Fly, Source
+from rotator.status import AxisStatus, Flown
 
 
 class Aiming:
@@ -33,6 +34,8 @@ class Aiming:
         self._round = GoingRound(mount, axes)
         self._asked: Aim | None = None
         """The order in force, without the nudges; None: there is none."""
+        self._asked_s = 0.0
+        """When it came."""
         self._flight: Flight | None = None
         """The pass that is flown as planned; None: there is none."""
 
@@ -41,9 +44,20 @@ class Aiming:
         """The direction last ordered, as the display shows it."""
         return self._pointing.wanted
 
+    @property
+    def flown(self) -> Flown | None:
+        """The planned pass that is flown."""
+        return self._flight.flown if self._flight else None
+
+    @property
+    def recognised(self) -> str:
+        """The satellite whose path is flown in place of a stream of orders; empty: there is none."""
+        return self._flight.name if self._flight is not None and self._flight.following is not None else ""
+
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
         self._flight = None
+        self._asked_s = now_s
         wanted = self._pointing.wanted
         asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
         aim = self._nudges.applied(asked)
@@ -64,10 +78,43 @@ class Aiming:
             self._asked = asked
 
     def fly(self, order: Fly, now_s: float) -> None:
-        """Fly a planned pass from now on."""
+        """Fly a planned pass from now on. Raises Unreachable; then everything is as it was."""
+        flight = Flight(order, self._mount)
         self.forget(BOTH)
-        self._flight = Flight(order)
+        self._flight = flight
         self._fly_on(now_s)
+
+    def fly_for_stream(self, order: Fly, source: Source, now_s: float) -> None:
+        """Fly a planned pass in place of a stream, where the order in force is one of that stream.
+
+        Raises Unreachable; then everything is as it was.
+        """
+        asked = self._asked
+        if asked is None or self._nudges.applied(asked) != asked:
+            return
+        following = Following(order, source, now_s)
+        if not following.agrees(source, asked, self._asked_s):
+            return
+        self._flight = Flight(order, self._mount, following)
+        self._fly_on(now_s)
+
+    def flies_on(self, source: Source, aim: Aim, now_s: float) -> bool:
+        """Whether this order is one of the stream in whose place a pass is flown, which then goes on."""
+        if self._flight is None or self._flight.following is None:
+            return False
+        if not self._flight.following.agrees(source, aim, now_s):
+            return False
+        self._asked, self._asked_s = aim, now_s
+        # Should the stream depart, it is followed on from here.
+        self._pointing.accompany(now_s, aim, self._flight.way(now_s))
+        return True
+
+    def end_following(self) -> None:
+        """No pass is flown in place of a stream any longer: the antenna stands until the next order."""
+        if self._flight is not None and self._flight.following is not None:
+            self._flight = self._asked = None
+            self._pointing.end_stream()
+            self._round.forget_paths()
 
     def park(self) -> None:
         """Go to the park position. Raises Unreachable."""
@@ -87,11 +134,12 @@ class Aiming:
             self.point_at(self._asked, now_s)
 
     def drop(self) -> None:
-        """The order in force is not to be repeated."""
-        self._asked = None
+        """The order in force is not to be repeated, nor flown on."""
+        self._asked = self._flight = None
 
     def end_stream(self) -> None:
         """No more orders come from that sender: the target stands at the last one."""
+        self.end_following()
         self._pointing.end_stream()
 
     def halt(self, axes: tuple[Axis, ...]) -> None:
@@ -126,8 +174,13 @@ class Aiming:
         assert self._flight is not None
         for axis, goal in self._flight.goals(now_s).items():
             self._round.aim(axis, goal)
-        self._pointing.show(self._flight.wanted(now_s))
+        wanted = self._flight.wanted(now_s)
+        if self._flight.following is None:
+            self._pointing.show(wanted)
+        else:
+            self._pointing.wanted = wanted
         if self._flight.ended(now_s):
+            self.end_following()
             self._flight = None
 
     def notices(self, axis: Axis) -> tuple[Notice, ...]:

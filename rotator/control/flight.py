@@ -8,10 +8,14 @@ from __future__ import annotations
 from bisect import bisect_right
 
 from hw.ports import Axis
+from rotator.control.following import Following
 from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.mount import Mount, Range, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import EVEN, AimGoal
+from rotator.control.sky.route import Way
 from rotator.orders import PLAN_STEP_S, Aim, AxisPlan, Fly
+from rotator.status import Flown
 
 STEP_TOLERANCE_DEG = 0.3
 """How near to the place of a step the axis comes to rest. A step is longer."""
@@ -20,9 +24,22 @@ AGAIN_S = 0.5
 
 
 class Flight:
-    def __init__(self, order: Fly) -> None:
+    """`following`: the stream in whose place it is flown; None: it is flown for itself.
+
+    Raises Unreachable where the plan leaves the limits of an axis.
+    """
+
+    def __init__(self, order: Fly, mount: Mount, following: Following | None = None) -> None:
+        self._mount = mount
+        _check(order.azimuth, mount.azimuth, Axis.AZIMUTH)
+        _check(order.elevation, mount.elevation, Axis.ELEVATION)
+        self.name = order.name
+        self.following = following
         self._path = KnownPath(order.path)
         self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
+        sets_s = self._path.end_s if order.sets_s is None else order.sets_s
+        self.flown = Flown(order.name, self._path.begin_s, sets_s, order.expected_error_deg)
+        """For displays."""
         self._given: dict[Axis, int] = {}
         """The number of the step, or of the piece of path, that each axis has."""
 
@@ -30,8 +47,18 @@ class Flight:
         """The target's direction, for the display."""
         return Aim(*self._path.direction(now_s))
 
+    def way(self, now_s: float) -> Way:
+        """The way that it has chosen, as far as it is flown."""
+        azimuth_deg, elevation_deg = (_angle_deg(plan, now_s) for plan in self._plans.values())
+        return Way(azimuth_deg, self._mount.model.over_the_top(elevation_deg))
+
     def ended(self, now_s: float) -> bool:
-        """Whether the target stands still from now on."""
+        """Whether it is over: the target stands still from now on, or the stream has ended in whose place it is flown.
+
+        The program may go on for a while after the target has set.
+        """
+        if self.following is not None:
+            return self.following.silent(now_s)
         return now_s >= self._path.end_s and all(now_s >= _end_s(plan) for plan in self._plans.values())
 
     def goals(self, now_s: float) -> dict[Axis, AimGoal]:
@@ -43,6 +70,12 @@ class Flight:
                 self._given[axis] = number
                 found[axis] = _goal(plan, number, now_s)
         return found
+
+
+def _check(plan: AxisPlan, limits: Range, axis: Axis) -> None:
+    for angle_deg in (*plan.angles_deg, *(step.place_deg for step in plan.steps)):
+        if not limits.holds(angle_deg):
+            raise Unreachable(f"the plan takes {axis.value} to {angle_deg:g}°, beyond its limits")
 
 
 def _number(plan: AxisPlan, now_s: float) -> int:

@@ -156,9 +156,9 @@ class Mount:
             return elevation_deg
         sky_azimuth_deg, sky_elevation_deg = self.pointed(axis_azimuth_deg, elevation_deg)
         if sky_elevation_deg > ZENITH_DEG:
-            highest_deg = 180.0 - self._horizon_deg(sky_azimuth_deg + 180.0)
+            highest_deg = 180.0 - self.horizon_deg(sky_azimuth_deg + 180.0)
             return self.elevation.nearest(elevation_deg + min(0.0, highest_deg - sky_elevation_deg))
-        least_deg = self._horizon_deg(sky_azimuth_deg)
+        least_deg = self.horizon_deg(sky_azimuth_deg)
         return self.elevation.nearest(elevation_deg + max(0.0, least_deg - sky_elevation_deg))
 
     def _angles(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
@@ -166,13 +166,12 @@ class Mount:
 
         Where elevation ends before, the azimuth is the one that fits the elevation at which it rests.
         """
+        if self.model.perfect:
+            return azimuth_deg, elevation_deg
         axis_azimuth_deg, axis_elevation_deg = self.model.axis_angles(azimuth_deg, elevation_deg)
         rests_deg = self.elevation.nearest(axis_elevation_deg)
-        if (
-            self.model.perfect
-            or rests_deg == axis_elevation_deg
-            or self.model.over_the_top(rests_deg) is not (elevation_deg > ZENITH_DEG)
-        ):
+        over = elevation_deg > ZENITH_DEG
+        if rests_deg == axis_elevation_deg or self.model.over_the_top(rests_deg) is not over:
             return axis_azimuth_deg, axis_elevation_deg
         follows_deg = axis_azimuth_deg
         for _ in range(_ROUNDS):
@@ -180,8 +179,10 @@ class Mount:
             follows_deg, _ = self.model.axis_angles(azimuth_deg, low_deg)
         return follows_deg, axis_elevation_deg
 
-    def _horizon_deg(self, azimuth_deg: float) -> float:
-        """Straight lines between the points, all the way round."""
+    def horizon_deg(self, azimuth_deg: float) -> float:
+        """How high trees and roofs stand there: straight lines between the points, all the way round."""
+        if not self.horizon:
+            return 0.0
         azimuth_deg %= 360.0
         last = self.horizon[-1]
         around = ((last[0] - 360.0, last[1]), *self.horizon, (self.horizon[0][0] + 360.0, self.horizon[0][1]))

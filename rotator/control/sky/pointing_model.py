@@ -13,7 +13,7 @@ For small terms, far from the zenith, the boom points at the axis angles and thi
 from __future__ import annotations
 
 import math
-from dataclasses import astuple, dataclass
+from dataclasses import dataclass
 
 from rotator.control.sky.angles import ZENITH_DEG, Vector, direction_of, turn_deg, unit
 
@@ -39,7 +39,7 @@ class PointingModel:
 
     @property
     def perfect(self) -> bool:
-        return not any(astuple(self))
+        return not (self.ia_deg or self.ie_deg or self.an_deg or self.aw_deg or self.ca_deg or self.npae_deg)
 
     def axis_angles(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
         """What the axes read when the boom points there. Above 90° it points there over the top.
