@@ -130,7 +130,7 @@ def arduino(pty: Path, path: Path | None, plain: bool) -> None:
 def calibrate(  # noqa: PLR0917 - click calls it by keyword
     path: Path | None, faults: tuple[str, ...], plain: bool, what: str | None, target: str | None, at_s: float | None
 ) -> None:
-    """Set up one axis or both, find north, or at the sky how the mount stands.
+    """Set up axes, find north, or how the mount leans.
 
     It asks, saves the result in the file, and keeps the file before as FILE.bak. End the box first.
     """
