@@ -61,8 +61,7 @@ def spoken(protocol: str, **keys: object) -> Link:
 @settings(max_examples=100, deadline=None)
 @given(pieces=PIECES)
 def test_no_bytes_change_limits_or_calibration(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
-    box = new_box((0.0, 360.0), (0.0, 90.0))
-    box.stands_at(100, 20)
+    box = new_box((0.0, 360.0), (0.0, 90.0), at=(100, 20))
     before, session = fixed(box), session_maker(spoken(protocol), box, sky=SKY)
     for piece in pieces:
         session.receive(piece)
