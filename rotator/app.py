@@ -21,7 +21,7 @@ from rotator.assembly.hands import hands
 from rotator.assembly.links import build_links
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
-from rotator.assembly.sky import build_sky
+from rotator.assembly.sky import build_sky, build_tracking
 from rotator.assembly.station import Station
 from rotator.calibrating.at_start import CompassAtStart, watch
 from rotator.calibrating.compass import CompassReader
@@ -84,13 +84,16 @@ class App:
             after_good_step=self._sign_of_life,
             events=self._events,
         )
+        self._tracking = build_tracking(config, self.loop, mount)
         self.console = Client(self.loop, mount, Source("console"))
         numbers = itertools.count(1)
         monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
         self._console_socket = ConsoleSocket(
             console_path(monitor),
             lambda: ConsoleSession(
-                Client(self.loop, mount, Source("console", next(numbers))), hands(self.station.world)
+                Client(self.loop, mount, Source("console", next(numbers))),
+                hands(self.station.world),
+                self._tracking.tracker if self._tracking else None,
             ),
         )
         self._tap = Tap(datetime.now, lambda: self.loop.status)
@@ -140,6 +143,8 @@ class App:
             parts.append(Part.blocking("the panel", self._panel.stop))
         if self._display:
             parts.append(Part.blocking("the display", self._display.stop))
+        if self._tracking:
+            parts.append(Part.blocking("the tracker", self._tracking.stop))
         return [
             *parts,
             Part.blocking("closing the hardware", self.station.close),
@@ -161,6 +166,8 @@ class App:
             self._display.start()
         if self._panel:
             self._panel.start()
+        if self._tracking:
+            self._tracking.start()
         side = [("monitor", self._monitor_socket.run()), ("console", self._console_socket.run())]
         if self.config.compass.at_start:
             side.append(("compass", self._compass_at_start()))

@@ -61,6 +61,10 @@ class Fly:
     """The target's directions: (moment in s, azimuth, elevation), rising, two or more."""
     azimuth: AxisPlan
     elevation: AxisPlan
+    sets_s: float | None = None
+    """When the target sets, where that is after the end of the path; infinite: it does not set."""
+    expected_error_deg: float = 0.0
+    """How far the target may be from its path, at most."""
 
 
 @dataclass(frozen=True, slots=True)

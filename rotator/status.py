@@ -110,6 +110,19 @@ class AxisStatus:
 
 
 @dataclass(frozen=True, slots=True)
+class Flown:
+    """The target of a planned pass that is flown. Moments are on the clock of `Status.at_s`."""
+
+    name: str
+    begin_s: float
+    """When it rises; earlier than the status: it is up."""
+    end_s: float
+    """When it sets; infinite: it does not."""
+    expected_error_deg: float = 0.0
+    """How far it may be from where it is computed, from the age of its elements."""
+
+
+@dataclass(frozen=True, slots=True)
 class Status:
     at_s: float
     azimuth: AxisStatus
@@ -130,6 +143,8 @@ class Status:
     """The position of the front panel's mode switch; without one, AUTO."""
     mode_switch: bool = False
     """A front panel has such a switch."""
+    flown: Flown | None = None
+    """The box knows the target's path, and flies it as planned; None: it does not."""
     notices: tuple[str, ...] = ()
     """Whose orders have no effect, and why. The same trouble has the same text for as long as it lasts."""
     cycle_late_s: float = 0.0

@@ -27,6 +27,7 @@ CAPTIONS = {
     "rotator.config": "the TOML file",
     "rotator.control": "decides; pure",
     "rotator.orbits": "the sky; pure",
+    "rotator.tracking": "plans, tracks",
     "rotator.panel": "switches, knobs",
     "rotator.protocols": "bytes ⇄ orders",
     "rotator.store": "files kept",

@@ -44,6 +44,24 @@ def point(path: Path | None, wait: bool, azimuth: float, elevation: float) -> No
     moves.point(path, azimuth, elevation, wait=wait)
 
 
+@click.command(
+    context_settings=ANY_WORDS,
+    epilog=examples("rotator track iss", "rotator track moon", 'rotator track "jn58td long"', "rotator track off"),
+)
+@CONFIG
+@click.option("--clock-is-right", is_flag=True, help="You have seen that the computer's clock shows the right time.")
+@click.argument("words", nargs=-1, required=True, metavar="NAME|LOCATOR|AZ EL|off")
+def track(path: Path | None, clock_is_right: bool, words: tuple[str, ...]) -> None:
+    """Let the box track a target by itself, from pass to pass.
+
+    NAME: ISS, 25544, so50, sun, moon, mars, "cas a". It needs [station] in the box's file, and for satellites [sky]
+    elements. The antenna goes to where the target rises and waits there. Any other order ends it.
+    """
+    from rotator.cli.track import begin
+
+    begin(path, " ".join(words), clock_is_right=clock_is_right)
+
+
 @click.command(cls=NumbersCommand, epilog=examples("rotator jog cw 2", "rotator jog down 0,5"))
 @CONFIG
 @WAIT

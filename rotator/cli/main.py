@@ -18,6 +18,7 @@ from rotator.cli import console_commands as console
 from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples
 from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
 from rotator.cli.sky_commands import sky
+from rotator.cli.utc import utc_time
 
 START = """Start here: `rotator run` begins a simulated box; `rotator point 180 45` in another terminal turns it.
 `rotator COMMAND --help` has an example of each command."""
@@ -66,6 +67,8 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
 )
 @click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the flight to this CSV file.")
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
+@click.option("--target", metavar="NAME", help="Fly the next pass of a satellite, Sun or Moon, tracked by the box.")
+@click.option("--at", "at_s", type=utc_time, metavar="UTC", help="With --target: its first pass that ends after this.")
 @click.option("--arduino", is_flag=True, help="Fly the pass with the emulated Arduino instead of the box.")
 def rehearse(  # noqa: PLR0917 - click calls it by keyword
     path: Path | None,
@@ -74,6 +77,8 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
     via: str,
     trace: Path | None,
     as_json: bool,
+    target: str | None,
+    at_s: float | None,
     arduino: bool,
 ) -> None:
     """Fly a satellite pass on the simulated rotor.
@@ -87,7 +92,9 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
     """
     from rotator.cli.rehearse import rehearse_pass
 
-    rehearse_pass(pass_file, path, faults, via=via, trace=trace, as_json=as_json, arduino=arduino)
+    rehearse_pass(
+        pass_file, path, faults, via=via, trace=trace, as_json=as_json, arduino=arduino, target=target, at_s=at_s
+    )
 
 
 @click.command(epilog=examples("rotator arduino --pty run/arduino"))
@@ -273,7 +280,7 @@ def _draws() -> bool:
 cli.under("The antenna", console.where, console.point, console.jog, console.park, console.stop, console.resume)
 cli.under("An axis that asks for a person", console.home, console.confirm, console.relays_checked, console.let_go)
 cli.under("The box", run, doctor, monitor, console.tell, off)
-cli.under("The sky", sky)
+cli.under("The sky", sky, console.track)
 cli.under("Setting up", show_config, calibrate, set_up)
 cli.under("Without a rotor", rehearse, arduino, console.panel)
 

@@ -10,6 +10,7 @@ import csv
 import json
 import logging
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import astuple, fields
@@ -26,6 +27,7 @@ from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.rehearsal.flight import Sample, Summary, fly, plant_maker
 from rotator.rehearsal.passes import FORM, SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
+from rotator.rehearsal.sky_target import next_pass
 from rotator.store.whole import write_whole
 
 
@@ -38,23 +40,34 @@ def rehearse_pass(
     trace: Path | None,
     as_json: bool,
     arduino: bool,
+    target: str | None = None,
+    at_s: float | None = None,
 ) -> None:
-    """`word`: the name of a shipped pass, or a file; None: list the names."""
+    """`word`: the name of a shipped pass, or a file; None: list the names.
+
+    `target`: what the box tracks by itself, in its first pass that ends after `at_s` (UTC; None: now).
+    """
     logging.basicConfig(level=logging.WARNING, format="%(levelname).1s %(message)s")
     config = load(path)
     if config.rotor.hardware != "sim":
         config = simulated(config)
-    if word is None and "list" not in faults:
+    if target is not None and (word is not None or arduino):
+        raise click.UsageError("--target is a pass of its own: leave out PASS.csv and --arduino")
+    if word is None and target is None and "list" not in faults:
         return click.echo(_listed())
+    tracked = None
     try:
-        flown = find_pass(word or shipped_names()[0])
+        if target is not None:
+            flown, tracked = next_pass(config, target, time.time() if at_s is None else at_s)
+        else:
+            flown = find_pass(word or shipped_names()[0])
     except PassError as fault:
         raise CommandFailed(str(fault)) from None
     if trace and word and trace.exists() and Path(word).exists() and trace.samefile(word):
         raise click.UsageError("--trace would write over the pass")
     if arduino and faults:
         raise click.UsageError("--fault is for the box, not for the Arduino")
-    make = plant_maker(config, via=via, arduino=arduino, faults=partial(parse_faults, faults))
+    make = plant_maker(config, via=via, arduino=arduino, faults=partial(parse_faults, faults), target=tracked)
     with _progress(flown) as progress:
         rows, summary = fly(flown, make, progress)
     if trace is not None:

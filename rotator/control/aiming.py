@@ -19,6 +19,7 @@ from rotator.control.sky.pointing import Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
 from rotator.orders import BOTH, Aim, Fly
+from rotator.status import Flown
 
 
 class Aiming:
@@ -38,6 +39,11 @@ class Aiming:
     def wanted(self) -> Aim:
         """The direction last ordered, as the display shows it."""
         return self._pointing.wanted
+
+    @property
+    def flown(self) -> Flown | None:
+        """The planned pass that is flown."""
+        return self._flight.flown if self._flight else None
 
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
@@ -62,9 +68,10 @@ class Aiming:
             self._asked = asked
 
     def fly(self, order: Fly, now_s: float) -> None:
-        """Fly a planned pass from now on."""
+        """Fly a planned pass from now on. Raises Unreachable; then everything is as it was."""
+        flight = Flight(order, self._mount)
         self.forget(BOTH)
-        self._flight = Flight(order)
+        self._flight = flight
         self._fly_on(now_s)
 
     def park(self, now_s: float) -> None:
@@ -88,8 +95,8 @@ class Aiming:
             self.point_at(self._asked, now_s)
 
     def drop(self) -> None:
-        """The order in force is not to be repeated."""
-        self._asked = None
+        """The order in force is not to be repeated, nor flown on."""
+        self._asked = self._flight = None
 
     def end_stream(self) -> None:
         """No more orders come from that sender: the target stands at the last one."""

@@ -150,6 +150,7 @@ class Controller:
             speed_level=self._speed_level,
             mode=self._authority.mode,
             mode_switch=self._settings.mode is not Mode.AUTO,
+            flown=self._aiming.flown,
             notices=self._authority.ignored(now_s),
             cycle_late_s=late_s,
         )
@@ -222,10 +223,8 @@ class Controller:
         if not isinstance(order, Home):
             self._homing.clear()
         match order:
-            case Aim():
+            case Aim() | Fly():
                 self._point_at(order, now_s)
-            case Fly():
-                self._aiming.fly(order, now_s)
             case Park():
                 self._park(now_s)
                 return
@@ -241,9 +240,12 @@ class Controller:
         if self._timed.running or any(control.busy for control in self._axes.values()):
             self._moved_s = now_s
 
-    def _point_at(self, aim: Aim, now_s: float) -> None:
+    def _point_at(self, order: Aim | Fly, now_s: float) -> None:
         try:
-            self._aiming.point_at(aim, now_s)
+            if isinstance(order, Fly):
+                self._aiming.fly(order, now_s)
+            else:
+                self._aiming.point_at(order, now_s)
         except Unreachable as reason:
             self.troubles.append(str(reason))
 

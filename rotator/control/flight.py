@@ -9,9 +9,11 @@ from bisect import bisect_right
 
 from hw.ports import Axis
 from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.mount import Mount, Range, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import EVEN, AimGoal
 from rotator.orders import PLAN_STEP_S, Aim, AxisPlan, Fly
+from rotator.status import Flown
 
 STEP_TOLERANCE_DEG = 0.3
 """How near to the place of a step the axis comes to rest. A step is longer."""
@@ -20,9 +22,16 @@ AGAIN_S = 0.5
 
 
 class Flight:
-    def __init__(self, order: Fly) -> None:
+    """Raises Unreachable where the plan leaves the limits of an axis."""
+
+    def __init__(self, order: Fly, mount: Mount) -> None:
+        _check(order.azimuth, mount.azimuth, Axis.AZIMUTH)
+        _check(order.elevation, mount.elevation, Axis.ELEVATION)
         self._path = KnownPath(order.path)
         self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
+        sets_s = self._path.end_s if order.sets_s is None else order.sets_s
+        self.flown = Flown(order.name, self._path.begin_s, sets_s, order.expected_error_deg)
+        """For displays."""
         self._given: dict[Axis, int] = {}
         """The number of the step, or of the piece of path, that each axis has."""
 
@@ -43,6 +52,12 @@ class Flight:
                 self._given[axis] = number
                 found[axis] = _goal(plan, number, now_s)
         return found
+
+
+def _check(plan: AxisPlan, limits: Range, axis: Axis) -> None:
+    for angle_deg in (*plan.angles_deg, *(step.place_deg for step in plan.steps)):
+        if not limits.holds(angle_deg):
+            raise Unreachable(f"the plan takes {axis.value} to {angle_deg:g}°, beyond its limits")
 
 
 def _number(plan: AxisPlan, now_s: float) -> int:

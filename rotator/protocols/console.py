@@ -27,7 +27,19 @@ class Ask(Enum):
     HELP = "help"
 
 
-ConsoleCommand = Order | Ask | Hand
+@dataclass(frozen=True, slots=True)
+class Track:
+    """Track what these words name. `off`: nothing any more. No words: tell what goes on."""
+
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class ClockIsRight:
+    """A person says that this computer's clock is right."""
+
+
+ConsoleCommand = Order | Ask | Hand | Track | ClockIsRight
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +66,8 @@ VERBS = (
     Verb("park", "", "Go to the park position, even while a program tracks, and stay there until `resume`"),
     Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
     Verb("point", "AZIMUTH ELEVATION", "Point there"),
+    Verb("track", "[NAME|LOCATOR|AZIMUTH ELEVATION|off]", "Track a satellite, Sun, Moon … from pass to pass"),
+    Verb("clock-is-right", "", "You have seen that this computer's clock is right: `track` needs it"),
     Verb("panel", OPERANDS, "Move a switch or a knob of the simulated front panel"),
     Verb("help", "", "This list"),
 )
@@ -87,6 +101,10 @@ def parse(line: bytes) -> ConsoleCommand:
             return Jog(*TURNS[turn], _seconds(seconds))
         case ["point", azimuth, elevation]:
             return aim(_degrees(Axis.AZIMUTH, azimuth), _degrees(Axis.ELEVATION, elevation))
+        case ["track", *what]:
+            return Track(" ".join(what))
+        case ["clock-is-right"]:
+            return ClockIsRight()
         case ["panel", *rest]:
             return parse_hand(rest)
         case [verb, *_] if verb in _BY_TEXT:

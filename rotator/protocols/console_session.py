@@ -6,22 +6,27 @@ Knows what each command makes the box do, and how the status is written. Does no
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Callable
 from dataclasses import replace
 
 from hw.ports import Axis
-from rotator.control.rights import deed_of, hindrance, holds
+from rotator.control.rights import Deed, deed_of, hindrance, holds
 from rotator.orders import Aim, Home, Jog, Mode, Order, Release
-from rotator.protocols.console import TURN_WORDS, VERBS, Ask, parse
+from rotator.protocols.console import TURN_WORDS, VERBS, Ask, ClockIsRight, Track, parse
 from rotator.protocols.lines import LineReader
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
-from rotator.protocols.session import Box
+from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object
-from rotator.status import Status
+from rotator.status import Flown, Status
 
 MAX_LINE = 200
 OK, ERROR = "ok", "error: "
+NO_PLACE = (
+    "the box does not know where it stands: write [station] with latitude_deg and longitude_deg, or locator, into its "
+    "file, and start it again"
+)
 
 
 Hands = Callable[[Hand], str]
@@ -37,10 +42,14 @@ class ConsoleSession:
     idle_s = None
     closed = False
 
-    def __init__(self, box: Box, hands: Hands = no_hands) -> None:
-        """`hands` moves a part of the simulated panel, and returns why it cannot; empty: it has."""
+    def __init__(self, box: Box, hands: Hands = no_hands, tracking: Tracking | None = None) -> None:
+        """`hands` moves a part of the simulated panel, and returns why it cannot; empty: it has.
+
+        `tracking`: None where the box does not know where on the earth it stands.
+        """
         self._box = box
         self._hands = hands
+        self._tracking = tracking
         self._lines = LineReader(MAX_LINE)
         self._resumed = False
         """A `resume` has been sent; the status may not show it yet."""
@@ -69,6 +78,15 @@ class ConsoleSession:
             case TurnMode() | TurnKnob() | ThrowJog() | StopButton():
                 refused = self._hands(command)
                 return _error(refused) if refused else _reply(OK)
+            case Track(""):
+                return _reply(self._tracking.state if self._tracking else "off", OK)
+            case Track(words):
+                refused = self._track(words)
+                return _error(refused) if refused else _reply(OK)
+            case ClockIsRight():
+                if self._tracking is not None:
+                    self._tracking.clock_is_right()
+                return _reply(OK)
             case _:
                 return self._obey(command)
 
@@ -83,14 +101,27 @@ class ConsoleSession:
         refused = self._box.order(order)
         return _error(refused.reason) if refused else _reply(OK)
 
+    def _track(self, words: str) -> str:
+        """Returns why not; empty: it does."""
+        if self._tracking is None:
+            return NO_PLACE
+        if words == "off":
+            self._tracking.off()
+            return ""
+        return self._held(Deed.AIM) or self._tracking.track(words)
+
     def _blocked(self, order: Order) -> str:
         """Why this order would have no effect; empty: it has one."""
+        deed = deed_of(order)
+        return self._held(deed) if deed else ""
+
+    def _held(self, deed: Deed) -> str:
+        """What holds the antenna back from this; empty: nothing does."""
         status = self._box.status()
         if not status.latched:
             self._resumed = False
         held = holds(replace(status, latched="") if self._resumed else status)
-        deed = deed_of(order)
-        state = hindrance(held, deed) if deed else None
+        state = hindrance(held, deed)
         return held[state] if state else ""
 
 
@@ -105,6 +136,8 @@ def report(status: Status) -> list[str]:
     if status.moving:
         lines.append("moving: " + " ".join(axis.value for axis in Axis if status.axis(axis).moving))
     lines.append(f"moved by: {status.controlled_by or 'nobody'}")
+    if status.flown is not None:
+        lines.append(f"tracks: {tracked(status.flown, status.at_s)}")
     if status.mode is not Mode.AUTO:
         lines.append(f"panel: {status.mode.name}")
     if status.latched:
@@ -116,6 +149,19 @@ def report(status: Status) -> list[str]:
     if status.simulated:
         lines.append("simulated: nothing real turns")
     return lines
+
+
+def tracked(flown: Flown, now_s: float) -> str:
+    """The target, and when it rises or sets."""
+    wait_s, left_s = flown.begin_s - now_s, max(0.0, flown.end_s - now_s)
+    if wait_s > 0:
+        return f"{flown.name}, rises in {_minutes(wait_s)}"
+    return f"{flown.name}, up for {_minutes(left_s)} more" if math.isfinite(left_s) else f"{flown.name}, always up"
+
+
+def _minutes(seconds: float) -> str:
+    minutes, seconds_left = divmod(round(seconds), 60)
+    return f"{minutes // 60} h {minutes % 60} min" if minutes >= 60 else f"{minutes}:{seconds_left:02d} min"
 
 
 def _stands(status: Status, axis: Axis) -> str:

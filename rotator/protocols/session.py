@@ -21,6 +21,23 @@ class Box(Protocol):
         """Hand over an order. A Refusal: the order has no effect, with the reason; it is in the log already."""
 
 
+class Tracking(Protocol):
+    """What tracks targets of the sky by itself. No call waits."""
+
+    def track(self, words: str) -> str:
+        """Begin to track. Returns why not; empty: it does."""
+
+    def off(self) -> None:
+        """End it; the antenna stops."""
+
+    def clock_is_right(self) -> None:
+        """A person says that this computer's clock is right."""
+
+    @property
+    def state(self) -> str:
+        """`off`, `planning`, `tracking`, or `ended: ` and the reason."""
+
+
 class Session(Protocol):
     """One connection's side of a protocol: bytes in, replies out."""
 

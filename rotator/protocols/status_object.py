@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import Generic, TypeVar
 
 from hw.ports import Axis
 from rotator.faults import Fault
-from rotator.status import AxisStatus, Status
+from rotator.status import AxisStatus, Flown, Status
 
 FORMAT = 1
 DIGITS = 2
@@ -60,6 +61,22 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
     Field("notes", "list of text", "what a person should know though it stops nothing",
           lambda axis: [str(notice) for notice in axis.notices]),
 )  # fmt: skip
+FLOWN_FIELDS: Sequence[Field[tuple[Flown, float]]] = (
+    Field("name", "text", "the target", lambda each: each[0].name),
+    Field("begins_in_s", "number", "when it rises; negative: it is up",
+          lambda each: round(each[0].begin_s - each[1], 1)),
+    Field("ends_in_s", "number or null", "when it sets; null: it does not",
+          lambda each: round(each[0].end_s - each[1], 1) if isfinite(each[0].end_s) else None),
+    Field("expected_error_deg", "number", "how far it may be from where it is computed",
+          lambda each: _angle(each[0].expected_error_deg)),
+)  # fmt: skip
+
+
+def _flown(status: Status) -> dict[str, Plain] | None:
+    flown = status.flown
+    return None if flown is None else {field.name: field.of((flown, status.at_s)) for field in FLOWN_FIELDS}
+
+
 FIELDS: Sequence[Field[Status]] = (
     Field("format", "number", f"{FORMAT}; another number only when a field is renamed or removed", lambda _: FORMAT),
     Field("azimuth", "object", "the axis, as below", lambda status: _axis(status.azimuth)),
@@ -70,6 +87,7 @@ FIELDS: Sequence[Field[Status]] = (
           lambda status: _angle(status.wanted_elevation_deg)),
     Field("moving", "true or false", "an axis turns or coasts", lambda status: status.moving),
     Field("moved_by", "text or null", "whose orders move the antenna", lambda status: status.controlled_by or None),
+    Field("tracks", "object or null", "what the box tracks by itself, as below; null: nothing", _flown),
     Field("stopped_by", "text or null", "who stopped or storm-parked it; nothing else moves it until `rotator resume`",
           lambda status: status.latched or None),
     Field("storm_park", "true or false", "`stopped_by` is a storm park", lambda status: status.storm),
@@ -94,6 +112,8 @@ def tables() -> str:
             _table("field", AXIS_FIELDS),
             "A `fault`:",
             _table("field", FAULT_FIELDS),
+            "`tracks`:",
+            _table("field", FLOWN_FIELDS),
         )
     )
 

@@ -28,9 +28,11 @@ from rotator.protocols.rotctld import encode as encode_request
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
 from rotator.rehearsal.passes import Pass
+from rotator.rehearsal.sky_target import SkyTarget
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
+from rotator.tracking.next_flight import Now
 
 SAMPLE_S = 0.05
 KNOWN_S = 120.0
@@ -101,8 +103,12 @@ class BoxPlant:
     `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand.
     """
 
-    def __init__(self, config: Config, clock: SimClock, start_deg: tuple[float, float], via: str) -> None:
-        self.early_s = KNOWN_S if via == "track" else 0.0
+    def __init__(
+        self, config: Config, clock: SimClock, start_deg: tuple[float, float], via: str, target: SkyTarget | None = None
+    ) -> None:
+        """`target`: what the box tracks by itself, by its own elements; None: the pass is told to it."""
+        self.early_s = KNOWN_S if via == "track" or target else 0.0
+        self._target = target
         self._clock = clock
         self._period_s = 1 / config.control.rate_hz
         self._shift = build_offsets(config)
@@ -139,6 +145,13 @@ class BoxPlant:
         self._session.receive(self._encode(azimuth_deg, elevation_deg))
 
     def announce(self, flown: Pass, begin_s: float) -> None:
+        if self._target is not None:
+            tracker = self._target.tracker(self._loop, self._mount)
+            if refused := tracker.track(self._target.words):
+                raise ValueError(refused)
+            apart_s = self._target.begin_utc_s - begin_s
+            self._clock.every(1.0, lambda now_s: tracker.step(Now(now_s + apart_s, now_s)))
+            return
         path = KnownPath(tuple((begin_s + t_s, az_deg, el_deg) for t_s, az_deg, el_deg in flown.rows))
         stands = self.status.azimuth.angle_deg or 0.0, self.status.elevation.angle_deg or 0.0
         plan = plan_flight(flown.name, path, Antenna(self._mount, *self._motors, stands), self._clock())
@@ -196,18 +209,24 @@ def no_faults(_world: SimRotor) -> Sequence[tuple[float, str]]:
 
 
 def plant_maker(
-    config: Config, *, via: str = "gs232", arduino: bool = False, faults: Faults = no_faults
+    config: Config,
+    *,
+    via: str = "gs232",
+    arduino: bool = False,
+    faults: Faults = no_faults,
+    target: SkyTarget | None = None,
 ) -> Callable[[SimClock, Pass], Plant]:
     """A function that builds the plant for a clock and a pass. The antenna starts at the pass's first azimuth, level.
 
-    `via`: the protocol of the orders. `arduino`: build the emulated Arduino; it ignores `via` and `faults`.
+    `via`: the protocol of the orders. `arduino`: build the emulated Arduino; it ignores `via` and `faults`. `target`:
+    what the box tracks by itself.
     """
 
     def make(clock: SimClock, flown: Pass) -> Plant:
         start_deg = (flown.rows[0][1], 0.0)
         if arduino:
             return ArduinoPlant(config, clock, start_deg)
-        box = BoxPlant(config, clock, start_deg, via)
+        box = BoxPlant(config, clock, start_deg, via, target)
         for at_s, name in faults(box.world):
             box.inject(at_s, name)
         return box

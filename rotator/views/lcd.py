@@ -9,6 +9,7 @@ from hw.ports import Axis
 from rotator.orders import Mode
 from rotator.protocols.gs232 import whole
 from rotator.status import Status
+from rotator.views.words import rise_or_set
 
 COLUMNS = 16
 ALTERNATE_S = 2.0
@@ -46,6 +47,9 @@ def _notices(status: Status) -> list[str]:
     # A notice without a text for the LCD is left out here. It is in the log.
     for axis in Axis:
         notices += [f"{_SHORT[axis]} {notice.lcd}" for notice in status.axis(axis).notices if notice.lcd]
+    if status.flown is not None:
+        when = rise_or_set(status.flown, status.at_s)
+        notices.append(f"{status.flown.name[: COLUMNS - 1 - len(when)]} {when}")
     return list(dict.fromkeys(notices))
 
 

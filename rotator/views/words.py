@@ -5,12 +5,13 @@ Knows a status. Does not know where on a screen the words stand.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Protocol
 
 from hw.ports import Axis, Direction
 from rotator.orders import Mode
-from rotator.status import Status
+from rotator.status import Flown, Status
 from rotator.views.sky_plot import off_deg
 
 TURNS = {
@@ -58,6 +59,8 @@ def headline(status: Status) -> tuple[str, str]:
         return f"UNCALIBRATED {' and '.join(lacking)}", WARNS
     if status.moving:
         return "TURNING", GOOD
+    if status.flown is not None and status.flown.begin_s > status.at_s:
+        return f"WAITS FOR {status.flown.name}", GOOD
     return ("ON TARGET", GOOD) if off_deg(status) is not None else ("AT REST", PLAIN)
 
 
@@ -66,9 +69,24 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
     source = status.controlled_by
     if not source:
         return "no orders"
+    if status.flown is not None:
+        return f"tracks {status.flown.name}, {rise_or_set(status.flown, status.at_s)}"
     where = next((wire.where for wire in wires if source.partition("#")[0] == wire.name), "")
     point = f", point {status.timed_point} of {status.timed_points}" if status.timed_points else ""
     return f"orders from {source}{point}" + (f" ({where})" if where else "")
+
+
+def rise_or_set(flown: Flown, now_s: float) -> str:
+    """`AOS 3:20`: the target rises in so many minutes and seconds. LOS: it sets."""
+    if flown.begin_s > now_s:
+        return f"AOS {_countdown(flown.begin_s - now_s)}"
+    return f"LOS {_countdown(flown.end_s - now_s)}" if math.isfinite(flown.end_s) else "always up"
+
+
+def _countdown(seconds: float) -> str:
+    """`3:20`, and from an hour on `6h41`."""
+    minutes, left_s = divmod(max(0, round(seconds)), 60)
+    return f"{minutes}:{left_s:02d}" if minutes < 60 else f"{minutes // 60}h{minutes % 60:02d}"
 
 
 def off_target(status: Status) -> str:

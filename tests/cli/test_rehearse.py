@@ -132,6 +132,53 @@ def test_via_rotctld(rotator: Rotator, flown: Path) -> None:
     assert summary["rms_deg"] < 6
 
 
+def test_via_track_it_waits_at_the_rise_and_points_better(rotator: Rotator, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.csv"
+    told = figures(rotator("rehearse", "north-1-iss", "--json"))
+    known = figures(rotator("rehearse", "north-1-iss", "--json", "--via", "track", "--trace", trace))
+    assert (known["relay_starts"], known["rms_deg"]) < (told["relay_starts"], told["rms_deg"])
+    first, *_, last = trace.read_text().splitlines()[1:]
+    assert float(first.split(",")[0]) == pytest.approx(-120.0)
+    assert float(last.split(",")[0]) == pytest.approx(651, abs=1.1)
+
+
+ELEMENTS = Path(__file__).parents[1] / "orbits" / "elements-2025.tle"
+
+
+def test_a_target_is_tracked_in_its_next_pass_by_the_box_itself(rotator: Rotator, tmp_path: Path) -> None:
+    config, trace = tmp_path / "station.toml", tmp_path / "trace.csv"
+    config.write_text(f'[station]\nlocator = "JO62qm"\n[sky]\nelements = ["{ELEMENTS}"]\n')
+    words = ("rehearse", "--config", config, "--target", "iss", "--at", "2025-02-08T07:00:00Z", "--json")
+    summary = figures(rotator(*words, "--trace", trace))
+    assert summary["p95_deg"] < 4.0
+    rows = [dict(zip(COLUMNS, map(float, row.split(",")), strict=True)) for row in trace.read_text().splitlines()[1:]]
+    assert rows[0]["t"] == pytest.approx(-120.0)
+    rise = next(row for row in rows if row["t"] >= 0)
+    assert rise["target_el"] == pytest.approx(0.0, abs=0.1), "its pass begins at the rise"
+    waiting = [row for row in rows if -15.0 <= row["t"] <= 0.0]
+    assert {(row["az_drive"], row["el_drive"]) for row in waiting} == {(0, 0)}
+
+
+@pytest.mark.parametrize(
+    ("file", "name", "said"),
+    [
+        ('[station]\nlocator = "JO62qm"\n', "iss", '"iss" is not known: there are no elements'),
+        (
+            "[rotor]\n",
+            "moon",
+            "the configuration names no place: write [station] with latitude_deg and longitude_deg, or locator",
+        ),
+        ("[station]\nlatitude_deg = -85\nlongitude_deg = 0\n", "cas a", "Cas A does not rise within 7 days"),
+    ],
+)
+def test_a_target_that_has_no_pass(rotator: Rotator, tmp_path: Path, file: str, name: str, said: str) -> None:
+    config = tmp_path / "station.toml"
+    config.write_text(file)
+    done = rotator("rehearse", "--config", config, "--target", name, "--at", "2025-02-08T07:00:00Z")
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.startswith(f"rotator: {said}")
+
+
 def test_the_tolerance_is_the_file_s(rotator: Rotator, flown: Path, tmp_path: Path) -> None:
     config = tmp_path / "station.toml"
     config.write_text("[azimuth]\ntolerance_deg = 1\n[elevation]\ntolerance_deg = 1\n")

@@ -13,9 +13,11 @@ from rotator.control.commands import Place
 from rotator.faults import Missing
 from rotator.orders import (
     Aim,
+    AxisPlan,
     Calibrate,
     ClearTimed,
     Confirm,
+    Fly,
     Home,
     Jog,
     Leave,
@@ -32,6 +34,7 @@ from rotator.orders import (
     SetMode,
     Source,
     Speed,
+    Step,
     Stop,
 )
 
@@ -43,7 +46,21 @@ PARKED_DEG = 0.0
 azimuths = st.floats(0, 540)
 elevations = st.floats(-90, 180)
 axes = st.sampled_from(Axis)
+moments_s = st.lists(st.floats(0, 200), min_size=2, max_size=4, unique=True).map(sorted)
+# A plan of any angles: what is beyond the limits must not be gone to, however it was made.
+axis_plans = st.builds(
+    AxisPlan,
+    st.floats(0, 200),
+    st.lists(st.floats(-90, 540), min_size=1, max_size=6).map(tuple),
+    st.lists(st.builds(Step, st.floats(0, 200), st.floats(-90, 540)), max_size=4).map(
+        lambda steps: tuple(sorted(steps, key=lambda step: step.leave_s))
+    ),
+)
+paths = moments_s.flatmap(
+    lambda rising_s: st.tuples(*(st.tuples(st.just(at_s), azimuths, elevations) for at_s in rising_s))
+)
 moves = st.one_of(
+    st.builds(Fly, st.just("SO-50"), paths, axis_plans, axis_plans),
     st.builds(Aim, azimuths, st.none() | elevations, st.booleans()),
     st.builds(Jog, axes, st.sampled_from(Direction), st.none() | st.floats(0, 5)),
     st.just(Park()),
@@ -124,7 +141,7 @@ class Rules:
         """When each axis was last driven on a good reading, and which way."""
 
     def note(self, source: Source, order: Order | None) -> None:
-        self.ordered = self.ordered or isinstance(order, Aim | Jog | Park | LoadTimed | Home)
+        self.ordered = self.ordered or isinstance(order, Aim | Fly | Jog | Park | LoadTimed | Home)
         match order:
             case Stop(axes, True) if len(axes) == len(Axis):
                 self.latched, self.storm = True, False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,8 +26,8 @@ from rotator.orders import (
     Source,
     Stop,
 )
-from rotator.protocols.console import VERBS, Ask, ConsoleCommand, parse
-from rotator.protocols.console_session import MAX_LINE, ConsoleSession
+from rotator.protocols.console import VERBS, Ask, ClockIsRight, ConsoleCommand, Track, parse
+from rotator.protocols.console_session import MAX_LINE, NO_PLACE, ConsoleSession
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
@@ -55,6 +56,11 @@ CANONICAL: list[tuple[bytes, ConsoleCommand]] = [
     (b"jog up 2", Jog(Axis.ELEVATION, Direction.PLUS, 2.0)),
     (b"jog down 5", Jog(Axis.ELEVATION, Direction.MINUS, 5.0)),
     (b"point 235 25.5", Aim(235.0, 25.5)),
+    (b"track iss", Track("iss")),
+    (b"track jn58td long", Track("jn58td long")),
+    (b"track off", Track("off")),
+    (b"track", Track("")),
+    (b"clock-is-right", ClockIsRight()),
     (b"panel mode manual", TurnMode(Mode.MANUAL)),
     (b"panel knob elevation 0.25", TurnKnob(Axis.ELEVATION, 0.25)),
     (b"panel jog ccw 1.5", ThrowJog(Axis.AZIMUTH, Direction.MINUS, 1.5)),
@@ -71,7 +77,8 @@ ALSO: list[tuple[bytes, ConsoleCommand]] = [
     (b"confirm azimuth -90", Confirm(Axis.AZIMUTH, -90.0)),
     (b"jog cw 1,5", Jog(Axis.AZIMUTH, Direction.PLUS, 1.5)),
 ]
-COMMANDS = "status, stop, resume, home, confirm, relays-checked, let-go, park, jog, point, panel, help"
+COMMANDS = "status, stop, resume, home, confirm, relays-checked, let-go, park, jog, point, track, "
+COMMANDS += "clock-is-right, panel, help"
 MISTAKES = [
     (b"parc", f"there is no command 'parc'; did you mean park? There are: {COMMANDS}"),
     (b"letgo", f"there is no command 'letgo'; did you mean let-go? There are: {COMMANDS}"),
@@ -303,3 +310,52 @@ def test_the_page_holds_the_table() -> None:
     rows = page.split("<!-- console: begin -->\n")[1].split("<!-- console: end -->\n")[0].strip().splitlines()[2:]
     escaped = [verb.usage.replace("|", "\\|") for verb in VERBS]
     assert rows == [f"| `{usage}` | {verb.help} |" for usage, verb in zip(escaped, VERBS, strict=True)]
+
+
+# --- the sky
+
+
+class Sky:
+    """What tracks: it knows the ISS alone."""
+
+    def __init__(self) -> None:
+        self.heard: list[str] = []
+        self.state = "off"
+
+    def track(self, words: str) -> str:
+        self.heard.append(words)
+        return "" if words == "iss" else f'"{words}" is not known'
+
+    def off(self) -> None:
+        self.heard.append("off")
+
+    def clock_is_right(self) -> None:
+        self.heard.append("the clock is right")
+
+
+def test_what_is_tracked_and_why_not(feed: Feed) -> None:
+    sky = Sky()
+    session = ConsoleSession(Notebook(), tracking=sky)
+    assert feed(session, b"track ISS\n") == [b"ok\n"]
+    assert feed(session, b"track xyz\n") == [b'error: "xyz" is not known\n']
+    assert feed(session, b"track\n") == [b"off\nok\n"]
+    assert feed(session, b"clock-is-right\ntrack off\n") == [b"ok\n", b"ok\n"]
+    assert sky.heard == ["iss", "xyz", "the clock is right", "off"]
+
+
+def test_without_a_place_nothing_is_tracked(feed: Feed) -> None:
+    session = ConsoleSession(Notebook())
+    assert feed(session, b"track iss\n") == [f"error: {NO_PLACE}\n".encode()]
+    assert feed(session, b"track\n") == [b"off\nok\n"]
+
+
+def test_while_a_stop_is_latched_nothing_is_tracked(feed: Feed) -> None:
+    class Stopped(Notebook):
+        def status(self) -> Status:
+            return replace(super().status(), latched="panel")
+
+    sky = Sky()
+    session = ConsoleSession(Stopped(), tracking=sky)
+    assert feed(session, b"track iss\n") == [b"error: stopped by panel: nothing moves until resume\n"]
+    assert feed(session, b"track off\n") == [b"ok\n"]
+    assert sky.heard == ["off"]

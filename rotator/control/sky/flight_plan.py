@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rotator.control.sky.angles import turn_deg
 from rotator.control.sky.known_path import KnownPath
-from rotator.control.sky.mount import Mount
+from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.pointing import LEAST_WEIGHT
 from rotator.control.sky.route import STEP_S, Speeds
 from rotator.control.sky.steps import Trail, best_steps
@@ -71,15 +71,16 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float) -> F
         Fly(
             name,
             path.rows,
-            _axis_plan(Trail(begin_s, azimuths_deg, flat), azimuth, now_s),
-            _axis_plan(Trail(begin_s, elevations_deg, up), elevation, now_s),
+            _axis_plan(Trail(begin_s, azimuths_deg, flat), azimuth, mount.azimuth, now_s),
+            _axis_plan(Trail(begin_s, elevations_deg, up), elevation, mount.elevation, now_s),
         ),
     )
 
 
-def _axis_plan(trail: Trail, motor: PlannedMotor, now_s: float) -> AxisPlan:
+def _axis_plan(trail: Trail, motor: PlannedMotor, limits: Range, now_s: float) -> AxisPlan:
     steps = _steps(trail, motor, now_s) if motor.switched else ()
-    return AxisPlan(trail.begin_s, tuple(trail.angles_deg), steps)
+    within = (replace(step, place_deg=limits.nearest(step.place_deg)) for step in steps)
+    return AxisPlan(trail.begin_s, tuple(map(limits.nearest, trail.angles_deg)), tuple(within))
 
 
 def _steps(trail: Trail, motor: PlannedMotor, now_s: float) -> tuple[Step, ...]:

@@ -1,0 +1,78 @@
+"""The next pass of a target over the configured station, to be flown by the box that tracks it by itself.
+
+Knows the configuration's elements. What judges the flight is the pass itself, not what the box believes.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from rotator.assembly.sky import TrackedBox, build_catalogue, build_site
+from rotator.config.model import Config
+from rotator.control.sky.flight_plan import Antenna
+from rotator.control.sky.mount import Mount
+from rotator.orbits.catalogue import Catalogue, Unknown
+from rotator.orbits.earth import Site
+from rotator.orbits.passes import passes
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import NotThere
+from rotator.orbits.targets import find
+from rotator.rehearsal.passes import Pass, PassError
+from rotator.runtime.loop import ControlLoop
+from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.next_flight import (
+    AHEAD_S,
+    SATELLITE_ROW_S,
+    SLOW_ROW_S,
+    NextFlight,
+    Now,
+    Wanted,
+    next_flight,
+    target_path,
+)
+from rotator.tracking.tracker import Tracker
+
+NO_PLACE = "the configuration names no place: write [station] with latitude_deg and longitude_deg, or locator"
+
+
+class _AtOnce:
+    """A plan takes no simulated time."""
+
+    def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
+        return next_flight(wanted, antenna, now)
+
+
+@dataclass(frozen=True, slots=True)
+class SkyTarget:
+    """`begin_utc_s`: when its pass begins."""
+
+    words: str
+    begin_utc_s: float
+    config: Config
+    site: Site
+    catalogue: Catalogue
+
+    def tracker(self, loop: ControlLoop, mount: Mount) -> Tracker:
+        """The tracker of a box in simulated time."""
+        sky = KnownSky(self.site, self.catalogue)
+        return Tracker(sky, _AtOnce(), TrackedBox(self.config, loop, mount), lambda: True)
+
+
+def next_pass(config: Config, words: str, after_utc_s: float) -> tuple[Pass, SkyTarget]:
+    """The target's first pass that ends after that moment, whole. Raises PassError."""
+    site, catalogue = build_site(config.station), build_catalogue(config.sky)
+    if site is None:
+        raise PassError(NO_PLACE)
+    try:
+        target = find(words, site, catalogue)
+        found = next(passes(target, after_utc_s, after_utc_s + AHEAD_S), None)
+    except (Unknown, NotThere) as reason:
+        raise PassError(str(reason)) from None
+    if found is None:
+        raise PassError(f"{target.name} does not rise within {AHEAD_S / 86_400:.0f} days")
+    if found.aos_s is None or found.los_s is None or not math.isfinite(found.los_s - found.aos_s):
+        raise PassError(f"{target.name} does not rise and set: there is no pass to fly")
+    row_s = SATELLITE_ROW_S if isinstance(target, Satellite) else SLOW_ROW_S
+    rows = target_path(target, found.aos_s, found.los_s, row_s, apart_s=found.aos_s).rows
+    return Pass(target.name, rows), SkyTarget(words, found.aos_s, config, site, catalogue)

@@ -1,0 +1,45 @@
+"""What the words of a person mean, by the elements that are known now.
+
+Knows the station and the catalogue. `find` may be called from any thread, `refresh` from one: a catalogue that is read
+anew replaces the old one whole.
+"""
+
+from __future__ import annotations
+
+import copy
+
+from rotator.orbits.catalogue import Catalogue
+from rotator.orbits.earth import Site
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.targets import Fixed, find
+from rotator.orders import Aim
+from rotator.tracking.next_flight import Wanted
+
+
+class KnownSky:
+    def __init__(self, site: Site, catalogue: Catalogue) -> None:
+        self._site = site
+        self._catalogue = catalogue
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """What is wrong with the files of elements."""
+        return self._catalogue.faults
+
+    def refresh(self) -> bool:
+        """Read the files that have changed. Returns whether one has."""
+        fresh = copy.copy(self._catalogue)
+        changed = fresh.refresh()
+        self._catalogue = fresh
+        return changed
+
+    def find(self, words: str) -> Wanted | Aim:
+        """A target that moves, or a fixed direction. Raises Unknown, NotThere."""
+        target = find(words, self._site, self._catalogue)
+        match target:
+            case Fixed(_, where):
+                return Aim(where.azimuth_deg, max(0.0, where.elevation_deg))
+            case Satellite():
+                return Wanted(words, self._site, target.elements)
+            case _:
+                return Wanted(words, self._site, None)

@@ -1,0 +1,112 @@
+"""The next flight to a target of the sky: its pass that is on or comes next, planned whole.
+
+Knows the target, the station and the antenna as it stands. It computes for up to some seconds, so `planner` gives it a
+process of its own. Knows no clock and no thread: both its moments are arguments.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from rotator.control.sky.flight_plan import Antenna, plan_flight
+from rotator.control.sky.known_path import KnownPath
+from rotator.orbits.catalogue import Catalogue
+from rotator.orbits.earth import Site
+from rotator.orbits.elements import Elements
+from rotator.orbits.passes import Pass, passes
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import NotThere, Target, expected_error_deg
+from rotator.orbits.targets import find
+from rotator.orders import Fly
+
+AHEAD_S = 7 * 86_400.0
+"""A target that does not rise within this time is not waited for."""
+LONGEST_S = 1800.0
+"""A target that is up for longer is flown in pieces."""
+SATELLITE_ROW_S, SLOW_ROW_S = 1.0, 20.0
+"""The time between two rows of the path."""
+JUDGED_S = 60.0
+"""The error to be expected is looked at so often in a pass."""
+
+
+class NeverRises(Exception):  # noqa: N818 - a sentence about a target
+    """It does not come over the horizon within `AHEAD_S`. The text names it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Now:
+    """One moment on two clocks: UTC in seconds since 1970, and the control loop's clock."""
+
+    utc_s: float
+    loop_s: float
+
+    @property
+    def apart_s(self) -> float:
+        """What is added to the loop's clock to have UTC."""
+        return self.utc_s - self.loop_s
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """A target as a plain value, for another process. `elements`: those of a satellite; None for all others."""
+
+    words: str
+    site: Site
+    elements: Elements | None
+
+    def target(self) -> Target:
+        """Raises NotThere, Unknown."""
+        if self.elements is not None:
+            return Satellite(self.elements, self.site)
+        return find(self.words, self.site, Catalogue(()))
+
+
+@dataclass(frozen=True, slots=True)
+class NextFlight:
+    """A pass, or a piece of one. `begin_utc_s`: when it rises, or the piece begins."""
+
+    begin_utc_s: float
+    end_utc_s: float
+    order: Fly
+
+
+def next_flight(wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
+    """Raises NeverRises, NotThere, Unknown."""
+    target = wanted.target()
+    found = next(passes(target, now.utc_s, now.utc_s + AHEAD_S), None)
+    if found is None:
+        raise NeverRises(f"{target.name} does not rise within {AHEAD_S / 86_400:.0f} days")
+    begin_s, end_s = _span(found, now.utc_s)
+    row_s = SATELLITE_ROW_S if wanted.elements is not None else SLOW_ROW_S
+    path = target_path(target, begin_s, end_s, row_s, now.apart_s)
+    order = plan_flight(target.name, path, antenna, now.loop_s).order
+    sets_s = math.inf if found.los_s is None else found.los_s - now.apart_s
+    order = replace(order, sets_s=sets_s, expected_error_deg=_error_deg(target, begin_s, end_s))
+    return NextFlight(begin_s, end_s, order)
+
+
+def target_path(target: Target, begin_s: float, end_s: float, row_s: float, apart_s: float = 0.0) -> KnownPath:
+    """Where it is from one moment of UTC to another, on a clock that is `apart_s` behind UTC."""
+    count = max(2, math.ceil((end_s - begin_s) / row_s) + 1)
+    moments_s = [min(begin_s + index * row_s, end_s) for index in range(count - 1)] + [max(end_s, begin_s + row_s)]
+    rows = []
+    for utc_s in dict.fromkeys(moments_s):
+        sight = target.sight(utc_s)
+        rows.append((utc_s - apart_s, sight.azimuth_deg, sight.elevation_deg))
+    return KnownPath(tuple(rows))
+
+
+def _span(found: Pass, now_s: float) -> tuple[float, float]:
+    """The pass, or its part from now on, as far as one flight goes."""
+    begin_s = now_s if found.aos_s is None else max(found.aos_s, now_s)
+    end_s = math.inf if found.los_s is None else found.los_s
+    return begin_s, min(end_s, begin_s + LONGEST_S)
+
+
+def _error_deg(target: Target, begin_s: float, end_s: float) -> float:
+    count = int((end_s - begin_s) / JUDGED_S) + 1
+    try:
+        return max(expected_error_deg(target, begin_s + index * JUDGED_S) for index in range(count))
+    except NotThere:
+        return 0.0

@@ -1,0 +1,55 @@
+"""The thread of the tracker: looks twice a second, and reads changed files of elements now and then.
+
+Knows time and threads. Does not know what is tracked.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+
+from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.next_flight import Now
+from rotator.tracking.planner import ProcessPlanner
+from rotator.tracking.tracker import Tracker
+
+log = logging.getLogger(__name__)
+
+LOOK_S = 0.5
+REFRESH_S = 60.0
+
+
+class TrackingThread:
+    def __init__(self, tracker: Tracker, sky: KnownSky, planner: ProcessPlanner) -> None:
+        self.tracker = tracker
+        self._sky = sky
+        self._planner = planner
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="tracking", daemon=True)
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Returns when the thread has ended; a plan that is under way is given up."""
+        self._stopping.set()
+        self._planner.close()
+        self._thread.join()
+
+    def _run(self) -> None:
+        refreshed_s, faults = time.monotonic(), self._tell(())
+        while not self._stopping.wait(LOOK_S):
+            now = Now(time.time(), time.monotonic())
+            if now.loop_s - refreshed_s >= REFRESH_S:
+                refreshed_s = now.loop_s
+                self._sky.refresh()
+                faults = self._tell(faults)
+            self.tracker.step(now)
+
+    def _tell(self, before: tuple[str, ...]) -> tuple[str, ...]:
+        """Each fault of a file of elements once."""
+        for fault in self._sky.faults:
+            if fault not in before:
+                log.warning("[sky] elements: %s", fault)
+        return self._sky.faults

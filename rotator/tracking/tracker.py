@@ -1,0 +1,188 @@
+"""Tracks one target from pass to pass: what a person asked for, the plan that is flown, and when a new one is due.
+
+Knows the status of the box, and gives orders as a link does. Another sender that takes the antenna ends it. Plans are
+computed elsewhere, for that takes long. Moments are arguments.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from rotator.control.sky.flight_plan import Antenna
+from rotator.orbits.catalogue import Unknown
+from rotator.orbits.sight import NotThere
+from rotator.orders import BOTH, Aim, Order, Source, Stop
+from rotator.status import Status
+from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
+
+log = logging.getLogger(__name__)
+
+TRACK = Source("track")
+TAKES_EFFECT_S = 2.0
+"""So soon after its order the antenna is seen to be this room's."""
+JUMPED_S = 0.25
+"""A clock that was set by more makes a new plan."""
+FRESH_S = 600.0
+BEFORE_S = 120.0
+"""A plan that is older than `FRESH_S` is made again so long before its pass, with the newest elements."""
+CLOCK_UNSURE = (
+    "nothing is tracked before this computer's clock is right: it has reached no time server yet. Where `date` shows "
+    "the right time: rotator track --clock-is-right NAME"
+)
+
+
+class Planner(Protocol):
+    def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
+        """Raises NeverRises, NotThere, Unknown; RuntimeError where the plan could not be made."""
+
+
+class Finder(Protocol):
+    def find(self, words: str) -> Wanted | Aim:
+        """A target that moves, or a fixed direction. Raises Unknown, NotThere."""
+
+
+class Box(Protocol):
+    """The box, as this room sees it. No call waits."""
+
+    def status(self) -> Status: ...
+
+    def antenna(self) -> Antenna | None:
+        """As it stands; None: its angles are not known."""
+
+    def order(self, order: Order) -> None:
+        """As from the link `TRACK`."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Flown:
+    flight: NextFlight
+    planned: Now
+    ordered_s: float
+
+
+class Tracker:
+    """`track`, `off` and `clock_is_right` may be called from any thread, `step` from one only.
+
+    `clock_trusted`: whether the system says that its clock is set.
+    """
+
+    def __init__(self, finder: Finder, planner: Planner, box: Box, clock_trusted: Callable[[], bool]) -> None:
+        self._finder = finder
+        self._planner = planner
+        self._box = box
+        self._clock_trusted = clock_trusted
+        self._clock_told = False
+        """A person has said that the clock is right."""
+        self._lock = threading.Lock()
+        self._words = ""
+        """What a person asked for; empty: nothing is tracked."""
+        self._asked = 0
+        """How many requests there were: a plan for an earlier one is not flown."""
+        self._flown: _Flown | None = None
+        self._ended = ""
+        """Why the latest tracking has ended by itself."""
+
+    # --- from a console
+
+    @property
+    def state(self) -> str:
+        """`off`, `planning`, `tracking`, or `ended: ` and the reason."""
+        with self._lock:
+            if self._words:
+                return "tracking" if self._flown else "planning"
+            return f"ended: {self._ended}" if self._ended else "off"
+
+    def track(self, words: str) -> str:
+        """Begin to track. Returns why not; empty: it does."""
+        try:
+            wanted = self._finder.find(words)
+        except (Unknown, NotThere) as reason:
+            return str(reason)
+        if isinstance(wanted, Aim):
+            self._begin("")
+            self._box.order(wanted)
+            return ""
+        if not (self._clock_told or self._clock_trusted()):
+            return CLOCK_UNSURE
+        self._begin(words)
+        return ""
+
+    def off(self) -> None:
+        """End it. The antenna stops, where this room moves it."""
+        tracked = self._begin("")
+        if tracked and self._box.status().controlled_by == str(TRACK):
+            self._box.order(Stop(BOTH))
+
+    def clock_is_right(self) -> None:
+        self._clock_told = True
+
+    def _begin(self, words: str) -> bool:
+        """Returns whether something was tracked before."""
+        with self._lock:
+            tracked = bool(self._words)
+            self._words, self._flown, self._ended = words, None, ""
+            self._asked += 1
+            return tracked
+
+    # --- from its thread
+
+    def step(self, now: Now) -> None:
+        """Look once. It may compute for seconds."""
+        with self._lock:
+            words, asked, flown = self._words, self._asked, self._flown
+        if not words:
+            return
+        status = self._box.status()
+        if flown is not None and (reason := _lost(flown, status, now)):
+            self._end(asked, words, reason)
+        elif flown is None or _is_over(flown, now):
+            self._fly(words, asked, now)
+
+    def _fly(self, words: str, asked: int, now: Now) -> None:
+        antenna = self._box.antenna()
+        if antenna is None:
+            self._end(asked, words, "the antenna's angles are not known")
+            return
+        try:
+            wanted = self._finder.find(words)
+            if isinstance(wanted, Aim):  # the words mean a direction now: a file of elements has gone
+                raise Unknown(f'"{words}" is no moving target any more')
+            flight = self._planner.plan(wanted, antenna, now)
+        except (Unknown, NotThere, NeverRises, RuntimeError) as reason:
+            self._end(asked, words, str(reason))
+            return
+        with self._lock:
+            if asked != self._asked:
+                return
+            self._flown = _Flown(flight, now, now.loop_s)
+            self._box.order(flight.order)
+
+    def _end(self, asked: int, words: str, reason: str) -> None:
+        with self._lock:
+            if asked != self._asked:
+                return
+            self._words, self._flown, self._ended = "", None, reason
+        log.warning("tracking of %s has ended: %s", words, reason)
+
+
+def _is_over(flown: _Flown, now: Now) -> bool:
+    """Whether a new plan is due."""
+    if now.utc_s >= flown.flight.end_utc_s or abs(now.apart_s - flown.planned.apart_s) > JUMPED_S:
+        return True
+    before_s = flown.flight.begin_utc_s - BEFORE_S
+    return flown.planned.utc_s < before_s - FRESH_S and now.utc_s >= before_s
+
+
+def _lost(flown: _Flown, status: Status, now: Now) -> str:
+    """Why the antenna is not this room's any more; empty: it is."""
+    if status.at_s < flown.ordered_s + TAKES_EFFECT_S or now.utc_s >= flown.flight.end_utc_s - 1.0:
+        return ""
+    if status.latched:
+        return f"stopped by {status.latched}"
+    if status.controlled_by != str(TRACK):
+        return f"{status.controlled_by} moves the antenna" if status.controlled_by else "the antenna was stopped"
+    return "the antenna was stopped" if status.flown is None else ""
