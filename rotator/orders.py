@@ -5,6 +5,7 @@ Knows the orders as values. Does not know who sends them, nor what they do.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
 
@@ -52,6 +53,33 @@ class AxisPlan:
     steps: tuple[Step, ...]
 
 
+DEPARTS_DEG = 1.5
+"""A stream has left a satellite's path when an order is further from it than its rounding and this."""
+BEARS_OUT_DEG = 0.5
+"""Orders of a program whose clock is so far ahead as supposed are as near to the path as their rounding and this."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stream:
+    """A program's orders, recognised as a satellite's path. `rounding_deg`: 1 for whole degrees."""
+
+    rounding_deg: float
+    ahead_s: tuple[float, float]
+    """The program's clock is ahead of the true time by the first of these at least, by the second at most."""
+
+    @property
+    def departs_deg(self) -> float:
+        """An order further than this from the path is not for that satellite."""
+        return self.rounding_deg + DEPARTS_DEG
+
+    def narrowed(self, apart_deg: Mapping[float, float]) -> tuple[float, ...]:
+        """Of clocks, those that the latest order bears out: by each it is so far from the path."""
+        nearest_deg = min(apart_deg.values())
+        return tuple(
+            ahead_s for ahead_s, deg in apart_deg.items() if deg <= max(nearest_deg, self.rounding_deg) + BEARS_OUT_DEG
+        )
+
+
 @dataclass(frozen=True, slots=True)
 class Fly:
     """Fly a pass that is known to its end, as planned. Moments are on the control loop's clock."""
@@ -65,6 +93,8 @@ class Fly:
     """When the target sets, where that is after the end of the path; infinite: it does not set."""
     expected_error_deg: float = 0.0
     """How far the target may be from its path, at most."""
+    stream: Stream | None = None
+    """The sender's own stream, which this flight takes the place of while its orders agree. None: no stream."""
 
 
 @dataclass(frozen=True, slots=True)

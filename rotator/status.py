@@ -135,6 +135,8 @@ class Status:
     storm: bool = False
     """The stop that is latched is a storm park, and the antenna is at it."""
     controlled_by: str = ""
+    recognised: str = ""
+    """The satellite that the orders follow, and whose true path the antenna takes; empty: there is none."""
     timed_point: int = 0
     timed_points: int = 0
     simulated: bool = False

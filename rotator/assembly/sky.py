@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 
-from rotator.assembly.settings import planned_motors
+from rotator.assembly.settings import build_mount, planned_motors
 from rotator.config.model import Config
 from rotator.config.sky import SkyTable
 from rotator.config.station import StationTable
 from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.mount import Mount
-from rotator.orbits.catalogue import Catalogue
+from rotator.control.sky.sectors import Place
+from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
 from rotator.orbits.locator import from_locator
-from rotator.orders import Order
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import NotThere
+from rotator.orbits.targets import Fixed, find
+from rotator.orders import Order, Source
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
 from rotator.tracking import system_clock
 from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.listener import StreamListener
+from rotator.tracking.planned import Followed
 from rotator.tracking.planner import ProcessPlanner
 from rotator.tracking.thread import TrackingThread
 from rotator.tracking.tracker import TRACK, Tracker
@@ -45,15 +52,45 @@ def build_catalogue(sky: SkyTable) -> Catalogue:
     return Catalogue(sky.elements)
 
 
+def build_followed(sky: SkyTable, site: Site, catalogue: Catalogue) -> tuple[list[Followed], list[str]]:
+    """What `[[sky.follow]]` names, and a sentence for each table whose target is not known or never rises."""
+    followed: dict[str, Followed] = {}
+    faults = []
+    for number, table in enumerate(sky.follow):
+        where = f"sky.follow[{number}]"
+        try:
+            target = find(table.name, site, catalogue)
+        except (Unknown, NotThere) as reason:
+            faults.append(f"{where}: {reason}")
+            continue
+        if isinstance(target, Fixed):
+            faults.append(f'{where}: "{table.name}" is a fixed direction: it has no passes')
+        elif target.name in followed:
+            faults.append(f'{where}: "{table.name}" is {target.name}, which is followed already')
+        else:
+            followed[target.name] = Followed(target, table.priority, table.min_culmination_deg)
+    return list(followed.values()), faults
+
+
+def build_antenna(config: Config, stands_deg: Place | None = None) -> Antenna:
+    """As a plan sees it: at the park position, unless told where it stands."""
+    mount = build_mount(config)
+    azimuth, elevation = planned_motors(config)
+    return Antenna(mount, azimuth, elevation, stands_deg or (mount.park_azimuth_deg, mount.park_elevation_deg))
+
+
 def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingThread | None:
     """Not started yet; None where the file names no place."""
     site = build_site(config.station)
     if site is None:
         return None
-    sky, planner = KnownSky(site, build_catalogue(config.sky)), ProcessPlanner()
+    sky, planner, box = KnownSky(site, build_catalogue(config.sky)), ProcessPlanner(), TrackedBox(config, loop, mount)
     # A simulated rotor may live at any time.
     trusted = system_clock.is_set if config.rotor.hardware == "pi" else lambda: True
-    return TrackingThread(Tracker(sky, planner, TrackedBox(config, loop, mount), trusted), sky, planner)
+    tracker = Tracker(sky, planner, box, trusted)
+    listener = StreamListener(sky, planner, box, time.time, tracker.clock_trusted)
+    loop.overhear(listener.hear)
+    return TrackingThread(tracker, listener, sky, planner)
 
 
 class TrackedBox:
@@ -73,5 +110,17 @@ class TrackedBox:
             return None
         return Antenna(self._mount, *self._motors, (azimuth_deg, elevation_deg))
 
-    def order(self, order: Order) -> None:
-        self._loop.post(TRACK, order)
+    def order(self, order: Order, source: Source = TRACK) -> None:
+        self._loop.post(source, order)
+
+
+def build_satellites(config: Config) -> list[Satellite]:
+    """Those whose elements the configuration names, as the station sees them; none without a place."""
+    site = build_site(config.station)
+    if site is None:
+        return []
+    satellites = []
+    for elements in build_catalogue(config.sky).satellites:
+        with suppress(NotThere):  # sgp4 refuses these elements
+            satellites.append(Satellite(elements, site))
+    return satellites

@@ -68,7 +68,13 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
 @click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the flight to this CSV file.")
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
 @click.option("--target", metavar="NAME", help="Fly the next pass of a satellite, Sun or Moon, tracked by the box.")
-@click.option("--at", "at_s", type=utc_time, metavar="UTC", help="With --target: its first pass that ends after this.")
+@click.option(
+    "--at",
+    "at_s",
+    type=utc_time,
+    metavar="UTC",
+    help="The pass begins then, and is recognised in the orders; with --target: the first pass that ends after this.",
+)
 @click.option("--arduino", is_flag=True, help="Fly the pass with the emulated Arduino instead of the box.")
 def rehearse(  # noqa: PLR0917 - click calls it by keyword
     path: Path | None,

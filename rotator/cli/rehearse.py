@@ -30,6 +30,11 @@ from rotator.rehearsal.passes import FORM, SHIPPED, Pass, PassError, find_pass, 
 from rotator.rehearsal.sky_target import next_pass
 from rotator.store.whole import write_whole
 
+NO_SKY = (
+    "--at is for a box that knows satellites: write [station] with latitude_deg and longitude_deg, or locator, and "
+    "[sky] elements into the file of --config"
+)
+
 
 def rehearse_pass(
     word: str | None,
@@ -39,13 +44,14 @@ def rehearse_pass(
     via: str,
     trace: Path | None,
     as_json: bool,
+    at_s: float | None,
     arduino: bool,
     target: str | None = None,
-    at_s: float | None = None,
 ) -> None:
     """`word`: the name of a shipped pass, or a file; None: list the names.
 
-    `target`: what the box tracks by itself, in its first pass that ends after `at_s` (UTC; None: now).
+    `target`: what the box tracks by itself, in its first pass that ends after `at_s`, in seconds since 1970; None: now.
+    Without a target the pass begins at `at_s`; None: the box knows no satellites.
     """
     logging.basicConfig(level=logging.WARNING, format="%(levelname).1s %(message)s")
     config = load(path)
@@ -67,7 +73,16 @@ def rehearse_pass(
         raise click.UsageError("--trace would write over the pass")
     if arduino and faults:
         raise click.UsageError("--fault is for the box, not for the Arduino")
-    make = plant_maker(config, via=via, arduino=arduino, faults=partial(parse_faults, faults), target=tracked)
+    if at_s is not None and target is None and not (config.station.is_known and config.sky.elements):
+        raise click.UsageError(NO_SKY)
+    make = plant_maker(
+        config,
+        via=via,
+        arduino=arduino,
+        faults=partial(parse_faults, faults),
+        utc_s=None if target else at_s,
+        target=tracked,
+    )
     with _progress(flown) as progress:
         rows, summary = fly(flown, make, progress)
     if trace is not None:
@@ -124,9 +139,12 @@ def _sentence(flown: Pass, summary: Summary, *, arduino: bool) -> str:
     work = ""
     if summary.relay_starts is not None:  # without relays no motor is switched on and off
         work = f"; {summary.relay_starts} relay starts, motors on for {summary.motor_s:.0f} s of {flown.end_s:.0f} s"
+    known = ""
+    if summary.recognised is not None:
+        known = f"; it recognised {summary.recognised.name} after {summary.recognised.after_s:.0f} s"
     return (
         f"{flown.name}: {flier} was off by {summary.rms_deg:.2f}° rms, {summary.p95_deg:.2f}° at 95 %, "
-        f"{summary.max_deg:.2f}° at worst{work}"
+        f"{summary.max_deg:.2f}° at worst{work}{known}"
     )
 
 

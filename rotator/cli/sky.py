@@ -1,4 +1,4 @@
-"""`rotator sky where` and `rotator sky passes`: what the box knows of the sky, for a person or as JSON.
+"""`rotator sky where`, `passes` and `plan`: what the box knows of the sky, for a person or as JSON.
 
 Knows the words and the columns. The sky itself is in `rotator.orbits`.
 """
@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.table import Table
 
 from rotator.assembly.sky import build_catalogue, build_site
+from rotator.cli import sky_plan
 from rotator.cli.utc import day_and_time, iso, local_time
 from rotator.config.load import load
 from rotator.config.model import Config
@@ -78,12 +79,28 @@ def show_passes(
     found = [each for target in targets for each in passes_of(target, from_s, from_s + hours * 3600, least_deg)]
     found.sort(key=lambda each: each.aos_s or from_s)
     if as_json:
-        click.echo(json.dumps([_as_dict(each) for each in found]))
+        plan = sky_plan.planned(config, site, catalogue, from_s, hours) if config.sky.follow else ()
+        flown = {(each.name, each.found.tca_s): each for each in reversed(plan) if each.flight}
+        told = [(each, flown.get((each.name, each.tca_s))) for each in found]
+        click.echo(json.dumps([{**_as_dict(each), "plan": how and sky_plan.as_dict(how)} for each, how in told]))
         return
     if not found:
         click.echo(NO_PASS)
         return
     _table(found)
+
+
+def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json: bool) -> None:
+    config = load(path or (INSTALLED if INSTALLED.exists() else None))
+    site, catalogue = _sky(config)
+    if not config.sky.follow:
+        raise click.ClickException(sky_plan.NOTHING)
+    from_s = time.time() if from_s is None else from_s
+    plan = sky_plan.planned(config, site, catalogue, from_s, hours)
+    if as_json:
+        click.echo(json.dumps([{**_as_dict(each.found), **sky_plan.as_dict(each)} for each in plan]))
+    else:
+        sky_plan.show(plan, from_s)
 
 
 def _sky(config: Config) -> tuple[Site, Catalogue]:
@@ -119,7 +136,6 @@ def _as_dict(each: Pass) -> dict[str, object]:
         "aos_az_deg": None if each.aos is None else round(each.aos.azimuth_deg, 2),
         "los_az_deg": None if each.los is None else round(each.los.azimuth_deg, 2),
         "max_el_deg": round(each.highest.elevation_deg, 2),
-        "plan": None,
     }
 
 

@@ -15,6 +15,12 @@ HOURS = Number("hours", 0.01, 24 * 14)
 JSON = click.option("--json", "as_json", is_flag=True, help="Print as JSON.")
 
 
+FROM = click.option(
+    "--from", "from_s", type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out."
+)
+AHEAD = click.option("--hours", type=HOURS, default=24.0, metavar="HOURS", help="How far ahead; 24 if left out.")
+
+
 @click.group(cls=Commands, epilog=examples("rotator sky where moon --config station.toml"))
 def sky() -> None:
     """Show where satellites, Sun and Moon are, and when they pass.
@@ -41,8 +47,8 @@ def where(path: Path | None, as_json: bool, at_s: float | None, words: tuple[str
 @click.command(epilog=examples("rotator sky passes iss so50 --hours 12 --least 10"))
 @CONFIG
 @JSON
-@click.option("--from", "from_s", type=utc_time, metavar="UTC", help="Such as 2026-11-22T18:30:00Z; now, if left out.")
-@click.option("--hours", type=HOURS, default=24.0, metavar="HOURS", help="How far ahead; 24 if left out.")
+@FROM
+@AHEAD
 @click.option(
     "--least",
     "least_deg",
@@ -64,4 +70,20 @@ def passes(  # noqa: PLR0917 - click calls it by keyword
     show_passes(path, names, from_s, hours, least_deg, as_json=as_json)
 
 
-sky.under("Commands", where, passes)
+@click.command(epilog=examples("rotator sky plan --hours 12"))
+@CONFIG
+@JSON
+@FROM
+@AHEAD
+def plan(path: Path | None, as_json: bool, from_s: float | None, hours: float) -> None:
+    """Show which passes the antenna flies.
+
+    Of the targets that [[sky.follow]] names: when it sets off for each pass, where it waits, and why a pass is left
+    out. The antenna begins at its park position.
+    """
+    from rotator.cli.sky import show_plan
+
+    show_plan(path, from_s, hours, as_json=as_json)
+
+
+sky.under("Commands", where, passes, plan)

@@ -30,7 +30,17 @@ def iso(utc_s: float) -> str:
 
 def day_and_time(utc_s: float) -> str:
     """`22 Nov 18:30:05`, in UTC, to the nearest second."""
-    return f"{datetime.fromtimestamp(round(utc_s), UTC):%d %b %H:%M:%S}"
+    return f"{day(utc_s)} {clock_time(utc_s)}"
+
+
+def day(utc_s: float) -> str:
+    """`22 Nov`, in UTC."""
+    return f"{datetime.fromtimestamp(round(utc_s), UTC):%d %b}"
+
+
+def clock_time(utc_s: float) -> str:
+    """`18:30:05`, in UTC, to the nearest second."""
+    return f"{datetime.fromtimestamp(round(utc_s), UTC):%H:%M:%S}"
 
 
 def local_time(utc_s: float) -> str:

@@ -90,9 +90,9 @@ def _mend(values: dict[str, Any], place: list[int | str]) -> None:
             return
         parent = parent[part]
     match parent, last:
-        case _ if place[:2] == ["mount", "forbidden"] and len(place) > 2:
-            # All keys of a sector but one must be given. A faulty one is left out, and the others with it.
-            values["mount"].pop("forbidden")
+        case _ if place[:2] in (["mount", "forbidden"], ["sky", "follow"]) and len(place) > 2:
+            # Such a table has keys that must be given. A faulty one is left out, and the others with it.
+            values[str(place[0])].pop(place[1])
         case dict(), "protocol":
             places = {"connect": "rotctld-follow", "udp": "pstrotator", "file": "wsjtx"}
             parent[last] = next((protocol for key, protocol in places.items() if key in parent), "rotctld")

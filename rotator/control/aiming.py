@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.flight import Flight
+from rotator.control.following import Following
 from rotator.control.going_round import GoingRound
 from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount
@@ -18,7 +19,7 @@ from rotator.control.sky.nudges import Nudges
 from rotator.control.sky.pointing import Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
-from rotator.orders import BOTH, Aim, Fly
+from rotator.orders import BOTH, Aim, Fly, Source
 from rotator.status import Flown
 
 
@@ -32,6 +33,8 @@ class Aiming:
         self._round = GoingRound(mount, axes)
         self._asked: Aim | None = None
         """The order in force, without the nudges; None: there is none."""
+        self._asked_s = 0.0
+        """When it came."""
         self._flight: Flight | None = None
         """The pass that is flown as planned; None: there is none."""
 
@@ -45,9 +48,15 @@ class Aiming:
         """The planned pass that is flown."""
         return self._flight.flown if self._flight else None
 
+    @property
+    def recognised(self) -> str:
+        """The satellite whose path is flown in place of a stream of orders; empty: there is none."""
+        return self._flight.name if self._flight is not None and self._flight.following is not None else ""
+
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
         self._flight = None
+        self._asked_s = now_s
         wanted = self._pointing.wanted
         asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
         aim = self._nudges.applied(asked)
@@ -73,6 +82,38 @@ class Aiming:
         self.forget(BOTH)
         self._flight = flight
         self._fly_on(now_s)
+
+    def fly_for_stream(self, order: Fly, source: Source, now_s: float) -> None:
+        """Fly a planned pass in place of a stream, where the order in force is one of that stream.
+
+        Raises Unreachable; then everything is as it was.
+        """
+        asked = self._asked
+        if asked is None or self._nudges.applied(asked) != asked:
+            return
+        following = Following(order, source, now_s)
+        if not following.agrees(source, asked, self._asked_s):
+            return
+        self._flight = Flight(order, self._mount, following)
+        self._fly_on(now_s)
+
+    def flies_on(self, source: Source, aim: Aim, now_s: float) -> bool:
+        """Whether this order is one of the stream in whose place a pass is flown, which then goes on."""
+        if self._flight is None or self._flight.following is None:
+            return False
+        if not self._flight.following.agrees(source, aim, now_s):
+            return False
+        self._asked, self._asked_s = aim, now_s
+        # Should the stream depart, it is followed on from here.
+        self._pointing.accompany(now_s, aim, self._flight.way(now_s))
+        return True
+
+    def end_following(self) -> None:
+        """No pass is flown in place of a stream any longer: the antenna stands until the next order."""
+        if self._flight is not None and self._flight.following is not None:
+            self._flight = self._asked = None
+            self._pointing.end_stream()
+            self._round.forget_paths()
 
     def park(self, now_s: float) -> None:
         """Go to the park position. Raises Unreachable."""
@@ -100,6 +141,7 @@ class Aiming:
 
     def end_stream(self) -> None:
         """No more orders come from that sender: the target stands at the last one."""
+        self.end_following()
         self._pointing.end_stream()
 
     def halt(self, axes: tuple[Axis, ...]) -> None:
@@ -134,8 +176,13 @@ class Aiming:
         assert self._flight is not None
         for axis, goal in self._flight.goals(now_s).items():
             self._round.aim(axis, goal)
-        self._pointing.show(self._flight.wanted(now_s))
+        wanted = self._flight.wanted(now_s)
+        if self._flight.following is None:
+            self._pointing.show(wanted)
+        else:
+            self._pointing.wanted = wanted
         if self._flight.ended(now_s):
+            self.end_following()
             self._flight = None
 
     def notices(self, axis: Axis) -> tuple[Notice, ...]:

@@ -54,6 +54,7 @@ from rotator.orders import (
     Source,
     Speed,
     Stop,
+    Stream,
 )
 from rotator.status import AxisStatus, Status
 
@@ -103,6 +104,7 @@ class Controller:
         if any(control.fault for control in self._axes.values()):
             # A list that went on when the fault is acknowledged would start a motor without an order.
             self._timed.halt()
+            self._aiming.end_following()
         if (point := self._timed.due(now_s)) is not None:
             self._point_at(Aim(*point), now_s)
         self._home_next(now_s)
@@ -151,6 +153,7 @@ class Controller:
             mode=self._authority.mode,
             mode_switch=self._settings.mode is not Mode.AUTO,
             flown=self._aiming.flown,
+            recognised=self._aiming.recognised,
             notices=self._authority.ignored(now_s),
             cycle_late_s=late_s,
         )
@@ -213,6 +216,8 @@ class Controller:
                 self._jogs.end(source)
                 if self._authority.left(source, now_s):
                     self._aiming.end_stream()
+            case Fly(stream=Stream()):
+                self._fly_for_stream(order, source, now_s)
             case _ if deed and self._authority.may_move(source, now_s, aims_of(order), deed=deed, homing=homing):
                 self._move(order, source, now_s)
 
@@ -223,6 +228,8 @@ class Controller:
         if not isinstance(order, Home):
             self._homing.clear()
         match order:
+            case Aim() if self._aiming.flies_on(source, order, now_s):
+                pass
             case Aim() | Fly():
                 self._point_at(order, now_s)
             case Park():
@@ -239,6 +246,17 @@ class Controller:
                 self._timed.run(now_s)
         if self._timed.running or any(control.busy for control in self._axes.values()):
             self._moved_s = now_s
+
+    def _fly_for_stream(self, order: Fly, source: Source, now_s: float) -> None:
+        """What a recognised stream asks for, flown as planned. It takes the antenna from nobody: the plan took a while
+        to compute, and what has happened since stays in force."""
+        moves = self._authority.controlled_by == source and not self._timed.running
+        if not moves or any(control.fault for control in self._axes.values()):
+            return
+        try:
+            self._aiming.fly_for_stream(order, source, now_s)
+        except Unreachable as reason:
+            self.troubles.append(str(reason))
 
     def _point_at(self, order: Aim | Fly, now_s: float) -> None:
         try:

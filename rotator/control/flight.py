@@ -8,10 +8,12 @@ from __future__ import annotations
 from bisect import bisect_right
 
 from hw.ports import Axis
+from rotator.control.following import Following
 from rotator.control.sky.known_path import KnownPath
-from rotator.control.sky.mount import Mount, Range, Unreachable
+from rotator.control.sky.mount import ZENITH_DEG, Mount, Range, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import EVEN, AimGoal
+from rotator.control.sky.route import Way
 from rotator.orders import PLAN_STEP_S, Aim, AxisPlan, Fly
 from rotator.status import Flown
 
@@ -22,11 +24,16 @@ AGAIN_S = 0.5
 
 
 class Flight:
-    """Raises Unreachable where the plan leaves the limits of an axis."""
+    """`following`: the stream in whose place it is flown; None: it is flown for itself.
 
-    def __init__(self, order: Fly, mount: Mount) -> None:
+    Raises Unreachable where the plan leaves the limits of an axis.
+    """
+
+    def __init__(self, order: Fly, mount: Mount, following: Following | None = None) -> None:
         _check(order.azimuth, mount.azimuth, Axis.AZIMUTH)
         _check(order.elevation, mount.elevation, Axis.ELEVATION)
+        self.name = order.name
+        self.following = following
         self._path = KnownPath(order.path)
         self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
         sets_s = self._path.end_s if order.sets_s is None else order.sets_s
@@ -39,8 +46,18 @@ class Flight:
         """The target's direction, for the display."""
         return Aim(*self._path.direction(now_s))
 
+    def way(self, now_s: float) -> Way:
+        """The way that it has chosen, as far as it is flown."""
+        azimuth_deg, elevation_deg = (_angle_deg(plan, now_s) for plan in self._plans.values())
+        return Way(azimuth_deg, elevation_deg > ZENITH_DEG)
+
     def ended(self, now_s: float) -> bool:
-        """Whether the target stands still from now on."""
+        """Whether it is over: the target stands still from now on, or the stream has ended in whose place it is flown.
+
+        The program may go on for a while after the target has set.
+        """
+        if self.following is not None:
+            return self.following.silent(now_s)
         return now_s >= self._path.end_s and all(now_s >= _end_s(plan) for plan in self._plans.values())
 
     def goals(self, now_s: float) -> dict[Axis, AimGoal]:

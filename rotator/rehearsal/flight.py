@@ -8,18 +8,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
-from typing import Protocol
+from dataclasses import asdict, dataclass, replace
+from typing import Any, Protocol
 
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from rotator.assembly.arduino import arduino_station
 from rotator.assembly.settings import build_controller, build_mount, build_offsets, planned_motors
+from rotator.assembly.sky import build_satellites
 from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
+from rotator.orbits.recognition import StreamWatch
 from rotator.orders import Order, Source
 from rotator.protocols.gs232 import Command, Dialect, encode
 from rotator.protocols.gs232_session import Gs232Session
@@ -27,6 +29,7 @@ from rotator.protocols.rotctld import Request
 from rotator.protocols.rotctld import encode as encode_request
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.protocols.session import Session
+from rotator.rehearsal.overhearing import Overhearing, Told
 from rotator.rehearsal.passes import Pass
 from rotator.rehearsal.sky_target import SkyTarget
 from rotator.runtime.client import Client
@@ -72,9 +75,11 @@ class Summary:
     max_deg: float
     relay_starts: int | None
     motor_s: float
+    recognised: Told | None = None
+    """The satellite that the box has recognised in the stream; None: none."""
 
-    def as_dict(self) -> dict[str, float | int | None]:
-        return {key: round(value, 3) if isinstance(value, float) else value for key, value in asdict(self).items()}
+    def as_dict(self) -> dict[str, object]:
+        return _rounded(asdict(self))
 
 
 class Plant(Protocol):
@@ -96,17 +101,31 @@ class Plant(Protocol):
     def relay_starts(self) -> int | None:
         """None: there are no relays."""
 
+    def recognised(self) -> Told | None:
+        """The satellite that it has recognised in its orders."""
+
 
 class BoxPlant:
     """The box, from its protocol to its relays, on simulated chips.
 
-    `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand.
+    `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand. `utc_s`: the pass begins
+    then, in seconds since 1970, and the box listens which of the satellites it knows the orders follow.
     """
 
     def __init__(
-        self, config: Config, clock: SimClock, start_deg: tuple[float, float], via: str, target: SkyTarget | None = None
+        self,
+        config: Config,
+        clock: SimClock,
+        start_deg: tuple[float, float],
+        via: str,
+        *,
+        utc_s: float | None = None,
+        target: SkyTarget | None = None,
     ) -> None:
-        """`target`: what the box tracks by itself, by its own elements; None: the pass is told to it."""
+        """`target`: what the box tracks by itself, by its own elements; None: the pass is told to it.
+
+        `utc_s`: when the pass begins; None: no satellite is recognised.
+        """
         self.early_s = KNOWN_S if via == "track" or target else 0.0
         self._target = target
         self._clock = clock
@@ -122,6 +141,11 @@ class BoxPlant:
         client = Client(self._loop, self._mount, Source(via), clock=clock)
         self._session: Session = RotctldSession(client) if via == "rotctld" else Gs232Session(client, Dialect.B)
         self._encode = _rotctld_order if via == "rotctld" else _gs232_order
+        self._overhearing: Overhearing | None = None
+        if utc_s is not None:
+            apart_s = utc_s - clock()
+            watch = StreamWatch(build_satellites(config))
+            self._overhearing = Overhearing(self._loop, watch, clock, lambda: clock() + apart_s, self._antenna)
 
     def inject(self, at_s: float, name: str) -> None:
         """Let the named fault begin at this moment of simulated time."""
@@ -153,15 +177,20 @@ class BoxPlant:
             self._clock.every(1.0, lambda now_s: tracker.step(Now(now_s + apart_s, now_s)))
             return
         path = KnownPath(tuple((begin_s + t_s, az_deg, el_deg) for t_s, az_deg, el_deg in flown.rows))
-        stands = self.status.azimuth.angle_deg or 0.0, self.status.elevation.angle_deg or 0.0
-        plan = plan_flight(flown.name, path, Antenna(self._mount, *self._motors, stands), self._clock())
+        plan = plan_flight(flown.name, path, self._antenna(), self._clock())
         self._loop.post(Source("track"), plan.order)
+
+    def _antenna(self) -> Antenna:
+        stands_deg = self.status.azimuth.angle_deg or 0.0, self.status.elevation.angle_deg or 0.0
+        return Antenna(self._mount, *self._motors, stands_deg)
 
     def run_until(self, moment_s: float) -> None:
         first, last = (math.ceil(at_s / self._period_s - 1e-9) for at_s in (self._clock(), moment_s + self._period_s))
         for count in range(first, last):
             self._clock.sleep_until(count * self._period_s)
             self._loop.cycle()
+            if self._overhearing is not None:
+                self._overhearing.look()
 
     def pointing(self) -> tuple[float, float, int, int]:
         # The simulated boom has the rotor's own scale. The mount's offset makes it a true direction.
@@ -173,6 +202,9 @@ class BoxPlant:
 
     def relay_starts(self) -> int | None:
         return self.world.relay_starts
+
+    def recognised(self) -> Told | None:
+        return self._overhearing.told if self._overhearing else None
 
 
 class ArduinoPlant:
@@ -199,6 +231,9 @@ class ArduinoPlant:
     def relay_starts(self) -> int:
         return self._station.relay_starts
 
+    def recognised(self) -> None:
+        """It knows no satellites."""
+
 
 Faults = Callable[[SimRotor], Sequence[tuple[float, str]]]
 """Which faults the simulated rotor has: (moment in seconds, name)."""
@@ -214,19 +249,20 @@ def plant_maker(
     via: str = "gs232",
     arduino: bool = False,
     faults: Faults = no_faults,
+    utc_s: float | None = None,
     target: SkyTarget | None = None,
 ) -> Callable[[SimClock, Pass], Plant]:
     """A function that builds the plant for a clock and a pass. The antenna starts at the pass's first azimuth, level.
 
-    `via`: the protocol of the orders. `arduino`: build the emulated Arduino; it ignores `via` and `faults`. `target`:
-    what the box tracks by itself.
+    `via`: the protocol of the orders. `arduino`: build the emulated Arduino; it ignores all others.
+    `utc_s`: when the pass begins; None: no satellite is recognised. `target`: what the box tracks by itself.
     """
 
     def make(clock: SimClock, flown: Pass) -> Plant:
         start_deg = (flown.rows[0][1], 0.0)
         if arduino:
             return ArduinoPlant(config, clock, start_deg)
-        box = BoxPlant(config, clock, start_deg, via, target)
+        box = BoxPlant(config, clock, start_deg, via, utc_s=utc_s, target=target)
         for at_s, name in faults(box.world):
             box.inject(at_s, name)
         return box
@@ -263,7 +299,7 @@ def fly(
     else:
         clock.every(1.0, order)
     plant.run_until(begin_s + flown.end_s)
-    return trace, summarise(trace, plant.relay_starts())
+    return trace, replace(summarise(trace, plant.relay_starts()), recognised=plant.recognised())
 
 
 def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:
@@ -278,6 +314,13 @@ def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:
         relay_starts=relay_starts,
         motor_s=sum(abs(sample.az_drive) + abs(sample.el_drive) for sample in trace) * SAMPLE_S,
     )
+
+
+def _rounded(values: dict[str, Any]) -> dict[str, object]:
+    return {
+        key: _rounded(value) if isinstance(value, dict) else round(value, 3) if isinstance(value, float) else value
+        for key, value in values.items()
+    }
 
 
 def _gs232_order(azimuth_deg: float, elevation_deg: float) -> bytes:

@@ -18,6 +18,7 @@ from rotator.orbits.passes import passes
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
 from rotator.orbits.targets import find
+from rotator.orders import Fly
 from rotator.rehearsal.passes import Pass, PassError
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.known_sky import KnownSky
@@ -29,6 +30,7 @@ from rotator.tracking.next_flight import (
     Now,
     Wanted,
     next_flight,
+    rest_flight,
     target_path,
 )
 from rotator.tracking.tracker import Tracker
@@ -41,6 +43,9 @@ class _AtOnce:
 
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
         return next_flight(wanted, antenna, now)
+
+    def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
+        return rest_flight(wanted, antenna, now)
 
 
 @dataclass(frozen=True, slots=True)

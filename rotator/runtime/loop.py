@@ -59,6 +59,7 @@ class ControlLoop:
         self._wake = threading.Event()
         self._inbox = Inbox(self._wake.set)
         self._sensors = SensorThread(rotor, clock, period_s, self._journal, self._wake.set)
+        self._listener: Callable[[Source, Order], None] = lambda _source, _order: None
         self._stopping = False
         self._late_s = 0.0
         self._supply_cut = False
@@ -72,6 +73,11 @@ class ControlLoop:
         source that waits as well, so a flood of orders costs little and the newest wins.
         """
         self._inbox.post(source, order, can_wait=can_wait)
+        self._listener(source, order)
+
+    def overhear(self, listener: Callable[[Source, Order], None]) -> None:
+        """From now on tell this listener of every order too, in the thread that posts it. It must not wait."""
+        self._listener = listener
 
     def cycle(self) -> None:
         """Read every sensor, then act: the whole loop in one thread, for simulated time."""

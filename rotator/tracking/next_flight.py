@@ -15,6 +15,7 @@ from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
 from rotator.orbits.passes import Pass, passes
+from rotator.orbits.recognition import rest_of_pass
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, Target, expected_error_deg
 from rotator.orbits.targets import find
@@ -84,6 +85,17 @@ def next_flight(wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
     sets_s = math.inf if found.los_s is None else found.los_s - now.apart_s
     order = replace(order, sets_s=sets_s, expected_error_deg=_error_deg(target, begin_s, end_s))
     return NextFlight(begin_s, end_s, order)
+
+
+def rest_flight(wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
+    """What is left of a pass that is on, as a program sends it already. Raises NotThere, Unknown."""
+    target = wanted.target()
+    rows = rest_of_pass(target, now.utc_s)
+    path = KnownPath(
+        tuple((utc_s - now.apart_s, azimuth_deg, elevation_deg) for utc_s, azimuth_deg, elevation_deg in rows)
+    )
+    order = plan_flight(target.name, path, antenna, now.loop_s).order
+    return replace(order, expected_error_deg=_error_deg(target, now.utc_s, now.utc_s + JUDGED_S))
 
 
 def target_path(target: Target, begin_s: float, end_s: float, row_s: float, apart_s: float = 0.0) -> KnownPath:

@@ -8,15 +8,19 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
+from typing import Any, TypeVar
 
 from rotator.control.sky.flight_plan import Antenna
-from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight
+from rotator.orders import Fly
+from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight, rest_flight
 
 POLITE = 10
 """Its niceness: what turns the motors comes first."""
 LONGEST_S = 120.0
 """A plan that takes longer is given up."""
+Result = TypeVar("Result")
 
 
 class ProcessPlanner:
@@ -27,12 +31,19 @@ class ProcessPlanner:
 
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
         """Raises NeverRises, NotThere, Unknown; RuntimeError where the process fails."""
+        return self._compute(next_flight, wanted, antenna, now)
+
+    def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
+        """Raises NotThere; RuntimeError where the process fails."""
+        return self._compute(rest_flight, wanted, antenna, now)
+
+    def _compute(self, job: Callable[[Wanted, Antenna, Now], Result], *given: Any) -> Result:
         if self._pool is None:
             # Spawned: a copy of this process would hold its relay lines and sockets.
             spawn = multiprocessing.get_context("spawn")
             self._pool = ProcessPoolExecutor(1, mp_context=spawn, initializer=_begin)
         try:
-            return self._pool.submit(next_flight, wanted, antenna, now).result(LONGEST_S)
+            return self._pool.submit(job, *given).result(LONGEST_S)
         except (BrokenExecutor, TimeoutError) as failure:
             self.close()
             raise RuntimeError(f"the plan could not be made ({failure or type(failure).__name__})") from None

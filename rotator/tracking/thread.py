@@ -10,6 +10,7 @@ import threading
 import time
 
 from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_flight import Now
 from rotator.tracking.planner import ProcessPlanner
 from rotator.tracking.tracker import Tracker
@@ -20,9 +21,14 @@ LOOK_S = 0.5
 REFRESH_S = 60.0
 
 
+def _now() -> Now:
+    return Now(time.time(), time.monotonic())
+
+
 class TrackingThread:
-    def __init__(self, tracker: Tracker, sky: KnownSky, planner: ProcessPlanner) -> None:
+    def __init__(self, tracker: Tracker, listener: StreamListener, sky: KnownSky, planner: ProcessPlanner) -> None:
         self.tracker = tracker
+        self._listener = listener
         self._sky = sky
         self._planner = planner
         self._stopping = threading.Event()
@@ -40,12 +46,13 @@ class TrackingThread:
     def _run(self) -> None:
         refreshed_s, faults = time.monotonic(), self._tell(())
         while not self._stopping.wait(LOOK_S):
-            now = Now(time.time(), time.monotonic())
-            if now.loop_s - refreshed_s >= REFRESH_S:
-                refreshed_s = now.loop_s
-                self._sky.refresh()
+            if _now().loop_s - refreshed_s >= REFRESH_S:
+                refreshed_s = _now().loop_s
+                if self._sky.refresh():
+                    self._listener.know()
                 faults = self._tell(faults)
-            self.tracker.step(now)
+            self._listener.step(_now)
+            self.tracker.step(_now())
 
     def _tell(self, before: tuple[str, ...]) -> tuple[str, ...]:
         """Each fault of a file of elements once."""

@@ -15,7 +15,7 @@ from typing import Protocol
 from rotator.control.sky.flight_plan import Antenna
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.orders import BOTH, Aim, Order, Source, Stop
+from rotator.orders import BOTH, Aim, Fly, Order, Source, Stop
 from rotator.status import Status
 from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
 
@@ -39,6 +39,9 @@ class Planner(Protocol):
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
         """Raises NeverRises, NotThere, Unknown; RuntimeError where the plan could not be made."""
 
+    def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
+        """What is left of a pass that is on. Raises NotThere, RuntimeError."""
+
 
 class Finder(Protocol):
     def find(self, words: str) -> Wanted | Aim:
@@ -53,8 +56,7 @@ class Box(Protocol):
     def antenna(self) -> Antenna | None:
         """As it stands; None: its angles are not known."""
 
-    def order(self, order: Order) -> None:
-        """As from the link `TRACK`."""
+    def order(self, order: Order, source: Source = TRACK) -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +108,7 @@ class Tracker:
             self._begin("")
             self._box.order(wanted)
             return ""
-        if not (self._clock_told or self._clock_trusted()):
+        if not self.clock_trusted():
             return CLOCK_UNSURE
         self._begin(words)
         return ""
@@ -119,6 +121,10 @@ class Tracker:
 
     def clock_is_right(self) -> None:
         self._clock_told = True
+
+    def clock_trusted(self) -> bool:
+        """By the system, or by a person's word."""
+        return self._clock_told or self._clock_trusted()
 
     def _begin(self, words: str) -> bool:
         """Returns whether something was tracked before."""

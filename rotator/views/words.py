@@ -69,11 +69,12 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
     source = status.controlled_by
     if not source:
         return "no orders"
-    if status.flown is not None:
+    if status.flown is not None and not status.recognised:
         return f"tracks {status.flown.name}, {rise_or_set(status.flown, status.at_s)}"
     where = next((wire.where for wire in wires if source.partition("#")[0] == wire.name), "")
+    recognised = f", recognised as {status.recognised}" if status.recognised else ""
     point = f", point {status.timed_point} of {status.timed_points}" if status.timed_points else ""
-    return f"orders from {source}{point}" + (f" ({where})" if where else "")
+    return f"orders from {source}{recognised}{point}" + (f" ({where})" if where else "")
 
 
 def rise_or_set(flown: Flown, now_s: float) -> str:

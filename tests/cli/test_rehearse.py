@@ -16,7 +16,7 @@ import pytest
 from rotator.cli.main import main
 from rotator.config.load import shipped
 
-KEYS = ["rms_deg", "p95_deg", "max_deg", "relay_starts", "motor_s"]
+KEYS = ["rms_deg", "p95_deg", "max_deg", "relay_starts", "motor_s", "recognised"]
 COLUMNS = ["t", "target_az", "target_el", "antenna_az", "antenna_el", "az_drive", "el_drive"]
 Rotator = Callable[..., Any]
 

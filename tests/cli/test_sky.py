@@ -1,9 +1,10 @@
-"""`rotator sky where` and `rotator sky passes`, as a person types them."""
+"""`rotator sky where`, `passes` and `plan`, as a person types them."""
 
 from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -18,9 +19,15 @@ EVENING = "2025-03-01T00:00:00Z"
 EVENING_S = 1_740_787_200.0
 
 
-def told(folder: Path, *words: str, place: str = 'locator = "JN18eu"', elements: Path = skyfield_oracle.TLE) -> Result:
+def told(
+    folder: Path,
+    *words: str,
+    place: str = 'locator = "JN18eu"',
+    elements: Path = skyfield_oracle.TLE,
+    more: str = "",
+) -> Result:
     config = folder / "rotator.toml"
-    config.write_text(f'[station]\n{place}\n[sky]\nelements = ["{elements}"]\n', encoding="utf-8")
+    config.write_text(f'[station]\n{place}\n[sky]\nelements = ["{elements}"]\n{more}', encoding="utf-8")
     return CliRunner().invoke(cli, ["sky", *words, "--config", str(config)])
 
 
@@ -91,3 +98,74 @@ def test_a_file_that_cannot_be_read_is_named_and_the_sun_still_found(tmp_path: P
     result = told(tmp_path, "where", "sun", "--json", elements=tmp_path / "gone.tle")
     assert "gone.tle: no such file" in result.stderr
     assert math.isfinite(json.loads(result.stdout)["az_deg"])
+
+
+FOLLOW = """
+[[sky.follow]]
+name = "ISS"
+priority = 3
+[[sky.follow]]
+name = "so50"
+min_culmination_deg = 30
+"""
+
+
+def test_a_plan_as_json(tmp_path: Path) -> None:
+    plan = read(told(tmp_path, "plan", "--from", EVENING, "--hours", "12", "--json", more=FOLLOW))
+    fields = ["name", "aos", "los", "tca", "aos_az_deg", "los_az_deg", "max_el_deg", "set_off", "from", "until"]
+    assert list(plan[0]) == [*fields, "wait_az_deg", "wait_el_deg", "over_the_top", "lost_s", "flown", "reason"]
+    flown = [each for each in plan if each["flown"]]
+    assert {each["name"] for each in flown} == {"ISS", "SO-50"}
+    for each in flown:
+        assert each["set_off"] < each["aos"] <= each["from"] < each["until"] <= each["los"]
+        # At an end of its range it waits a few degrees beside the rise, where that saves an unwind.
+        off_deg = abs(math.remainder(each["wait_az_deg"] - each["aos_az_deg"], 360))
+        assert off_deg < (10 if each["wait_az_deg"] in (0, 450) else 0.02)
+    out = [each for each in plan if not each["flown"]]
+    assert out
+    assert all(each["max_el_deg"] < 30 and "below the 30° asked" in each["reason"] for each in out)
+    assert {each["set_off"] for each in out} == {None}
+
+
+def test_a_pass_tells_its_part_of_the_plan(tmp_path: Path) -> None:
+    asked = ("--from", EVENING, "--hours", "12", "--json")
+    plan = {each["aos"]: each for each in read(told(tmp_path, "plan", *asked, more=FOLLOW)) if each["flown"]}
+    found = read(told(tmp_path, "passes", *asked, more=FOLLOW))
+    assert len(found) > len(plan) > 3
+    for each in found:
+        expected = plan.get(each["aos"])
+        assert each["plan"] == (expected and {key: expected[key] for key in each["plan"]})
+
+
+def test_passes_without_anything_followed_have_no_plan(tmp_path: Path) -> None:
+    found = read(told(tmp_path, "passes", "--from", EVENING, "--hours", "3", "--json"))
+    assert [each["plan"] for each in found] == [None] * len(found)
+
+
+def test_a_plan_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:
+    text = told(tmp_path, "plan", "--from", EVENING, more=FOLLOW).stdout
+    assert "01 Mar" in text
+    assert re.search(r"00:00:11 .* 1[01] min +\d+°  ISS    sets off 00:00:00, waits at \d+°", text)
+    assert "– culminates at" in text
+    assert max(len(line.rstrip()) for line in text.splitlines()) <= 80
+
+
+def test_who_follows_nothing_is_told_how(tmp_path: Path) -> None:
+    result = told(tmp_path, "plan")
+    assert result.exit_code == 1
+    assert 'write [[sky.follow]] into the file and below it, for example, name = "ISS"' in result.output
+
+
+def test_a_followed_name_that_is_not_known_is_named_and_the_others_are_planned(tmp_path: Path) -> None:
+    isx = '[[sky.follow]]\nname = "isx"\n[[sky.follow]]\nname = "25544"\n[[sky.follow]]\nname = "180 45"\n'
+    result = told(tmp_path, "plan", "--from", EVENING, "--json", more=FOLLOW + isx)
+    assert 'sky.follow[2]: "isx" is not among the 3 satellites known; perhaps ISS?' in result.stderr
+    assert 'sky.follow[3]: "25544" is ISS, which is followed already' in result.stderr
+    assert 'sky.follow[4]: "180 45" is a fixed direction: it has no passes' in result.stderr
+    assert {each["name"] for each in json.loads(result.stdout)} == {"ISS", "SO-50"}
+
+
+def test_where_no_followed_name_is_known_there_is_no_plan(tmp_path: Path) -> None:
+    result = told(tmp_path, "plan", more='[[sky.follow]]\nname = "isx"\n')
+    assert result.exit_code == 1
+    assert "none of the followed targets is known" in result.output

@@ -23,10 +23,11 @@ from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import Pass, passes
 from rotator.orbits.targets import find
-from rotator.orders import BOTH, Aim, Jog, Release, Source, Stop
+from rotator.orders import BOTH, Aim, Fly, Jog, Release, Source, Stop
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.known_sky import KnownSky
-from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight
+from rotator.tracking.listener import StreamListener
+from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight, rest_flight
 from rotator.tracking.tracker import CLOCK_UNSURE, Tracker
 
 ELEMENTS = Path(__file__).parents[1] / "orbits" / "elements-2025.tle"
@@ -46,6 +47,9 @@ class InThisProcess:
         self.plans.append((now, next_flight(wanted, antenna, now)))
         return self.plans[-1][1]
 
+    def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
+        return rest_flight(wanted, antenna, now)
+
 
 class Box:
     def __init__(self, begin_utc_s: float, site: Site = BERLIN) -> None:
@@ -59,9 +63,15 @@ class Box:
         self.planner = InThisProcess()
         self.clock_trusted = True
         sky = KnownSky(site, Catalogue((str(ELEMENTS),)))
-        self.tracker = Tracker(sky, self.planner, TrackedBox(config, self.loop, mount), lambda: self.clock_trusted)
+        tracked = TrackedBox(config, self.loop, mount)
+        self.tracker = Tracker(sky, self.planner, tracked, lambda: self.clock_trusted)
+        self._listener = StreamListener(sky, self.planner, tracked, lambda: self.utc_s, self.tracker.clock_trusted)
+        self.loop.overhear(self._listener.hear)
         self._begin_utc_s = begin_utc_s
         self.wait(1.0)
+
+    def _now(self) -> Now:
+        return Now(self.utc_s, self.clock())
 
     @property
     def utc_s(self) -> float:
@@ -79,7 +89,8 @@ class Box:
             for _ in range(10):
                 self.clock.sleep(PERIOD_S)
                 self.loop.cycle()
-            self.tracker.step(Now(self.utc_s, self.clock()))
+            self._listener.step(self._now)
+            self.tracker.step(self._now())
         return until()
 
     def off_deg(self, name: str) -> float:
@@ -232,3 +243,38 @@ def test_a_target_that_never_rises_is_told(rise: Box) -> None:
     assert south.tracker.track("cas a") == ""
     south.wait(2.0)
     assert south.tracker.state == "ended: Cas A does not rise within 7 days"
+
+
+# --- a program sends the directions of a satellite
+
+
+def sends(box: Box, seconds: int, off_deg: float = 0.0) -> None:
+    """Whole degrees, once a second, by a clock that is three seconds ahead."""
+    iss = find("iss", BERLIN, Catalogue((str(ELEMENTS),)))
+    for _ in range(seconds):
+        sight = iss.sight(box.utc_s + 3.0)
+        box.loop.post(PC, Aim(round(sight.azimuth_deg + off_deg) % 360.0, max(0.0, round(sight.elevation_deg))))
+        box.wait(1.0)
+
+
+@pytest.fixture
+def up(rise: Box) -> Box:
+    """The ISS rose half a minute ago."""
+    return Box(rise.utc_s + 210.0)
+
+
+def test_its_satellite_is_named_and_flown_until_its_orders_depart(up: Box) -> None:
+    sends(up, 14)
+    assert up.loop.status.recognised.startswith("ISS")
+    assert up.loop.status.controlled_by == str(PC), "the antenna is the program's still"
+    sends(up, 60)
+    assert up.loop.status.recognised.startswith("ISS")
+    sends(up, 1, off_deg=8.0)
+    assert up.loop.status.recognised == ""
+    assert up.loop.status.flown is None
+
+
+def test_while_the_clock_may_be_wrong_no_satellite_is_flown(up: Box) -> None:
+    up.clock_trusted = False
+    sends(up, 20)
+    assert up.loop.status.recognised == ""

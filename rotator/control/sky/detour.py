@@ -83,7 +83,7 @@ class Detours:
         first = self._seen_from(here)
         zones = [near if zone.box.meets(here) else zone for near, zone in zip(first, self._zones, strict=True)]
         grid = _Grid(here, lines, (first, zones), self._about_deg, self._speeds)
-        reached = grid.reached()
+        reached = grid.reached(target)
         sides = set(enumerate(before)) if before is not None else set()
 
         def off_deg(place: Place) -> float:
@@ -185,8 +185,9 @@ class _Grid:
         self._dps = speeds.azimuth_dps, speeds.elevation_dps
         self._from: dict[Place, Place] = {}
 
-    def reached(self) -> dict[Place, float]:
-        """The places that can be reached, with the seconds that it takes there (Dijkstra's way)."""
+    def reached(self, target: Place) -> dict[Place, float]:
+        """The places that can be reached, with the seconds that it takes there (Dijkstra's way): those that are no
+        further than the target, or all of them."""
         at_az, at_el = self._azimuths_deg.index(self._start[0]), self._elevations_deg.index(self._start[1])
         found: dict[Place, float] = {}
         waiting: list[tuple[float, int, int, Place]] = [(0.0, at_az, at_el, self._start)]
@@ -196,6 +197,8 @@ class _Grid:
             if place in found:
                 continue
             found[place], self._from[place] = spent_s, before
+            if place == target:
+                break
             for ni, nj in ((i + 1, j), (i - 1, j), (i, j + 1), (i, j - 1)):
                 if not (0 <= ni < len(self._azimuths_deg) and 0 <= nj < len(self._elevations_deg)):
                     continue

@@ -132,12 +132,14 @@ class Mount:
         if not self.horizon:
             return elevation_deg
         if elevation_deg > ZENITH_DEG:
-            least_deg = self._horizon_deg(axis_azimuth_deg + 180.0)
+            least_deg = self.horizon_deg(axis_azimuth_deg + 180.0)
             return self.elevation.nearest(min(elevation_deg, 180.0 - least_deg))
-        return self.elevation.nearest(max(elevation_deg, self._horizon_deg(axis_azimuth_deg)))
+        return self.elevation.nearest(max(elevation_deg, self.horizon_deg(axis_azimuth_deg)))
 
-    def _horizon_deg(self, azimuth_deg: float) -> float:
-        """Straight lines between the points, all the way round."""
+    def horizon_deg(self, azimuth_deg: float) -> float:
+        """How high trees and roofs stand there: straight lines between the points, all the way round."""
+        if not self.horizon:
+            return 0.0
         azimuth_deg %= 360.0
         last = self.horizon[-1]
         around = ((last[0] - 360.0, last[1]), *self.horizon, (self.horizon[0][0] + 360.0, self.horizon[0][1]))

@@ -75,6 +75,13 @@ class Pointing:
         """The target stands at the direction last ordered."""
         self._track.end()
 
+    def accompany(self, now_s: float, aim: Aim, way: Way) -> None:
+        """The antenna is led on this way by another; note the orders of the stream, to go on with it from there."""
+        assert aim.azimuth_deg is not None
+        assert aim.elevation_deg is not None
+        self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)
+        self._way = way
+
     def show(self, aim: Aim) -> None:
         """Show a direction without following it."""
         self.forget()

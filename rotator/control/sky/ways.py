@@ -40,7 +40,7 @@ def best_route(
 
     `from_deg`: where the axes stand. `early_s`: how long it is until the first of the directions.
     """
-    ways = [Flown(mount, directions, way) for way in _ways(mount, directions[0])]
+    ways = [Flown(mount, directions, way) for way in possible_ways(mount, directions[0])]
     # least[way][look]: what is lost from this look on, being on this way; then where to change to, if anywhere.
     least = [[0.0] * (len(directions) + 1) for _ in ways]
     changes: list[list[tuple[int, int] | None]] = [[None] * len(directions) for _ in ways]
@@ -84,7 +84,7 @@ def _first_cost(
     return round((lost_s + max(0.0, travel_s - early_s)) / EVEN_S), travel_s
 
 
-def _ways(mount: Mount, first: Direction) -> list[Way]:
+def possible_ways(mount: Mount, first: Direction) -> list[Way]:
     """Every turn that reaches into the range, also one that begins beyond it; over the top where the antenna may."""
     azimuth = mount.azimuth
     found = []

@@ -1,0 +1,261 @@
+"""Which satellite a program's orders follow, and when they leave it again.
+
+Knows the orders of each connection, the moments at which they came, and the satellites that may be meant. A satellite
+is recognised when its path, by one clock of the program, explains every order to its rounding, when the orders have
+moved with it, when no other satellite explains them too, and when chance hardly would. Knows nothing of the rotor, and
+reads no clock. An order costs some milliseconds, so this has no place in the control loop.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from rotator.orbits.sight import NotThere, Sight, Target
+from rotator.orbits.stream_fit import (
+    BIAS_DEG,
+    CLOCKS_S,
+    UNSTEADY_S,
+    Heard,
+    SampledPath,
+    clocks_that_explain,
+    rounding_deg,
+)
+from rotator.orders import Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Source, Speed, Stream
+
+ORDERS = 10
+"""So many orders tell a satellite, where they leave no other reading."""
+KEPT = 30
+"""A stream that comes upon a path later must agree with it for so many orders: any line crosses some path."""
+LONGEST_GAP_S = 20.0
+"""Orders further apart do not belong together. Some programs send only when a whole degree has changed."""
+THIN_S = 0.9
+"""Of faster orders one in this time counts."""
+FASTEST_DPS = 2.0
+"""No satellite crosses the sky faster. Orders that do begin a new stream."""
+SIEVE_EVERY_S = 10.0
+SIEVE_DEG = 2 * FASTEST_DPS * SIEVE_EVERY_S
+"""A satellite further from the order than this is not meant before the next sieving."""
+CHANCE = 1e-5
+"""So seldom may a stream that follows no satellite fit as well."""
+SKY_SQUARE_DEG = 20_627.0
+"""Above the horizon."""
+RATES_SQUARE_DPS = math.pi
+"""What moves in the sky without following a satellite does so at up to 1°/s, in any direction."""
+
+
+CLOCKS_ASIDE_S = 10.0
+"""A path begins so long before now, for the orders of a clock that is behind."""
+AFTER_SET_S = 30.0
+"""Programs send for a while after the target has set."""
+LONGEST_PASS_S = 1800.0
+
+
+@dataclass(frozen=True, slots=True)
+class Recognised:
+    """The orders of this source follow this satellite. A flight that takes their place is posted as `source`'s own."""
+
+    source: Source
+    satellite: Target
+    stream: Stream
+
+
+@dataclass(frozen=True, slots=True)
+class Departed:
+    """The orders of this source follow this satellite no longer."""
+
+    source: Source
+    satellite: Target
+
+
+class StreamWatch:
+    """Hears the orders of every source. `satellites`: those that may be meant."""
+
+    def __init__(self, satellites: Iterable[Target] = ()) -> None:
+        self._satellites = tuple(satellites)
+        self._listeners: dict[Source, _Listener] = {}
+        self._planners: set[Source] = set()
+        """Programs that plan by themselves: they name the turn of the overlap, or flip."""
+
+    def know(self, satellites: Iterable[Target]) -> None:
+        """The elements have changed. What is followed stays so, by the elements of then."""
+        self._satellites = tuple(satellites)
+
+    def followed(self, source: Source) -> Recognised | None:
+        """What the orders of this source follow."""
+        listener = self._listeners.get(source)
+        return listener.recognised if listener else None
+
+    def hear(self, source: Source, order: Order, utc_s: float) -> Recognised | Departed | None:
+        """An order came at this moment, in seconds since 1970. Returns what is new; None: nothing is."""
+        match order:
+            case Aim(azimuth_deg, elevation_deg, engaged=True, place=False) if (
+                azimuth_deg is not None
+                and elevation_deg is not None
+                and 0 <= azimuth_deg <= 360
+                and 0 <= elevation_deg <= 90
+            ):
+                if source in self._planners:
+                    return None
+                if source not in self._listeners:
+                    self._forget_silent(utc_s)
+                    self._listeners[source] = _Listener(source)
+                heard = Heard(utc_s, azimuth_deg % 360.0, elevation_deg)
+                return self._listeners[source].hear(heard, self._satellites)
+            case Speed() | ClearTimed() | Calibrate() | Release() | Remark():
+                return None
+            case _:  # it ends the stream
+                if isinstance(order, Leave):
+                    self._planners.discard(source)
+                elif isinstance(order, Aim) and ((order.azimuth_deg or 0) > 360 or (order.elevation_deg or 0) > 90):
+                    self._planners.add(source)
+                listener = self._listeners.pop(source, None)
+                followed = listener.recognised if listener else None
+                return Departed(source, followed.satellite) if followed else None
+
+    def _forget_silent(self, utc_s: float) -> None:
+        self._listeners = {
+            source: each for source, each in self._listeners.items() if each.last_s > utc_s - LONGEST_GAP_S
+        }
+
+
+class _Listener:
+    """The orders of one source."""
+
+    def __init__(self, source: Source) -> None:
+        self._source = source
+        self._orders: deque[Heard] = deque(maxlen=KEPT)
+        self._all_kept = True
+        """From the stream's beginning on."""
+        self._near: list[SampledPath] = []
+        self._up = 0
+        """How many satellites may be meant, of all that are up."""
+        self._sieved_s = -math.inf
+        self._followed: SampledPath | None = None
+        self._clocks_s: tuple[float, ...] = ()
+        """How far ahead the program's clock may be, as the orders tell it so far."""
+        self.recognised: Recognised | None = None
+
+    @property
+    def last_s(self) -> float:
+        return self._orders[-1].utc_s if self._orders else -math.inf
+
+    def hear(self, order: Heard, satellites: Sequence[Target]) -> Recognised | Departed | None:
+        if self._orders and self._begins_anew(order):
+            self._orders.clear()
+            self._all_kept = True
+            self._sieved_s = -math.inf
+        elif self._orders and order.utc_s - self.last_s < THIN_S:
+            return self._departed(order)
+        self._all_kept = self._all_kept and len(self._orders) < KEPT
+        self._orders.append(order)
+        if self.recognised is not None:
+            return self._departed(order)
+        self._sieve(order, satellites)
+        if len(self._orders) < (ORDERS if self._all_kept else KEPT) or not self._near:
+            return None
+        return self._recognise()
+
+    def _begins_anew(self, order: Heard) -> bool:
+        last = self._orders[-1]
+        gap_s = order.utc_s - last.utc_s
+        if not 0 <= gap_s <= LONGEST_GAP_S:
+            return True
+        return order.direction.apart_deg(last.direction) > FASTEST_DPS * (gap_s + UNSTEADY_S) + 2.0
+
+    def _sieve(self, order: Heard, satellites: Sequence[Target]) -> None:
+        """Keep those satellites that may come where the orders are."""
+        if order.utc_s - self._sieved_s < SIEVE_EVERY_S:
+            return
+        self._sieved_s = order.utc_s
+        known = {path.satellite: path for path in self._near}
+        sights = [(each, sight) for each in satellites if (sight := _up(each, order.utc_s)) is not None]
+        near = [each for each, sight in sights if sight.apart_deg(order.direction) <= SIEVE_DEG]
+        self._near = [known.get(each) or SampledPath(each) for each in near]
+        self._up = len(sights)
+        for path in self._near:
+            path.forget_before(self._orders[0].utc_s + CLOCKS_S[0] - 1)
+
+    def _recognise(self) -> Recognised | None:
+        orders = list(self._orders)
+        rounding = rounding_deg(orders)
+        fits = [(path, clocks) for path in self._near if (clocks := _clocks(path, orders, rounding))]
+        if len(fits) != 1:
+            return None
+        path, clocks_s = fits[0]
+        if not _has_moved(orders) or self._up * _chance(path, orders, rounding) > CHANCE:
+            return None
+        self._followed, self._clocks_s = path, clocks_s
+        self.recognised = Recognised(
+            self._source, path.satellite, Stream(rounding, ahead_s=(clocks_s[0], clocks_s[-1]))
+        )
+        return self.recognised
+
+    def _departed(self, order: Heard) -> Departed | None:
+        """Whether an order, as the program's clock may be, is too far from the path that it has followed."""
+        if self.recognised is None or self._followed is None:
+            return None
+        path, stream = self._followed, self.recognised.stream
+        apart_deg = {clock_s: _apart_deg(path, order, clock_s) for clock_s in self._clocks_s}
+        if min(apart_deg.values()) <= stream.departs_deg:
+            path.forget_before(self._orders[0].utc_s + CLOCKS_S[0] - 1)
+            self._clocks_s = stream.narrowed(apart_deg)
+            return None
+        departed = Departed(self._source, self.recognised.satellite)
+        self._followed = self.recognised = None
+        return departed
+
+
+def _up(satellite: Target, utc_s: float) -> Sight | None:
+    """None: it is under the horizon, and does not rise within the next seconds."""
+    try:
+        sight = satellite.sight(utc_s)
+    except NotThere:
+        return None
+    return sight if sight.elevation_deg > -FASTEST_DPS else None
+
+
+def _clocks(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tuple[float, ...]:
+    try:
+        return clocks_that_explain(path, orders, rounding)
+    except NotThere:
+        return ()
+
+
+def _apart_deg(path: SampledPath, order: Heard, clock_s: float) -> float:
+    try:
+        seen = path.at(order.utc_s + clock_s)
+    except NotThere:
+        return math.inf
+    return order.direction.apart_deg(Sight(seen.azimuth_deg, max(0.0, seen.elevation_deg), seen.range_km))
+
+
+def _has_moved(orders: Sequence[Heard]) -> bool:
+    """A target that stands is no satellite, wherever it stands."""
+    return any(before.direction != after.direction for before, after in pairwise(orders))
+
+
+def _chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> float:
+    """The probability that a line through the sky at random fits this satellite as well: in place, and in motion."""
+    first_s, last_s = orders[0].utc_s, orders[-1].utc_s
+    travelled_dps = path.at(first_s).apart_deg(path.at(last_s)) / (last_s - first_s)
+    wide_deg = rounding + 2 * BIAS_DEG
+    place = wide_deg * (wide_deg + (CLOCKS_S[-1] - CLOCKS_S[0]) * travelled_dps) / SKY_SQUARE_DEG
+    loose_dps = (rounding + 2 * UNSTEADY_S * travelled_dps) / (last_s - first_s)
+    return place * min(1.0, loose_dps**2 / RATES_SQUARE_DPS)
+
+
+def rest_of_pass(satellite: Target, utc_s: float) -> list[tuple[float, float, float]]:
+    """The path to be flown from now on: moments of UTC, azimuth, elevation, each second. Raises NotThere."""
+    rows: list[tuple[float, float, float]] = []
+    last_up_s, at_s = utc_s, utc_s - CLOCKS_ASIDE_S
+    while at_s <= min(last_up_s + AFTER_SET_S, utc_s + LONGEST_PASS_S):
+        seen = satellite.sight(at_s)
+        rows.append((at_s, seen.azimuth_deg, seen.elevation_deg))
+        if seen.elevation_deg > 0:
+            last_up_s = max(last_up_s, at_s)
+        at_s += 1.0
+    return rows

@@ -1,0 +1,118 @@
+"""Whether a satellite's path explains rounded orders, and by which clock of the program that sent them.
+
+Knows that a program rounds its angles or cuts them off, that its elements and its place may differ a little from ours,
+that it sends no elevation below zero, and that its clock may be wrong by some seconds. Does not know who sent the
+orders, nor what other satellites there are.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rotator.orbits.sight import FULL_TURN_DEG, Sight, Target
+
+CLOCKS_S = tuple(quarter / 4 for quarter in range(-24, 23))
+"""How far ahead of UTC the program's clock may be: 5 s either way. It may send what it computed up to a second ago."""
+UNSTEADY_S = 0.3
+"""Orders come by so much earlier or later than they are due."""
+BIAS_DEG = 0.3
+"""On the sky, for the whole stream: other elements, another place of the station."""
+LEAST_DEG = 0.02
+"""No order is taken for more exact."""
+RISING_DEG = -0.3
+"""Before the path is so high, an order for the horizon tells nothing of the satellite."""
+FINEST_DEG = 0.01
+
+
+@dataclass(frozen=True, slots=True)
+class Heard:
+    """An order as it came: the moment in seconds since 1970, and the direction."""
+
+    utc_s: float
+    azimuth_deg: float
+    elevation_deg: float
+
+    @property
+    def direction(self) -> Sight:
+        return Sight(self.azimuth_deg, self.elevation_deg, math.inf)
+
+
+class SampledPath:
+    """A satellite's directions, computed once for each second. Raises NotThere."""
+
+    def __init__(self, satellite: Target) -> None:
+        self.satellite = satellite
+        self._sights: dict[int, Sight] = {}
+
+    def at(self, utc_s: float) -> Sight:
+        second = math.floor(utc_s)
+        before, after, share = self._sight(second), self._sight(second + 1), utc_s - second
+        azimuth_deg = before.azimuth_deg + share * turn_deg(before.azimuth_deg, after.azimuth_deg)
+        elevation_deg = before.elevation_deg + share * (after.elevation_deg - before.elevation_deg)
+        return Sight(azimuth_deg % FULL_TURN_DEG, elevation_deg, before.range_km)
+
+    def forget_before(self, utc_s: float) -> None:
+        self._sights = {second: sight for second, sight in self._sights.items() if second >= utc_s}
+
+    def _sight(self, second: int) -> Sight:
+        if second not in self._sights:
+            self._sights[second] = self.satellite.sight(second)
+        return self._sights[second]
+
+
+def turn_deg(from_deg: float, to_deg: float) -> float:
+    """The shorter way round."""
+    return (to_deg - from_deg + 180.0) % FULL_TURN_DEG - 180.0
+
+
+def rounding_deg(orders: Sequence[Heard]) -> float:
+    """What the orders are rounded to: whole degrees, tenths or hundredths."""
+    angles_deg = [angle for each in orders for angle in (each.azimuth_deg, each.elevation_deg)]
+    for rounding in (1.0, 0.1):
+        if all(abs(angle / rounding - round(angle / rounding)) < 1e-6 for angle in angles_deg):
+            return rounding
+    return FINEST_DEG
+
+
+def clocks_that_explain(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tuple[float, ...]:
+    """How far ahead the program's clock may be, so that its orders are this path to their rounding. Raises NotThere."""
+    risen = [each for each in orders if each.elevation_deg > 0 or _up(path, each)]
+    return tuple(clock_s for clock_s in CLOCKS_S if risen and _explains(path, risen, clock_s, rounding))
+
+
+def _up(path: SampledPath, order: Heard) -> bool:
+    return path.at(order.utc_s + CLOCKS_S[-1]).elevation_deg > RISING_DEG
+
+
+def _explains(path: SampledPath, orders: Sequence[Heard], clock_s: float, rounding: float) -> bool:
+    # Across: along the azimuth, on the sky. Each order allows a range for the bias; together they must leave some.
+    low_across = low_up = -math.inf
+    high_across = high_up = math.inf
+    half, least_cos = rounding / 2, 1.0
+    before: Sight | None = None
+    for order in orders:
+        seen = path.at(order.utc_s + clock_s)
+        later = path.at(order.utc_s + clock_s + UNSTEADY_S)
+        if before is not None and abs(turn_deg(before.azimuth_deg, seen.azimuth_deg)) > FULL_TURN_DEG / 4:
+            return False
+        before = seen
+        cos = math.cos(math.radians(seen.elevation_deg))
+        least_cos = min(least_cos, cos)
+        across = turn_deg(seen.azimuth_deg, order.azimuth_deg) * cos
+        up = order.elevation_deg - max(0.0, seen.elevation_deg)
+        loose_across = half * cos + LEAST_DEG + abs(turn_deg(seen.azimuth_deg, later.azimuth_deg)) * cos
+        loose_up = half + LEAST_DEG + abs(later.elevation_deg - seen.elevation_deg)
+        low_across, high_across = max(low_across, across - loose_across), min(high_across, across + loose_across)
+        low_up, high_up = max(low_up, up - loose_up), min(high_up, up + loose_up)
+        if low_across > high_across or low_up > high_up:
+            return False
+    # Orders that are cut off lie below the path by half their rounding, in both angles alike.
+    return any(
+        low_across <= BIAS_DEG - cut * least_cos
+        and high_across >= -BIAS_DEG - cut
+        and low_up <= BIAS_DEG - cut
+        and high_up >= -BIAS_DEG - cut
+        for cut in (0.0, half)
+    )

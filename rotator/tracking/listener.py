@@ -1,0 +1,74 @@
+"""Hears the orders of every link, and has the pass flown of the satellite that they follow.
+
+Knows moments and sources. What is recognised, and how surely, is the sky's room; whether the flight takes the place of
+the stream is decided in control, for the orders of some seconds have come since.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+
+from rotator.orbits.recognition import Recognised, StreamWatch
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import NotThere
+from rotator.orders import Fly, Order, Source
+from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.next_flight import Now, Wanted
+from rotator.tracking.tracker import Box, Planner
+
+log = logging.getLogger(__name__)
+
+MOST_WAITING = 500
+"""So many orders are kept until they are looked at; a flood pushes the oldest out."""
+
+
+class StreamListener:
+    """`hear` may be called from any thread and never waits; `step` and `know` from one thread only."""
+
+    def __init__(
+        self, sky: KnownSky, planner: Planner, box: Box, utc: Callable[[], float], clock_trusted: Callable[[], bool]
+    ) -> None:
+        self._sky = sky
+        self._planner = planner
+        self._box = box
+        self._utc = utc
+        self._clock_trusted = clock_trusted
+        self._heard: deque[tuple[Source, Order, float]] = deque(maxlen=MOST_WAITING)
+        self._watch = StreamWatch(sky.satellites())
+
+    def hear(self, source: Source, order: Order) -> None:
+        if not isinstance(order, Fly):
+            self._heard.append((source, order, self._utc()))
+
+    def know(self) -> None:
+        """The elements have changed."""
+        self._watch.know(self._sky.satellites())
+
+    def step(self, clock: Callable[[], Now]) -> None:
+        """Look at what was heard. It may compute for seconds."""
+        found: Recognised | None = None
+        while self._heard:
+            source, order, utc_s = self._heard.popleft()
+            news = self._watch.hear(source, order, utc_s)
+            if isinstance(news, Recognised):
+                found = news
+            elif news is not None and found is not None and news.source == found.source:
+                found = None
+        if found is not None and self._clock_trusted():
+            self._fly(found, clock())
+
+    def _fly(self, found: Recognised, now: Now) -> None:
+        antenna = self._box.antenna()
+        if antenna is None or not isinstance(found.satellite, Satellite):
+            return
+        wanted = Wanted(found.satellite.name, self._sky.site, found.satellite.elements)
+        try:
+            order = self._planner.plan_rest(wanted, antenna, now)
+        except (NotThere, RuntimeError) as reason:
+            log.warning("%s sends the directions of %s; no plan: %s", found.source, found.satellite.name, reason)
+            return
+        log.info("%s sends the directions of %s: the box flies its true path", found.source, found.satellite.name)
+        self._box.order(replace(order, stream=found.stream), found.source)

@@ -1,0 +1,74 @@
+"""Why a pass is left out of the plan, or flown in part: sentences for a person.
+
+Knows what is planned. Decides nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rotator.orbits.passes import Pass
+from rotator.tracking.chain import Part
+from rotator.tracking.courses import SeenPass
+from rotator.tracking.planned import SPARE_S, Followed, PlannedPass
+
+NEAR_S = 300.0
+"""A flight that begins or ends so near may leave no time to turn the antenna."""
+
+
+def too_low(found: Pass, followed: Followed) -> str:
+    high_deg, asked_deg = found.highest.elevation_deg, followed.min_culmination_deg
+    shown = f"{high_deg:.0f}" if round(high_deg) < asked_deg else f"{high_deg:.2f}"
+    return f"culminates at {shown}°, below the {asked_deg:g}° asked"
+
+
+def unseen(one: SeenPass) -> str:
+    """No course of this pass is worth anything."""
+    if one.found.aos_s is None or one.found.aos_s < one.moments_s[0]:
+        return "is nearly over"
+    if not any(one.rates):
+        return "stays behind the horizon of trees and roofs"
+    return "the rotor does not reach it"
+
+
+def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
+    """Which flights are worth more."""
+    begin_s, end_s = one.moments_s[0], one.moments_s[-1]
+    during = _between(flown, begin_s - SPARE_S, end_s + SPARE_S)
+    rivals = during or _between(flown, begin_s - NEAR_S, end_s + NEAR_S)
+    names = list(dict.fromkeys(each.name for each in rivals))
+    if not names:
+        return "sets before the antenna can be there"
+    if not during:
+        return f"no time to turn there beside {_and(names)}"
+    higher = [each.name for each in during if each.priority > one.followed.priority]
+    if higher:
+        return f"{_and(list(dict.fromkeys(higher)))} {_has(higher)} the higher priority"
+    if len(names) > 1:
+        return f"{_and(names)} are worth more together"
+    (rival, *_) = rivals
+    if rival.priority == one.followed.priority:
+        high_deg, its_deg = one.found.highest.elevation_deg, rival.found.highest.elevation_deg
+        if round(its_deg) > round(high_deg):
+            return f"{rival.name} rises higher, to {its_deg:.0f}°"
+    return f"{rival.name} is up for longer"
+
+
+def in_part(part: Part, before: str | None, after: str | None) -> str:
+    """Which flights take its beginning or its end; empty for a pass that is flown whole."""
+    cause = f"after {before}" if before else "the antenna has to turn there first"
+    late = f"begins late: {cause}" if part.first else ""
+    early = f"ends early: for {after}" if part.last < len(part.one.moments_s) - 1 and after else ""
+    return "; ".join(filter(None, (late, early)))
+
+
+def _between(flown: Sequence[PlannedPass], begin_s: float, end_s: float) -> list[PlannedPass]:
+    return [each for each in flown if each.flight and each.flight.begin_s < end_s and each.flight.end_s > begin_s]
+
+
+def _and(names: Sequence[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def _has(names: Sequence[str]) -> str:
+    return "has" if len(set(names)) == 1 else "have"

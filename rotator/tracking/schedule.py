@@ -1,0 +1,98 @@
+"""The plan of many passes: which the antenna flies, and from when to when where two are up at once.
+
+Knows what each part of a pass is worth on each of its courses, and turns the chain of parts that is worth most into
+flights. Knows no clock: time is an argument, in seconds since 1970 (UTC).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from rotator.control.sky.flight_plan import Antenna
+from rotator.control.sky.sectors import Place
+from rotator.orbits.passes import passes
+from rotator.tracking.chain import Part, best_chain, ready_s
+from rotator.tracking.courses import Course, SeenPass, courses, seen_pass
+from rotator.tracking.planned import SPARE_S, Flight, Followed, PlannedPass
+from rotator.tracking.reasons import in_part, left_out, too_low, unseen
+from rotator.tracking.travel import Travel
+
+
+def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, until_s: float) -> tuple[PlannedPass, ...]:
+    """Every pass of the followed targets between two moments, by rise: flown or left out, and why.
+
+    `antenna`: where it stands at `from_s`, with mount and motors, as `plan_flight` takes it. To fly one of them:
+    `plan_flight(name, path, replace(antenna, stands_deg=flight.wait_deg), flight.set_off_s)`, with a path from
+    `begin_s` to `end_s`. A long pass may be flown in several parts; each is an item.
+    """
+    travel = Travel(antenna)
+    planned: list[PlannedPass] = []
+    flyable: list[tuple[SeenPass, list[Course]]] = []
+    for each in followed:
+        for found in passes(each.target, from_s, until_s):
+            if found.highest.elevation_deg < each.min_culmination_deg:
+                planned.append(PlannedPass(found, each.priority, None, too_low(found, each)))
+                continue
+            one = seen_pass(found, each, antenna.mount, from_s, until_s)
+            if ways := courses(one, antenna.mount, travel):
+                flyable.append((one, ways))
+            else:
+                planned.append(PlannedPass(found, each.priority, None, unseen(one)))
+    parts = widened(best_chain(flyable, antenna.stands_deg, travel, from_s), antenna.stands_deg, travel, from_s)
+    flown = list(_flights(parts, travel, from_s))
+    chosen = {id(part.one) for part in parts}
+    for one, _ in flyable:
+        if id(one) not in chosen:
+            planned.append(PlannedPass(one.found, one.followed.priority, None, left_out(one, flown)))
+    return tuple(sorted([*planned, *flown], key=lambda each: _order(each, from_s)))
+
+
+def widened(parts: Sequence[Part], stands_deg: Place, travel: Travel, from_s: float) -> list[Part]:
+    """The same parts, each left as late and begun as early, to a few seconds, as its neighbours allow."""
+    found: list[Part] = []
+    place, free_s = stands_deg, from_s
+    for index, part in enumerate(parts):
+        after = parts[index + 1] if index + 1 < len(parts) else None
+        begun = part
+        for look in range(max(0, part.first - part.one.apart), part.first):
+            earlier = replace(part, first=look)
+            if earlier.may_begin and travel.reaches(
+                place, earlier.wait_deg, ready_s(part.one, earlier.begin_s, from_s) - free_s
+            ):
+                begun = earlier
+                break
+        kept = begun
+        for look in range(min(part.last + part.one.apart, len(part.one.moments_s) - 1), part.last, -1):
+            later = replace(begun, last=look)
+            if later.may_end and (
+                after is None or travel.reaches(later.end_deg, after.wait_deg, after.begin_s - SPARE_S - later.end_s)
+            ):
+                kept = later
+                break
+        found.append(kept)
+        place, free_s = kept.end_deg, kept.end_s
+    return found
+
+
+def _flights(parts: Sequence[Part], travel: Travel, from_s: float) -> Iterator[PlannedPass]:
+    free_s = from_s
+    for index, part in enumerate(parts):
+        before = parts[index - 1].one.found.name if index else None
+        after = parts[index + 1].one.found.name if index + 1 < len(parts) else None
+        flight = Flight(
+            # So early that it comes in time from anywhere: a person may have moved it since the pass before.
+            set_off_s=max(free_s, part.begin_s - SPARE_S - travel.longest_s),
+            begin_s=part.begin_s,
+            end_s=part.end_s,
+            wait_deg=part.wait_deg,
+            over_the_top=part.course.over[part.first],
+            lost_s=part.course.lost_s[part.last] - part.course.lost_s[part.first],
+        )
+        yield PlannedPass(part.one.found, part.one.followed.priority, flight, in_part(part, before, after))
+        free_s = part.end_s
+
+
+def _order(each: PlannedPass, from_s: float) -> tuple[float, float]:
+    aos_s = from_s if each.found.aos_s is None else each.found.aos_s
+    return aos_s, each.flight.begin_s if each.flight else aos_s
