@@ -26,7 +26,7 @@ tests: $(VENV)/.dev
 
 # Any bytes, any orders, any files: every test that searches, with all of its examples. `make test` tries a quarter of them.
 test-search: $(VENV)/.dev
-	ROTATOR_SEARCH=whole $(BIN)/pytest -n 4 --dist worksteal -m hypothesis $(TESTS)
+	ROTATOR_SEARCH=whole $(BIN)/pytest -n 4 --dist worksteal -m "hypothesis or search" $(TESTS)
 
 # Debian's Hamlib: each of its models that can drive the box, and a dummy rotator that the box follows.
 test-hamlib: $(VENV)/.dev

@@ -1,6 +1,7 @@
 """How far a search goes: `make test` tries a quarter of the examples of each, `make test-search` all of them.
 
-Knows numbers of examples alone. A search is a test with hypothesis: what it looks for is the same in both.
+Knows numbers of examples alone. A search is a test with hypothesis, or one with the mark
+`search` that draws its own cases. What it looks for is the same in both.
 """
 
 from __future__ import annotations
