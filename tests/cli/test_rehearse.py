@@ -178,7 +178,7 @@ def test_a_target_is_tracked_in_its_next_pass_by_the_box_itself(rotator: Rotator
 @pytest.mark.parametrize(
     ("file", "name", "said"),
     [
-        ('[station]\nlocator = "JO62qm"\n', "iss", '"iss" is not known: there are no elements'),
+        ('[station]\nlocator = "JO62qm"\n', "iss", '"iss" is not known; there are no satellites'),
         (
             "[rotor]\n",
             "moon",
@@ -268,7 +268,7 @@ def test_a_bad_pass(
         (("--fault", "azimuth-pot-open@"), "after @ stands the moment in seconds, such as azimuth-pot-open@20", 2),
         (("--fault", "azimuth-pot-open@-3"), "azimuth-pot-open@-3: after @ stands the moment in seconds", 2),
         (("--fault", "azimuth-pot-open@nan"), "azimuth-pot-open@nan: after @ stands the moment in seconds", 2),
-        (("--fault", "azimuth-pot-open@120"), "azimuth-pot-open@120: south ends after 120 s", 2),
+        (("--fault", "azimuth-pot-open@60"), "azimuth-pot-open@60: south ends after 60 s", 2),
         (("--trace", "nowhere/trace.csv"), "nowhere/trace.csv: cannot be written: No such file or directory", 1),
     ],
 )
