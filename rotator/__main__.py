@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 
-from rotator.cli.failed import INTERRUPTED
+from rotator.cli.failed import INTERRUPTED, NOT_DONE
+
+UNWRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EPIPE)
+"""The errors of a write to an open file or pipe: a full disk, a reader that has gone."""
 
 
 def main() -> None:
@@ -14,6 +18,12 @@ def main() -> None:
         _run()
     except KeyboardInterrupt:  # while the program still loads or starts: later each command handles it itself
         sys.exit(INTERRUPTED)
+    except OSError as fault:
+        if fault.filename is not None or fault.errno not in UNWRITTEN:
+            raise
+        _write_no_more()
+        sys.stderr.write(f"rotator: the output cannot be written: {fault.strerror}\n")
+        sys.exit(NOT_DONE)
 
 
 def _open_closed_streams() -> None:
@@ -51,9 +61,15 @@ def _stopped(arguments: list[str]) -> bool:
         sys.exit(fault.exit_code)
     try:
         print(STOPPED, flush=True)  # noqa: T201
-    except OSError:  # the reader has gone: the antenna has stopped all the same
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError:  # the disk is full, or the reader has gone: the antenna has stopped all the same
+        _write_no_more()
+        sys.stderr.write(f"rotator: {STOPPED}\n")
     return True
+
+
+def _write_no_more() -> None:
+    """Else Python writes what waits in standard output once more at its end, and complains."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 if __name__ == "__main__":

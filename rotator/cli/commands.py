@@ -14,6 +14,8 @@ from typing import Any, TypeVar
 import click
 from click.exceptions import NoArgsIsHelpError
 
+from rotator.cli.lines import say
+
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 CONFIG = click.option(
@@ -69,13 +71,13 @@ def examples(*lines: str) -> str:
     return "\n".join(("\b", "Example:" if len(lines) == 1 else "Examples:", *(f"  {line}" for line in lines)))
 
 
-def say(mistake: click.ClickException) -> None:
+def say_mistake(mistake: click.ClickException) -> None:
     """Print a mistake on the command line in the form of all other errors; without any argument the help."""
     if isinstance(mistake, NoArgsIsHelpError):
         mistake.show()
         return
     text = mistake.format_message()
-    click.echo(f"rotator: {text[:1].lower()}{text[1:]}", err=True)
+    say(f"rotator: {text[:1].lower()}{text[1:]}", err=True)
     if isinstance(mistake, click.UsageError) and mistake.ctx:
         click.echo(f"{mistake.ctx.get_usage()}\n`{mistake.ctx.command_path} --help` says more.", err=True)
 

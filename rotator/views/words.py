@@ -11,6 +11,7 @@ from typing import Protocol
 
 from hw.ports import Axis, Direction
 from rotator.orders import Mode
+from rotator.spoken import spoken
 from rotator.status import Flown, Status
 from rotator.views.sky_plot import off_deg
 
@@ -48,7 +49,9 @@ def headline(status: Status) -> tuple[str, str]:
         return loud, ALARMS
     if status.latched:
         return (
-            f"STORM PARK by {status.latched.partition(':')[0]}" if status.storm else f"STOPPED by {status.latched}",
+            spoken(
+                f"STORM PARK by {status.latched.partition(':')[0]}" if status.storm else f"STOPPED by {status.latched}"
+            ),
             ALARMS,
         )
     if faulted:
@@ -76,7 +79,7 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
     where = next((wire.where for wire in wires if source.partition("#")[0] == wire.name), "")
     recognised = f", recognised as {status.recognised}" if status.recognised else ""
     point = f", point {status.timed_point} of {status.timed_points}" if status.timed_points else ""
-    return f"orders from {source}{recognised}{point}" + (f" ({where})" if where else "")
+    return f"orders from {spoken(source)}{recognised}{point}" + (f" ({where})" if where else "")
 
 
 def rise_or_set(flown: Flown, now_s: float) -> str:
