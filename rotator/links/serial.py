@@ -7,6 +7,7 @@ what the bytes mean. The only file that imports pyserial.
 from __future__ import annotations
 
 import asyncio
+import errno
 import logging
 import os
 import threading
@@ -47,7 +48,7 @@ class SerialLink:
             try:
                 port = await asyncio.to_thread(self._open)
             except (serial.SerialException, OSError, ValueError) as fault:
-                self._tell(f"cannot be opened: {fault}")
+                self._tell(f"cannot be opened: {_why(fault)}")
             else:
                 self.wire.state = "open"
                 self._logged = ""
@@ -116,6 +117,19 @@ class SerialLink:
             log.warning("%s: %s %s; waiting for it", self.wire.name, self._port, text)
             self._logged = text
         self.wire.state = "waiting for it"
+
+
+def _why(fault: OSError | ValueError) -> str:
+    """In the system's words instead of pyserial's, which say everything twice."""
+    match fault:
+        case OSError(errno=errno.ENOENT):
+            return f"{os.strerror(errno.ENOENT)}: is it plugged in? `ls /dev/serial/by-id` shows what is"
+        case OSError(errno=errno.EACCES):
+            return f"{os.strerror(errno.EACCES)}: `sudo usermod -aG dialout $USER`, then log in again"
+        case OSError(errno=int() as number):
+            return os.strerror(number)
+        case _:
+            return str(fault)
 
 
 def _write(port: Any, data: bytes) -> None:

@@ -127,8 +127,9 @@ def test_a_missing_port_is_waited_for_and_said_once(
             await asyncio.wait_for(tries.reached.wait(), PATIENCE_S)
             assert len(log.said) == 1
             assert log.said[0].startswith(f"link: {adapter.path} cannot be opened: ")
-            assert log.said[0].endswith("; waiting for it")
-            assert "No such file or directory" in log.said[0]
+            assert log.said[0].endswith(
+                "No such file or directory: is it plugged in? `ls /dev/serial/by-id` shows what is; waiting for it"
+            )
             assert link.wire.state == "waiting for it"
             adapter.plug_in()
             await log.wait("open at")
