@@ -83,6 +83,8 @@ class AxisStatus:
     """Its motor as learnt, clockwise or up first, then the other way; None: the drive has nothing to learn."""
     trusts: Trusts = ALL_OPEN
     """What is known of its two relays."""
+    correction_deg: float = 0.0
+    """How much further the boom points than the axis reads, as the mount really stands."""
     waiting: bool = False
     """Its relay closes as soon as the axis has been seen to stand, or its opposite relay to open."""
 
@@ -94,6 +96,11 @@ class AxisStatus:
         nearest_deg = min(max(self.angle_deg, self.min_deg), self.max_deg)
         margin_deg = min(AT_END_NOISES * self.noise_deg, AT_END_MOST_DEG)
         return nearest_deg if abs(self.angle_deg - nearest_deg) <= margin_deg else self.angle_deg
+
+    @property
+    def points_deg(self) -> float | None:
+        """Where the boom points, as programs are told it: on the turn of the axis, and above 90° over the top."""
+        return None if self.shown_deg is None else self.shown_deg + self.correction_deg
 
     @property
     def at_target(self) -> bool:
@@ -120,6 +127,8 @@ class Flown:
     """When it sets; infinite: it does not."""
     expected_error_deg: float = 0.0
     """How far it may be from where it is computed, from the age of its elements."""
+    recognised: bool = False
+    """In the orders of a program that follows it; else the box tracks it by itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +144,6 @@ class Status:
     storm: bool = False
     """The stop that is latched is a storm park, and the antenna is at it."""
     controlled_by: str = ""
-    recognised: str = ""
-    """The satellite that the orders follow, and whose true path the antenna takes; empty: there is none."""
     timed_point: int = 0
     timed_points: int = 0
     simulated: bool = False
@@ -154,6 +161,11 @@ class Status:
 
     def axis(self, axis: Axis) -> AxisStatus:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
+
+    @property
+    def recognised(self) -> str:
+        """The satellite that a program's orders follow, and whose true path the antenna takes; empty: there is none."""
+        return self.flown.name if self.flown is not None and self.flown.recognised else ""
 
     @property
     def moving(self) -> bool:

@@ -24,12 +24,14 @@ from rotator.orbits.stream_fit import (
     clocks_that_explain,
     rounding_deg,
 )
-from rotator.orders import Aim, Calibrate, ClearTimed, Leave, Order, Release, Remark, Source, Speed, Stream
+from rotator.orders import Aim, Calibrate, ClearTimed, Fly, Leave, Order, Release, Remark, Source, Speed, Stream
 
 ORDERS = 10
 """So many orders tell a satellite, where they leave no other reading."""
 KEPT = 30
 """A stream that comes upon a path later must agree with it for so many orders: any line crosses some path."""
+AGAIN_S = 5.0
+"""Where so many orders have told none, the next are looked at so much later."""
 LONGEST_GAP_S = 20.0
 """Orders further apart do not belong together. Some programs send only when a whole degree has changed."""
 THIN_S = 0.9
@@ -39,6 +41,11 @@ FASTEST_DPS = 2.0
 SIEVE_EVERY_S = 10.0
 SIEVE_DEG = 2 * FASTEST_DPS * SIEVE_EVERY_S
 """A satellite further from the order than this is not meant before the next sieving."""
+TRAVEL_ROUNDINGS = 3.0
+LEAST_TRAVEL_DEG = 0.5
+"""So far must the orders have moved for their course and speed to be those of the satellite; less only as it rises:
+hardly anything else begins low in the sky there and then."""
+RISES_DEG = 5.0
 CHANCE = 1e-5
 """So seldom may a stream that follows no satellite fit as well."""
 SKY_SQUARE_DEG = 20_627.0
@@ -105,7 +112,7 @@ class StreamWatch:
                     self._listeners[source] = _Listener(source)
                 heard = Heard(utc_s, azimuth_deg % 360.0, elevation_deg)
                 return self._listeners[source].hear(heard, self._satellites)
-            case Speed() | ClearTimed() | Calibrate() | Release() | Remark():
+            case Speed() | ClearTimed() | Calibrate() | Release() | Remark() | Fly(stream=Stream()):
                 return None
             case _:  # it ends the stream
                 if isinstance(order, Leave):
@@ -134,6 +141,8 @@ class _Listener:
         self._up = 0
         """How many satellites may be meant, of all that are up."""
         self._sieved_s = -math.inf
+        self._next_s = -math.inf
+        """Before then no path is fitted again."""
         self._followed: SampledPath | None = None
         self._clocks_s: tuple[float, ...] = ()
         """How far ahead the program's clock may be, as the orders tell it so far."""
@@ -147,7 +156,7 @@ class _Listener:
         if self._orders and self._begins_anew(order):
             self._orders.clear()
             self._all_kept = True
-            self._sieved_s = -math.inf
+            self._sieved_s = self._next_s = -math.inf
         elif self._orders and order.utc_s - self.last_s < THIN_S:
             return self._departed(order)
         self._all_kept = self._all_kept and len(self._orders) < KEPT
@@ -155,8 +164,10 @@ class _Listener:
         if self.recognised is not None:
             return self._departed(order)
         self._sieve(order, satellites)
-        if len(self._orders) < (ORDERS if self._all_kept else KEPT) or not self._near:
+        if len(self._orders) < (ORDERS if self._all_kept else KEPT) or not self._near or order.utc_s < self._next_s:
             return None
+        if len(self._orders) == KEPT:
+            self._next_s = order.utc_s + AGAIN_S
         return self._recognise()
 
     def _begins_anew(self, order: Heard) -> bool:
@@ -186,7 +197,10 @@ class _Listener:
         if len(fits) != 1:
             return None
         path, clocks_s = fits[0]
-        if not _has_moved(orders) or self._up * _chance(path, orders, rounding) > CHANCE:
+        if (
+            not (_has_moved(orders) and _has_told(path, orders, rounding))
+            or self._up * _chance(path, orders, rounding) > CHANCE
+        ):
             return None
         self._followed, self._clocks_s = path, clocks_s
         self.recognised = Recognised(
@@ -227,10 +241,9 @@ def _clocks(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tupl
 
 def _apart_deg(path: SampledPath, order: Heard, clock_s: float) -> float:
     try:
-        seen = path.at(order.utc_s + clock_s)
+        return order.direction.apart_deg(path.sight(order.utc_s + clock_s))
     except NotThere:
         return math.inf
-    return order.direction.apart_deg(Sight(seen.azimuth_deg, max(0.0, seen.elevation_deg), seen.range_km))
 
 
 def _has_moved(orders: Sequence[Heard]) -> bool:
@@ -238,18 +251,35 @@ def _has_moved(orders: Sequence[Heard]) -> bool:
     return any(before.direction != after.direction for before, after in pairwise(orders))
 
 
+def _has_told(path: SampledPath, orders: Sequence[Heard], rounding: float) -> bool:
+    """Whether the satellite has moved far enough in this time, or rises."""
+    first, last = path.at(orders[0].utc_s), path.sight(orders[-1].utc_s)
+    if first.elevation_deg < RISES_DEG and orders[0].elevation_deg <= RISES_DEG and first.elevation_dps > 0:
+        return True
+    return path.sight(orders[0].utc_s).apart_deg(last) >= max(TRAVEL_ROUNDINGS * rounding, LEAST_TRAVEL_DEG)
+
+
 def _chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> float:
     """The probability that a line through the sky at random fits this satellite as well: in place, and in motion."""
     first_s, last_s = orders[0].utc_s, orders[-1].utc_s
-    travelled_dps = path.at(first_s).apart_deg(path.at(last_s)) / (last_s - first_s)
+    travelled_dps = path.sight(first_s).apart_deg(path.sight(last_s)) / (last_s - first_s)
     wide_deg = rounding + 2 * BIAS_DEG
     place = wide_deg * (wide_deg + (CLOCKS_S[-1] - CLOCKS_S[0]) * travelled_dps) / SKY_SQUARE_DEG
     loose_dps = (rounding + 2 * UNSTEADY_S * travelled_dps) / (last_s - first_s)
     return place * min(1.0, loose_dps**2 / RATES_SQUARE_DPS)
 
 
-def rest_of_pass(satellite: Target, utc_s: float) -> list[tuple[float, float, float]]:
-    """The path to be flown from now on: moments of UTC, azimuth, elevation, each second. Raises NotThere."""
+@dataclass(frozen=True, slots=True)
+class Rest:
+    """Of a pass, from now on. Moments are UTC, in seconds since 1970."""
+
+    rows: tuple[tuple[float, float, float], ...]
+    """Each second: the moment, azimuth, elevation."""
+    sets_s: float
+
+
+def rest_of_pass(satellite: Target, utc_s: float) -> Rest:
+    """What is to be flown in place of a stream from this moment on. Raises NotThere."""
     rows: list[tuple[float, float, float]] = []
     last_up_s, at_s = utc_s, utc_s - CLOCKS_ASIDE_S
     while at_s <= min(last_up_s + AFTER_SET_S, utc_s + LONGEST_PASS_S):
@@ -258,4 +288,4 @@ def rest_of_pass(satellite: Target, utc_s: float) -> list[tuple[float, float, fl
         if seen.elevation_deg > 0:
             last_up_s = max(last_up_s, at_s)
         at_s += 1.0
-    return rows
+    return Rest(tuple(rows), last_up_s)

@@ -39,27 +39,59 @@ class Heard:
         return Sight(self.azimuth_deg, self.elevation_deg, math.inf)
 
 
+@dataclass(frozen=True, slots=True)
+class _Second:
+    """Where the satellite is when a second begins, and how it moves until the next."""
+
+    azimuth_deg: float
+    elevation_deg: float
+    azimuth_dps: float
+    elevation_dps: float
+
+
 class SampledPath:
     """A satellite's directions, computed once for each second. Raises NotThere."""
 
     def __init__(self, satellite: Target) -> None:
         self.satellite = satellite
-        self._sights: dict[int, Sight] = {}
+        self._seconds: dict[int, _Second] = {}
 
-    def at(self, utc_s: float) -> Sight:
-        second = math.floor(utc_s)
-        before, after, share = self._sight(second), self._sight(second + 1), utc_s - second
-        azimuth_deg = before.azimuth_deg + share * turn_deg(before.azimuth_deg, after.azimuth_deg)
-        elevation_deg = before.elevation_deg + share * (after.elevation_deg - before.elevation_deg)
-        return Sight(azimuth_deg % FULL_TURN_DEG, elevation_deg, before.range_km)
+    def at(self, utc_s: float) -> _Second:
+        """As it moves at that moment."""
+        number = math.floor(utc_s)
+        second, share = self._second(number), utc_s - number
+        return _Second(
+            second.azimuth_deg + share * second.azimuth_dps,
+            second.elevation_deg + share * second.elevation_dps,
+            second.azimuth_dps,
+            second.elevation_dps,
+        )
+
+    def sight(self, utc_s: float) -> Sight:
+        """As a program sends it: no elevation below zero."""
+        seen = self.at(utc_s)
+        return Sight(seen.azimuth_deg % FULL_TURN_DEG, max(0.0, seen.elevation_deg), math.inf)
 
     def forget_before(self, utc_s: float) -> None:
-        self._sights = {second: sight for second, sight in self._sights.items() if second >= utc_s}
+        self._seconds = {number: second for number, second in self._seconds.items() if number >= utc_s}
 
-    def _sight(self, second: int) -> Sight:
-        if second not in self._sights:
-            self._sights[second] = self.satellite.sight(second)
-        return self._sights[second]
+    def _second(self, number: int) -> _Second:
+        found = self._seconds.get(number)
+        if found is None:
+            following = self._seconds.get(number + 1)
+            now = self.satellite.sight(number)
+            soon = (
+                self.satellite.sight(number + 1)
+                if following is None
+                else Sight(following.azimuth_deg, following.elevation_deg, math.inf)
+            )
+            found = self._seconds[number] = _Second(
+                now.azimuth_deg,
+                now.elevation_deg,
+                turn_deg(now.azimuth_deg, soon.azimuth_deg),
+                soon.elevation_deg - now.elevation_deg,
+            )
+        return found
 
 
 def turn_deg(from_deg: float, to_deg: float) -> float:
@@ -91,19 +123,14 @@ def _explains(path: SampledPath, orders: Sequence[Heard], clock_s: float, roundi
     low_across = low_up = -math.inf
     high_across = high_up = math.inf
     half, least_cos = rounding / 2, 1.0
-    before: Sight | None = None
     for order in orders:
         seen = path.at(order.utc_s + clock_s)
-        later = path.at(order.utc_s + clock_s + UNSTEADY_S)
-        if before is not None and abs(turn_deg(before.azimuth_deg, seen.azimuth_deg)) > FULL_TURN_DEG / 4:
-            return False
-        before = seen
         cos = math.cos(math.radians(seen.elevation_deg))
         least_cos = min(least_cos, cos)
         across = turn_deg(seen.azimuth_deg, order.azimuth_deg) * cos
         up = order.elevation_deg - max(0.0, seen.elevation_deg)
-        loose_across = half * cos + LEAST_DEG + abs(turn_deg(seen.azimuth_deg, later.azimuth_deg)) * cos
-        loose_up = half + LEAST_DEG + abs(later.elevation_deg - seen.elevation_deg)
+        loose_across = half * cos + LEAST_DEG + UNSTEADY_S * abs(seen.azimuth_dps) * cos
+        loose_up = half + LEAST_DEG + UNSTEADY_S * abs(seen.elevation_dps)
         low_across, high_across = max(low_across, across - loose_across), min(high_across, across + loose_across)
         low_up, high_up = max(low_up, up - loose_up), min(high_up, up + loose_up)
         if low_across > high_across or low_up > high_up:

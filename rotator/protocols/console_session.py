@@ -161,7 +161,8 @@ def report(status: Status) -> list[str]:
         lines.append("moving: " + " ".join(axis.value for axis in Axis if status.axis(axis).moving))
     lines.append(f"moved by: {status.controlled_by or 'nobody'}")
     if status.flown is not None:
-        lines.append(f"tracks: {tracked(status.flown, status.at_s)}")
+        how = "recognised" if status.recognised else "tracks"
+        lines.append(f"{how}: {tracked(status.flown, status.at_s)}")
     if status.mode is not Mode.AUTO:
         lines.append(f"panel: {status.mode.name}")
     if status.latched:

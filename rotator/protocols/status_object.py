@@ -69,6 +69,8 @@ FLOWN_FIELDS: Sequence[Field[tuple[Flown, float]]] = (
           lambda each: round(each[0].end_s - each[1], 1) if isfinite(each[0].end_s) else None),
     Field("expected_error_deg", "number", "how far it may be from where it is computed",
           lambda each: _angle(each[0].expected_error_deg)),
+    Field("recognised", "true or false", "in the orders of a program; false: the box tracks it by itself",
+          lambda each: each[0].recognised),
 )  # fmt: skip
 
 

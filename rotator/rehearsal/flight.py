@@ -15,6 +15,7 @@ from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from rotator.assembly.arduino import arduino_station
 from rotator.assembly.settings import build_controller, build_mount, build_offsets, planned_motors
+from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.sky import build_satellites
 from rotator.assembly.station import Station
 from rotator.config.model import Config
@@ -106,6 +107,9 @@ class Plant(Protocol):
     def recognised(self) -> Told | None:
         """The satellite that it has recognised in its orders."""
 
+    def true_direction(self, now_s: float) -> tuple[float, float] | None:
+        """Where that satellite really was; None: it has recognised none."""
+
     def faults(self) -> tuple[str, ...]:
         """The faults that hold an axis now, each in a sentence."""
 
@@ -113,8 +117,7 @@ class Plant(Protocol):
 class BoxPlant:
     """The box, from its protocol to its relays, on simulated chips.
 
-    `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand. `utc_s`: the pass begins
-    then, in seconds since 1970, and the box listens which of the satellites it knows the orders follow.
+    `via`: "rotctld" or "gs232", as orders are sent; or "track": it knows the pass beforehand.
     """
 
     def __init__(
@@ -135,13 +138,14 @@ class BoxPlant:
         self._target = target
         self._clock = clock
         self._period_s = 1 / config.control.rate_hz
-        self._shift = build_offsets(config)
-        start_deg = (start_deg[0] - self._shift.azimuth_deg, start_deg[1] - self._shift.elevation_deg)
+        shift = build_offsets(config)
+        start_deg = (start_deg[0] - shift.azimuth_deg, start_deg[1] - shift.elevation_deg)
         station = Station(config, clock, clock.sleep, start_deg, add_alarm=clock.add_alarm)
         assert station.world is not None, "a rehearsal is always simulated"
         self.world: SimRotor = station.world
         self._loop = ControlLoop(build_controller(config), station.rotor, clock, self._period_s)
         self._mount = build_mount(config)
+        self._boom = simulated_boom(config)
         self._motors = planned_motors(config)
         client = Client(self._loop, self._mount, Source(via), clock=clock)
         self._session: Session = RotctldSession(client) if via == "rotctld" else Gs232Session(client, Dialect.B)
@@ -198,18 +202,20 @@ class BoxPlant:
                 self._overhearing.look()
 
     def pointing(self) -> tuple[float, float, int, int]:
-        # The simulated boom has the rotor's own scale. The mount's offset makes it a true direction.
-        azimuth_deg, elevation_deg = self.world.antenna()
+        azimuth_deg, elevation_deg = self._boom(*self.world.antenna())
         drives = self.world.drives()
         if self.world.relay_starts is None:
             drives = int(self.status.azimuth.drive), int(self.status.elevation.drive)
-        return azimuth_deg + self._shift.azimuth_deg, elevation_deg + self._shift.elevation_deg, *drives
+        return azimuth_deg, elevation_deg, *drives
 
     def relay_starts(self) -> int | None:
         return self.world.relay_starts
 
     def recognised(self) -> Told | None:
         return self._overhearing.told if self._overhearing else None
+
+    def true_direction(self, now_s: float) -> tuple[float, float] | None:
+        return self._overhearing.true_direction(now_s) if self._overhearing else None
 
     def faults(self) -> tuple[str, ...]:
         return tuple(map(str, self.status.faults))
@@ -240,6 +246,9 @@ class ArduinoPlant:
         return self._station.relay_starts
 
     def recognised(self) -> None:
+        """It knows no satellites."""
+
+    def true_direction(self, now_s: float) -> None:
         """It knows no satellites."""
 
     def faults(self) -> tuple[str, ...]:
@@ -273,7 +282,8 @@ def plant_maker(
         start_deg = (flown.rows[0][1], 0.0)
         if arduino:
             return ArduinoPlant(config, clock, start_deg)
-        box = BoxPlant(config, clock, start_deg, via, utc_s=utc_s, target=target)
+        listens_s = None if via == "track" or target else utc_s
+        box = BoxPlant(config, clock, start_deg, via, utc_s=listens_s, target=target)
         for at_s, name in faults(box.world):
             box.inject(at_s, name)
         return box
@@ -310,7 +320,14 @@ def fly(
     else:
         clock.every(1.0, order)
     plant.run_until(begin_s + flown.end_s)
+    if plant.recognised() is not None:  # the clock of the program that sent the pass may have been wrong
+        trace = [_judged(sample, plant.true_direction(begin_s + sample.t)) for sample in trace]
     return trace, replace(summarise(trace, plant.relay_starts()), recognised=plant.recognised(), faults=plant.faults())
+
+
+def _judged(sample: Sample, true_deg: tuple[float, float] | None) -> Sample:
+    """The same sample, with the target where it really was."""
+    return sample if true_deg is None else replace(sample, target_az=true_deg[0], target_el=true_deg[1])
 
 
 def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:

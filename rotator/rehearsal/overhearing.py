@@ -12,6 +12,7 @@ from firmware_sim.clock import SimClock
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
 from rotator.orbits.recognition import Recognised, StreamWatch, rest_of_pass
+from rotator.orbits.sight import Target
 from rotator.orders import Order, Source
 from rotator.runtime.loop import ControlLoop
 
@@ -45,6 +46,7 @@ class Overhearing:
         self._antenna = antenna
         self._planned: tuple[float, Recognised] | None = None
         self._first_s: float | None = None
+        self._true: Target | None = None
         self.told: Told | None = None
         """The first satellite that was named."""
         loop.overhear(self._hear)
@@ -56,6 +58,13 @@ class Overhearing:
         if name and self.told is None and self._first_s is not None:
             self.told = Told(name, self._clock() - self._first_s)
 
+    def true_direction(self, now_s: float) -> tuple[float, float] | None:
+        """Where the satellite really was that was named; None: none was."""
+        if self.told is None or self._true is None:
+            return None
+        seen = self._true.sight(self._utc() + now_s - self._clock())
+        return seen.azimuth_deg, seen.elevation_deg
+
     def _hear(self, source: Source, order: Order) -> None:
         now_s = self._clock()
         if self._first_s is None:
@@ -63,13 +72,15 @@ class Overhearing:
         match self._watch.hear(source, order, self._utc()):
             case Recognised() as recognised:
                 self._planned = now_s + COMPUTING_S, recognised
+                if self.told is None:
+                    self._true = recognised.satellite
 
     def _fly(self, now_s: float) -> None:
         assert self._planned is not None
         _, recognised = self._planned
         self._planned = None
         apart_s = self._utc() - now_s
-        rows = rest_of_pass(recognised.satellite, self._utc())
-        path = KnownPath(tuple((utc_s - apart_s, az_deg, el_deg) for utc_s, az_deg, el_deg in rows))
+        rest = rest_of_pass(recognised.satellite, self._utc())
+        path = KnownPath(tuple((utc_s - apart_s, az_deg, el_deg) for utc_s, az_deg, el_deg in rest.rows))
         plan = plan_flight(recognised.satellite.name, path, self._antenna(), now_s)
-        self._loop.post(recognised.source, replace(plan.order, stream=recognised.stream))
+        self._loop.post(recognised.source, replace(plan.order, sets_s=rest.sets_s - apart_s, stream=recognised.stream))

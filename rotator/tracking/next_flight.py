@@ -90,12 +90,13 @@ def next_flight(wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
 def rest_flight(wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
     """What is left of a pass that is on, as a program sends it already. Raises NotThere, Unknown."""
     target = wanted.target()
-    rows = rest_of_pass(target, now.utc_s)
+    rest = rest_of_pass(target, now.utc_s)
     path = KnownPath(
-        tuple((utc_s - now.apart_s, azimuth_deg, elevation_deg) for utc_s, azimuth_deg, elevation_deg in rows)
+        tuple((utc_s - now.apart_s, azimuth_deg, elevation_deg) for utc_s, azimuth_deg, elevation_deg in rest.rows)
     )
     order = plan_flight(target.name, path, antenna, now.loop_s).order
-    return replace(order, expected_error_deg=_error_deg(target, now.utc_s, now.utc_s + JUDGED_S))
+    error_deg = _error_deg(target, now.utc_s, rest.sets_s + JUDGED_S)
+    return replace(order, sets_s=rest.sets_s - now.apart_s, expected_error_deg=error_deg)
 
 
 def target_path(target: Target, begin_s: float, end_s: float, row_s: float, apart_s: float = 0.0) -> KnownPath:

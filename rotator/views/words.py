@@ -77,7 +77,7 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
     if status.flown is not None and not status.recognised:
         return f"tracks {status.flown.name}, {rise_or_set(status.flown, status.at_s)}"
     where = next((wire.where for wire in wires if source.partition("#")[0] == wire.name), "")
-    recognised = f", recognised as {status.recognised}" if status.recognised else ""
+    recognised = f": {status.flown.name}, {rise_or_set(status.flown, status.at_s)}" if status.flown else ""
     point = f", point {status.timed_point} of {status.timed_points}" if status.timed_points else ""
     return f"orders from {spoken(source)}{recognised}{point}" + (f" ({where})" if where else "")
 

@@ -10,7 +10,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rotator.control.sky.angles import turn_deg
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.pointing import LEAST_WEIGHT
@@ -101,14 +100,13 @@ def _axis_angles(
     for index, leg in enumerate(legs):
         begin = leg.look * per_look
         end = legs[index + 1].look * per_look if index + 1 < len(legs) else len(directions)
-        azimuth_deg, before_deg = leg.flown.way.azimuth_deg, directions[0][0]
-        for moment, (direction_deg, elevation_deg) in enumerate(directions[:end]):
-            azimuth_deg += turn_deg(before_deg, direction_deg)
-            before_deg = direction_deg
+        way = leg.flown.way
+        azimuth_deg = way.azimuth_deg
+        for moment, direction in enumerate(directions[:end]):
+            azimuth_deg, elevation_deg = mount.on_the_way(*direction, azimuth_deg, flipped=way.flipped)
             if moment < begin:
                 continue
             kept_deg = mount.azimuth.nearest(azimuth_deg)
             azimuths_deg.append(kept_deg)
-            flipped_deg = 180.0 - elevation_deg if leg.flown.way.flipped else elevation_deg
-            elevations_deg.append(mount.clear_deg(kept_deg, flipped_deg))
+            elevations_deg.append(mount.clear_deg(kept_deg, elevation_deg))
     return azimuths_deg, elevations_deg

@@ -103,7 +103,7 @@ def possible_ways(mount: Mount, first: Direction) -> list[Way]:
     azimuth = mount.azimuth
     found = []
     for flipped in (False, True) if mount.flip else (False,):
-        begin_deg = first[0] + (180.0 if flipped else 0.0)
+        begin_deg, _ = mount.on_the_way(*first, first[0], flipped=flipped)
         turns = range(
             math.floor((azimuth.min_deg - 360.0 - begin_deg) / 360.0),
             math.ceil((azimuth.max_deg + 360.0 - begin_deg) / 360.0) + 1,

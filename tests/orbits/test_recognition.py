@@ -1,0 +1,306 @@
+"""A satellite is recognised in a program's orders by place, motion and direction; nothing else is taken for one."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import pytest
+
+from rotator.orbits.passes import Pass, passes
+from rotator.orbits.recognition import ORDERS, Departed, Recognised, StreamWatch, rest_of_pass
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import Sight
+from rotator.orders import Aim, Fly, Leave, Order, Source, Speed, Stop, Stream
+from tests.orbits.streams import PROGRAM, News, Path, great_circle, heard, orders, path_of, whole
+from tests.orbits.test_satellite import FLYING, PARIS
+
+SATELLITES = {name: Satellite(elements, PARIS) for name, elements in FLYING.items()}
+SLOW = "RS-44"
+"""1500 km high: after its rise it takes up to 12 s until a whole degree changes."""
+
+
+def pass_of(name: str, number: int = 0) -> Pass:
+    satellite = SATELLITES[name]
+    from_s = satellite.elements.epoch_utc_s
+    return list(passes(satellite, from_s, from_s + 86_400.0, 8.0))[number]
+
+
+def rise_s(name: str, number: int = 0) -> float:
+    aos_s = pass_of(name, number).aos_s
+    assert aos_s is not None
+    return aos_s
+
+
+@pytest.fixture
+def watch() -> StreamWatch:
+    return StreamWatch(SATELLITES.values())
+
+
+def names(news: list[News]) -> list[tuple[type, str]]:
+    return [(type(each.what), each.what.satellite.name) for each in news]
+
+
+# --- what is recognised
+
+
+@pytest.mark.parametrize("name", SATELLITES)
+@pytest.mark.parametrize("number", [0, 1, 2])
+@pytest.mark.parametrize("ahead_s", [-5.0, 0.0, 5.0])
+def test_ten_orders_after_its_rise_it_is_recognised_and_stays_so_to_its_set(
+    watch: StreamWatch, name: str, number: int, ahead_s: float
+) -> None:
+    flown = pass_of(name, number)
+    assert flown.aos_s is not None
+    assert flown.los_s is not None
+    path, lasts_s = path_of(SATELLITES[name]), int(flown.los_s - flown.aos_s)
+    news = heard(watch, path, flown.aos_s, lasts_s, ahead_s=ahead_s)
+    assert names(news) == [(Recognised, name)]
+    assert ORDERS <= news[0].orders <= (13 if name == SLOW else 11)
+    recognised = news[0].what
+    assert isinstance(recognised, Recognised)
+    least_s, most_s = recognised.stream.ahead_s
+    assert least_s - 0.25 <= ahead_s <= most_s + 0.25
+
+
+@pytest.mark.parametrize("name", SATELLITES)
+@pytest.mark.parametrize("rounds", [math.floor, lambda deg: whole(deg * 10) / 10, lambda deg: whole(deg * 100) / 100])
+def test_in_mid_pass_it_is_recognised_once_it_has_moved_by_three_degrees_however_the_program_rounds(
+    watch: StreamWatch, name: str, rounds: Callable[[float], float]
+) -> None:
+    from_s = pass_of(name, 1).tca_s - 60.0
+    found = [
+        count + 1
+        for count, aim in enumerate(orders(path_of(SATELLITES[name]), from_s, 30, rounds))
+        if isinstance(watch.hear(PROGRAM, aim, from_s - 2.0 + count), Recognised)
+    ]
+    [count] = found
+    moved_deg = SATELLITES[name].sight(from_s).apart_deg(SATELLITES[name].sight(from_s + count))
+    assert count == ORDERS or moved_deg < 4.0
+
+
+def test_a_program_that_sends_each_whole_degree_once(watch: StreamWatch) -> None:
+    flown = pass_of("ISS", 1)
+    before, news = None, []
+    for count, aim in enumerate(orders(path_of(SATELLITES["ISS"]), flown.tca_s - 240.0, 300)):
+        if aim != before and (what := watch.hear(PROGRAM, aim, flown.tca_s - 240.0 + count)) is not None:
+            news.append(what)
+        before = aim
+    assert [type(what) for what in news] == [Recognised]
+
+
+def test_orders_faster_than_once_a_second_count_no_more(watch: StreamWatch) -> None:
+    from_s, path = rise_s("ISS"), path_of(SATELLITES["ISS"])
+    when_s = next(
+        tenth / 10
+        for tenth in range(300)
+        if watch.hear(PROGRAM, next(orders(path, from_s + tenth / 10, 1)), from_s + tenth / 10) is not None
+    )
+    assert 8.0 <= when_s <= 12.0
+
+
+def test_two_programs_are_heard_apart(watch: StreamWatch) -> None:
+    other, path = Source("rotctld", 3), path_of(SATELLITES["ISS"])
+    for count, aim in enumerate(orders(path, rise_s("ISS"), 12)):
+        watch.hear(other, Aim(180.0, 30.0), rise_s("ISS") + count)
+        watch.hear(PROGRAM, aim, rise_s("ISS") + count)
+    assert watch.followed(other) is None
+    followed = watch.followed(PROGRAM)
+    assert followed is not None
+    assert followed.satellite.name == "ISS"
+
+
+# --- what is not
+
+
+def standing(here: tuple[float, float]) -> Path:
+    return lambda _utc_s: here
+
+
+def shifted(path: Path, late_s: float) -> Path:
+    return lambda utc_s: path(utc_s - late_s)
+
+
+def mirrored(path: Path, about_deg: float) -> Path:
+    return lambda utc_s: ((2 * about_deg - path(utc_s)[0]) % 360.0, path(utc_s)[1])
+
+
+def at_pace(path: Path, pace: float, from_s: float) -> Path:
+    return lambda utc_s: path(from_s + pace * (utc_s - from_s))
+
+
+def above(path: Path, by_deg: float) -> Path:
+    return lambda utc_s: (path(utc_s)[0], path(utc_s)[1] + by_deg)
+
+
+TOP_S = pass_of("ISS", 2).tca_s
+"""A pass that is 50° high."""
+ISS = path_of(SATELLITES["ISS"])
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(standing(ISS(TOP_S)), id="stands where the satellite comes by"),
+        pytest.param(shifted(ISS, 9.0), id="the same way, 9 s behind"),
+        pytest.param(shifted(ISS, -9.0), id="the same way, 9 s before"),
+        pytest.param(mirrored(ISS, ISS(TOP_S)[0]), id="mirrored at the highest point"),
+        pytest.param(at_pace(ISS, 0.7, TOP_S), id="slower"),
+        pytest.param(at_pace(ISS, 1.3, TOP_S), id="faster"),
+        pytest.param(at_pace(ISS, -1.0, TOP_S), id="backwards"),
+        pytest.param(above(ISS, 3.0), id="three degrees above"),
+        pytest.param(lambda utc_s: (ISS(TOP_S)[0] + utc_s - TOP_S, ISS(TOP_S)[1]), id="a sweep through it"),
+    ],
+)
+def test_what_nearly_is_the_satellite_is_not_taken_for_it(watch: StreamWatch, path: Path) -> None:
+    assert heard(watch, path, TOP_S - 20.0, 60) == []
+
+
+def test_an_antenna_that_stands_where_a_satellite_rises_is_not_taken_for_it(watch: StreamWatch) -> None:
+    for name, satellite in SATELLITES.items():
+        assert heard(watch, standing(path_of(satellite)(rise_s(name))), rise_s(name), 60) == []
+
+
+@pytest.mark.parametrize("behind_s", [0.0, 1.0, 4.0])
+def test_of_two_satellites_on_one_path_none_is_named(behind_s: float) -> None:
+    elements = FLYING["ISS"]
+    behind_deg = behind_s * elements.mean_motion_rev_per_day / 86_400.0 * 360.0
+    twin = replace(
+        elements,
+        name="TWIN",
+        catalogue_number=999_999_999,
+        mean_anomaly_deg=(elements.mean_anomaly_deg - behind_deg) % 360.0,
+    )
+    watch = StreamWatch([SATELLITES["ISS"], Satellite(twin, PARIS)])
+    assert heard(watch, ISS, rise_s("ISS"), 500) == []
+
+
+def test_lines_that_begin_at_a_satellite_are_not_taken_for_it() -> None:
+    """As fast as satellites are, but on another course or at another pace: 200 near misses."""
+    dice = random.Random(15)
+    for _ in range(200):
+        name = dice.choice(sorted(SATELLITES))
+        satellite, utc_s = SATELLITES[name], pass_of(name, dice.randrange(3)).tca_s + dice.uniform(-200.0, 200.0)
+        begin, soon = satellite.sight(utc_s), satellite.sight(utc_s + 1.0)
+        if begin.elevation_deg < 5:
+            continue
+        path = great_circle(begin, *other_motion(dice, begin, soon), utc_s)
+        assert heard(StreamWatch([satellite]), path, utc_s, 40) == []
+
+
+def other_motion(dice: random.Random, begin: Sight, soon: Sight) -> tuple[float, float]:
+    """Course and speed, neither of them the satellite's."""
+    turned = math.radians((soon.azimuth_deg - begin.azimuth_deg + 180) % 360 - 180)
+    course_deg = math.degrees(
+        math.atan2(
+            turned * math.cos(math.radians(begin.elevation_deg)),
+            math.radians(soon.elevation_deg - begin.elevation_deg),
+        )
+    )
+    speed_dps = begin.apart_deg(soon)
+    if dice.random() < 0.5:
+        return course_deg, speed_dps * dice.choice((dice.uniform(0.1, 0.6), dice.uniform(1.4, 2.0)))
+    return course_deg + dice.uniform(40.0, 320.0), speed_dps
+
+
+# --- how it ends
+
+
+@pytest.fixture
+def followed(watch: StreamWatch) -> StreamWatch:
+    heard(watch, ISS, TOP_S - 60.0, 60)
+    assert watch.followed(PROGRAM) is not None
+    return watch
+
+
+@pytest.mark.parametrize(("off_deg", "departs"), [(1.4, False), (3.2, True)])
+def test_it_departs_by_more_than_its_rounding_and_a_degree_and_a_half(
+    followed: StreamWatch, off_deg: float, departs: bool
+) -> None:
+    # Across the path: no clock explains that.
+    here, soon = SATELLITES["ISS"].sight(TOP_S), SATELLITES["ISS"].sight(TOP_S + 1.0)
+    assert abs(soon.elevation_deg - here.elevation_deg) < 0.1, "it flies level at its highest"
+    news = followed.hear(PROGRAM, Aim(whole(here.azimuth_deg), whole(here.elevation_deg + off_deg)), TOP_S)
+    assert news == (Departed(PROGRAM, SATELLITES["ISS"]) if departs else None)
+    assert (followed.followed(PROGRAM) is None) is departs
+
+
+def test_a_program_that_stays_behind_departs(followed: StreamWatch) -> None:
+    [news] = heard(followed, standing(ISS(TOP_S - 1.0)), TOP_S, 10)
+    assert isinstance(news.what, Departed)
+
+
+@pytest.mark.parametrize(
+    "order", [Stop(), Aim(200.0, None), Aim(400.0, 30.0), Aim(100.0, 120.0), Aim(1.0, 1.0, engaged=False), Leave()]
+)
+def test_another_order_ends_it(followed: StreamWatch, order: Order) -> None:
+    assert followed.hear(PROGRAM, order, TOP_S) == Departed(PROGRAM, SATELLITES["ISS"])
+    assert followed.followed(PROGRAM) is None
+
+
+@pytest.mark.parametrize("order", [Speed(2), Stop()])
+@pytest.mark.parametrize("sender", [Source("rotctld", 9)])
+def test_what_others_order_does_not(followed: StreamWatch, sender: Source, order: Order) -> None:
+    assert followed.hear(sender, order, TOP_S) is None
+    assert followed.followed(PROGRAM) is not None
+
+
+def test_a_program_that_names_its_turn_is_not_planned_for_again(watch: StreamWatch) -> None:
+    watch.hear(PROGRAM, Aim(365.0, 10.0), TOP_S - 100.0)
+    assert heard(watch, ISS, TOP_S - 60.0, 60) == []
+    watch.hear(PROGRAM, Leave(), TOP_S)
+    assert names(heard(watch, ISS, TOP_S, 60)) == [(Recognised, "ISS")]
+
+
+def test_the_next_satellite_of_the_same_program_is_recognised(followed: StreamWatch) -> None:
+    news = heard(followed, path_of(SATELLITES["SO-50"]), rise_s("SO-50", 1), 60)
+    assert names(news) == [(Departed, "ISS"), (Recognised, "SO-50")]
+
+
+# --- what it costs, and what is flown
+
+
+@dataclass
+class Counted:
+    satellite: Satellite
+    name: str
+    sights: int = 0
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def sight(self, utc_s: float) -> Sight:
+        self.sights += 1
+        return self.satellite.sight(utc_s)
+
+    def late_s(self, utc_s: float) -> float:
+        return self.satellite.late_s(utc_s)
+
+
+def test_a_hundred_satellites_cost_little() -> None:
+    elements = FLYING["SO-50"]
+    many = [
+        Counted(Satellite(replace(elements, ascending_node_deg=3.6 * step), PARIS), f"OF {step}") for step in range(100)
+    ]
+    from_s, seconds = rise_s("ISS"), 300
+    heard(StreamWatch(many), ISS, from_s, seconds)
+    assert sum(each.sights for each in many) / seconds < 25, "positions per order"
+
+
+def test_the_path_to_be_flown_begins_before_the_orders_and_ends_after_the_set() -> None:
+    flown = pass_of("ISS")
+    assert flown.aos_s is not None
+    assert flown.los_s is not None
+    rest = rest_of_pass(SATELLITES["ISS"], flown.aos_s + 10.0)
+    assert rest.rows[0][0] <= flown.aos_s + 10.0 - 6.0
+    assert rest.sets_s == pytest.approx(flown.los_s, abs=1.0)
+    assert rest.rows[-1][0] == pytest.approx(flown.los_s + 30.0, abs=1.5)
+    assert rest.rows[-1][2] < 0
+
+
+def test_the_flight_in_its_place_is_no_order_of_the_program(followed: StreamWatch) -> None:
+    plan: Order = Fly("ISS", ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0)), None, None, stream=Stream(1.0, (0.0, 0.0)))  # type: ignore[arg-type]
+    assert followed.hear(PROGRAM, plan, TOP_S) is None
+    assert followed.followed(PROGRAM) is not None
