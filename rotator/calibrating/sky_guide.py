@@ -129,7 +129,8 @@ class SkyGuide(Guide):
         self._say("", "One or two points tell the offsets, three a tilt, six and more all. Take them far apart.")
         while True:
             count = f"{len(self._points)} point{'' if len(self._points) == 1 else 's'}"
-            match (yield from self._ask(f"{count}. y: turn to {name}; r l u d: steer; Enter: centred; f: no more.")):
+            prompt = f"{count}. y: turn to {name}; r l u d: steer; Enter: centred; f: no more."
+            match (yield from self._ask(prompt, "Enter takes this point, b the last one back.", may_go_back=True)):
                 case Yes():
                     yield from self._go()
                 case Enter():
