@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests docs reference drills test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings dist deb lock clean
+.PHONY: run test check tests docs reference drills test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -23,6 +23,10 @@ check: $(VENV)/.dev
 # More at once than there are cores, for many tests wait for a foreign program's own pauses.
 tests: $(VENV)/.dev
 	$(BIN)/pytest -n 4 --dist worksteal $(TESTS)
+
+# Any bytes, any orders, any files: every test that searches, with all of its examples. `make test` tries a quarter of them.
+test-search: $(VENV)/.dev
+	ROTATOR_SEARCH=whole $(BIN)/pytest -n 4 --dist worksteal -m "hypothesis or search" $(TESTS)
 
 # Debian's Hamlib: each of its models that can drive the box, and a dummy rotator that the box follows.
 test-hamlib: $(VENV)/.dev
@@ -65,6 +69,7 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.kinds
 	$(BIN)/python -m benchmarks.rotors
 	$(BIN)/python -m benchmarks.mount
+	$(BIN)/python -m benchmarks.schedule
 	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
 	$(BIN)/python -m benchmarks.startup

@@ -83,6 +83,8 @@ class AxisStatus:
     """Its motor as learnt, clockwise or up first, then the other way; None: the drive has nothing to learn."""
     trusts: Trusts = ALL_OPEN
     """What is known of its two relays."""
+    correction_deg: float = 0.0
+    """How much further the boom points than the axis reads, as the mount really stands."""
     waiting: bool = False
     """Its relay closes as soon as the axis has been seen to stand, or its opposite relay to open."""
 
@@ -94,6 +96,11 @@ class AxisStatus:
         nearest_deg = min(max(self.angle_deg, self.min_deg), self.max_deg)
         margin_deg = min(AT_END_NOISES * self.noise_deg, AT_END_MOST_DEG)
         return nearest_deg if abs(self.angle_deg - nearest_deg) <= margin_deg else self.angle_deg
+
+    @property
+    def points_deg(self) -> float | None:
+        """Where the boom points, as programs are told it: on the turn of the axis, and above 90° over the top."""
+        return None if self.shown_deg is None else self.shown_deg + self.correction_deg
 
     @property
     def at_target(self) -> bool:

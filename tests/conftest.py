@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from rotator.rehearsal.passes import SHIPPED
+from tests.search import examples
 
 PASSES = sorted(SHIPPED.glob("*.csv"))
 collect_ignore = [] if "GS232_KERNEL" in os.environ else ["kernel"]
@@ -35,11 +36,15 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """An example may take as long as a busy machine needs: what must be fast is measured, not guessed from one run."""
+    """An example may take as long as a busy machine needs: what must be fast is measured, not guessed from one run.
+
+    A search that names no number of its own tries a hundred in `make test-search`.
+    """
     if config.pluginmanager.hasplugin("hypothesispytest"):
         from hypothesis import settings
 
-        settings.register_profile("house", settings.get_profile(settings.get_current_profile_name()), deadline=None)
+        present = settings.get_profile(settings.get_current_profile_name())
+        settings.register_profile("house", present, deadline=None, max_examples=examples(present.max_examples))
         settings.load_profile("house")
 
 

@@ -13,9 +13,9 @@ from hw.ports import HardwareError
 LINE_S = 0.05
 """The adapter's time limit for one line, in seconds. The library's default is longer than the other axis's watchdog."""
 
-WRITE_S = 0.25
+WRITE_S = 1.0
 """An adapter that stops reading holds the thread up for so long, in seconds. pyserial takes a write that has succeeded
-for a failure when the thread had no turn for longer, as on a busy machine."""
+for a failure when the thread had no turn for longer, and a thread of a busy machine may wait for half a second."""
 
 
 def library() -> Any:

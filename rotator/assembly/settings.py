@@ -24,6 +24,7 @@ from rotator.control.settings import Settings
 from rotator.control.sky.flight_plan import PlannedMotor
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.offsets import Offsets, Points, offsets
+from rotator.control.sky.pointing_model import PointingModel
 from rotator.faults import Missing
 from rotator.orders import Mode
 from rotator.status import ALL_OPEN, LearntMotor, Trusts
@@ -45,6 +46,7 @@ def build_mount(config: Config) -> Mount:
         flip=config.mount.flip == "over-top",
         horizon=tuple(config.mount.horizon),
         sectors=tuple(build_sector(table, shift) for table in config.mount.forbidden),
+        model=PointingModel(**config.mount.model.model_dump(exclude={"points"})),
     )
 
 

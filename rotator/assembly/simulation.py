@@ -12,12 +12,14 @@ from typing import Any
 
 from firmware_sim import world_file
 from firmware_sim.panel import PanelSpec
+from firmware_sim.parts.mount import MountSpec
 from firmware_sim.rotors.rotor import LcdSpec, SimRotor
 from firmware_sim.world_file import WorldState
 from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS
 from hw.ports import Axis, HardwareError
 from rotator.assembly.adc import simulate_adc
 from rotator.assembly.kinds import builder
+from rotator.assembly.settings import build_offsets
 from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.config.model import Config
 
@@ -106,6 +108,21 @@ class SimulatedStation:
             if end == "low" and (stop := config.end_stop(Axis(name))):
                 at_deg = stop.home_deg + LIMIT_BEYOND_DEG
             rotor.wire_limit(key, pin, name, at_deg, high=end == "high")
+
+
+def simulated_boom(config: Config) -> Callable[[float, float], tuple[float, float]]:
+    """Where the simulated boom truly points, with the axes at these angles on the rotor's own scale.
+
+    On a mount without errors it is the axes' own angles, with the file's offsets: on their turn, and over the top.
+    """
+    shift, terms = build_offsets(config), config.sim.mount.model_dump()
+    spec = MountSpec(**terms)
+
+    def direction(azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
+        azimuth_deg, elevation_deg = azimuth_deg + shift.azimuth_deg, elevation_deg + shift.elevation_deg
+        return spec.direction(azimuth_deg, elevation_deg) if any(terms.values()) else (azimuth_deg, elevation_deg)
+
+    return direction
 
 
 def kept_world(config: Config) -> WorldState | None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hw.ports import Axis
+from rotator.config.mount_model import SkyRow
+from rotator.control.sky.pointing_model import PointingModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,11 +29,19 @@ class NorthFound:
 
 
 @dataclass(frozen=True, slots=True)
+class MountFound:
+    """How the mount really stands, and the points that say so, on the rotor's own scale."""
+
+    model: PointingModel
+    points: tuple[SkyRow, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class AngleConfirmed:
     """The controller has accepted the azimuth's angle. There is nothing to save."""
 
     angle_deg: float
 
 
-Saved = AxisCalibrated | NorthFound
+Saved = AxisCalibrated | NorthFound | MountFound
 Result = Saved | AngleConfirmed

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import ExitStack
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Protocol
 
@@ -16,6 +17,7 @@ from hw.ports import Axis, HardwareError
 from rotator.assembly.board import Board
 from rotator.assembly.calibration import SCALES_DEG, calibration_controller, calibration_traits, open_compass
 from rotator.assembly.settings import build_controller
+from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
 from rotator.calibrating.compass import CompassReader
@@ -25,12 +27,19 @@ from rotator.calibrating.facts import north_facts
 from rotator.calibrating.guide import Guide
 from rotator.calibrating.north_guide import NorthGuide
 from rotator.calibrating.readings import DEGREES
-from rotator.calibrating.results import AngleConfirmed, AxisCalibrated, NorthFound, Result
+from rotator.calibrating.results import AngleConfirmed, AxisCalibrated, MountFound, NorthFound, Result
+from rotator.calibrating.sky_facts import sky_facts
+from rotator.calibrating.sky_guide import Sighting, SkyGuide
+from rotator.calibrating.sky_table import miss_text
 from rotator.calibrating.table_guide import TableGuide
 from rotator.config.model import Config
 from rotator.control.controller import Controller
+from rotator.control.sky.model_fit import SkyPoint
+from rotator.control.sky.pointing_model import PERFECT
+from rotator.orbits.sight import Target
 from rotator.orders import Source
 from rotator.runtime.loop import ControlLoop
+from rotator.status import AxisStatus, Status
 from rotator.store.compass import CompassFile
 
 CALIBRATE = Source("calibrate")
@@ -140,6 +149,61 @@ class NorthRig:
     def stop(self) -> None:
         self.compass.stop()
         self._opened.close()
+
+
+class SkyRig:
+    """The whole box as configured, and a target on the sky. `utc`: the time by the box's clock, in seconds since 1970.
+
+    Raises NotThere.
+    """
+
+    def __init__(
+        self, config: Config, station: Station, clock: Callable[[], float], target: Target, utc: Callable[[], float]
+    ) -> None:
+        self._target, self._utc = target, utc
+        self._boom = simulated_boom(config) if station.world else None
+        self._world = station.world
+        self.loop = _control_loop(config, build_controller(config), station, clock)
+        self.guide = SkyGuide(sky_facts(config, _called(target.name)))
+        self._seen = self._sighting()
+
+    @property
+    def result(self) -> MountFound | None:
+        return self.guide.result
+
+    def step(self, entry: Entry | None = None) -> tuple[str, ...]:
+        self._seen = self._sighting()
+        self.guide.see(self._seen)
+        return _step(self.guide, self.loop, entry)
+
+    def picture(self) -> tuple[str, bool]:
+        status, seen = self.loop.status, self._seen
+        angles = " ".join("----" if each.points_deg is None else f"{each.points_deg:.1f}°" for each in _axes(status))
+        text = f"boom {angles}  {self._target.name} {seen.azimuth_deg:.1f}° {seen.elevation_deg:.1f}°"
+        return f"{text}  {seen.finder}", status.moving
+
+    def start(self) -> None:
+        """Only the loop runs, and the session starts that."""
+
+    def stop(self) -> None:
+        """Only the loop runs, and the session stops that."""
+
+    def _sighting(self) -> Sighting:
+        now_s = self._utc()
+        sight, finder = self._target.sight(now_s), ""
+        if self._boom is not None and self._world is not None:
+            seen = SkyPoint(*self._boom(*self._world.antenna()), sight.azimuth_deg, sight.elevation_deg)
+            finder = f"SIM: along the boom it is {miss_text(seen.miss(PERFECT))}"
+        moment = f"{datetime.fromtimestamp(now_s, UTC):%d %b %Y %H:%M:%S} UTC"
+        return Sighting(sight.azimuth_deg, sight.elevation_deg, moment, finder)
+
+
+def _called(name: str) -> str:
+    return f"the {name}" if name in ("Sun", "Moon") else name
+
+
+def _axes(status: Status) -> tuple[AxisStatus, AxisStatus]:
+    return status.azimuth, status.elevation
 
 
 def _control_loop(config: Config, controller: Controller, station: Station, clock: Callable[[], float]) -> ControlLoop:

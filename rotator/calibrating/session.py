@@ -17,15 +17,16 @@ from hw.ports import Axis
 from rotator.assembly.calibration import compass_path
 from rotator.assembly.station import Station
 from rotator.calibrating.results import AngleConfirmed, Result
-from rotator.calibrating.rig import AxisRig, NorthRig, Rig
+from rotator.calibrating.rig import AxisRig, NorthRig, Rig, SkyRig
 from rotator.calibrating.saving import as_toml, save
 from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.config.load import ConfigError
 from rotator.config.model import Config
+from rotator.orbits.sight import Target
 from rotator.runtime.engine import Engine
 
 POLL_S = 0.02
-NORTH = "north"
+NORTH, SKY = "north", "sky"
 
 
 class Screen(Protocol):
@@ -44,7 +45,10 @@ class Screen(Protocol):
 
 
 class CalibrationSession:
-    """`path`: the file that results are saved in; None: they are shown instead. `open_station` raises HardwareError."""
+    """`path`: the file that results are saved in; None: they are shown instead. `open_station` raises HardwareError.
+
+    `target`, `utc`: what the boom is to point at, and the time, for the task SKY.
+    """
 
     def __init__(
         self,
@@ -53,7 +57,12 @@ class CalibrationSession:
         screen: Screen,
         open_station: Callable[[Config], Station],
         on_open: Callable[[Station], None],
+        *,
+        target: Target | None = None,
+        utc: Callable[[], float] = time.time,
     ) -> None:
+        self._target = target
+        self._utc = utc
         self._config = config
         self._path = path
         self._screen = screen
@@ -61,7 +70,7 @@ class CalibrationSession:
         self._on_open = on_open
 
     async def run(self, tasks: Sequence[str], stop: asyncio.Event) -> bool:
-        """`tasks`: names of axes, or NORTH. Returns whether every one of them has a result that is saved."""
+        """`tasks`: names of axes, NORTH or SKY. Returns whether every one of them has a result that is saved."""
         if self._config.rotor.hardware == "sim":
             self._screen.show("SIMULATED rotor: nothing real turns.")
         for task in tasks:
@@ -79,6 +88,9 @@ class CalibrationSession:
         if task == NORTH:
             corrections = compass_path(self._config)
             return NorthRig(self._config, station, time.monotonic, time.sleep, corrections=corrections)
+        if task == SKY:
+            assert self._target is not None, "the command names one"
+            return SkyRig(self._config, station, time.monotonic, self._target, self._utc)
         return AxisRig(self._config, Axis(task), station, time.monotonic)
 
     async def _calibrate(self, task: str, station: Station, stop: asyncio.Event) -> Result | None:

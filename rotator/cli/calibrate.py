@@ -12,7 +12,8 @@ import os
 import sys
 import textwrap
 import threading
-from collections.abc import AsyncIterator
+import time
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from functools import partial
 from pathlib import Path
@@ -22,16 +23,21 @@ from rich.text import Text
 
 from hw.ports import Axis
 from rotator.app import open_station
+from rotator.assembly.sky import build_catalogue, build_site
 from rotator.assembly.station import Station
 from rotator.calibrating.rig import Rig
-from rotator.calibrating.session import CalibrationSession
+from rotator.calibrating.session import SKY, CalibrationSession
 from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
 from rotator.cli.reach import connected, consoles
 from rotator.cli.screen import draw, log_to, stop_on_signals
+from rotator.cli.sky import NO_PLACE
 from rotator.config.load import load
 from rotator.config.model import Config
+from rotator.orbits.catalogue import Unknown
+from rotator.orbits.sight import NotThere, Target
+from rotator.orbits.targets import find
 
 
 def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None, *, plain: bool) -> int:
@@ -43,13 +49,46 @@ def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None,
     return asyncio.run(_run(config, path, faults, tasks, plain=plain))
 
 
-async def _run(config: Config, path: Path | None, faults: tuple[str, ...], tasks: list[str], *, plain: bool) -> int:
+def calibrate_sky(path: Path | None, faults: tuple[str, ...], words: str, at_s: float | None, *, plain: bool) -> int:
+    """`words`: the target's name. `at_s`: the moment at which a simulated calibration begins; None: now."""
+    config = load(path)
+    if config.rotor.hardware != "sim":
+        if at_s is not None:
+            raise CommandFailed("--at is for a simulated rotor: a real antenna points where the target is now")
+        _refuse_beside_running_box(path)
+    later_s = 0.0 if at_s is None else at_s - time.time()
+
+    def utc() -> float:
+        return time.time() + later_s
+
+    site = build_site(config.station)
+    if site is None:
+        raise CommandFailed(NO_PLACE)
+    try:
+        target = find(words, site, build_catalogue(config.sky))
+        target.sight(utc())
+    except (Unknown, NotThere) as reason:
+        raise CommandFailed(str(reason)) from None
+    return asyncio.run(_run(config, path, faults, [SKY], plain=plain, target=target, utc=utc))
+
+
+async def _run(
+    config: Config,
+    path: Path | None,
+    faults: tuple[str, ...],
+    tasks: list[str],
+    *,
+    plain: bool,
+    target: Target | None = None,
+    utc: Callable[[], float] = time.time,
+) -> int:
     stop = stop_on_signals()
     log_to(logging.StreamHandler())
     # The guide reports faults itself. Log lines between its questions would confuse.
     logging.getLogger().setLevel(logging.CRITICAL)
     screen: PlainLines | LivePicture = PlainLines() if plain else LivePicture()
-    session = CalibrationSession(config, path, screen, open_station, partial(_inject, faults))
+    on_open = partial(_inject, faults)
+    session = CalibrationSession(config, path, screen, open_station, on_open, target=target, utc=utc)
     return 0 if await session.run(tasks, stop) else 1
 
 

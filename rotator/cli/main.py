@@ -118,20 +118,32 @@ def arduino(pty: Path, path: Path | None, plain: bool) -> None:
 
 
 @click.command(
-    epilog=examples("rotator calibrate --config station.toml", "rotator calibrate --config station.toml elevation")
+    epilog=examples(
+        "rotator calibrate --config station.toml",
+        "rotator calibrate --config station.toml elevation",
+        "rotator calibrate --config station.toml sky --target moon",
+    )
 )
 @CONFIG
 @FAULT
 @click.option("--plain", is_flag=True, help="Lines in and out even in a terminal.")
-@click.argument("what", required=False, type=click.Choice(["azimuth", "elevation", "north"]))
-def calibrate(path: Path | None, faults: tuple[str, ...], plain: bool, what: str | None) -> None:
-    """Set up one axis or both, or find north, with questions.
+@click.argument("what", required=False, type=click.Choice(["azimuth", "elevation", "north", "sky"]))
+@click.option("--target", metavar="NAME", help="sky: what the antenna is steered to; the Sun, if left out.")
+@click.option("--at", "at_s", type=utc_time, metavar="UTC", help="sky: begin at this moment; for a simulated rotor.")
+def calibrate(  # noqa: PLR0917 - click calls it by keyword
+    path: Path | None, faults: tuple[str, ...], plain: bool, what: str | None, target: str | None, at_s: float | None
+) -> None:
+    """Set up axes, find north, or how the mount leans.
 
-    It saves the result in the file, and keeps the file before as FILE.bak. End the box first.
+    It asks, saves the result in the file, and keeps the file before as FILE.bak. End the box first.
     """
-    from rotator.cli.calibrate import calibrate_axes
+    from rotator.cli.calibrate import calibrate_axes, calibrate_sky
 
     plain = plain or not (sys.stdin.isatty() and _draws())
+    if what == "sky":
+        sys.exit(calibrate_sky(path, faults, target or "sun", at_s, plain=plain))
+    if target is not None or at_s is not None:
+        raise click.UsageError("--target and --at go with: rotator calibrate sky")
     sys.exit(calibrate_axes(path, faults, what, plain=plain))
 
 

@@ -80,7 +80,7 @@ def show_passes(
     found = [each for target in targets for each in passes_of(target, from_s, from_s + hours * 3600, least_deg)]
     found.sort(key=lambda each: each.aos_s or from_s)
     if as_json:
-        plan = sky_plan.planned(config, site, catalogue, from_s, hours) if config.sky.follow else ()
+        plan = sky_plan.planned(config, sky_plan.followed_by(config, site, catalogue), from_s, hours)
         flown = {(each.name, each.found.tca_s): each for each in reversed(plan) if each.flight}
         told = [(each, flown.get((each.name, each.tca_s))) for each in found]
         click.echo(json.dumps([{**_as_dict(each), "plan": how and sky_plan.as_dict(how)} for each, how in told]))
@@ -96,8 +96,11 @@ def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json:
     site, catalogue = _sky(config)
     if not config.sky.follow:
         raise CommandFailed(sky_plan.NOTHING)
+    followed = sky_plan.followed_by(config, site, catalogue)
+    if not followed:
+        raise CommandFailed("none of the followed targets is known")
     from_s = time.time() if from_s is None else from_s
-    plan = sky_plan.planned(config, site, catalogue, from_s, hours)
+    plan = sky_plan.planned(config, followed, from_s, hours)
     if as_json:
         click.echo(json.dumps([{**_as_dict(each.found), **sky_plan.as_dict(each)} for each in plan]))
     else:

@@ -5,6 +5,7 @@ Knows the words, the columns and the fields. What is flown is decided in `rotato
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from itertools import groupby
 
@@ -13,12 +14,11 @@ from rich.console import Console
 from rich.table import Table
 
 from rotator.assembly.sky import build_antenna, build_followed
-from rotator.cli.failed import CommandFailed
 from rotator.cli.utc import clock_time, day, iso, local_time
 from rotator.config.model import Config
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
-from rotator.tracking.planned import PlannedPass
+from rotator.tracking.planned import Followed, PlannedPass
 from rotator.tracking.schedule import schedule
 
 NOTHING = (
@@ -26,14 +26,20 @@ NOTHING = (
     'name = "ISS"; one such table for each target'
 )
 
+NARROW = 64
+"""A table needs so many columns."""
 
-def planned(config: Config, site: Site, catalogue: Catalogue, from_s: float, hours: float) -> tuple[PlannedPass, ...]:
-    """The antenna begins at its park position. Says which targets are not known."""
+
+def followed_by(config: Config, site: Site, catalogue: Catalogue) -> list[Followed]:
+    """What `[[sky.follow]]` names. Says which targets are not known."""
     followed, faults = build_followed(config.sky, site, catalogue)
     for fault in faults:
         click.echo(fault, err=True)
-    if faults and not followed:
-        raise CommandFailed("none of the followed targets is known")
+    return followed
+
+
+def planned(config: Config, followed: Sequence[Followed], from_s: float, hours: float) -> tuple[PlannedPass, ...]:
+    """The antenna begins at its park position."""
     return schedule(followed, build_antenna(config), from_s, from_s + hours * 3600)
 
 
@@ -54,8 +60,20 @@ def as_dict(each: PlannedPass) -> dict[str, object]:
 
 
 def show(plan: Sequence[PlannedPass], from_s: float) -> None:
+    """In the order in which they are flown."""
     if not plan:
         click.echo("no pass in this time")
+        return
+    console = Console(highlight=False)
+    begins = sorted(((_begin_s(each, from_s), each) for each in plan), key=lambda pair: pair[0])
+    by_day = groupby(begins, key=lambda pair: day(pair[0]))
+    if console.width < NARROW:
+        for date, passes in by_day:
+            click.echo(f"{date}, UTC")
+            for begin_s, each in passes:
+                when, here, minutes, top, name, words = _row(each, begin_s)
+                click.echo(f"{when} ({here} here) {name}, {minutes}, {top}")
+                click.echo(textwrap.fill(words, console.width, initial_indent="  ", subsequent_indent="  "))
         return
     table = Table(box=None, pad_edge=False)
     table.add_column("UTC", no_wrap=True)
@@ -64,20 +82,27 @@ def show(plan: Sequence[PlannedPass], from_s: float) -> None:
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("name", overflow="ellipsis", no_wrap=True, max_width=12)
     table.add_column("plan")
-    for date, passes in groupby(plan, key=lambda each: day(_rises_s(each, from_s))):
+    for date, passes in by_day:
         table.add_row(f"[bold]{date}")
-        for each in passes:
-            table.add_row(*_row(each), style="" if each.flight else "dim")
-    Console(highlight=False).print(table)
+        for begin_s, each in passes:
+            table.add_row(*_row(each, begin_s), style="" if each.flight else "dim")
+    console.print(table)
 
 
-def _row(each: PlannedPass) -> tuple[str, ...]:
-    found = each.found
+def _begin_s(each: PlannedPass, from_s: float) -> float:
+    """Of what is flown, or of the whole pass."""
+    if each.flight is not None:
+        return each.flight.begin_s
+    return from_s if each.found.aos_s is None else each.found.aos_s
+
+
+def _row(each: PlannedPass, begin_s: float) -> tuple[str, ...]:
+    end_s = each.flight.end_s if each.flight else each.found.los_s
     return (
-        "is up" if found.aos_s is None else clock_time(found.aos_s),
-        "" if found.aos_s is None else local_time(found.aos_s),
-        "" if found.aos_s is None or found.los_s is None else f"{(found.los_s - found.aos_s) / 60:.0f} min",
-        f"{found.highest.elevation_deg:.0f}°",
+        clock_time(begin_s),
+        local_time(begin_s),
+        "" if end_s is None else f"{(end_s - begin_s) / 60:.0f} min",
+        f"{each.found.highest.elevation_deg:.0f}°",
         each.name,
         _words(each),
     )
@@ -87,13 +112,8 @@ def _words(each: PlannedPass) -> str:
     flight = each.flight
     if flight is None:
         return f"– {each.reason}"
-    words = [f"sets off {clock_time(flight.set_off_s)}, waits at {flight.wait_deg[0]:.0f}°"]
-    if flight.over_the_top:
-        words.append("over the top")
+    over = " over the top" if flight.over_the_top else ""
+    words = f"sets off {clock_time(flight.set_off_s)} to {flight.wait_deg[0]:.0f}°{over}"
     if flight.lost_s >= 1:
-        words.append(f"loses {flight.lost_s:.0f} s")
-    return ", ".join(words) + (f"; {each.reason}" if each.reason else "")
-
-
-def _rises_s(each: PlannedPass, from_s: float) -> float:
-    return from_s if each.found.aos_s is None else each.found.aos_s
+        words += f", loses {flight.lost_s:.0f} s"
+    return words + (f"; {each.reason}" if each.reason else "")

@@ -24,6 +24,7 @@ from rotator.config.kinds.relay_pot import RelayPot
 from rotator.config.kinds.relay_pulse import Pulses, RelayPulse
 from rotator.config.kinds.servo import Servo, ServoKind
 from rotator.config.links import NEEDS_STATION, Link, is_same_place
+from rotator.config.mount_model import MountModelTable
 from rotator.config.panel import LimitsTable, PanelTable
 from rotator.config.places import STATE
 from rotator.config.rotors import Rotor, with_usual
@@ -59,6 +60,8 @@ class MountTable(Table):
     """Points [azimuth, lowest elevation] of trees and roofs; azimuths rise from 0 to below 360."""
     forbidden: list[ForbiddenTable] = Field(default_factory=list, max_length=16)
     """A box of azimuth and elevation in which the antenna would touch something: no path crosses it. 16 at most."""
+    model: MountModelTable = MountModelTable()
+    """How the mount really stands, as `rotator calibrate sky` finds it."""
 
     @model_validator(mode="after")
     def _knows_north(self) -> MountTable:

@@ -25,6 +25,7 @@ _KINDS = {
     float: "number",
     list[tuple[float, float]]: "pairs",
     list[str]: "texts",
+    list[tuple[float, float, float, float]]: "rows of four",
     tuple[float, float]: "[number, number]",
 }
 _EDGES = {"ge": "from {}", "gt": "above {}", "le": "to {}", "lt": "below {}"}
@@ -162,7 +163,7 @@ _NAMED = {
 
 
 def _bounds(limits: list[Any], kind: Any) -> str:
-    wording = _LENGTHS if kind in (str, list[tuple[float, float]], list[str]) else _EDGES
+    wording = _LENGTHS if kind is str or get_origin(kind) is list else _EDGES
     edges = {name: getattr(limit, name) for limit in limits for name in wording if hasattr(limit, name)}
     if kind is str:
         edges.pop("min_length", None)

@@ -1,4 +1,4 @@
-"""Writes a calibration and other keys of an axis back into the user's configuration file.
+"""Writes a calibration and other keys of a table back into the user's configuration file.
 
 Comments stay, a copy with `.bak` is kept, and a power cut leaves a whole file. Does not know where the values come
 from.
@@ -19,19 +19,21 @@ from rotator.config.load import ConfigError, Mistake, parse
 from rotator.config.migrations import FormatError, brought_up
 from rotator.store.whole import write_whole
 
-Points = Sequence[tuple[float, float]]
+Points = Sequence[Sequence[float]]
 LONG_TABLE = 4
 """A calibration with more points than this has one line for each point."""
 
 
-def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **values: float | bool) -> None:
-    """Replace keys of the table `[axis]`, all or none. `calibration=None` leaves the calibration as it is.
+def save_table(
+    path: Path, name: str, *, calibration: Points | None = None, points: Points | None = None, **values: float | bool
+) -> None:
+    """Replace keys of a table, such as `azimuth` or `mount.model`, all or none. None leaves a key as it is.
 
     The old file stays beside it as `.bak`. Raises OSError or ConfigError, and then the file is unchanged.
     """
     try:
         before = toml_text.read(path)
-        text = changed(before, axis, calibration=calibration, **values)
+        text = changed(before, name, calibration=calibration, points=points, **values)
     except (TOMLKitError, TOMLDecodeError) as fault:
         raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault
     except FormatError as fault:
@@ -44,23 +46,31 @@ def save_axis(path: Path, axis: str, *, calibration: Points | None = None, **val
     write_whole(path, text)
 
 
-def changed(text: str, axis: str, *, calibration: Points | None = None, **values: float | bool) -> str:
-    """The file's text with these keys in the table `[axis]`; everything else as it was."""
+def changed(
+    text: str, name: str, *, calibration: Points | None = None, points: Points | None = None, **values: float | bool
+) -> str:
+    """The file's text with these keys in the table `[name]`; everything else as it was."""
     document = tomlkit.parse(brought_up(text))
-    if axis not in document and text and not text.endswith("\n\n"):
+    outer, *inner = name.split(".")
+    if outer not in document and text and not text.endswith("\n\n"):
         document.add(tomlkit.nl())
-    table = document.setdefault(axis, tomlkit.table())
+    table = document.setdefault(outer, tomlkit.table(is_super_table=bool(inner)))
+    for each in inner:
+        table = table.setdefault(each, tomlkit.table())
     for key, value in values.items():
         table[key] = value if isinstance(value, bool) else _short(value, 3)
-    if calibration is not None:
-        table["calibration"] = _rows(calibration)
+    for key, rows in (("calibration", calibration), ("points", points)):
+        if rows is not None:
+            table[key] = _rows(rows)
     return tomlkit.dumps(document)
 
 
 def _rows(points: Points) -> Array:
+    """The first number of a calibration's point is a share of the sensor's range, and needs more decimals."""
     rows = tomlkit.array()
-    for reading, angle_deg in points:
-        rows.append([round(reading, 5), _short(angle_deg, 3)])
+    for point in points:
+        first, *others = point
+        rows.append([round(first, 5), *(_short(each, 3) for each in others)])
     return rows.multiline(len(points) > LONG_TABLE)
 
 

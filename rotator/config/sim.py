@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from rotator.config.mount_model import MountTerms
 from rotator.config.table import PerAxis, Table
 
 
@@ -37,6 +38,8 @@ class Sim(PerAxis, Table):
     """The simulated azimuth motor and pot."""
     elevation: SimElevation = SimElevation()
     """The simulated elevation motor and pot."""
+    mount: MountTerms = MountTerms()
+    """How the simulated mount really stands."""
     world: str | None = Field(None, min_length=1)
     """A file with the true angles of the simulated rotor: it stands there again in the next run. The box then keeps its
     own files (counts, knobs, compass) as on a Pi. Left out: each run begins at start_deg."""

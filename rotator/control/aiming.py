@@ -7,6 +7,7 @@ of who asks, of stops that latch, or of faults.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
@@ -20,7 +21,7 @@ from rotator.control.sky.pointing import Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
 from rotator.orders import BOTH, Aim, Fly, Source
-from rotator.status import Flown
+from rotator.status import AxisStatus, Flown
 
 
 class Aiming:
@@ -110,13 +111,10 @@ class Aiming:
             self._pointing.end_stream()
             self._round.forget_paths()
 
-    def park(self, now_s: float) -> None:
+    def park(self) -> None:
         """Go to the park position. Raises Unreachable."""
-        # A place on the rotor's own scale, not a direction: the other turn of the overlap would wind the cables.
         self.forget(BOTH)
-        azimuth_deg, elevation_deg = self._mount.park_azimuth_deg, self._mount.park_elevation_deg
-        park = Aim(azimuth_deg, elevation_deg)
-        self._set_goals(self._pointing.aim(now_s, park, azimuth_deg, elevation_deg))
+        self._set_goals(self._pointing.park())
 
     def nudge(self, axis: Axis, offset_deg: float) -> None:
         """Shift this axis by so much, for all orders from now on."""
@@ -183,6 +181,18 @@ class Aiming:
     def notices(self, axis: Axis) -> tuple[Notice, ...]:
         """What a forbidden sector keeps this axis from."""
         return self._round.notices(axis)
+
+    def pointed(self, azimuth: AxisStatus, elevation: AxisStatus) -> tuple[AxisStatus, AxisStatus]:
+        """With where the boom points beside what the axes read."""
+        mount, axis_deg, raised_deg = self._mount, azimuth.shown_deg, elevation.shown_deg
+        if mount.model.perfect or axis_deg is None:
+            return azimuth, elevation
+        raised_deg = elevation.min_deg if raised_deg is None else raised_deg
+        there_azimuth_deg, there_elevation_deg = mount.pointed(axis_deg, raised_deg)
+        return (
+            replace(azimuth, correction_deg=there_azimuth_deg - axis_deg),
+            replace(elevation, correction_deg=there_elevation_deg - raised_deg),
+        )
 
     def _places(self) -> tuple[float | None, float | None]:
         """Where each axis goes, or stands where it has no target."""

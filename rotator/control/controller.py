@@ -137,10 +137,11 @@ class Controller:
 
     def status(self, now_s: float, late_s: float = 0.0) -> Status:
         """The state of the box at this moment. `late_s`: how late the last cycle was."""
+        azimuth, elevation = self._aiming.pointed(*(self._axis_status(axis, now_s) for axis in Axis))
         return Status(
             at_s=now_s,
-            azimuth=self._axis_status(Axis.AZIMUTH, now_s),
-            elevation=self._axis_status(Axis.ELEVATION, now_s),
+            azimuth=azimuth,
+            elevation=elevation,
             wanted_azimuth_deg=self._aiming.wanted.azimuth_deg,
             wanted_elevation_deg=self._aiming.wanted.elevation_deg,
             latched=self._authority.latched,
@@ -303,7 +304,7 @@ class Controller:
         self._timed.halt()
         self._moved_s = None
         try:
-            self._aiming.park(now_s)
+            self._aiming.park()
         except Unreachable as reason:
             self.troubles.append(f"the park position cannot be reached: {reason}")
 

@@ -10,7 +10,7 @@ from bisect import bisect_right
 from hw.ports import Axis
 from rotator.control.following import Following
 from rotator.control.sky.known_path import KnownPath
-from rotator.control.sky.mount import ZENITH_DEG, Mount, Range, Unreachable
+from rotator.control.sky.mount import Mount, Range, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.pointing import EVEN, AimGoal
 from rotator.control.sky.route import Way
@@ -30,6 +30,7 @@ class Flight:
     """
 
     def __init__(self, order: Fly, mount: Mount, following: Following | None = None) -> None:
+        self._mount = mount
         _check(order.azimuth, mount.azimuth, Axis.AZIMUTH)
         _check(order.elevation, mount.elevation, Axis.ELEVATION)
         self.following = following
@@ -48,7 +49,7 @@ class Flight:
     def way(self, now_s: float) -> Way:
         """The way that it has chosen, as far as it is flown."""
         azimuth_deg, elevation_deg = (_angle_deg(plan, now_s) for plan in self._plans.values())
-        return Way(azimuth_deg, elevation_deg > ZENITH_DEG)
+        return Way(azimuth_deg, self._mount.model.over_the_top(elevation_deg))
 
     def ended(self, now_s: float) -> bool:
         """Whether it is over: the target stands still from now on, or the stream has ended in whose place it is flown.

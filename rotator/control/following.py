@@ -6,9 +6,8 @@ of axes, nor of how the satellite was recognised.
 
 from __future__ import annotations
 
-from rotator.control.sky.angles import great_circle_deg
+from rotator.control.sky.angles import ZENITH_DEG, great_circle_deg
 from rotator.control.sky.known_path import KnownPath
-from rotator.control.sky.mount import ZENITH_DEG
 from rotator.control.sky.nudges import FULL_TURN_DEG
 from rotator.orders import Aim, Fly, Source, Stream
 

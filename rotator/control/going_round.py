@@ -11,8 +11,9 @@ from collections.abc import Mapping
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
+from rotator.control.sky.angles import ZENITH_DEG
 from rotator.control.sky.detour import BESIDE_DEG, Detour, Detours
-from rotator.control.sky.mount import ZENITH_DEG, Mount
+from rotator.control.sky.mount import Mount
 from rotator.control.sky.nudges import FULL_TURN_DEG
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal

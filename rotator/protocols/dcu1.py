@@ -133,7 +133,7 @@ class Dcu1Session:
             case Command("AM1"):
                 self._go()
             case Command("AI1" | "BI1" as verb):
-                azimuth_deg = self._box.status().azimuth.shown_deg
+                azimuth_deg = self._box.status().azimuth.points_deg
                 if azimuth_deg is not None:
                     return azimuth_reply(azimuth_deg) if verb == "AI1" else tenths_reply(azimuth_deg)
             case Command("AS1" | ""):

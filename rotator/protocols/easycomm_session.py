@@ -75,7 +75,7 @@ class EasycommSession:
 
     def _position(self, asked: set[str]) -> bytes:
         status = self._box.status()
-        azimuth_deg, elevation_deg = status.azimuth.shown_deg, status.elevation.shown_deg
+        azimuth_deg, elevation_deg = status.azimuth.points_deg, status.elevation.points_deg
         both = len(asked) > 1
         if (azimuth_deg is None and "AZ" in asked) or (elevation_deg is None and "EL" in asked):
             # EasyComm I has no message for this.

@@ -13,6 +13,7 @@ from rotator.protocols import gs232
 from rotator.protocols.gs232 import Command, Dialect, NoOrder, NotACommand, OutOfRange
 from rotator.protocols.lines import LineReader
 from rotator.protocols.session import Box
+from rotator.status import AxisStatus
 
 _PLAIN_ORDERS: dict[str, Order] = {
     "R": Jog(Axis.AZIMUTH, Direction.PLUS),
@@ -157,8 +158,8 @@ class Gs232Session:
 
     def _position(self, verb: str) -> bytes:
         status = self._box.status()
-        azimuth_deg = self._shown(status.azimuth.angle_deg or 0.0)
-        elevation_deg = status.elevation.angle_deg or 0.0
+        azimuth_deg = self._shown(status.azimuth)
+        elevation_deg = (status.elevation.angle_deg or 0.0) + status.elevation.correction_deg
         match verb:
             case "C":
                 return gs232.azimuth_reply(self._dialect, azimuth_deg)
@@ -167,12 +168,12 @@ class Gs232Session:
             case _:
                 return gs232.position_reply(self._dialect, azimuth_deg, elevation_deg)
 
-    def _shown(self, axis_deg: float) -> float:
+    def _shown(self, azimuth: AxisStatus) -> float:
         """A 450° unit counts on through its overlap; a 360° unit starts again at north."""
-        azimuth = self._box.status().azimuth
         # Noise of the pot just beyond an end of the range counts as that end, not as one turn away.
-        axis_deg = min(max(axis_deg, azimuth.min_deg), azimuth.max_deg)
-        return axis_deg if 0 <= gs232.whole(axis_deg) <= self._top_deg else axis_deg % 360
+        axis_deg = min(max(azimuth.angle_deg or 0.0, azimuth.min_deg), azimuth.max_deg)
+        points_deg = axis_deg + azimuth.correction_deg
+        return points_deg if 0 <= gs232.whole(points_deg) <= self._top_deg else points_deg % 360
 
     def _mode(self, top_deg: int) -> bytes:
         self._top_deg = top_deg

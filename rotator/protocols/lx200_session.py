@@ -139,9 +139,9 @@ class Lx200Session:
     def _place(self, verb: str) -> bytes:
         """Where the antenna points; nothing while that is not known."""
         status = self._box.status()
-        if status.azimuth.angle_deg is None or status.elevation.angle_deg is None:
+        if status.azimuth.points_deg is None or status.elevation.points_deg is None:
             return b""
-        azimuth_deg, elevation_deg = direction(status.azimuth.angle_deg, status.elevation.angle_deg)
+        azimuth_deg, elevation_deg = direction(status.azimuth.points_deg, status.elevation.points_deg)
         match verb:
             case "GZ":
                 return lx200.around_reply(azimuth_deg, long=self._long)

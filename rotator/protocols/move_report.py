@@ -45,7 +45,7 @@ class MoveReport:
         if not self._heard or status.moving:
             self._moved = self._heard
             return []
-        azimuth_deg, elevation_deg = status.azimuth.angle_deg, status.elevation.angle_deg
+        azimuth_deg, elevation_deg = status.azimuth.points_deg, status.elevation.points_deg
         if not self._moved or azimuth_deg is None or elevation_deg is None:
             return []
         self._moved = False

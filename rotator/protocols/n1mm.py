@@ -139,7 +139,7 @@ class N1mmReport:
         self._sent_tenths = 0
 
     def due(self, now_s: float) -> bytes | None:
-        azimuth_deg = self._box.status().azimuth.shown_deg
+        azimuth_deg = self._box.status().azimuth.points_deg
         if azimuth_deg is None:
             return None
         tenths = math.floor(azimuth_deg * 10 + 0.5) % TURN_TENTHS

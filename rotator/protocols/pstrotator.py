@@ -155,7 +155,7 @@ class PstRotatorSession:
     def _answer(self, question: str) -> Iterator[bytes]:
         """No answer while the position is not known."""
         status = self._box.status()
-        azimuth_deg, elevation_deg = status.azimuth.shown_deg, status.elevation.shown_deg
+        azimuth_deg, elevation_deg = status.azimuth.points_deg, status.elevation.points_deg
         match question:
             case "AZ?" if azimuth_deg is not None:
                 yield f"AZ:{_tenths(azimuth_deg) % 3600 / 10:05.1f}\r".encode()

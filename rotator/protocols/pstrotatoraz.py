@@ -151,7 +151,7 @@ class PstRotatorAzSession:
                 return response(HTTPStatus.FORBIDDEN, "name the box by its address; another web site may not turn it\n")
             if refused := self._box.order(order):
                 return response(HTTPStatus.CONFLICT, f"refused: {refused.reason}\n")
-        return response(HTTPStatus.OK, page(self._box.status().azimuth.angle_deg))
+        return response(HTTPStatus.OK, page(self._box.status().azimuth.points_deg))
 
 
 def _order(query: str) -> Order | None:

@@ -199,7 +199,7 @@ class RotctldSession:
 
     def _position(self) -> Answer:
         status = self._box.status()
-        azimuth_deg, elevation_deg = status.azimuth.shown_deg, status.elevation.shown_deg
+        azimuth_deg, elevation_deg = status.azimuth.points_deg, status.elevation.points_deg
         if azimuth_deg is None or elevation_deg is None:
             return Answer(IO_ERROR)
         return Answer(records=(("Azimuth", f"{azimuth_deg:z.2f}"), ("Elevation", f"{elevation_deg:z.2f}")))

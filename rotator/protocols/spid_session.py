@@ -58,7 +58,7 @@ class SpidSession:
     def _position(self) -> bytes:
         """No answer while the position is not known: the client then reports a controller without power."""
         status = self._box.status()
-        azimuth_deg, elevation_deg = status.azimuth.shown_deg, status.elevation.shown_deg
+        azimuth_deg, elevation_deg = status.azimuth.points_deg, status.elevation.points_deg
         if azimuth_deg is None:
             return b""
         if self._model is Model.ROT1PROG:

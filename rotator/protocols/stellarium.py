@@ -99,9 +99,9 @@ class StellariumSession:
         """Where the antenna points; nothing while that is not known."""
         self._follower.beat()
         status = self._box.status()
-        if status.azimuth.angle_deg is None or status.elevation.angle_deg is None or self.closed:
+        if status.azimuth.points_deg is None or status.elevation.points_deg is None or self.closed:
             return []
-        pointing = direction(status.azimuth.angle_deg, status.elevation.angle_deg)
+        pointing = direction(status.azimuth.points_deg, status.elevation.points_deg)
         return [position(self._sky.star(*pointing, Equinox.J2000), self._sky.utc())]
 
     def _damaged(self) -> None:

@@ -15,6 +15,7 @@ from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from rotator.assembly.arduino import arduino_station
 from rotator.assembly.settings import build_controller, build_mount, build_offsets, planned_motors
+from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.sky import build_satellites
 from rotator.assembly.station import Station
 from rotator.config.model import Config
@@ -137,13 +138,14 @@ class BoxPlant:
         self._target = target
         self._clock = clock
         self._period_s = 1 / config.control.rate_hz
-        self._shift = build_offsets(config)
-        start_deg = (start_deg[0] - self._shift.azimuth_deg, start_deg[1] - self._shift.elevation_deg)
+        shift = build_offsets(config)
+        start_deg = (start_deg[0] - shift.azimuth_deg, start_deg[1] - shift.elevation_deg)
         station = Station(config, clock, clock.sleep, start_deg, add_alarm=clock.add_alarm)
         assert station.world is not None, "a rehearsal is always simulated"
         self.world: SimRotor = station.world
         self._loop = ControlLoop(build_controller(config), station.rotor, clock, self._period_s)
         self._mount = build_mount(config)
+        self._boom = simulated_boom(config)
         self._motors = planned_motors(config)
         client = Client(self._loop, self._mount, Source(via), clock=clock)
         self._session: Session = RotctldSession(client) if via == "rotctld" else Gs232Session(client, Dialect.B)
@@ -200,12 +202,11 @@ class BoxPlant:
                 self._overhearing.look()
 
     def pointing(self) -> tuple[float, float, int, int]:
-        # The simulated boom has the rotor's own scale. The mount's offset makes it a true direction.
-        azimuth_deg, elevation_deg = self.world.antenna()
+        azimuth_deg, elevation_deg = self._boom(*self.world.antenna())
         drives = self.world.drives()
         if self.world.relay_starts is None:
             drives = int(self.status.azimuth.drive), int(self.status.elevation.drive)
-        return azimuth_deg + self._shift.azimuth_deg, elevation_deg + self._shift.elevation_deg, *drives
+        return azimuth_deg, elevation_deg, *drives
 
     def relay_starts(self) -> int | None:
         return self.world.relay_starts

@@ -89,10 +89,10 @@ class Autosave:
             if self._path is None:
                 log.warning("%s: new calibration, lost at the end: run with --config to keep it", axis.value)
                 continue
-            from rotator.config.save import save_axis  # noqa: PLC0415 - loads tomlkit, which a start can do without
+            from rotator.config.save import save_table  # noqa: PLC0415 - loads tomlkit, which a start can do without
 
             try:
-                save_axis(self._path, axis.value, calibration=self._offsets.own_scale(axis, points))
+                save_table(self._path, axis.value, calibration=self._offsets.own_scale(axis, points))
                 log.info("%s: calibration saved in %s", axis.value, self._path)
             except (OSError, ConfigError) as fault:
                 log.error("%s: calibration cannot be saved: %s", axis.value, fault)

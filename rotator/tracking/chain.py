@@ -125,7 +125,7 @@ class _Later:
         self._before_s.append(-at_s)
         self._begins.append((begin.worth, begin.line.place(begin.at), begin))
         best = self._best[-1] if self._best else 0
-        self._best.append(len(self._best) if begin.worth > self._begins[best][0] else best)
+        self._best.append(len(self._best) if begin.worth >= self._begins[best][0] else best)
 
     def best(self, ready_s: float, place: Place) -> _Begin | None:
         """The one to go to from this place; the antenna has to be there `SPARE_S` after `ready_s`, or later."""
@@ -135,7 +135,7 @@ class _Later:
             most, _, found = self._begins[self._best[anywhere - 1]]
         soon = range(anywhere, bisect_right(self._before_s, -ready_s))
         better = [index for index in soon if self._begins[index][0] > most + EVEN]
-        for index in sorted(better, key=lambda index: -self._begins[index][0]):
+        for index in sorted(better, key=lambda index: (-self._begins[index][0], -index)):
             _, there, begin = self._begins[index]
             if self._travel.reaches(place, there, -self._before_s[index] - ready_s):
                 return begin

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from rotator.control.sky.route import Way
 from rotator.control.sky.sectors import Place
 from rotator.orbits.passes import Pass
 from rotator.orbits.sight import Target
@@ -41,6 +42,11 @@ class Flight:
     """It begins over the top."""
     lost_s: float
     """For so long the antenna is more than 10° off, because the rotor cannot: it unwinds, or waits at a limit."""
+
+    @property
+    def begin_on(self) -> Way:
+        """For `plan_flight`."""
+        return Way(self.wait_deg[0], self.over_the_top)
 
 
 @dataclass(frozen=True, slots=True)

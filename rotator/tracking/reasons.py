@@ -5,6 +5,7 @@ Knows what is planned. Decides nothing.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from rotator.orbits.passes import Pass
@@ -14,6 +15,8 @@ from rotator.tracking.planned import SPARE_S, Followed, PlannedPass
 
 NEAR_S = 300.0
 """A flight that begins or ends so near may leave no time to turn the antenna."""
+LITTLE = 0.02
+"""Minutes: so little is not worth a word."""
 
 
 def too_low(found: Pass, followed: Followed) -> str:
@@ -24,11 +27,10 @@ def too_low(found: Pass, followed: Followed) -> str:
 
 def unseen(one: SeenPass) -> str:
     """No course of this pass is worth anything."""
-    if one.found.aos_s is None or one.found.aos_s < one.moments_s[0]:
-        return "is nearly over"
-    if not any(one.rates):
-        return "stays behind the horizon of trees and roofs"
-    return "the rotor does not reach it"
+    if any(one.rates):
+        return "the rotor does not reach it"
+    on_already = one.found.aos_s is not None and one.found.aos_s < one.moments_s[0]
+    return f"{'the rest of it' if on_already else 'all of it'} is behind the horizon of trees and roofs"
 
 
 def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
@@ -47,19 +49,24 @@ def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
     if len(names) > 1:
         return f"{_and(names)} are worth more together"
     (rival, *_) = rivals
-    if rival.priority == one.followed.priority:
-        high_deg, its_deg = one.found.highest.elevation_deg, rival.found.highest.elevation_deg
-        if round(its_deg) > round(high_deg):
-            return f"{rival.name} rises higher, to {its_deg:.0f}°"
-    return f"{rival.name} is up for longer"
+    high_deg, its_deg = one.found.highest.elevation_deg, rival.found.highest.elevation_deg
+    if rival.priority == one.followed.priority and round(its_deg) > round(high_deg):
+        return f"{rival.name} rises higher, to {its_deg:.0f}°"
+    return f"{rival.name} is {'up for longer' if _lasts_s(rival.found) > _lasts_s(one.found) else 'worth more'}"
 
 
 def in_part(part: Part, before: str | None, after: str | None) -> str:
-    """Which flights take its beginning or its end; empty for a pass that is flown whole."""
+    """Which flights take its beginning or its end; empty for a pass of which nothing is lost."""
+    gained, priority = part.course.gained, part.one.followed.priority
+    late = gained[part.first] > LITTLE * priority
+    early = gained[-1] - gained[part.last] > LITTLE * priority
     cause = f"after {before}" if before else "the antenna has to turn there first"
-    late = f"begins late: {cause}" if part.first else ""
-    early = f"ends early: for {after}" if part.last < len(part.one.moments_s) - 1 and after else ""
-    return "; ".join(filter(None, (late, early)))
+    words = [f"begins late: {cause}"] if late else []
+    return "; ".join([*words, f"ends early: for {after}"] if early and after else words)
+
+
+def _lasts_s(found: Pass) -> float:
+    return math.inf if found.aos_s is None or found.los_s is None else found.los_s - found.aos_s
 
 
 def _between(flown: Sequence[PlannedPass], begin_s: float, end_s: float) -> list[PlannedPass]:

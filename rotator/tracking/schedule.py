@@ -6,6 +6,7 @@ flights. Knows no clock: time is an argument, in seconds since 1970 (UTC).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -18,13 +19,16 @@ from rotator.tracking.planned import SPARE_S, Flight, Followed, PlannedPass
 from rotator.tracking.reasons import in_part, left_out, too_low, unseen
 from rotator.tracking.travel import Travel
 
+START_S = 5.0
+"""Where there is time the antenna sets off this much earlier still: the steps are planned then, and motors start."""
+
 
 def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, until_s: float) -> tuple[PlannedPass, ...]:
     """Every pass of the followed targets between two moments, by rise: flown or left out, and why.
 
-    `antenna`: where it stands at `from_s`, with mount and motors, as `plan_flight` takes it. To fly one of them:
-    `plan_flight(name, path, replace(antenna, stands_deg=flight.wait_deg), flight.set_off_s)`, with a path from
-    `begin_s` to `end_s`. A long pass may be flown in several parts; each is an item.
+    `antenna`: where it stands at `from_s`, with mount and motors. To fly one of them, at its `set_off_s`: `plan_flight`
+    with the target's path from `begin_s` to `end_s`, and with `begin_on`. A long pass may be flown in several parts;
+    each is an item.
     """
     travel = Travel(antenna)
     planned: list[PlannedPass] = []
@@ -54,22 +58,19 @@ def widened(parts: Sequence[Part], stands_deg: Place, travel: Travel, from_s: fl
     place, free_s = stands_deg, from_s
     for index, part in enumerate(parts):
         after = parts[index + 1] if index + 1 < len(parts) else None
-        begun = part
-        for look in range(max(0, part.first - part.one.apart), part.first):
-            earlier = replace(part, first=look)
-            if earlier.may_begin and travel.reaches(
-                place, earlier.wait_deg, ready_s(part.one, earlier.begin_s, from_s) - free_s
-            ):
-                begun = earlier
+        kept = part
+        for look in range(part.first - 1, -1, -1):
+            earlier = replace(kept, first=look)
+            ready = ready_s(part.one, earlier.begin_s, from_s)
+            if not (earlier.may_begin and travel.reaches(place, earlier.wait_deg, ready - free_s)):
                 break
-        kept = begun
-        for look in range(min(part.last + part.one.apart, len(part.one.moments_s) - 1), part.last, -1):
-            later = replace(begun, last=look)
-            if later.may_end and (
-                after is None or travel.reaches(later.end_deg, after.wait_deg, after.begin_s - SPARE_S - later.end_s)
-            ):
-                kept = later
+            kept = earlier
+        for look in range(part.last + 1, len(part.one.moments_s)):
+            later = replace(kept, last=look)
+            left_s = math.inf if after is None else after.begin_s - SPARE_S - later.end_s
+            if not later.may_end or (after and not travel.reaches(later.end_deg, after.wait_deg, left_s)):
                 break
+            kept = later
         found.append(kept)
         place, free_s = kept.end_deg, kept.end_s
     return found
@@ -82,7 +83,7 @@ def _flights(parts: Sequence[Part], travel: Travel, from_s: float) -> Iterator[P
         after = parts[index + 1].one.found.name if index + 1 < len(parts) else None
         flight = Flight(
             # So early that it comes in time from anywhere: a person may have moved it since the pass before.
-            set_off_s=max(free_s, part.begin_s - SPARE_S - travel.longest_s),
+            set_off_s=max(free_s, part.begin_s - SPARE_S - travel.longest_s - START_S),
             begin_s=part.begin_s,
             end_s=part.end_s,
             wait_deg=part.wait_deg,

@@ -24,7 +24,7 @@ def rows(status: Status, now_s: float) -> tuple[str, str]:
     """
     name = "SIM" if status.simulated else "ANT"
     upper = f"SAT A:{_azimuth(status.wanted_azimuth_deg)} E:{_elevation(status.wanted_elevation_deg)}"
-    lower = f"{name} A:{_azimuth(status.azimuth.shown_deg)} E:{_elevation(status.elevation.shown_deg)}"
+    lower = f"{name} A:{_azimuth(status.azimuth.points_deg)} E:{_elevation(status.elevation.points_deg)}"
     notices = _notices(status)
     turn = int(now_s / ALTERNATE_S)
     if notices and turn % 2:

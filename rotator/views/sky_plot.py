@@ -43,7 +43,7 @@ def direction(azimuth_deg: float, elevation_deg: float) -> Way:
 
 def pointing(status: Status) -> Way | None:
     """Where the antenna points; None while an angle is not known."""
-    azimuth_deg, elevation_deg = status.azimuth.shown_deg, status.elevation.shown_deg
+    azimuth_deg, elevation_deg = status.azimuth.points_deg, status.elevation.points_deg
     return None if azimuth_deg is None or elevation_deg is None else direction(azimuth_deg, elevation_deg)
 
 
@@ -52,8 +52,10 @@ def aimed_at(status: Status) -> Way | None:
     azimuth, elevation = status.azimuth, status.elevation
     if azimuth.target_deg is None and elevation.target_deg is None:
         return None
-    azimuth_deg = azimuth.shown_deg if azimuth.target_deg is None else azimuth.target_deg
-    elevation_deg = elevation.shown_deg if elevation.target_deg is None else elevation.target_deg
+    azimuth_deg, elevation_deg = (
+        axis.points_deg if axis.target_deg is None else axis.target_deg + axis.correction_deg
+        for axis in (azimuth, elevation)
+    )
     return None if azimuth_deg is None or elevation_deg is None else direction(azimuth_deg, elevation_deg)
 
 

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis
+from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.entries import from_line
-from rotator.calibrating.rig import AxisRig, NorthRig
+from rotator.calibrating.rig import AxisRig, NorthRig, SkyRig
 from rotator.config.model import Config
+from rotator.control.sky.model_fit import SkyPoint
+from rotator.control.sky.pointing_model import PERFECT
+from rotator.orbits.sight import Sight
+from rotator.orbits.targets import Fixed
 
 PERIOD_S = 0.05
 LONGEST_S = 1200.0
@@ -111,3 +117,53 @@ class NorthCalibration(Calibration):
         if self._cycles % 2:
             self.rig.compass.read()
         super()._cycle()
+
+
+class SkyCalibration(Calibration):
+    """At a target on the sky. `look` sets the target's direction: by it the operator steers, as by a signal."""
+
+    rig: SkyRig
+
+    def __init__(self, config: Config, direction_deg: tuple[float, float], **rest: Any) -> None:
+        self._look = Fixed("the beacon", Sight(*direction_deg, 1.0))
+        super().__init__(config, **rest)
+
+    def _build_rig(self, config: Config) -> None:
+        self._boom = simulated_boom(config)
+        self.rig = SkyRig(config, self.station, self.clock, self, lambda: 1_780_000_000.0 + self.clock())
+
+    @property
+    def name(self) -> str:
+        return self._look.name
+
+    def sight(self, utc_s: float) -> Sight:
+        return self._look.sight(utc_s)
+
+    def late_s(self, _utc_s: float) -> float:
+        return 0.0
+
+    def look(self, azimuth_deg: float, elevation_deg: float) -> None:
+        """The target is there from now on."""
+        self._look = Fixed("the beacon", Sight(azimuth_deg, elevation_deg, 1.0))
+        self.wait(PERIOD_S)
+
+    def off_deg(self) -> tuple[float, float]:
+        """How far to the right of the boom, and above it, the target truly is."""
+        seen = self._look.sight(0.0)
+        there = self._boom(*self.world.antenna())
+        return SkyPoint(*there, seen.azimuth_deg, seen.elevation_deg).miss(PERFECT)
+
+    def centre(self, within_deg: float = 0.3) -> None:
+        """Steer as a person does: sideways, then up or down, until it is in the middle."""
+        for _ in range(60):
+            right, above = self.off_deg()
+            if math.hypot(right, above) <= within_deg:
+                return
+            flat = max(0.2, math.cos(math.radians(self._look.where.elevation_deg)))
+            # A motor of 20°/s² speeds up and brakes: the way goes with the square of the time.
+            if abs(right) >= abs(above):
+                self.say(f"{'r' if right > 0 else 'l'} {math.sqrt(abs(right) / flat / 20):.3f}")
+            else:
+                self.say(f"{'u' if above > 0 else 'd'} {math.sqrt(abs(above) / 20):.3f}")
+            self.wait(1.0)
+        raise AssertionError(f"never centred: {self.off_deg()}")

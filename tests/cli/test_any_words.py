@@ -19,6 +19,7 @@ from hypothesis import strategies as st
 
 from rotator.cli import main as commands
 from rotator.cli.failed import EXIT_CODES
+from tests.search import examples
 
 FILES = {
     "empty": b"",
@@ -74,14 +75,14 @@ def stays_here(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("stays_here")
-@settings(deadline=None, max_examples=100, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(deadline=None, max_examples=examples(100), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.sampled_from(ANSWERS), st.lists(WORDS, max_size=5))
 def test_no_box_runs_and_any_words_are_answered(folder: Path, command: str, words: list[str]) -> None:
     assert answered(folder, [*filter(None, [command]), *words]) in EXIT_CODES
 
 
 @pytest.mark.usefixtures("stays_here")
-@settings(deadline=None, max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(deadline=None, max_examples=examples(40), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.sampled_from(STARTS_A_BOX),
     NAMES.filter(lambda name: name not in WHOLE),

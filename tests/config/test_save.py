@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from rotator.config.load import ConfigError, load
-from rotator.config.save import changed, save_axis
+from rotator.config.save import changed, save_table
 
 STATION = """# My station.
 [azimuth]                     # a G-5500
@@ -34,14 +34,14 @@ def station(tmp_path: Path) -> Path:
 
 
 def test_all_keys_are_in_the_file(station: Path) -> None:
-    save_axis(station, "azimuth", calibration=POINTS, min_deg=0.0, max_deg=450.0, direction_checked=True)
+    save_table(station, "azimuth", calibration=POINTS, min_deg=0.0, max_deg=450.0, direction_checked=True)
     azimuth = load(station).azimuth
     assert azimuth.calibration == [(0.05123, -1.5), (0.4, 200.0), (0.949, 451.25)]
     assert (azimuth.min_deg, azimuth.max_deg, azimuth.direction_checked) == (0.0, 450.0, True)
 
 
 def test_comments_and_everything_else_stay(station: Path) -> None:
-    save_axis(station, "azimuth", calibration=POINTS, direction_checked=True)
+    save_table(station, "azimuth", calibration=POINTS, direction_checked=True)
     after = station.read_text().splitlines()
     untouched = [line for line in STATION.splitlines() if not line.startswith("calibration")]
     assert [line for line in after if line in untouched] == untouched
@@ -49,7 +49,7 @@ def test_comments_and_everything_else_stay(station: Path) -> None:
 
 
 def test_the_file_before_is_kept(station: Path) -> None:
-    save_axis(station, "azimuth", calibration=POINTS)
+    save_table(station, "azimuth", calibration=POINTS)
     assert station.with_name("station.toml.bak").read_text() == STATION
     assert sorted(path.name for path in station.parent.iterdir()) == ["station.toml", "station.toml.bak"]
 
@@ -82,7 +82,7 @@ def test_a_long_table_has_a_line_for_each_point() -> None:
 def test_any_form_of_file(tmp_path: Path, text: str) -> None:
     path = tmp_path / "a.toml"
     path.write_bytes(text.encode())
-    save_axis(path, "azimuth", calibration=POINTS, min_deg=0.0, direction_checked=True)
+    save_table(path, "azimuth", calibration=POINTS, min_deg=0.0, direction_checked=True)
     azimuth = load(path).azimuth
     assert azimuth.direction_checked
     assert azimuth.calibration is not None
@@ -94,24 +94,24 @@ def test_any_form_of_file(tmp_path: Path, text: str) -> None:
 )
 def test_what_would_not_be_accepted_is_not_written(station: Path, points: tuple[tuple[float, float], ...]) -> None:
     with pytest.raises(ConfigError, match="calibration"):
-        save_axis(station, "azimuth", calibration=points)
+        save_table(station, "azimuth", calibration=points)
     assert station.read_text() == STATION
     assert [path.name for path in station.parent.iterdir()] == ["station.toml"]
 
 
 def test_limits_that_make_no_sense_are_not_written(station: Path) -> None:
     with pytest.raises(ConfigError, match="must be below"):
-        save_axis(station, "azimuth", calibration=POINTS, min_deg=300.0, max_deg=200.0)
+        save_table(station, "azimuth", calibration=POINTS, min_deg=300.0, max_deg=200.0)
     assert station.read_text() == STATION
 
 
 def test_a_file_broken_meanwhile_is_left_alone(station: Path) -> None:
     station.write_text("[azimuth\n")
     with pytest.raises(ConfigError, match="not TOML"):
-        save_axis(station, "azimuth", calibration=POINTS)
+        save_table(station, "azimuth", calibration=POINTS)
     assert station.read_text() == "[azimuth\n"
 
 
 def test_a_file_gone_meanwhile(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError):
-        save_axis(tmp_path / "none.toml", "azimuth", calibration=POINTS)
+        save_table(tmp_path / "none.toml", "azimuth", calibration=POINTS)

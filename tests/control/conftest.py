@@ -76,7 +76,14 @@ class Desk:
                 on_sky=on_sky,
             )
         )
-        self.status: Status = self.controller.status(self.now_s)
+        self._status: Status | None = None
+
+    @property
+    def status(self) -> Status:
+        """As of the last step, made once somebody looks."""
+        if self._status is None:
+            self._status = self.controller.status(self.now_s)
+        return self._status
 
     def _settings(self, axis: Axis, missing: tuple[Missing, ...]) -> SwitchedSettings:
         limits = self.range[axis]
@@ -116,7 +123,7 @@ class Desk:
         self.runs = cast(dict[Axis, Run], commands)
         self.driven = {axis: run.direction for axis, run in self.runs.items()}
         self.controller.note_driven(self.now_s, self.driven)
-        self.status = self.controller.status(self.now_s)
+        self._status = None
         return self.driven
 
     def _condition(self, axis: Axis) -> Condition:

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
 from rotator.orders import Aim
+from tests.search import examples
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 TOLERANCE_DEG = 4.0
@@ -35,7 +36,7 @@ def test_on_the_sky_the_same_error_starts_no_motor_high_up(new_desk: Any) -> Non
     assert desk.step(Aim(107.0, 60.0))[AZ] is Direction.OFF
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(
     st.floats(20, 400),
     st.floats(0, 80),

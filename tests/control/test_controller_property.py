@@ -37,6 +37,7 @@ from rotator.orders import (
     Step,
     Stop,
 )
+from tests.search import examples
 
 LINKS = [Source("gs232b", 1), Source("rotctld", 1), Source("console")]
 LONGEST_LEASE_S = 0.5
@@ -99,7 +100,7 @@ steps = st.lists(
     max_size=40,
 )
 missing = st.sampled_from([(), (), (Missing.CALIBRATION,), (Missing.DIRECTION_CHECK,)])
-any_day = settings(max_examples=200, deadline=None)
+any_day = settings(max_examples=examples(200), deadline=None)
 
 
 def test_every_order_there_is_takes_part() -> None:
@@ -203,7 +204,7 @@ storm = st.just(Park(storm=True))
 visits = st.lists(st.tuples(people, homes | storm | moves | others, st.sampled_from([0.0, 0.2, 1.0, 6.0])), max_size=12)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(visits=visits, lost=st.booleans())
 def test_homing_ends_only_by_an_order_a_stop_found_or_a_fault(
     new_desk: Any, visits: list[tuple[Source, Order, float]], *, lost: bool

@@ -15,7 +15,7 @@ from hw.ports import Axis
 from rotator.assembly.settings import build_learnt
 from rotator.config.load import load
 from rotator.config.model import Config
-from rotator.config.save import save_axis
+from rotator.config.save import save_table
 from rotator.status import LearntMotor, Trust
 from rotator.store.compass import CompassFile
 from rotator.store.counts import CountsFile, Place, Standing
@@ -60,7 +60,7 @@ def test_it_means_today_what_it_meant_then() -> None:
 
 def test_a_calibration_is_saved_into_it_and_the_rest_stays(tmp_path: Path) -> None:
     mine = Path(shutil.copy(FIRST / "station.toml", tmp_path))
-    save_axis(mine, "azimuth", calibration=((0.05, 0.0), (0.95, 450.0)))
+    save_table(mine, "azimuth", calibration=((0.05, 0.0), (0.95, 450.0)))
     assert load(mine).azimuth.calibration == [(0.05, 0), (0.95, 450)]
     assert "# the chimney" in mine.read_text(encoding="utf-8")
     assert (tmp_path / "station.toml.bak").read_bytes() == (FIRST / "station.toml").read_bytes()

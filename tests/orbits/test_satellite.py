@@ -17,6 +17,7 @@ from rotator.orbits.moments import DAY_S
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, expected_error_deg, motion
 from tests.orbits import skyfield_oracle
+from tests.search import examples
 
 PROMISED_DEG = 0.01
 FLYING = {
@@ -84,7 +85,7 @@ def test_the_expected_error_grows_with_age_and_with_the_clocks_error() -> None:
 NUMBERS = st.floats() | st.floats(-1000, 1000)
 
 
-@settings(max_examples=300)
+@settings(max_examples=examples(300))
 @given(
     st.builds(
         lambda **numbers: numbers,

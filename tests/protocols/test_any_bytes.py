@@ -21,6 +21,7 @@ from rotator.protocols.f1efw import F1efwSession
 from rotator.protocols.gs232 import INVALID, Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.session import Box, Session
+from tests.search import examples
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -158,7 +159,7 @@ def f1efw_motions(heard: bytes) -> list[Order]:
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(pieces=PIECES, silences=st.sets(st.integers(0, 40), max_size=5))
 def test_nothing_crashes_and_answers_are_well_formed(
     new_box: type[BenchBox], protocol: str, pieces: list[bytes], silences: set[int]
@@ -170,7 +171,7 @@ def test_nothing_crashes_and_answers_are_well_formed(
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(pieces=PIECES)
 def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
     box, heard = new_box(), b"".join(pieces)
@@ -188,7 +189,7 @@ def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, pie
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(pieces=PIECES)
 def test_pieces_make_no_difference(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
     torn, whole = new_box(), new_box()
@@ -199,7 +200,7 @@ def test_pieces_make_no_difference(new_box: type[BenchBox], protocol: str, piece
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(
     st.binary(max_size=80), st.integers(0, 450), st.integers(1, 180), st.sampled_from([b"%d %d", b"%03d %03d"]), ENDS
 )

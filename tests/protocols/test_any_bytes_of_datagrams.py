@@ -20,6 +20,7 @@ from rotator.protocols.n1mm import N1mmSession
 from rotator.protocols.pstrotator import PstRotatorSession
 from rotator.protocols.session import Box, Session
 from rotator.protocols.wsjtx import WsjtxSession
+from tests.search import examples
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -122,7 +123,7 @@ POSSIBLE = {
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(datagrams=DATAGRAMS)
 def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, datagrams: list[bytes]) -> None:
     box = new_box((0, 540))
@@ -140,7 +141,7 @@ def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, dat
 
 
 @pytest.mark.parametrize("protocol", ["pstrotator", "n1mm", "macdoppler"])
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(datagrams=DATAGRAMS)
 def test_a_datagram_stands_for_itself(new_box: type[BenchBox], protocol: str, datagrams: list[bytes]) -> None:
     """What came before it makes no difference to it."""

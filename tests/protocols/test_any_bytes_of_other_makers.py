@@ -23,6 +23,7 @@ from rotator.protocols.easycomm_session import EasycommSession
 from rotator.protocols.session import Box, Session
 from rotator.protocols.spid import Model
 from rotator.protocols.spid_session import SpidSession
+from tests.search import examples
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -148,7 +149,7 @@ def dcu1_motions(heard: bytes) -> list[Order]:
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(pieces=PIECES, silences=st.sets(st.integers(0, 40), max_size=5))
 def test_nothing_crashes_and_answers_are_well_formed(
     new_box: type[BenchBox], protocol: str, pieces: list[bytes], silences: set[int]
@@ -160,7 +161,7 @@ def test_nothing_crashes_and_answers_are_well_formed(
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(pieces=PIECES)
 def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
     box, heard = new_box((0, 540)), b"".join(pieces)
@@ -181,7 +182,7 @@ def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, pie
 
 
 @pytest.mark.parametrize("protocol", SESSIONS)
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=examples(50), deadline=None)
 @given(pieces=PIECES)
 def test_pieces_make_no_difference(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
     torn, whole = new_box(at_once=False), new_box(at_once=False)

@@ -18,6 +18,7 @@ from hw.ports import Axis, Direction
 from rotator.orders import Aim, Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
 from rotator.protocols.console_session import ConsoleSession
 from rotator.status import AxisStatus, Status
+from tests.search import examples
 
 WELL_FORMED = re.compile(rb"(?:(?!ok\n|error: )[^\r\n]+\n)*ok\n|error: [^\r\n]+\n")
 
@@ -124,7 +125,7 @@ def held(orders: list[Order]) -> list[Order]:
     return left
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(pieces=PIECES)
 def test_every_line_has_one_answer_and_orders_are_what_was_said(pieces: list[bytes]) -> None:
     box, heard = Notebook(), b"".join(pieces)
@@ -136,7 +137,7 @@ def test_every_line_has_one_answer_and_orders_are_what_was_said(pieces: list[byt
     assert box.orders == held(orders_in(heard))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(pieces=PIECES)
 def test_pieces_make_no_difference(pieces: list[bytes]) -> None:
     torn, whole = Notebook(), Notebook()
@@ -146,7 +147,7 @@ def test_pieces_make_no_difference(pieces: list[bytes]) -> None:
     assert whole.orders == torn.orders
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(junk=st.binary(max_size=300))
 def test_a_stop_is_obeyed_after_any_bytes(junk: bytes) -> None:
     box = Notebook()

@@ -84,8 +84,7 @@ def test_every_row_of_the_table_is_written_and_read_above() -> None:
 
 @pytest.mark.parametrize(("sent", "replies", "orders"), ROWS)
 def test_each_line(new_box: type[BenchBox], feed: Feed, sent: bytes, replies: list[bytes], orders: list[Order]) -> None:
-    box = new_box()
-    box.stands_at(235, 25)
+    box = new_box(at=(235, 25))
     assert feed(Dcu1Session(box), sent) == replies
     assert box.orders == orders
 

@@ -71,8 +71,7 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
 @pytest.mark.parametrize(("line", "replies", "orders"), ROWS)
 def test_each_line(new_box: type[BenchBox], line: bytes, replies: list[bytes], orders: list[Order], end: bytes) -> None:
     for pieces in ([line, end], [line + end], [bytes([byte]) for byte in line + end]):
-        box = new_box()
-        box.stands_at(235, 25)
+        box = new_box(at=(235, 25))
         session = EasycommSession(box, Level.III)
         assert [reply for piece in pieces for reply in session.receive(piece)] == replies
         assert box.orders == orders
@@ -97,8 +96,7 @@ CONFIGURED = [
 
 @pytest.mark.parametrize("wire", [UNTIL_4_5, SINCE_4_6, CONFIGURED], ids=["until 4.5", "since 4.6", "a C program"])
 def test_hamlib(new_box: type[BenchBox], feed: Feed, wire: list[tuple[bytes, list[bytes]]]) -> None:
-    box = new_box(at_once=False)
-    box.stands_at(235, 25)
+    box = new_box(at=(235, 25), at_once=False)
     session = EasycommSession(box, Level.III)
     for sent, replies in wire:
         assert feed(session, sent) == replies
@@ -150,8 +148,7 @@ def test_silence_does_not_make_an_order_of_a_long_lines_tail(box: BenchBox) -> N
 
 
 def test_state_and_faults(new_box: type[BenchBox]) -> None:
-    box = new_box()
-    box.stands_at(235, 25)
+    box = new_box(at=(235, 25))
     session = EasycommSession(box, Level.III)
     session.receive(b"AZ300 EL60\n")
     assert session.receive(b"GS\n") == [b"GS6\n"]  # moving, and it has a target

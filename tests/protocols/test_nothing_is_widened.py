@@ -19,6 +19,7 @@ from rotator.orbits.earth import Site
 from rotator.orders import Calibrate
 from rotator.protocols.rotctld_follow import RotctldFollower
 from rotator.protocols.session import NotUnderstood
+from tests.search import examples
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -58,11 +59,10 @@ def spoken(protocol: str, **keys: object) -> Link:
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(pieces=PIECES)
 def test_no_bytes_change_limits_or_calibration(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
-    box = new_box((0.0, 360.0), (0.0, 90.0))
-    box.stands_at(100, 20)
+    box = new_box((0.0, 360.0), (0.0, 90.0), at=(100, 20))
     before, session = fixed(box), session_maker(spoken(protocol), box, sky=SKY)
     for piece in pieces:
         session.receive(piece)
@@ -73,7 +73,7 @@ def test_no_bytes_change_limits_or_calibration(new_box: type[BenchBox], protocol
 
 
 @pytest.mark.parametrize("protocol", ["gs232a", "gs232b"])
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(pieces=PIECES)
 def test_may_calibrate_changes_no_limit_either(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
     box = new_box((0.0, 360.0), (0.0, 90.0))
@@ -84,7 +84,7 @@ def test_may_calibrate_changes_no_limit_either(new_box: type[BenchBox], protocol
     assert [limits[:2] for limits in fixed(box)] == [(0.0, 360.0), (0.0, 90.0)]
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(pieces=st.lists(st.one_of(st.sampled_from([b"400.0\n", b"120.0\n", b"RPRT 0\n"]), st.binary(max_size=16))))
 def test_nor_does_a_server_that_is_followed(new_box: type[BenchBox], pieces: list[bytes]) -> None:
     box = new_box((0.0, 360.0), (0.0, 90.0))

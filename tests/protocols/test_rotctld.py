@@ -123,8 +123,7 @@ def test_each_request(
     new_box: type[BenchBox], line: bytes, replies: list[bytes], orders: list[Order], end: bytes
 ) -> None:
     for pieces in ([line, end], [line + end], [bytes([byte]) for byte in line + end]):
-        box = new_box()
-        box.stands_at(235, 25)
+        box = new_box(at=(235, 25))
         session = RotctldSession(box)
         assert [reply for piece in pieces for reply in session.receive(piece)] == replies
         assert box.orders == orders
@@ -267,8 +266,7 @@ def test_an_order_that_no_axis_can_carry_out_is_rejected(new_box: type[BenchBox]
 
 
 def test_one_axis_that_can_move_is_enough_for_an_order(new_box: type[BenchBox]) -> None:
-    box = new_box()
-    box.stands_at(235, 25)
+    box = new_box(at=(235, 25))
     box.breaks(Axis.ELEVATION)
     assert [fault.axis for fault in box.status().faults] == [Axis.ELEVATION]
     session = RotctldSession(box)

@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Jog, Order, Park
 from rotator.protocols.rotctld_session import RotctldSession
+from tests.search import examples
 
 if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
@@ -94,7 +95,7 @@ def aims(*words: bytes) -> list[Order]:
     return [Aim(azimuth % 360 if azimuth < 0 else azimuth, elevation)]
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(pieces=PIECES, silences=st.sets(st.integers(0, 40), max_size=5))
 def test_nothing_crashes_and_answers_are_well_formed(
     new_box: type[BenchBox], pieces: list[bytes], silences: set[int]
@@ -105,7 +106,7 @@ def test_nothing_crashes_and_answers_are_well_formed(
         assert all(re.fullmatch(WELL_FORMED, reply) for reply in replies)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 @given(pieces=PIECES)
 def test_what_moves_is_what_was_said(new_box: type[BenchBox], pieces: list[bytes]) -> None:
     box = new_box()
@@ -119,7 +120,7 @@ def test_what_moves_is_what_was_said(new_box: type[BenchBox], pieces: list[bytes
         assert box.turned == set()
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(pieces=PIECES)
 def test_pieces_make_no_difference(new_box: type[BenchBox], pieces: list[bytes]) -> None:
     torn, whole = new_box(), new_box()
@@ -129,7 +130,7 @@ def test_pieces_make_no_difference(new_box: type[BenchBox], pieces: list[bytes])
     assert whole.orders == torn.orders
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(junk=st.binary(max_size=80), az=st.integers(0, 450), el=st.integers(0, 180), end=ENDS)
 def test_a_good_order_is_obeyed_after_any_bytes(
     new_box: type[BenchBox], junk: bytes, az: int, el: int, end: bytes

@@ -15,6 +15,7 @@ from benchmarks.faults import Mast
 from hw.ports import Axis, Direction
 from rotator.orders import Aim, Jog, RelaysChecked, Release, Stop
 from tests.scenario.bad_samples import Case, Truth, tried
+from tests.search import WHOLE
 
 AZ = Axis.AZIMUTH
 SECONDS = 60.0
@@ -47,7 +48,8 @@ def said(mast: Mast) -> list[str]:
     return [fault.name for fault in mast.status.faults]
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.search
+@pytest.mark.parametrize("seed", range(8 if WHOLE else 4))
 def test_whatever_is_bad_the_motor_is_safe(seed: int) -> None:
     case = Case.drawn(seed)
     truth = tried(case, SECONDS)

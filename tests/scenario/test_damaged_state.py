@@ -20,6 +20,7 @@ from rotator.status import LearntMotor
 from rotator.store import compass, counts, knobs, learnt
 from rotator.store.json_file import JsonFile
 from tests.rotors.rig import AZ, EL, KINDS, Box, Kind, configured
+from tests.search import examples
 
 BOX = {kind.profile: kind for kind in KINDS}
 G5500, U100 = BOX["g5500"], BOX["u100"]
@@ -110,7 +111,7 @@ def assert_sane(box: Box) -> None:
 
 
 SLOW = settings(
-    max_examples=40,
+    max_examples=examples(40),
     deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )

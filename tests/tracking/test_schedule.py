@@ -8,13 +8,18 @@ from itertools import pairwise
 import pytest
 
 from rotator.control.sky.mount import Mount, Range, Sector
+from rotator.control.sky.route import STEP_S, Speeds
 from rotator.control.sky.sectors import box_at, kept
+from rotator.control.sky.ways import best_route
 from rotator.orbits.celestial import Body
+from rotator.tracking.next_flight import target_path
 from rotator.tracking.planned import Flight, Followed, PlannedPass
 from rotator.tracking.schedule import schedule
 from tests.tracking.arcs import (
+    AZIMUTH_DPS,
     BERLIN,
     CELL_S,
+    ELEVATION_DPS,
     EPOCH_S,
     FULL,
     OVER,
@@ -25,6 +30,7 @@ from tests.tracking.arcs import (
     places_at_end,
     round_s,
     satellites,
+    seconds_between,
     travel_s,
 )
 
@@ -98,24 +104,38 @@ def test_it_waits_where_the_target_will_be(planned: tuple[Mount, tuple[PlannedPa
 
 
 def test_every_pass_is_told_once_in_order(planned: tuple[Mount, tuple[PlannedPass, ...]]) -> None:
-    _, plan = planned
-    moments = [(each.name, each.found.aos_s) for each in plan]
-    assert len(set(moments)) == len(moments)
+    mount, plan = planned
+    told = [(each.name, each.found.aos_s) for each in plan]
+    assert len(set(told)) == len(told)
     aos_s = [each.found.aos_s or 0.0 for each in plan]
     assert aos_s == sorted(aos_s)
     assert all(each.reason for each in plan if each.flight is None)
     for each, flight in flights(plan):
         assert each.found.aos_s is not None
         assert each.found.los_s is not None
-        whole = flight.begin_s <= max(each.found.aos_s, EPOCH_S) + 0.1 and flight.end_s >= each.found.los_s - 0.1
-        assert whole or each.reason or mountless(each)
+        moments = seconds_between(max(each.found.aos_s, EPOCH_S), each.found.los_s, 5.0)
+        missed = [at_s for at_s in moments if not flight.begin_s <= at_s <= flight.end_s]
+        assert each.reason or sum(in_sight(mount, each.name, at_s) for at_s in missed) < 3
 
 
-def mountless(each: PlannedPass) -> bool:
-    """It begins or ends beside the chimney."""
-    assert each.flight
-    edges = [TARGETS[each.name].sight(at_s) for at_s in (each.found.aos_s or 0.0, each.found.los_s or 0.0)]
-    return any(CHIMNEY.azimuth.widened(8.0).holds(edge.azimuth_deg) for edge in edges)
+def in_sight(mount: Mount, name: str, at_s: float) -> bool:
+    """Above the trees, and not beside the chimney."""
+    sight = TARGETS[name].sight(at_s)
+    beside = CHIMNEY.azimuth.widened(8.0).holds(sight.azimuth_deg) and mount.sectors != ()
+    return sight.elevation_deg > mount.horizon_deg(sight.azimuth_deg) and not beside
+
+
+@pytest.mark.parametrize("mount", [FULL, SINGLE, OVER], ids=["450", "360", "360 over the top"])
+def test_a_flight_is_planned_on_the_turn_that_the_plan_of_many_has_chosen(mount: Mount) -> None:
+    """The steps of a flight are planned when it is due: they begin where the antenna was sent to wait."""
+    plan = schedule(follow(*satellites(6)), antenna(mount), EPOCH_S, EPOCH_S + 12 * HOUR_S)
+    for each, flight in flights(plan):
+        path = target_path(TARGETS[each.name], flight.begin_s, flight.end_s, 1.0)
+        directions, early_s = path.directions(path.begin_s, STEP_S), flight.begin_s - flight.set_off_s
+        speeds = Speeds(AZIMUTH_DPS, ELEVATION_DPS)
+        route = best_route(mount, directions, (100.0, 0.0), early_s, speeds, begin_on=flight.begin_on)
+        assert route.legs[0].flown.azimuths_deg[0] == pytest.approx(flight.wait_deg[0])
+        assert route.legs[0].flown.way.flipped is flight.over_the_top
 
 
 @pytest.mark.parametrize("mount", [FULL, OVER], ids=["450", "360 over the top"])
@@ -179,9 +199,12 @@ def test_a_short_overlap_costs_the_end_of_one_or_the_beginning_of_the_other() ->
     [
         (Followed(Arc("low", EPOCH_S + 600, 600, 90, 90, 12), 1, 20), "culminates at 12°, below the 20° asked"),
         (Followed(Arc("low", EPOCH_S + 600, 600, 90, 90, 19.8), 1, 20), "culminates at 19.80°, below the 20° asked"),
-        (Followed(Arc("low", EPOCH_S + 600, 600, 60, 60, 4)), "stays behind the horizon of trees and roofs"),
+        (Followed(Arc("low", EPOCH_S + 600, 600, 60, 60, 4)), "all of it is behind the horizon of trees and roofs"),
         (Followed(Arc("behind", EPOCH_S + 600, 600, 108, 10, 30)), "the rotor does not reach it"),
-        (Followed(Arc("going", EPOCH_S - 597, 600, 108, 10, 30)), "is nearly over"),
+        (
+            Followed(Arc("going", EPOCH_S - 597, 600, 108, 10, 30)),
+            "the rest of it is behind the horizon of trees and roofs",
+        ),
     ],
 )
 def test_why_a_pass_is_left_out(followed: Followed, reason: str) -> None:

@@ -4,6 +4,11 @@ from __future__ import annotations
 
 import math
 
+ZENITH_DEG = 90.0
+
+Vector = tuple[float, float, float]
+"""To the east, to the north and up."""
+
 
 def turn_deg(from_deg: float, to_deg: float) -> float:
     """The short way round from one azimuth to another: -180 up to 180, clockwise positive."""
@@ -22,3 +27,19 @@ def great_circle_deg(
     )
     along = math.sin(a) * math.sin(b) + math.cos(a) * math.cos(b) * math.cos(az)
     return math.degrees(math.atan2(across, along))
+
+
+def unit(azimuth_deg: float, elevation_deg: float) -> Vector:
+    """A direction as a vector of length 1; elevations past 90 (over the top) mean what they say."""
+    az, el = math.radians(azimuth_deg), math.radians(elevation_deg)
+    return math.cos(el) * math.sin(az), math.cos(el) * math.cos(az), math.sin(el)
+
+
+def direction_of(vector: Vector) -> tuple[float, float]:
+    """Azimuth from -180 to 180, and elevation."""
+    east, north, up = vector
+    return math.degrees(math.atan2(east, north)), math.degrees(math.atan2(up, math.hypot(east, north)))
+
+
+def dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -10,11 +10,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rotator.control.sky.angles import turn_deg
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.pointing import LEAST_WEIGHT
-from rotator.control.sky.route import STEP_S, Speeds
+from rotator.control.sky.route import STEP_S, Speeds, Way
 from rotator.control.sky.steps import Trail, best_steps
 from rotator.control.sky.ways import Leg, Route, best_route
 from rotator.orders import PLAN_STEP_S, AxisPlan, Fly, Step
@@ -53,12 +52,15 @@ class Antenna:
     stands_deg: tuple[float, float]
 
 
-def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float) -> FlightPlan:
-    """A path that has begun already is flown from now on."""
+def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begin_on: Way | None = None) -> FlightPlan:
+    """A path that has begun already is flown from now on. `begin_on`: the way on which a plan of many passes begins it;
+    else the best one."""
     mount, azimuth, elevation = antenna.mount, antenna.azimuth, antenna.elevation
     begin_s = max(path.begin_s, now_s)
     speeds = Speeds(azimuth.speed_dps, elevation.speed_dps)
-    route = best_route(mount, path.directions(begin_s, STEP_S), antenna.stands_deg, begin_s - now_s, speeds)
+    route = best_route(
+        mount, path.directions(begin_s, STEP_S), antenna.stands_deg, begin_s - now_s, speeds, begin_on=begin_on
+    )
     directions = path.directions(begin_s, PLAN_STEP_S)
     azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs)
     up = [1.0 if elevation_deg > 0 else DOWN_WEIGHT for _, elevation_deg in directions]
@@ -98,14 +100,13 @@ def _axis_angles(
     for index, leg in enumerate(legs):
         begin = leg.look * per_look
         end = legs[index + 1].look * per_look if index + 1 < len(legs) else len(directions)
-        azimuth_deg, before_deg = leg.flown.way.azimuth_deg, directions[0][0]
-        for moment, (direction_deg, elevation_deg) in enumerate(directions[:end]):
-            azimuth_deg += turn_deg(before_deg, direction_deg)
-            before_deg = direction_deg
+        way = leg.flown.way
+        azimuth_deg = way.azimuth_deg
+        for moment, direction in enumerate(directions[:end]):
+            azimuth_deg, elevation_deg = mount.on_the_way(*direction, azimuth_deg, flipped=way.flipped)
             if moment < begin:
                 continue
             kept_deg = mount.azimuth.nearest(azimuth_deg)
             azimuths_deg.append(kept_deg)
-            flipped_deg = 180.0 - elevation_deg if leg.flown.way.flipped else elevation_deg
-            elevations_deg.append(mount.clear_deg(kept_deg, flipped_deg))
+            elevations_deg.append(mount.clear_deg(kept_deg, elevation_deg))
     return azimuths_deg, elevations_deg

@@ -1,15 +1,17 @@
 """One coordinate alone (`AZ200`, `M200`, `EL20`): joined with the other one, on the sky, before it becomes axis angles.
 
 An antenna over the top has its boom on the other side: its elevation axis stands at 150° while it points 30° high. An
-order for one coordinate then changes both axes. Where the antenna is not over the top, and cannot go there, the order
-moves one axis; so does an elevation above 90°. Knows directions and the mount. Knows nothing of goals, motors or time.
+order for one coordinate then changes both axes; so it does on a mount that leans. Where the mount stands upright and
+the antenna is not over the top, and cannot go there, the order moves one axis; so does an elevation above 90°. Knows
+directions and the mount. Knows nothing of goals, motors or time.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from rotator.control.sky.mount import ZENITH_DEG, Mount
+from rotator.control.sky.angles import ZENITH_DEG
+from rotator.control.sky.mount import Mount
 from rotator.orders import Aim
 
 Pair = tuple[float | None, float | None]
@@ -26,21 +28,23 @@ def joined(mount: Mount, aim: Aim, wanted: Pair, axes: Pair) -> Aim:
     axis_azimuth_deg, axis_elevation_deg = axes
     if axis_azimuth_deg is None or axis_elevation_deg is None:
         return aim
-    if not mount.flip and axis_elevation_deg <= ZENITH_DEG:
+    if mount.model.perfect and not mount.flip and axis_elevation_deg <= ZENITH_DEG:
         return aim
+    there_azimuth_deg, there_elevation_deg = mount.pointed(axis_azimuth_deg, axis_elevation_deg)
     if aim.elevation_deg is not None and ZENITH_DEG < aim.elevation_deg <= mount.elevation.max_deg:
         # Above 90° it names the axis's own angle: the azimuth axis stays.
-        return replace(aim, azimuth_deg=axis_azimuth_deg)
+        return replace(aim, azimuth_deg=there_azimuth_deg)
     azimuth_deg, elevation_deg = wanted
     if azimuth_deg is None or elevation_deg is None:
-        azimuth_deg, elevation_deg = direction(axis_azimuth_deg, axis_elevation_deg)
+        azimuth_deg, elevation_deg = direction(there_azimuth_deg, there_elevation_deg)
     if aim.azimuth_deg is None:
         return replace(aim, azimuth_deg=azimuth_deg)
     return replace(aim, elevation_deg=elevation_deg)
 
 
 def direction(azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
-    """Axis angles as the direction on the sky: azimuth 0 to below 360, elevation up to 90."""
+    """Where the antenna points, over the top or not, as the direction on the sky: azimuth 0 to below 360, elevation up
+    to 90."""
     if elevation_deg > ZENITH_DEG:
         return (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
     return azimuth_deg % 360.0, elevation_deg

@@ -1,7 +1,7 @@
 """Turns a direction in the sky into axis angles: the only place that does.
 
-Knows the range of each axis, its overlap, whether the antenna may go over the top, the horizon of trees and roofs, and
-the park position. Knows nothing of motors, sensors or time.
+Knows the range of each axis, its overlap, whether the antenna may go over the top, how the mount really stands, the
+horizon of trees and roofs, and the park position. Knows nothing of motors, sensors or time.
 """
 
 from __future__ import annotations
@@ -10,9 +10,11 @@ import math
 from bisect import bisect_right
 from dataclasses import dataclass
 
-from rotator.control.sky.angles import turn_deg
+from rotator.control.sky.angles import ZENITH_DEG, turn_deg
+from rotator.control.sky.pointing_model import PERFECT, PointingModel
 
-ZENITH_DEG = 90.0
+_ROUNDS = 2
+"""The azimuth that fits a resting elevation is found to 0.1° in so many rounds, with terms up to 5°."""
 
 
 class Unreachable(ValueError):  # noqa: N818 - it tells about a direction, it is no failure
@@ -73,6 +75,9 @@ class Mount:
     """Points (azimuth, least elevation), azimuth rising from 0 to below 360: trees, the neighbour's roof."""
     sectors: tuple[Sector, ...] = ()
     """Where the antenna must not be, nor pass, on the axes' own scales."""
+    model: PointingModel = PERFECT
+    """How the mount really stands. Ranges, the park position and sectors are on the axes' own scales; the horizon is
+    on the sky."""
 
     def axis_angles(
         self, azimuth_deg: float, elevation_deg: float | None, near_azimuth_deg: float, *, over: bool = False
@@ -83,14 +88,31 @@ class Mount:
         where the range allows, else the direction that it means. A direction that azimuth does not reach is looked at
         over the top, where the antenna may go there; any direction is, if it is to go `over`.
         """
+        if azimuth_deg > 360.0 and self.azimuth.holds(azimuth_deg):  # the sender names the overlap
+            near_azimuth_deg = azimuth_deg
         if elevation_deg is None:
-            return self._turn(azimuth_deg, near_azimuth_deg), None
+            level_deg, _ = self._angles(azimuth_deg, 0.0)
+            return self._turn(level_deg, near_azimuth_deg), None
         if elevation_deg > ZENITH_DEG and not self.elevation.holds(elevation_deg):
             azimuth_deg, elevation_deg = (azimuth_deg + 180.0) % 360.0, 180.0 - elevation_deg
-        if over or (self.flip and not self._turns(azimuth_deg) and self._turns(azimuth_deg + 180.0)):
-            azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
-        axis_azimuth_deg = self._turn(azimuth_deg, near_azimuth_deg)
-        return axis_azimuth_deg, self.clear_deg(axis_azimuth_deg, elevation_deg)
+        axis_azimuth_deg, axis_elevation_deg = self._angles(azimuth_deg, elevation_deg)
+        if over or (self.flip and not self._turns(axis_azimuth_deg)):
+            there = self._angles(azimuth_deg + 180.0, 180.0 - elevation_deg)
+            if over or self._turns(there[0]):
+                axis_azimuth_deg, axis_elevation_deg = there
+        axis_azimuth_deg = self._turn(axis_azimuth_deg, near_azimuth_deg)
+        return axis_azimuth_deg, self.clear_deg(axis_azimuth_deg, axis_elevation_deg)
+
+    def parked(self) -> tuple[float, float]:
+        """The park position, a place on the axes' own scales. Raises Unreachable."""
+        # Not the other turn of the overlap, which would wind the cables.
+        azimuth_deg = self._turn(self.park_azimuth_deg, self.park_azimuth_deg)
+        return azimuth_deg, self.clear_deg(azimuth_deg, self.park_elevation_deg)
+
+    def pointed(self, axis_azimuth_deg: float, axis_elevation_deg: float) -> tuple[float, float]:
+        """Where the antenna points at these axis angles, as an order would name it: on the same turn, and above 90°
+        where it is over the top."""
+        return self.model.pointed(axis_azimuth_deg, axis_elevation_deg)
 
     def on_the_way(
         self, azimuth_deg: float, elevation_deg: float, from_azimuth_deg: float, *, flipped: bool
@@ -99,13 +121,14 @@ class Mount:
         applied, for a way may lead beyond them."""
         if flipped:
             azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
+        azimuth_deg, elevation_deg = self._angles(azimuth_deg, elevation_deg)
         return from_azimuth_deg + turn_deg(from_azimuth_deg, azimuth_deg), elevation_deg
 
     def places(self, azimuth_deg: float, elevation_deg: float) -> list[tuple[float, float, bool]]:
         """Every place at which the axes point in that direction, and whether it is over the top."""
-        ways = [(azimuth_deg, elevation_deg, False)]
+        ways = [(*self._angles(azimuth_deg, elevation_deg), False)]
         if self.flip and elevation_deg <= ZENITH_DEG:
-            ways.append((azimuth_deg + 180.0, 180.0 - elevation_deg, True))
+            ways.append((*self._angles(azimuth_deg + 180.0, 180.0 - elevation_deg), True))
         return [
             (turn_deg, self.clear_deg(turn_deg, axis_elevation_deg), over)
             for way_deg, axis_elevation_deg, over in ways
@@ -131,10 +154,30 @@ class Mount:
         elevation_deg = self.elevation.nearest(elevation_deg)
         if not self.horizon:
             return elevation_deg
-        if elevation_deg > ZENITH_DEG:
-            least_deg = self.horizon_deg(axis_azimuth_deg + 180.0)
-            return self.elevation.nearest(min(elevation_deg, 180.0 - least_deg))
-        return self.elevation.nearest(max(elevation_deg, self.horizon_deg(axis_azimuth_deg)))
+        sky_azimuth_deg, sky_elevation_deg = self.pointed(axis_azimuth_deg, elevation_deg)
+        if sky_elevation_deg > ZENITH_DEG:
+            highest_deg = 180.0 - self.horizon_deg(sky_azimuth_deg + 180.0)
+            return self.elevation.nearest(elevation_deg + min(0.0, highest_deg - sky_elevation_deg))
+        least_deg = self.horizon_deg(sky_azimuth_deg)
+        return self.elevation.nearest(elevation_deg + max(0.0, least_deg - sky_elevation_deg))
+
+    def _angles(self, azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:
+        """Axis angles at which the antenna points there, as the mount really stands; limits not yet applied.
+
+        Where elevation ends before, the azimuth is the one that fits the elevation at which it rests.
+        """
+        if self.model.perfect:
+            return azimuth_deg, elevation_deg
+        axis_azimuth_deg, axis_elevation_deg = self.model.axis_angles(azimuth_deg, elevation_deg)
+        rests_deg = self.elevation.nearest(axis_elevation_deg)
+        over = elevation_deg > ZENITH_DEG
+        if rests_deg == axis_elevation_deg or self.model.over_the_top(rests_deg) is not over:
+            return axis_azimuth_deg, axis_elevation_deg
+        follows_deg = axis_azimuth_deg
+        for _ in range(_ROUNDS):
+            _, low_deg = self.pointed(follows_deg, rests_deg)
+            follows_deg, _ = self.model.axis_angles(azimuth_deg, low_deg)
+        return follows_deg, axis_elevation_deg
 
     def horizon_deg(self, azimuth_deg: float) -> float:
         """How high trees and roofs stand there: straight lines between the points, all the way round."""
@@ -148,8 +191,7 @@ class Mount:
         return el_a + (azimuth_deg - az_a) / (az_b - az_a) * (el_b - el_a)
 
     def _turn(self, azimuth_deg: float, near_deg: float) -> float:
-        if azimuth_deg > 360.0 and self.azimuth.holds(azimuth_deg):  # the sender names the overlap
-            return azimuth_deg
+        """The place on the scale that is nearest. Raises Unreachable."""
         turns = self._turns(azimuth_deg)
         if not turns:
             limits = f"{self.azimuth.min_deg:g} to {self.azimuth.max_deg:g}"

@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
+from rotator.control.sky.angles import ZENITH_DEG
 from rotator.control.sky.joining import direction
-from rotator.control.sky.mount import ZENITH_DEG, Mount
+from rotator.control.sky.mount import Mount
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way
 from rotator.control.sky.track import Track
@@ -122,8 +123,19 @@ class Pointing:
             self._way = Way(flown_deg, self._way.flipped)
             self._swings.forgo()
         elif not again:
-            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, axis_elevation_deg > ZENITH_DEG))
+            flipped = self._mount.model.over_the_top(axis_elevation_deg)
+            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped))
         return self._standing(now_s, settled=not moving)
+
+    def park(self) -> Goals:
+        """Goals for the park position. Raises Unreachable; then nothing has changed."""
+        azimuth_deg, elevation_deg = self._mount.parked()
+        self.forget()
+        self.wanted = Aim(self._mount.park_azimuth_deg, self._mount.park_elevation_deg)
+        return (
+            AimGoal(azimuth_deg, self._standing_tolerance_deg(elevation_deg)),
+            AimGoal(elevation_deg, self._elevation_tolerance_deg),
+        )
 
     def raise_to(self, elevation_deg: float, azimuth_deg: float) -> AimGoal:
         """The goal for an order of elevation alone, with azimuth where it is."""
@@ -182,8 +194,8 @@ class Pointing:
         assert aim.azimuth_deg is not None
         if self._way is None or aim.azimuth_deg > FULL_TURN_DEG:  # the sender names the overlap
             return way
-        azimuth_deg, _ = direction(aim.azimuth_deg, aim.elevation_deg or 0.0)
-        kept_deg, _ = self._mount.on_the_way(azimuth_deg, 0.0, self._way.azimuth_deg, flipped=self._way.flipped)
+        there = direction(aim.azimuth_deg, aim.elevation_deg or 0.0)
+        kept_deg, _ = self._mount.on_the_way(*there, self._way.azimuth_deg, flipped=self._way.flipped)
         swings = way.flipped is not self._way.flipped or abs(way.azimuth_deg - kept_deg) > HALF_TURN_DEG
         if not swings:
             self._swings.forgo()
@@ -201,7 +213,7 @@ class Pointing:
         near_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
         if settled and near_deg != self._way.azimuth_deg and self._swings.may_begin(now_s):
             axis_deg, raised_deg = self._mount.axis_angles(wanted.azimuth_deg, wanted.elevation_deg, near_deg)
-            flipped = self._way.flipped if raised_deg is None else raised_deg > ZENITH_DEG
+            flipped = self._way.flipped if raised_deg is None else self._mount.model.over_the_top(raised_deg)
             self._way = Way(axis_deg, flipped)
         way = self._way
         if wanted.elevation_deg is None:

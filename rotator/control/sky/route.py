@@ -12,7 +12,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
-from rotator.control.sky.angles import turn_deg
 from rotator.control.sky.mount import Mount
 
 STEP_S = 5.0
@@ -73,11 +72,9 @@ class Flown:
         self.azimuths_deg: list[float] = []
         self.elevations_deg: list[float] = []
         losses_s = [0.0]
-        azimuth_deg, before_deg = way.azimuth_deg, directions[0][0]
+        azimuth_deg = way.azimuth_deg
         for direction_deg, elevation_deg in directions:
-            azimuth_deg += turn_deg(before_deg, direction_deg)
-            before_deg = direction_deg
-            axis_el_deg = 180.0 - elevation_deg if way.flipped else elevation_deg
+            azimuth_deg, axis_el_deg = mount.on_the_way(direction_deg, elevation_deg, azimuth_deg, flipped=way.flipped)
             kept_az_deg, kept_el_deg = mount.azimuth.nearest(azimuth_deg), mount.elevation.nearest(axis_el_deg)
             off_deg = math.hypot(
                 min(abs(azimuth_deg - kept_az_deg), 90.0) * math.cos(math.radians(elevation_deg)),

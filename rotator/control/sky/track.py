@@ -14,7 +14,8 @@ import math
 from collections import deque
 from collections.abc import Sequence
 
-from rotator.control.sky.angles import great_circle_deg
+from rotator.control.sky.angles import Vector, direction_of, dot, great_circle_deg, unit
+from rotator.control.sky.equations import solved
 
 MEMORY_S = {1.0: 25.0, 0.1: 8.0, 0.01: 4.0}
 """By the rounding of the orders: their weight falls by e in this time. A longer time averages the rounding better; a
@@ -38,8 +39,6 @@ _APPROACH_PRIOR = 0.3
 """How strongly the fit assumes that the target does not come nearer, while there are few orders of whole degrees."""
 _LEAST_FACING = 0.3
 """Orders whose cosine to the last one is smaller do not reach the touching plane."""
-
-Vector = tuple[float, float, float]
 
 
 class Track:
@@ -105,20 +104,20 @@ class _Fit:
         self.at_s = last_s
         az, el = math.radians(azimuth_deg), math.radians(elevation_deg)
         # The plane touches the sky at the last order; its axes point along growing azimuth and growing elevation.
-        self._ahead = _unit(azimuth_deg, elevation_deg)
+        self._ahead = unit(azimuth_deg, elevation_deg)
         self._right: Vector = (math.cos(az), -math.sin(az), 0.0)
         self._up: Vector = (-math.sin(el) * math.sin(az), -math.sin(el) * math.cos(az), math.cos(el))
         # x (1 + g s) = a + b s, and the same for y: linear in the five unknowns a, b, c, d, g. An order gives the rows
         # (1, s, 0, 0, -s x | x) and (0, 0, 1, s, -s y | y); what follows are the weighted sums of their products.
         n = ns = nss = nx = ny = nsx = nsy = nsxx = nssx = nssy = nsyy = nssxx = 0.0
         for at_s, order_az_deg, order_el_deg in orders:
-            seen = _unit(order_az_deg, order_el_deg)
-            facing = _dot(seen, self._ahead)
+            seen = unit(order_az_deg, order_el_deg)
+            facing = dot(seen, self._ahead)
             if facing < _LEAST_FACING:
                 continue
             s = at_s - last_s
             weight = math.exp(s / memory_s) * facing * facing
-            x, y = _dot(seen, self._right) / facing, _dot(seen, self._up) / facing
+            x, y = dot(seen, self._right) / facing, dot(seen, self._up) / facing
             weight_s = weight * s
             weight_sx, weight_sy = weight_s * x, weight_s * y
             n += weight
@@ -142,7 +141,7 @@ class _Fit:
             [0.0, 0.0, ns, nss + sideways, -nssy],
             [-nsx, -nssx, -nsy, -nssy, nssxx + approach],
         ]
-        self._a, self._b, self._c, self._d, self._g = _solve(matrix, [nx, nsx, ny, nsy, -nsxx - nsyy])
+        self._a, self._b, self._c, self._d, self._g = solved(matrix, [nx, nsx, ny, nsy, -nsxx - nsyy])
 
     def direction(self, at_s: float) -> tuple[float, float]:
         s = at_s - self.at_s
@@ -151,7 +150,8 @@ class _Fit:
         east = x * right[0] + y * upward[0] + z * ahead[0]
         north = x * right[1] + y * upward[1] + z * ahead[1]
         up = x * right[2] + y * upward[2] + z * ahead[2]
-        return math.degrees(math.atan2(east, north)) % 360.0, math.degrees(math.atan2(up, math.hypot(east, north)))
+        azimuth_deg, elevation_deg = direction_of((east, north, up))
+        return azimuth_deg % 360.0, elevation_deg
 
 
 def _grain_deg(orders: Sequence[tuple[float, float, float]]) -> float:
@@ -161,28 +161,3 @@ def _grain_deg(orders: Sequence[tuple[float, float, float]]) -> float:
         if all(abs(angle / grain_deg - round(angle / grain_deg)) < 1e-6 for angle in angles_deg):
             return grain_deg
     return 0.01
-
-
-def _unit(azimuth_deg: float, elevation_deg: float) -> Vector:
-    az, el = math.radians(azimuth_deg), math.radians(elevation_deg)
-    return math.cos(el) * math.sin(az), math.cos(el) * math.cos(az), math.sin(el)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _solve(matrix: list[list[float]], side: list[float]) -> list[float]:
-    """Gauss elimination; the priors and the many orders keep the matrix positive definite, so no pivots are needed."""
-    size = len(side)
-    for i in range(size):
-        for row in range(i + 1, size):
-            factor = matrix[row][i] / matrix[i][i]
-            for column in range(i, size):
-                matrix[row][column] -= factor * matrix[i][column]
-            side[row] -= factor * side[i]
-    solution = [0.0] * size
-    for i in reversed(range(size)):
-        known = sum(matrix[i][j] * solution[j] for j in range(i + 1, size))
-        solution[i] = (side[i] - known) / matrix[i][i]
-    return solution

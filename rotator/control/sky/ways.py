@@ -34,11 +34,18 @@ class Route:
 
 
 def best_route(
-    mount: Mount, directions: Sequence[Direction], from_deg: tuple[float, float], early_s: float, speeds: Speeds
+    mount: Mount,
+    directions: Sequence[Direction],
+    from_deg: tuple[float, float],
+    early_s: float,
+    speeds: Speeds,
+    *,
+    begin_on: Way | None = None,
 ) -> Route:
     """Through directions that are `STEP_S` apart.
 
-    `from_deg`: where the axes stand. `early_s`: how long it is until the first of the directions.
+    `from_deg`: where the axes stand. `early_s`: how long it is until the first of the directions. `begin_on`: the way
+    nearest to this one is the first, as a plan of many passes has chosen it.
     """
     ways = [Flown(mount, directions, way) for way in possible_ways(mount, directions[0])]
     # least[way][look]: what is lost from this look on, being on this way; then where to change to, if anywhere.
@@ -57,7 +64,10 @@ def best_route(
                 cost_s = spent_s + least[other][arrival]
                 if cost_s < least[index][look] - EVEN_S:
                     least[index][look], changes[index][look] = cost_s, (other, arrival)
-    costs = [_first_cost(way, from_deg, early_s, speeds, lost[0]) for way, lost in zip(ways, least, strict=True)]
+    if begin_on is None:
+        costs = [_first_cost(way, from_deg, early_s, speeds, lost[0]) for way, lost in zip(ways, least, strict=True)]
+    else:
+        costs = [_apart(flown.way, begin_on) for flown in ways]
     first = costs.index(min(costs))
     legs, look, index = [Leg(0, ways[first])], 0, first
     while look < len(directions):
@@ -84,12 +94,16 @@ def _first_cost(
     return round((lost_s + max(0.0, travel_s - early_s)) / EVEN_S), travel_s
 
 
+def _apart(way: Way, other: Way) -> tuple[float, float]:
+    return float(way.flipped is not other.flipped), abs(way.azimuth_deg - other.azimuth_deg)
+
+
 def possible_ways(mount: Mount, first: Direction) -> list[Way]:
     """Every turn that reaches into the range, also one that begins beyond it; over the top where the antenna may."""
     azimuth = mount.azimuth
     found = []
     for flipped in (False, True) if mount.flip else (False,):
-        begin_deg = first[0] + (180.0 if flipped else 0.0)
+        begin_deg, _ = mount.on_the_way(*first, first[0], flipped=flipped)
         turns = range(
             math.floor((azimuth.min_deg - 360.0 - begin_deg) / 360.0),
             math.ceil((azimuth.max_deg + 360.0 - begin_deg) / 360.0) + 1,

@@ -12,11 +12,12 @@ from rotator.control.sky.detour import Detours, box_about
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.route import Speeds
 from rotator.control.sky.sectors import Box, Place, box_at
+from tests.search import examples
 
 SPEEDS = Speeds(6.0, 2.7)
 ROOM_DEG, ABOUT_DEG = (3.0, 1.5), (0.5, 0.4)
 CHIMNEY = Sector("the chimney", Range(100, 130), Range(0, 35), 2.0)
-WORLDS = 10_000
+WORLDS = examples(10_000)
 
 
 def detours(*sectors: Sector) -> Detours:
@@ -130,6 +131,7 @@ def connected(mount: Mount, blocked: list[tuple[Range, Range]], a: Place, b: Pla
     return False
 
 
+@pytest.mark.search
 def test_no_way_enters_a_sector_whatever_the_motors_paces() -> None:
     ways = reached = 0
     for seed in range(WORLDS):
@@ -158,7 +160,8 @@ def test_no_way_enters_a_sector_whatever_the_motors_paces() -> None:
     assert reached > ways / 3
 
 
-@pytest.mark.parametrize("seed", range(0, 100, 2))
+@pytest.mark.search
+@pytest.mark.parametrize("seed", range(0, 100, 100 // examples(50)))
 def test_every_free_place_that_can_be_reached_is(seed: int) -> None:
     finder, sectors, draw, mount = drawn(seed)
     blocked = [room(sector) for sector in sectors]

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import Axis
 from tests.hw.drives.test_digipot import AZ, EL, Bench
+from tests.search import examples
 
 COAST_DEG = 1.0 + 0.5
 """What the motor coasts, and the play of the gear."""
@@ -33,7 +34,7 @@ def both(bench: Bench, azimuth_deg: float, elevation_deg: float, seconds: float)
         bench.clock.sleep(0.05)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=examples(30), deadline=None)
 @given(
     true_deg=st.tuples(st.floats(0, 360), st.floats(0, 90)),
     assumed_deg=st.floats(0, 360),
@@ -96,7 +97,7 @@ def test_when_a_full_travel_is_over_a_stop_needs_no_relay() -> None:
     assert bench.rotor.gpio.level(22), "the boxes keep their supply"
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(true_deg=st.floats(0, 360), assumed_deg=st.floats(0, 360), target_deg=st.floats(5, 355))
 def test_started_anywhere_it_rests_where_it_was_ordered(true_deg: float, assumed_deg: float, target_deg: float) -> None:
     bench = bench_at(true_deg, assumed_deg)
@@ -110,7 +111,7 @@ RESTS_WITHIN_DEG = 0.7 + 0.25 + 0.1
 """Half a step, and half the play of the gear. The dead band is no part of it."""
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=examples(12), deadline=None)
 @given(st.lists(st.tuples(st.floats(3, 357), st.sampled_from(["", "hold", "release"])), min_size=1, max_size=6))
 def test_it_rests_there_from_either_side_after_reversals_stops_and_let_go(orders: list[tuple[float, str]]) -> None:
     bench = Bench()
@@ -128,7 +129,7 @@ def test_it_rests_there_from_either_side_after_reversals_stops_and_let_go(orders
 
 
 @given(target_deg=st.floats(0, 360), before_deg=st.floats(0, 360), low_deg=st.floats(0, 100))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=examples(20), deadline=None)
 def test_the_wiper_never_leads_beyond_an_end_of_the_range(target_deg: float, before_deg: float, low_deg: float) -> None:
     ends_deg = (low_deg, 360.0 - low_deg)
     bench = Bench(range_deg=ends_deg)

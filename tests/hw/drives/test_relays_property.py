@@ -15,6 +15,7 @@ from firmware_sim.clock import SimClock
 from hw.buses.gpio import GpioOutputs
 from hw.drives.relays import LONGEST_LEASE_S, MASTER_LINGER_S, RelayBank
 from hw.ports import Axis, Direction
+from tests.search import examples
 
 PINS = {"azimuth_cw": 22, "azimuth_ccw": 23, "elevation_up": 24, "elevation_down": 25, "master": 26}
 OPPOSITES = ((22, 23), (24, 25))
@@ -115,4 +116,4 @@ class AnySequence(RuleBasedStateMachine):
 
 
 TestAnySequence = AnySequence.TestCase
-TestAnySequence.settings = settings(max_examples=150, stateful_step_count=40, deadline=None)
+TestAnySequence.settings = settings(max_examples=examples(150), stateful_step_count=40, deadline=None)

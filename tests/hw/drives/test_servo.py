@@ -21,6 +21,7 @@ from hw.drives.servo import CHECK_S, ENABLE, RETRY_S, ServoDrive
 from hw.drives.servo_axis import ServoSpec
 from hw.ports import AngleSource, Axis, HardwareError
 from hw.safety.guard import PATIENCE_S
+from tests.search import examples
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 OE_PIN = 5
@@ -111,7 +112,7 @@ def test_outputs_are_enabled_when_the_pulse_is_right_and_not_before() -> None:
     assert pulses_us == [pytest.approx(500 + 60 / 180 * 2000, abs=4.88)]
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 @given(
     at_deg=st.tuples(st.floats(0, 180), st.floats(0, 180)),
     seconds=st.floats(0.05, 2.9),

@@ -16,6 +16,7 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 from hw.moteus.placing import BEYOND_DEG
 from hw.ports import Axis, HardwareError
 from tests.hw.moteus.test_drive import Bench
+from tests.search import examples
 
 AZ = Axis.AZIMUTH
 NEAR_DEG = 0.02
@@ -148,7 +149,7 @@ def worlds() -> st.SearchStrategy[tuple[dict[str, float], float, float, float]]:
 @given(
     world=worlds(), shares=st.lists(st.floats(0.0, 1.0), min_size=1, max_size=3), said_off_deg=st.floats(-20.0, 20.0)
 )
-@settings(max_examples=40)
+@settings(max_examples=examples(40))
 def test_no_power_cut_turns_the_antenna_out_of_its_range(
     world: tuple[dict[str, float], float, float, float], shares: list[float], said_off_deg: float
 ) -> None:

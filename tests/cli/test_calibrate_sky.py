@@ -1,0 +1,85 @@
+"""`rotator calibrate sky` as a command: what it refuses, and a point taken and saved at the simulated Sun."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from rotator.config.load import load
+
+LIMIT_S = 120.0
+NOON = "2026-06-21T11:00:00Z"
+STATION = """# my mast
+[rotor]
+type = "moteus"
+
+[station]
+locator = "JN58td"
+
+[sim.mount]
+ie_deg = -3
+
+[sim]
+bus_takes_time = false
+"""
+
+
+def sky(path: Path, *options: str, lines: tuple[str, ...] = ()) -> tuple[str, int]:
+    process = subprocess.run(
+        [sys.executable, "-m", "rotator", "calibrate", "sky", "--config", str(path), *options],
+        input="".join(f"{line}\n" for line in lines),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        timeout=LIMIT_S,
+        check=False,
+    )
+    assert "Traceback" not in process.stdout
+    return process.stdout, process.returncode
+
+
+@pytest.fixture
+def station(tmp_path: Path) -> Path:
+    path = tmp_path / "station.toml"
+    path.write_text(STATION)
+    return path
+
+
+def test_a_point_at_the_sun_is_saved_and_the_file_before_is_kept(station: Path) -> None:
+    text, code = sky(station, "--at", NOON, lines=("y", "y", "u 0.38", "", "f", "y"))
+    assert code == 0, text
+    assert "SIM: along the boom it is" in text
+    assert "Never look along the boom at the Sun" in text
+    model = load(station).mount.model
+    assert -6 < model.ie_deg < -1
+    assert len(model.points) == 1
+    assert station.with_name("station.toml.bak").read_text() == STATION
+
+
+def test_at_night_it_says_that_the_sun_is_down(station: Path) -> None:
+    text, code = sky(station, "--at", "2026-06-21T23:00:00Z", lines=("y",))
+    assert code == 1
+    assert "The Sun is 18° below the horizon" in text
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--target", "moonn"), "moonn"),
+        (("--at", "noon"), "is no date and time"),
+    ],
+)
+def test_what_it_refuses(station: Path, options: tuple[str, ...], said: str) -> None:
+    text, code = sky(station, *options)
+    assert code != 0
+    assert said in text
+
+
+def test_it_needs_the_place(station: Path) -> None:
+    station.write_text('[rotor]\ntype = "moteus"\n')
+    text, code = sky(station)
+    assert code == 1
+    assert "[station]" in text
