@@ -14,7 +14,14 @@ from unittest.mock import patch
 import pytest
 
 from rotator.cli.main import main
+from rotator.cli.utc import iso
 from rotator.config.load import shipped
+from rotator.orbits.catalogue import Catalogue
+from rotator.orbits.earth import Site
+from rotator.orbits.passes import passes
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.targets import find
+from tests.orbits.skyfield_oracle import TLE
 
 KEYS = ["rms_deg", "p95_deg", "max_deg", "relay_starts", "motor_s", "recognised", "faults"]
 COLUMNS = ["t", "target_az", "target_el", "antenna_az", "antenna_el", "az_drive", "el_drive"]
@@ -283,3 +290,52 @@ def test_the_faults_there_are(rotator: Rotator, flown: Path) -> None:
     done = rotator("rehearse", flown, "--fault", "list")
     assert done.returncode == 0
     assert "azimuth-pot-open" in done.stdout.splitlines()
+
+
+# --- a program's stream, recognised
+
+
+SKY = """[station]
+latitude_deg = 48.85
+longitude_deg = 2.35
+[sky]
+elements = ["{elements}"]
+"""
+
+
+@pytest.fixture
+def sky(tmp_path: Path) -> tuple[Path, Path, str]:
+    """A configuration that knows satellites, the first minute of a pass of the ISS, and when it begins."""
+    station, path = tmp_path / "station.toml", tmp_path / "minute.csv"
+    station.write_text(SKY.format(elements=TLE), encoding="utf-8")
+    iss = find("iss", Site(48.85, 2.35), Catalogue((str(TLE),)))
+    assert isinstance(iss, Satellite)
+    aos_s = next(passes(iss, iss.elements.epoch_utc_s, iss.elements.epoch_utc_s + 86_400.0)).aos_s
+    assert aos_s is not None
+    sights = [(t, iss.sight(aos_s + t)) for t in range(61)]
+    rows = [f"{t},{sight.azimuth_deg},{sight.elevation_deg}" for t, sight in sights]
+    path.write_text("t,az,el\n" + "\n".join(rows) + "\n", encoding="utf-8")
+    return station, path, iso(aos_s)
+
+
+def test_the_satellite_in_a_programs_stream_is_named(rotator: Rotator, sky: tuple[Path, Path, str]) -> None:
+    station, path, begin = sky
+    told = figures(rotator("rehearse", path, "--config", station, "--at", begin, "--json"))
+    assert told["recognised"]["name"] == "ISS"
+    assert 9.0 <= told["recognised"]["after_s"] <= 10.0
+    sentence = rotator("rehearse", path, "--config", station, "--at", begin).stdout
+    assert sentence.endswith("; it recognised ISS after 10 s\n")
+
+
+def test_a_day_later_it_is_no_satellite(rotator: Rotator, sky: tuple[Path, Path, str]) -> None:
+    station, path, begin = sky
+    later = begin.replace("2025-02-28", "2025-03-02").replace("2025-03-01", "2025-03-02")
+    assert later != begin
+    assert figures(rotator("rehearse", path, "--config", station, "--at", later, "--json"))["recognised"] is None
+
+
+def test_a_moment_without_a_sky_is_refused(rotator: Rotator, flown: Path) -> None:
+    done = rotator("rehearse", flown, "--at", "2025-02-28T18:00:00Z")
+    assert done.returncode == 2
+    assert "[station]" in done.stderr
+    assert "[sky] elements" in done.stderr

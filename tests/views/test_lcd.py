@@ -15,7 +15,7 @@ from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.switched import BLIND
 from rotator.faults import Fault, FaultKind, Missing, Notice
 from rotator.orders import Mode
-from rotator.status import AxisStatus, Status
+from rotator.status import AxisStatus, Flown, Status
 from rotator.views.lcd import rows
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -214,3 +214,8 @@ def test_always_two_rows_of_sixteen_characters(now: Status, now_s: float) -> Non
     upper, lower = rows(now, now_s)
     assert len(upper) == len(lower) == 16
     assert lower.startswith("SIM A:" if now.simulated else "ANT A:")
+
+
+def test_between_orders_a_target_that_is_flown_is_named_with_its_set() -> None:
+    flown = Flown("ISS (ZARYA)", begin_s=-10.0, end_s=312.0, recognised=True)
+    assert "ISS (ZA LOS 5:12" in uppers(status(flown=flown))

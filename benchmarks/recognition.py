@@ -1,0 +1,114 @@
+"""How often something else is taken for a satellite: run `python -m benchmarks.recognition [STREAMS [SEED]]`.
+
+Streams of whole degrees, tenths and hundredths, once a second for 40 s, begin anywhere in the sky at any moment of two
+days: standing antennas, antennas at the horizon, sweeps, a person at a knob, stars, and great circles as fast as
+satellites are. The box knows a hundred satellites. Prints how many streams it has recognised; 10 000 take some minutes.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+import sys
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import replace
+
+from rotator.orbits import tle
+from rotator.orbits.earth import Site
+from rotator.orbits.recognition import Recognised, StreamWatch
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import Sight
+from rotator.orders import Aim, Source
+from tests.orbits import skyfield_oracle
+from tests.orbits.streams import Path, great_circle
+
+STREAMS, SATELLITES, SECONDS = 10_000, 100, 40
+STATION = Site(48.85, 2.35)
+STAR_DPS = 360.0 / 86_164.0
+
+
+def satellites(dice: random.Random) -> list[Satellite]:
+    """Orbits as amateurs' satellites have them, each turned at random."""
+    real = [each for each in tle.read(skyfield_oracle.TLE.read_text(encoding="utf-8")) if not isinstance(each, str)]
+    return [
+        Satellite(
+            replace(
+                real[number % len(real)],
+                name=f"OF {number}",
+                catalogue_number=900_000 + number,
+                ascending_node_deg=dice.uniform(0, 360),
+                mean_anomaly_deg=dice.uniform(0, 360),
+                perigee_argument_deg=dice.uniform(0, 360),
+                inclination_deg=dice.choice((45.0, 51.6, 64.0, 82.0, 97.0, 98.0)),
+                mean_motion_rev_per_day=dice.uniform(12.5, 15.6),
+            ),
+            STATION,
+        )
+        for number in range(SATELLITES)
+    ]
+
+
+def stream(dice: random.Random, from_s: float) -> tuple[str, Path]:
+    """Its kind, and where it points."""
+    begin = Sight(dice.uniform(0, 360), math.degrees(math.asin(dice.random())), math.inf)
+    low = Sight(begin.azimuth_deg, dice.uniform(0, 15), math.inf)
+    course_deg = dice.uniform(0, 360)
+    kinds: dict[str, Callable[[], Path]] = {
+        "stands": lambda: great_circle(begin, 0.0, 0.0, from_s),
+        "stands at the horizon": lambda: great_circle(Sight(begin.azimuth_deg, 0.0, math.inf), 0.0, 0.0, from_s),
+        "fast as a satellite": lambda: great_circle(begin, course_deg, dice.uniform(0.05, 1.2), from_s),
+        "low and slow": lambda: great_circle(low, course_deg, dice.uniform(0.03, 0.2), from_s),
+        "star": lambda: great_circle(begin, course_deg, STAR_DPS, from_s),
+        "sweep": lambda: sweep(begin, dice.uniform(-3, 3), from_s),
+        "knob": lambda: knob(dice, begin, from_s),
+    }
+    kind = dice.choice(sorted(kinds))
+    return kind, kinds[kind]()
+
+
+def sweep(begin: Sight, speed_dps: float, from_s: float) -> Path:
+    return lambda utc_s: ((begin.azimuth_deg + speed_dps * (utc_s - from_s)) % 360.0, begin.elevation_deg)
+
+
+def knob(dice: random.Random, begin: Sight, from_s: float) -> Path:
+    """A person turns it by a degree or some, now and then."""
+    places = [(begin.azimuth_deg, begin.elevation_deg)]
+    for _ in range(SECONDS):
+        azimuth_deg, elevation_deg = places[-1]
+        azimuth_deg += dice.choice((0, 0, 0, -3, -2, -1, 1, 2, 3))
+        elevation_deg = min(90.0, max(0.0, elevation_deg + dice.choice((0, 0, 0, 0, -2, -1, 1, 2))))
+        places.append((azimuth_deg % 360.0, elevation_deg))
+    return lambda utc_s: places[round(utc_s - from_s)]
+
+
+def is_recognised(known: list[Satellite], path: Path, from_s: float, per_degree: int) -> bool:
+    watch = StreamWatch(known)
+    for second in range(SECONDS):
+        azimuth_deg, elevation_deg = (round(deg * per_degree) / per_degree for deg in path(from_s + second))
+        if elevation_deg < 0:
+            return False
+        if isinstance(
+            watch.hear(Source("gs232b"), Aim(azimuth_deg % 360.0, elevation_deg), from_s + second), Recognised
+        ):
+            return True
+    return False
+
+
+def main(count: int = STREAMS, seed: int = 15) -> None:
+    dice = random.Random(seed)
+    known = satellites(dice)
+    begin_s = known[0].elements.epoch_utc_s
+    sent, taken = Counter[str](), Counter[str]()
+    for _ in range(count):
+        from_s = begin_s + dice.uniform(0, 2 * 86_400.0)
+        kind, path = stream(dice, from_s)
+        sent[kind] += 1
+        taken[kind] += is_recognised(known, path, from_s, dice.choice((1, 1, 1, 10, 100)))
+    for kind in sorted(sent):
+        print(f"{kind:22} {sent[kind]:6} streams, {taken[kind]} taken for a satellite")
+    print(f"{'all':22} {sent.total():6} streams, {taken.total()} taken for a satellite")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:3]))
