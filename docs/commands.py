@@ -17,6 +17,10 @@ For a person, or a script, at the Pi. `rotator --help` lists the commands, `rota
 number may have a decimal point or a comma. `point`, `jog`, `park` and `home` wait until the antenna stands; Ctrl-C
 stops it.
 
+A command finds the box that was started in the same folder, the service, or the only box that you run elsewhere.
+`--config FILE` finds the box that runs with this file, in whichever folder. `rotator stop` without it stops all of
+them.
+
 """
 STATUS = """
 ## `rotator where --json`

@@ -2,17 +2,43 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 
-from rotator.cli.failed import INTERRUPTED
+from rotator.cli.failed import INTERRUPTED, NOT_DONE
+
+UNWRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EPIPE)
+"""The errors of a write to an open file or pipe: a full disk, a reader that has gone."""
 
 
 def main() -> None:
+    _open_closed_streams()
     try:
         _run()
     except KeyboardInterrupt:  # while the program still loads or starts: later each command handles it itself
         sys.exit(INTERRUPTED)
+    except OSError as fault:
+        if fault.filename is not None or fault.errno not in UNWRITTEN:
+            raise
+        _write_no_more()
+        sys.stderr.write(f"rotator: the output cannot be written: {fault.strerror}\n")
+        sys.exit(NOT_DONE)
+
+
+def _open_closed_streams() -> None:
+    """A caller may have closed standard input or output (`<&-`). Python then has no such stream, and the next file or
+    relay line that is opened would get its number."""
+    for fd, name, mode in ((0, "stdin", "r"), (1, "stdout", "w"), (2, "stderr", "w")):
+        try:
+            os.fstat(fd)
+        except OSError:
+            nothing = os.open(os.devnull, os.O_RDWR)
+            if nothing != fd:
+                os.dup2(nothing, fd)
+                os.close(nothing)
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(fd, mode, closefd=False))  # noqa: SIM115 - it stays open to the end
 
 
 def _run() -> None:
@@ -35,9 +61,15 @@ def _stopped(arguments: list[str]) -> bool:
         sys.exit(fault.exit_code)
     try:
         print(STOPPED, flush=True)  # noqa: T201
-    except OSError:  # the reader has gone: the antenna has stopped all the same
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError:  # the disk is full, or the reader has gone: the antenna has stopped all the same
+        _write_no_more()
+        sys.stderr.write(f"rotator: {STOPPED}\n")
     return True
+
+
+def _write_no_more() -> None:
+    """Else Python writes what waits in standard output once more at its end, and complains."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 if __name__ == "__main__":

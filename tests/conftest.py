@@ -53,6 +53,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--seed", type=int, help="seed of the first day")
 
 
+@pytest.fixture(scope="session", autouse=True)
+def _boxes_of_its_own(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """A box under test is not found by another person's `rotator stop`, nor does a test stop another person's box."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
+        yield
+
+
 @pytest.fixture
 def need_program() -> Callable[[str, str], str]:
     """The path of a foreign program; where it is missing the test skips, and on the build machine it fails."""

@@ -34,6 +34,7 @@ CAPTIONS = {
     "rotator.status": "the state, frozen",
     "rotator.faults": "what can be wrong",
     "rotator.orders": "what is wanted",
+    "rotator.spoken": "who, for people",
     "hw.ports": "the interfaces",
     "hw.interpolation": "points and lines",
     "hw.buses": "GPIO, I2C, SPI",

@@ -23,8 +23,11 @@ from rotator.orders import Order, Source
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
 from rotator.tracking import system_clock
+from rotator.tracking.follower import Follower
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
+from rotator.tracking.next_flight import Wanted
+from rotator.tracking.next_followed import WantedOften
 from rotator.tracking.planned import Followed
 from rotator.tracking.planner import ProcessPlanner
 from rotator.tracking.thread import TrackingThread
@@ -89,8 +92,25 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
     trusted = system_clock.is_set if config.rotor.hardware == "pi" else lambda: True
     tracker = Tracker(sky, planner, box, trusted)
     listener = StreamListener(sky, planner, box, time.time, tracker.clock_trusted)
-    loop.overhear(listener.hear)
-    return TrackingThread(tracker, listener, sky, planner)
+    follower = Follower(tracker, planner, box, lambda: wanted_often(config.sky, sky))
+
+    def hear(source: Source, order: Order) -> None:
+        listener.hear(source, order)
+        follower.heard(source, order)
+
+    loop.overhear(hear)
+    return TrackingThread(tracker, follower, listener, sky, planner)
+
+
+def wanted_often(table: SkyTable, sky: KnownSky) -> tuple[WantedOften, ...]:
+    """What `[[sky.follow]]` names, as far as it is known now."""
+    found = []
+    for each in table.follow:
+        with suppress(Unknown, NotThere):
+            wanted = sky.find(each.name)
+            if isinstance(wanted, Wanted):
+                found.append(WantedOften(wanted, each.priority, each.min_culmination_deg))
+    return tuple(found)
 
 
 class TrackedBox:
@@ -119,8 +139,4 @@ def build_satellites(config: Config) -> list[Satellite]:
     site = build_site(config.station)
     if site is None:
         return []
-    satellites = []
-    for elements in build_catalogue(config.sky).satellites:
-        with suppress(NotThere):  # sgp4 refuses these elements
-            satellites.append(Satellite(elements, site))
-    return satellites
+    return KnownSky(site, build_catalogue(config.sky)).satellites()

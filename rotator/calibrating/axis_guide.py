@@ -95,9 +95,9 @@ class AxisGuide(Guide):
         """
         total, enough = 0.0, self.facts.unit.least_turn
         while abs(total) < enough:
-            event = yield from self._ask(prompt)
+            event = yield from self._ask(prompt, self._phrases.press_first)
             if not isinstance(event, AxisMoved):
-                self._say(self._phrases.press_first)
+                self._say(self._accepts)
                 continue
             if event.direction is not direction:
                 continue
@@ -154,7 +154,7 @@ class AxisGuide(Guide):
         if press.axis is not self.facts.axis:
             self._say(f"This is the {self.facts.axis.value}. {self._phrases.keys}")
         elif not may_turn:
-            self._say("First answer, please; then it may turn again.")
+            self._say(f"It turns again after your answer. {self._accepts}")
         elif press.seconds > 0:
             if self._fault_text:
                 # The operator has read the fault by now. If its cause remains, the fault comes back at once.

@@ -35,7 +35,7 @@ PATIENCE_S = 600.0
 """A motor that has to cool stands for minutes and then goes on by itself."""
 RAISED_DEG = 60.0
 """How far above level the antenna is raised while the compass learns."""
-KEYS = "r and l turn it clockwise and back, u and d up and down; s stops it; y, n, numbers and Enter answer; q leaves."
+KEYS = "r, l turn it clockwise and back, u, d up and down; s stops it; y, n, numbers, Enter answer; ? helps; q leaves."
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +164,7 @@ class CompassGuide(Guide):
 
     def _press(self, press: Press, *, may_turn: bool) -> None:
         if not may_turn:
-            self._say("First answer, please; then it may turn again.")
+            self._say(f"It turns again after your answer. {self._accepts}")
         elif press.seconds > 0:
             self._pressed_s = self._now_s
             self._orders.append(Jog(press.axis, press.direction, press.seconds))

@@ -12,7 +12,7 @@ from hw.ports import Direction
 from rotator.assembly.calibration import CalibrationTraits
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
 from rotator.calibrating.axis_state import needs_homing, position_unknown
-from rotator.calibrating.entries import Enter, Number, StopNow
+from rotator.calibrating.entries import Enter, Number, StopNow, Yes
 from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Steps
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import NotTrusted
@@ -90,11 +90,11 @@ class DegreesGuide(AxisGuide):
             (Direction.MINUS, phrases.turn_minus, phrases.did_it_turn_back),
         ):
             while True:
-                event = yield from self._ask(prompt)
+                event = yield from self._ask(prompt, phrases.press_first)
                 if isinstance(event, AxisMoved) and event.direction is direction:
                     break
                 if not isinstance(event, AxisMoved):
-                    self._say(phrases.press_first)
+                    self._say(self._accepts)
             if not (yield from self._agrees(question)):
                 raise Abandoned(phrases.swap)
         self._say("The directions are right.")
@@ -136,16 +136,17 @@ class DegreesGuide(AxisGuide):
     def _limit(self, which: str, now_deg: float, least_deg: float) -> Generator[None, None, float]:
         self._say("", *self._phrases.limit(which))
         while True:
-            event = yield from self._ask(f"Enter: here; or an angle (in the file: {now_deg:g}):")
+            prompt = f"Enter: here; or an angle (in the file: {now_deg:g}):"
+            event = yield from self._ask(prompt, "Drive there, then Enter or y; or type the angle.")
             match event:
-                case Enter():
+                case Enter() | Yes():
                     angle_deg = yield from self._angle_here()
                 case Number(value) if self._is_angle(value):
                     angle_deg = value
                 case Number(_) | AxisMoved():
                     continue
                 case _:
-                    self._say("Drive there and Enter, or type the angle.")
+                    self._say(self._accepts)
                     continue
             if angle_deg is None:
                 continue

@@ -69,6 +69,11 @@ class Quit:
 
 
 @dataclass(frozen=True, slots=True)
+class Help:
+    """Say what the open question accepts."""
+
+
+@dataclass(frozen=True, slots=True)
 class Unknown:
     """No entry of the list. `form`: the right way to write it; empty: the text resembles nothing in the list."""
 
@@ -76,7 +81,7 @@ class Unknown:
     form: str = ""
 
 
-Entry = Press | StopNow | Yes | No | Enter | Number | Finish | Back | Quit | Unknown
+Entry = Press | StopNow | Yes | No | Enter | Number | Finish | Back | Quit | Help | Unknown
 
 TURN_KEYS = {
     "r": (Axis.AZIMUTH, Direction.PLUS),
@@ -97,6 +102,9 @@ PLAIN_WORDS: dict[str, Entry] = {
     "back": Back(),
     "q": Quit(),
     "quit": Quit(),
+    "?": Help(),
+    "h": Help(),
+    "help": Help(),
 }
 STOP_WORDS = ("s", "stop")
 STOP_KEYS = (" ", "s", "S")
@@ -137,8 +145,8 @@ def _number(text: str) -> float:
 class Keyboard:
     """Single keys, as a terminal sends them: an arrow is three characters, a number lasts until Enter.
 
-    Once a number has begun, every character is part of the text until Enter, so that the whole text is judged; a text
-    that is refused stays, for Backspace. Space and `s` stop the motor at once all the same.
+    Once a number has begun, every character is part of the text until Enter, so that the whole text is judged. Enter
+    ends it, whether it is taken or refused. Space and `s` stop the motor at once all the same.
     """
 
     def __init__(self) -> None:
@@ -157,11 +165,8 @@ class Keyboard:
             self.typed = self.typed[:-1]
             return None
         if pressed in ("\r", "\n"):
-            entry = from_line(self.typed)
-            if isinstance(entry, Unknown):
-                return Unknown(entry.text, f"{entry.form} Backspace takes back what was typed.".lstrip())
-            self.typed = ""
-            return entry
+            text, self.typed = self.typed, ""
+            return from_line(text)
         if self.typed or (pressed and pressed in NUMBER_STARTS):
             self.typed += pressed
             return StopNow() if pressed in STOP_KEYS else None

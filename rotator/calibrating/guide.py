@@ -16,6 +16,7 @@ from rotator.calibrating.entries import (
     Enter,
     Entry,
     Finish,
+    Help,
     No,
     Number,
     Press,
@@ -32,7 +33,7 @@ Steps = Generator[None, None, None]
 Asked = Generator[None, None, object]
 """Ends with an entry, or with an event that happened meanwhile."""
 
-ANSWERS = (Yes, No, Enter, Number, Finish, Back, Unknown)
+ANSWERS = (Yes, No, Enter, Number, Finish, Back, Help, Unknown)
 NOTHING_SAVED = "Nothing is saved."
 ORDER_TAKEN_S = 0.5
 """An order shows in the status after this time at the latest."""
@@ -72,6 +73,8 @@ class Guide:
         self._orders: list[Order] = []
         self._asking = False
         """A question is open."""
+        self._accepts = ""
+        """What the open question accepts."""
         self._steps = self._path()
 
     def step(self, status: Status, entry: Entry | None = None) -> StepResult:
@@ -137,9 +140,9 @@ class Guide:
 
     # --- one question
 
-    def _ask(self, prompt: str, *, may_turn: bool = True) -> Asked:
-        """Ask, and end with the next entry or event. Presses are obeyed meanwhile."""
-        self.prompt, self._asking = prompt, True
+    def _ask(self, prompt: str, accepts: str, *, may_turn: bool = True, may_go_back: bool = False) -> Asked:
+        """Ask, and end with the next entry or event. Presses are obeyed meanwhile. `accepts`: what may be typed."""
+        self.prompt, self._accepts, self._asking = prompt, accepts, True
         try:
             while True:
                 yield
@@ -149,7 +152,11 @@ class Guide:
                     case StopNow():
                         self._halt()
                     case Unknown(text, form):
-                        self._say(f"{text.strip()!r} means nothing here. {form or self._keys}")
+                        self._say(f"{text.strip()!r} means nothing here. {form or f'{accepts} ? lists all keys.'}")
+                    case Help():
+                        self._say(f"{accepts} {self._keys}")
+                    case Back() if not may_go_back:
+                        self._say(f"There is nothing to take back here. {accepts}")
                     case entry if entry is not None and self._event is None:
                         return entry
                 if self._event is not None:
@@ -160,7 +167,7 @@ class Guide:
 
     def _agrees(self, prompt: str) -> Generator[None, None, bool]:
         while True:
-            match (yield from self._ask(prompt, may_turn=False)):
+            match (yield from self._ask(prompt, "Type y for yes or n for no.", may_turn=False)):
                 case Yes():
                     return True
                 case No():
@@ -168,26 +175,29 @@ class Guide:
                 case event if event is self._event:
                     pass
                 case _:
-                    self._say("y or n, please.")
+                    self._say(self._accepts)
 
     def _number(self, prompt: str, proposed: float | None) -> Generator[None, None, float | None]:
         """An angle in degrees. None: the operator wants to repeat the step before."""
         shown = prompt if proposed is None else f"{prompt} [{proposed:g}]"
+        enter = "" if proposed is None else f"Enter alone takes {proposed:g}; "
+        accepts = f"{NUMBER_FORM} {enter}n or b: one step back."
         while True:
-            match (yield from self._ask(shown, may_turn=False)):
+            match (yield from self._ask(shown, accepts, may_turn=False, may_go_back=True)):
                 case Number(value) if self._is_angle(value):
                     self._say(f"  Understood: {value:g}°.")
                     return value
                 case Number(_):
                     pass
                 case Enter() if proposed is not None:
+                    self._say(f"  Taken: {proposed:g}°.")
                     return proposed
-                case No():
+                case No() | Back():
                     return None
                 case event if event is self._event:
                     pass
                 case _:
-                    self._say(f"A number of degrees, please; n to read again. {NUMBER_FORM}")
+                    self._say(self._accepts)
 
     def _is_angle(self, angle_deg: float) -> bool:
         """Whether the axis can have this angle; if not, say so."""

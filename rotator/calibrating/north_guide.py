@@ -39,8 +39,8 @@ class NorthGuide(CompassGuide):
 
     def _path(self) -> Steps:
         self._say(
-            "Finding north with the compass on the boom. The antenna turns only after you have agreed; all the same",
-            "be ready to cut its supply. Space or s stops it. Ctrl-C or q leaves at any moment, nothing saved.",
+            "Finding north with the compass on the boom. The antenna turns only after you have agreed.",
+            "  Be ready to cut its supply. Space or s stops it; q or Ctrl-C leaves, and nothing is saved.",
             f"  {KEYS}",
         )
         if self._facts.declination_deg is None:
@@ -74,7 +74,8 @@ class NorthGuide(CompassGuide):
                 "   Or type the angle on the rotor's own scale as your eye sees it; the compass then gives the offset.",
             )
             while position_unknown(self._axis):
-                match (yield from self._ask("y, or the angle:", may_turn=False)):
+                accepts = f"y: the offset is right; n leaves. Else the angle: {NUMBER_FORM}"
+                match (yield from self._ask("y, or the angle:", accepts, may_turn=False)):
                     case Yes():
                         return True
                     case Number(angle_deg):
@@ -83,7 +84,7 @@ class NorthGuide(CompassGuide):
                     case No():
                         raise Abandoned("Left: nothing is saved.")
                     case _:
-                        self._say(f"y, or a number of degrees, please. {NUMBER_FORM}")
+                        self._say(self._accepts)
         axis = self._axis
         if axis.fault is not None:
             raise Abandoned(f"Refused: {axis.fault}. Nothing is saved.")
@@ -100,14 +101,15 @@ class NorthGuide(CompassGuide):
         if self._calibration.magnetometer == 3:
             return
         self._say(
-            "   It learns its errors by being turned: slowly, all the way round, and up and down, until the",
-            "   magnetometer says 3. 2 will do, then press Enter.",
+            "   It learns its errors by being turned: slowly, all the way round, and up and down.",
+            "   When the magnetometer says 3, it goes on; 2 will do, then press Enter.",
         )
         offer = "y: the box turns it through its range, raised and level by turns; " if may_sweep else ""
         by_hand = "r l u d: you do; " if may_sweep else "turn it by hand; "
         self._learning = True
         while self._calibration.magnetometer < 3:
-            match (yield from self._ask(f"{offer}{by_hand}Enter goes on.")):
+            accepts = "Turn it about; Enter when the magnetometer says 2 or 3; q leaves."
+            match (yield from self._ask(f"{offer}{by_hand}Enter goes on.", accepts)):
                 case CompassReady():
                     break
                 case Yes() if may_sweep:
@@ -117,7 +119,7 @@ class NorthGuide(CompassGuide):
                 case Enter():
                     self._say(f"   Not yet: {self._calibration}.")
                 case _:
-                    self._say("   Turn it about; Enter when the magnetometer says 2 or 3; q leaves.")
+                    self._say(self._accepts)
         self._learning = False
 
     def _sweep(self) -> Steps:

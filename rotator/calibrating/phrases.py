@@ -28,8 +28,8 @@ class Phrases:
     @property
     def keys(self) -> str:
         return (
-            f"{self.plus_key} turns it {self.plus}, {self.minus_key} {self.minus}; s stops it; y, n, f, b, numbers "
-            "and Enter answer; q leaves."
+            f"All keys: {self.plus_key} turns it {self.plus}, {self.minus_key} {self.minus}; space or s stops it; "
+            "y, n, f, b, numbers and Enter answer; ? helps; q leaves, and nothing is saved."
         )
 
     @property
@@ -38,7 +38,7 @@ class Phrases:
             f"Setting up the {self.axis}. The box does not know its limits yet: be ready to cut the motors' supply.",
             f"  {self.plus_key} or {self.arrows}: {self.plus} / {self.minus} ({self.minus_key}), for as long as the "
             f"key is held; {self.plus_key.upper()} and {self.minus_key.upper()}: {UNCALIBRATED_JOG_S:g} s a press.",
-            "  Space or s stops. Ctrl-C or q leaves at any moment: the motors stop, nothing is saved.",
+            "  Space or s stops; ? says what is accepted; q or Ctrl-C leaves: the motors stop, nothing is saved.",
         )
 
     @property
@@ -59,6 +59,13 @@ class Phrases:
     @property
     def press_first(self) -> str:
         return f"Turn it first: {self.plus_key} is {self.plus}, {self.minus_key} is {self.minus}."
+
+    @property
+    def drive_then_read(self) -> str:
+        return (
+            f"Drive there with {self.plus_key} ({self.plus}) and {self.minus_key} ({self.minus}); then Enter reads it. "
+            "b takes the last point back."
+        )
 
     @property
     def did_it_turn(self) -> str:
@@ -96,14 +103,14 @@ class Phrases:
     @property
     def homing(self) -> tuple[str, ...]:
         return (
-            f"   Watch the antenna: it turns {self.minus} to its stop, a little back, and there again. The box cannot",
-            "   tell a stop from a branch that the antenna hangs in; you can. Space or s stops it.",
+            f"   Watch the antenna: it turns {self.minus} to its stop, a little back, and there again.",
+            "   The box cannot tell a stop from a branch that the antenna hangs in; you can. Space or s stops it.",
         )
 
     def limit(self, where: str) -> tuple[str, ...]:
         return (
-            f"{where} angle that it may be sent to: drive it there, or type it. A degree or two before its stop,",
-            "   or earlier, where cables, guy wires or a chimney are in the way.",
+            f"{where} angle that it may be sent to: drive it there, or type it.",
+            "   A degree or two before its stop, or earlier, where cables, guy wires or a chimney are in the way.",
         )
 
     def drive_to(self, where: str) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from collections.abc import Generator
 
 from hw.ports import Direction
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
-from rotator.calibrating.entries import Back, Enter, Finish, No
+from rotator.calibrating.entries import Back, Enter, Finish, No, Yes
 from rotator.calibrating.guide import NOTHING_SAVED, Abandoned, Steps
 from rotator.calibrating.reading_watch import AxisMoved
 from rotator.calibrating.readings import READINGS, NotTrusted
@@ -86,9 +86,10 @@ class TableGuide(AxisGuide):
         """The table with this end; None: the last point is to be taken back."""
         self._say("", *self._phrases.drive_to(where))
         while True:
-            event = yield from self._ask(f"At the {where}? Enter reads.")
+            prompt, accepts = f"At the {where}? Enter or y reads it.", self._phrases.drive_then_read
+            event = yield from self._ask(prompt, accepts, may_go_back=True)
             match event:
-                case Enter():
+                case Enter() | Yes():
                     point = yield from self._read(proposed_deg)
                     try:
                         if point is not None:
@@ -102,14 +103,16 @@ class TableGuide(AxisGuide):
                 case Back():
                     return None
                 case _ if not isinstance(event, AxisMoved):
-                    self._say("Drive there, then Enter.")
+                    self._say(self._accepts)
 
     def _between(self, table: TableDraft, *, first: bool) -> Generator[None, None, TableDraft | None]:
         """The table with one more point, or as it is where there are no more; None: take the last point back."""
         if first:
             self._say("", *self._phrases.between)
         while True:
-            event = yield from self._ask("Another point? Enter reads; f when there are no more; b takes the last back.")
+            prompt = "Another point? Enter reads; f when there are no more; b takes the last back."
+            accepts = f"{self._phrases.drive_then_read} f or n: there are no more points."
+            event = yield from self._ask(prompt, accepts, may_go_back=True)
             match event:
                 case Finish() | No():
                     return table
@@ -126,7 +129,7 @@ class TableGuide(AxisGuide):
                     except NotTrusted as reason:
                         self._say(f"Refused: {reason}.")
                 case _ if not isinstance(event, AxisMoved):
-                    self._say("Drive to a known angle, then Enter; or f.")
+                    self._say(self._accepts)
 
     def _is_meant(self, point: TablePoint, off_deg: float, what: str) -> Generator[None, None, bool]:
         """Ask about an angle that is far from what was to be expected: a digit may be missing."""
@@ -151,7 +154,11 @@ class TableGuide(AxisGuide):
         self._say("", f"Between which angles may it be sent? They lie within {low_deg:g} to {high_deg:g}.")
         while True:
             least = yield from self._number("Lowest angle:", min(max(self.facts.min_deg, low_deg), high_deg))
+            if least is None:
+                continue
             most = yield from self._number("Highest angle:", max(min(self.facts.max_deg, high_deg), low_deg))
-            if least is not None and most is not None and low_deg <= least < most <= high_deg:
+            if most is None:
+                continue
+            if low_deg <= least < most <= high_deg:
                 return least, most
             self._say(f"Refused: the limits must lie within {low_deg:g} to {high_deg:g}, the lower one first.")

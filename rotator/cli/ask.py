@@ -1,7 +1,7 @@
 """`rotator config --ask`: asks for rotor, link, display, network and place, and writes the file that comes of it.
 
-Knows the dialogue: numbers, Enter, back, help, and that an interrupted one writes nothing. `rotator.setup.questions`
-has the questions, `new_file` makes the text.
+Knows the dialogue: Enter, back, help, and that an interrupted one writes nothing. `rotator.setup.questions` has the
+questions, `question` what an answer means, and `new_file` makes the text.
 """
 
 from __future__ import annotations
@@ -24,8 +24,10 @@ from rotator.setup import tree
 from rotator.setup.machine import Machine, this_machine
 from rotator.setup.new_file import for_the_service, new_file
 from rotator.setup.plan import Change, ChangeSet, SetupError
-from rotator.setup.questions import Question, questions
+from rotator.setup.question import Question
+from rotator.setup.questions import USB_CABLE, questions
 
+KEYS = "Enter takes the answer in brackets, b goes back, ? helps, Ctrl-C ends and writes nothing."
 BACK, HELP = ("b", "back", "<"), ("?", "h", "help")
 
 
@@ -55,37 +57,42 @@ class Dialogue:
             typed = self._read().strip()
             if typed.lower() in BACK:
                 return None
-            if typed in HELP:
-                self.say("Enter takes what is in brackets; b goes back; Ctrl-C ends and writes nothing.", "    ")
-                continue
-            if not typed:
-                return question.default
-            if typed.isdigit() and 1 <= int(typed) <= len(offered):
-                return self._echoed(offered[int(typed) - 1], question)
-            if typed in offered:
-                return self._echoed(typed, question)
-            if offered and question.understood is str.strip:
-                self.say(f'"{typed}": type a number from 1 to {len(offered)}, or Enter for {default}', "    ")
+            if typed.lower() in HELP:
+                self.say(f"{question.form}. {KEYS}", "    ")
                 continue
             try:
-                return self._echoed(question.understood(typed), question)
+                answer = question.answer(typed)
             except ValueError as fault:
                 self.say(str(fault), "    ")
+                continue
+            if typed and not typed.isdecimal():
+                self.say(f"= {question.words(answer)}", "    ", " " * 6)
+            return answer
 
-    def _echoed(self, answer: str, question: Question) -> str:
-        """What was understood, where it is not what was typed."""
-        if not question.choices:
-            click.echo(f"    = {answer}")
-        return answer
+    def agrees(self, text: str, *, default: bool) -> bool:
+        """Yes or no; Enter is `default`."""
+        while True:
+            click.echo(f"{text} [{'Y/n' if default else 'y/N'}] ", nl=False)
+            match self._read().strip().lower():
+                case "":
+                    return default
+                case "y" | "yes":
+                    return True
+                case "n" | "no":
+                    return False
+                case typed:
+                    self.say(f'"{typed}": type y or n', "    ")
 
 
 def ask(name: str, to: Path | None, *, today: Callable[[], date] = date.today, machine: Machine | None = None) -> None:
     """Ask, show where the file goes, and write it. Raises SetupError; then nothing is written."""
     path = to or (INSTALLED if INSTALLED.parent.is_dir() else Path("rotator.toml"))
     dialogue = Dialogue(_line, shutil.get_terminal_size().columns)
+    before = tree.read(path)[path]
+    if reason := tree.hindrance(ChangeSet((Change(path, before, ""),))):
+        raise SetupError(f"{reason}. Nothing was asked")
     try:
-        dialogue.say("A few questions, and your configuration file is written. Enter takes the answer in brackets, "
-                     "b goes back, ? helps, Ctrl-C ends and writes nothing.")  # fmt: skip
+        dialogue.say(f"A few questions, and your configuration file is written. {KEYS}")
         answers = _answers(dialogue, machine or this_machine(), name)
         text = f"# Written by `rotator config --ask` on {today().isoformat()}.\n{new_file(answers)}"
         if path == INSTALLED:
@@ -93,7 +100,10 @@ def ask(name: str, to: Path | None, *, today: Callable[[], date] = date.today, m
         parse(text, str(path))
         click.echo()
         _write(dialogue, path, text, today())
-    except (click.Abort, KeyboardInterrupt, EOFError):
+    except EOFError:
+        click.echo()
+        raise SetupError("the input ended before the last answer: nothing was written") from None
+    except (click.Abort, KeyboardInterrupt):
         click.echo()
         raise SetupError("nothing was written") from None
     _what_next(dialogue, path, answers)
@@ -120,11 +130,12 @@ def _answers(dialogue: Dialogue, machine: Machine, name: str) -> dict[str, str]:
 def _write(dialogue: Dialogue, path: Path, text: str, today: date) -> None:
     before = tree.read(path)[path]
     if before is None:
-        click.echo(f"Write {path}? [Y/n] ", nl=False)
+        made = "" if path.parent.is_dir() else f", and make the folder {path.parent} for it"
+        agreed = dialogue.agrees(f"Write {path}{made}?", default=True)
     else:
         dialogue.say(f"{path} is there already. It can be replaced; a copy of it is kept beside it.")
-        click.echo("Replace it? [y/N] ", nl=False)
-    if (_line().strip().lower() or ("y" if before is None else "n")) not in ("y", "yes"):
+        agreed = dialogue.agrees("Replace it?", default=False)
+    if not agreed:
         raise click.Abort
     plan = ChangeSet((Change(path, before, text, copied=True),))
     if reason := tree.hindrance(plan):
@@ -139,14 +150,16 @@ def _write(dialogue: Dialogue, path: Path, text: str, today: date) -> None:
 
 def _what_next(dialogue: Dialogue, path: Path, answers: dict[str, str]) -> None:
     dialogue.say(f"{path} is written. Next:")
-    if path == INSTALLED:
-        click.echo("  sudo systemctl restart rotator")
-    else:
-        click.echo(f"  rotator run --config {path}")
+    installed = path == INSTALLED
+    file = "" if installed else f" --config {path}"
+    next_ones = ["sudo systemctl restart rotator" if installed else f"rotator run{file}"]
     if answers["hardware"] == "pi":
-        click.echo(f"  rotator doctor --config {path}\n  rotator calibrate --config {path}")
+        next_ones += [f"rotator doctor --config {path}", f"rotator calibrate --config {path}"]
     if answers["network"] != "here":
-        click.echo("  sudo rotator setup network      # its name, and a test from the PC")
+        next_ones.append(f"sudo rotator setup network{file}")
+    if answers.get("port") == USB_CABLE:
+        next_ones.append(f"sudo rotator setup usb-serial{file}")
+    click.echo("\n".join(f"  {command}" for command in next_ones))
 
 
 def _line() -> str:

@@ -77,3 +77,8 @@ def stands(status: BoxStatus, axis: str) -> str:
         return f"{axis} not known"
     source = now["angle_source"] if now["angle_is_current"] else "when last seen, no reading now"
     return f"{axis} {now['angle_deg']:.1f}° {source}"
+
+
+def typed(number: float) -> str:
+    """A number as the console reads it, and as a person would type it."""
+    return f"{number:.4f}".rstrip("0").rstrip(".")

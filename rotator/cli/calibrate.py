@@ -161,8 +161,8 @@ class LivePicture:
         count = [Text(self._count, style="dim")] if self._times > 1 else []
         return Group(
             *count,
-            Text(state, style="green" if turns else "dim"),
-            Text(f"> {rig.guide.prompt} {self.typed.keyboard.typed}", style="bold"),
+            Text(_wrapped(state, self._console), style="green" if turns else "dim"),
+            Text(_wrapped(f"> {rig.guide.prompt} {self.typed.keyboard.typed}", self._console), style="bold"),
         )
 
 

@@ -12,11 +12,14 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import click
+from click.exceptions import NoArgsIsHelpError
+
+from rotator.cli.lines import say
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 CONFIG = click.option(
-    "--config", "path", type=click.Path(path_type=Path, dir_okay=False), help="The box's file (TOML)."
+    "--config", "path", type=click.Path(path_type=Path), metavar="FILE", help="The box's file (TOML)."
 )
 FAULT = click.option(
     "--fault",
@@ -66,6 +69,17 @@ class NumbersCommand(click.Command):
 def examples(*lines: str) -> str:
     """The text after the options of `--help`. Its lines stay as they are."""
     return "\n".join(("\b", "Example:" if len(lines) == 1 else "Examples:", *(f"  {line}" for line in lines)))
+
+
+def say_mistake(mistake: click.ClickException) -> None:
+    """Print a mistake on the command line in the form of all other errors; without any argument the help."""
+    if isinstance(mistake, NoArgsIsHelpError):
+        mistake.show()
+        return
+    text = mistake.format_message()
+    say(f"rotator: {text[:1].lower()}{text[1:]}", err=True)
+    if isinstance(mistake, click.UsageError) and mistake.ctx:
+        click.echo(f"{mistake.ctx.get_usage()}\n`{mistake.ctx.command_path} --help` says more.", err=True)
 
 
 class Commands(click.Group):

@@ -14,8 +14,9 @@ from pathlib import Path
 import click
 
 from rotator.cli.agree import agree
-from rotator.cli.box import OK, BoxStatus, RunningBox, faults, stands
+from rotator.cli.box import OK, BoxStatus, Refused, RunningBox, faults, stands, typed
 from rotator.cli.failed import FAULTY, CommandFailed
+from rotator.cli.lines import say
 
 LOOK_S = 0.1
 CONFIRMED_S = 5.0
@@ -28,16 +29,18 @@ def tell(path: Path | None, words: Sequence[str]) -> None:
     """Send words to the console and print the answer. Without words: print the list of its words."""
     with RunningBox(path) as box:
         for answer in box.order(" ".join(words) or "help") or [OK]:
-            click.echo(answer)
+            say(answer)
 
 
 def where(path: Path | None, *, as_json: bool) -> int:
     """Print the status. Returns the exit code: FAULTY where an axis has a fault."""
     with RunningBox(path) as box:
         status = box.status()
-        lines = [json.dumps(status, indent=2, ensure_ascii=False)] if as_json else box.order("status")
+        lines = [] if as_json else box.order("status")
+    if as_json:
+        click.echo(json.dumps(status, indent=2, ensure_ascii=False))
     for line in lines:
-        click.echo(line)
+        say(line)
     return FAULTY if faults(status) else 0
 
 
@@ -66,7 +69,7 @@ def confirm(path: Path | None, axis: str, angle_deg: float) -> None:
     """
     with RunningBox(path) as box:
         before = box.status()
-        box.order(f"confirm {axis} {angle_deg:.4f}")
+        box.order(f"confirm {axis} {typed(angle_deg)}")
         until_s = time.monotonic() + CONFIRMED_S
         while not (taken := _is_near(after := box.status(), axis, angle_deg)) and time.monotonic() < until_s:
             time.sleep(LOOK_S)
@@ -84,9 +87,14 @@ def _is_near(status: BoxStatus, axis: str, angle_deg: float) -> bool:
 
 def relays_checked(path: Path | None, axis: str, *, yes: bool) -> None:
     with RunningBox(path) as box:
+        if box.status()[axis]["moving"]:
+            raise Refused(f"{axis} turns: first `rotator stop`, then look at its relays")
         agree(f"With both relays of {axis} switched off: does its motor have no current, from either of them?", yes=yes)
         box.order(f"relays-checked {axis}")
-    click.echo(f"The relays of {axis} count as open. Acknowledge the fault with `rotator resume`.")
+        failed = faults(box.status(), (axis,))
+    click.echo(
+        f"The relays of {axis} count as open." + (" Acknowledge the fault with `rotator resume`." if failed else "")
+    )
 
 
 def hand(path: Path | None, words: Sequence[str]) -> None:

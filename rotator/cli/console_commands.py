@@ -36,8 +36,9 @@ def where(path: Path | None, as_json: bool) -> None:
 def point(path: Path | None, wait: bool, azimuth: float, elevation: float) -> None:
     """Point the antenna, and wait until it has arrived.
 
-    AZIMUTH counts from north over east, ELEVATION from the horizon, in degrees. Ctrl-C stops the antenna. The exit
-    code is 0 when it has arrived, 3 when a fault stopped it.
+    AZIMUTH counts from north over east, ELEVATION from the horizon, in degrees. Above 360 AZIMUTH names a turn of the
+    rotor. Ctrl-C stops the antenna; a terminal that closes does not: it goes on to its place. The exit code is 0 when
+    it has arrived, 3 when a fault stopped it.
     """
     from rotator.cli import moves
 
@@ -50,12 +51,13 @@ def point(path: Path | None, wait: bool, azimuth: float, elevation: float) -> No
 )
 @CONFIG
 @click.option("--clock-is-right", is_flag=True, help="You have seen that the computer's clock shows the right time.")
-@click.argument("words", nargs=-1, required=True, metavar="NAME|LOCATOR|AZ EL|off")
+@click.argument("words", nargs=-1, required=True, metavar="NAME|LOCATOR|AZ EL|plan|off")
 def track(path: Path | None, clock_is_right: bool, words: tuple[str, ...]) -> None:
     """Let the box track a target by itself, from pass to pass.
 
     NAME: ISS, 25544, so50, sun, moon, mars, "cas a". It needs [station] in the box's file, and for satellites [sky]
-    elements. The antenna goes to where the target rises and waits there. Any other order ends it.
+    elements. The antenna goes to where the target rises and waits there. Any other order ends it. `plan` goes back to
+    what [[sky.follow]] names; `off` tracks nothing.
     """
     from rotator.cli.track import begin
 
@@ -83,7 +85,7 @@ def jog(path: Path | None, wait: bool, direction: str, seconds: float) -> None:
 def park(path: Path | None, wait: bool) -> None:
     """Go to the park position, and stay until `rotator resume`.
 
-    It goes now, and ends what a tracking program does. Ctrl-C stops the antenna.
+    It goes now, and ends what a tracking program does. Ctrl-C stops the antenna; a terminal that closes does not.
     """
     from rotator.cli import moves
 
@@ -95,7 +97,7 @@ def park(path: Path | None, wait: bool) -> None:
 def stop(path: Path | None) -> None:
     """Stop the antenna until `rotator resume`. Until then no link can move it.
 
-    Without --config it stops the box of this folder, and the service.
+    Without --config it stops every box that you run, in whichever folder, and the service.
     """
     from rotator.cli import reach
     from rotator.cli.stop import STOPPED, stop_boxes

@@ -7,12 +7,17 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import click
 from rich.console import Console, RenderableType
 
 from rotator import __version__
+from rotator.cli.box import BoxStatus, RunningBox
+from rotator.cli.failed import CommandFailed, NoBox
+from rotator.config.load import ConfigError
 from rotator.config.places import INSTALLED
 from rotator.doctor.checks import examine
 from rotator.doctor.machine import this_machine
@@ -26,13 +31,25 @@ def examine_box(path: Path | None, *, as_json: bool) -> int:
     machine = this_machine()
     if path is None and machine.at(str(INSTALLED)).exists():
         path = machine.at(str(INSTALLED))
-    examination = examine(machine, path)
+    examination = examine(replace(machine, ask_box=partial(_ask_box, path)), path)
     if as_json:
         found = as_object(examination.findings, program=__version__, ok=examination.exit_code == 0)
         click.echo(json.dumps(found, indent=2, ensure_ascii=False))
     else:
         _show(report(examination.findings))
     return examination.exit_code
+
+
+def _ask_box(path: Path | None) -> BoxStatus | str | None:
+    try:
+        with RunningBox(path) as box:
+            return box.status()
+    except NoBox:
+        return None
+    except ConfigError:
+        return "the file does not say where it is"
+    except CommandFailed as reason:
+        return str(reason)
 
 
 def _show(report: RenderableType) -> None:

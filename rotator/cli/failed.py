@@ -27,3 +27,7 @@ class CommandFailed(Exception):  # noqa: N818 - an answer for the user; the prog
     def __init__(self, text: str, exit_code: int = NOT_DONE) -> None:
         super().__init__(text)
         self.exit_code = exit_code
+
+
+class NoBox(CommandFailed):
+    """No box answers where it was looked for."""

@@ -5,10 +5,13 @@ Knows the form `NAME@SECONDS`. The simulated rotor has the names, and does what 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 from typing import Protocol
 
 import click
+
+_SECONDS = re.compile(r"[0-9]{1,6}(?:[.,][0-9]{0,6})?")
 
 
 class FaultInjector(Protocol):
@@ -34,11 +37,10 @@ def parse_faults(texts: tuple[str, ...], world: FaultInjector | None) -> list[tu
         raise SystemExit(0)
     plan = []
     for text in texts:
-        name, _, moment = text.partition("@")
+        name, at, moment = text.partition("@")
         if name not in world.faults:
             raise click.UsageError(f"no fault called {name}; --fault list shows them")
-        try:
-            plan.append((float(moment.replace(",", ".") or 0), name))
-        except ValueError:
-            raise click.UsageError(f"{text}: the moment after @ is a number of seconds") from None
+        if at and not _SECONDS.fullmatch(moment):
+            raise click.UsageError(f"{text}: after @ stands the moment in seconds, such as {name}@20")
+        plan.append((float(moment.replace(",", ".") or 0), name))
     return plan

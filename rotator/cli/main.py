@@ -15,11 +15,13 @@ import click
 
 from rotator import __version__
 from rotator.cli import console_commands as console
-from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples
+from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples, say_mistake
 from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
+from rotator.cli.lines import say
 from rotator.cli.sky_commands import sky
 from rotator.cli.utc import utc_time
 
+INDENT = len("rotator: ")
 START = """Start here: `rotator run` begins a simulated box; `rotator point 180 45` in another terminal turns it.
 `rotator COMMAND --help` has an example of each command."""
 
@@ -89,7 +91,8 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
 ) -> None:
     """Fly a satellite pass on the simulated rotor.
 
-    It prints how far off the antenna was. The pass is a NAME of the list that `rotator rehearse` prints, or a file.
+    It prints how far off the antenna was; the exit code is 3 where a --fault holds an axis at the end. The pass is a
+    NAME of the list that `rotator rehearse` prints, or a file.
 
     The first line of such a file is t,az,el. Each further line is a moment in seconds, and the satellite's azimuth and
     elevation in degrees, with decimal points: 12.5,274.6,8.1. Your tracking program can export them.
@@ -315,16 +318,16 @@ def main() -> None:
     try:
         sys.exit(cli(standalone_mode=False))
     except click.ClickException as mistake:
-        mistake.show()
+        say_mistake(mistake)
         sys.exit(mistake.exit_code)
     except click.Abort:
         raise KeyboardInterrupt from None
     except CommandFailed as fault:
-        click.echo(f"rotator: {fault}", err=True)
+        say(f"rotator: {fault}", err=True, indent=INDENT)
         sys.exit(fault.exit_code)
     except Exception as fault:
         text, code = _explained(fault)
-        click.echo(text, err=True)
+        say(text, err=True, indent=INDENT)
         sys.exit(code)
 
 

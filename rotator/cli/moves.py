@@ -17,10 +17,11 @@ from pathlib import Path
 import click
 
 from rotator.cli.agree import agree
-from rotator.cli.box import AXES, BoxStatus, Refused, RunningBox, faults, stands
+from rotator.cli.box import AXES, BoxStatus, Refused, RunningBox, faults, stands, typed
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.reach import consoles
 from rotator.cli.stop import STOPPED, stop_boxes
+from rotator.spoken import spoken
 
 LOOK_S = 0.2
 """The time between two looks at the antenna, in seconds."""
@@ -28,13 +29,20 @@ TAKEN_LOOKS = 5
 """An order shows in the status after so many looks at the latest. A relay's dead time is shorter too."""
 HOMING_LOOKS = 15
 """An axis that homes pauses within its homing, for less than so many looks."""
+ZENITH_DEG = 90.0
+SAME_DEG = 1.0
+"""An end of the range may be off by so much, by the offsets of the file, without a word."""
 CONSOLE = "console"
 """How the name of a console's user begins in a status."""
 
 
 def point(path: Path | None, azimuth_deg: float, elevation_deg: float, *, wait: bool) -> None:
     """Point there, and return when the antenna has arrived. Raises CommandFailed if it has not."""
-    _travel(path, f"point {azimuth_deg:.4f} {elevation_deg:.4f}", wait=wait)
+    reached = _travel(path, f"point {typed(azimuth_deg)} {typed(elevation_deg)}", wait=wait)
+    rests_deg = reached["elevation"]["target_deg"] if reached else None
+    if rests_deg is not None and elevation_deg + SAME_DEG < rests_deg <= ZENITH_DEG:
+        why = "its range, [mount] horizon, or a forbidden sector"
+        click.echo(f"It points no lower than {rests_deg:.1f}° there: {why}.")
 
 
 def park(path: Path | None, *, wait: bool) -> None:
@@ -47,7 +55,7 @@ def jog(path: Path | None, direction: str, seconds: float, *, wait: bool) -> Non
     with RunningBox(path) as box:
         before = box.status()
         with _stops_on_ctrl_c(path):
-            box.order(f"jog {direction} {seconds:.3f}")
+            box.order(f"jog {direction} {typed(seconds)}")
             if not wait:
                 return click.echo("The box has the order.")
             after, ours = _watched(box, before, (axis,))
@@ -77,18 +85,21 @@ def home(path: Path | None, axis: str, *, yes: bool) -> None:
     click.echo(f"{stands(after, axis)}: homed.")
 
 
-def _travel(path: Path | None, words: str, *, wait: bool) -> None:
+def _travel(path: Path | None, words: str, *, wait: bool) -> BoxStatus | None:
+    """Go there. Returns the status at the end; None: it was not waited for. Raises CommandFailed."""
     with RunningBox(path) as box, _stops_on_ctrl_c(path):
         before = box.status()
         box.order(words)
         if not wait:
-            return click.echo("The box has the order. `rotator where` shows what comes of it.")
+            click.echo("The box has the order. `rotator where` shows what comes of it.")
+            return None
         after, ours = _watched(box, before, AXES)
     _judge(after, ours, AXES, words.partition(" ")[0])
     for axis in AXES:
         if missing := after[axis]["missing"]:
             raise CommandFailed(f"{axis} did not move: it needs {', '.join(missing)}")
-    return click.echo(f"Arrived: {', '.join(stands(after, axis) for axis in AXES)}.")
+    click.echo(f"Arrived: {', '.join(stands(after, axis) for axis in AXES)}.")
+    return after
 
 
 def _judge(after: BoxStatus, ours: str, axes: Sequence[str], what: str) -> None:
@@ -97,7 +108,9 @@ def _judge(after: BoxStatus, ours: str, axes: Sequence[str], what: str) -> None:
         click.echo(f"{', '.join(stands(after, axis) for axis in AXES)}.")
         raise CommandFailed("\n         ".join(failed), FAULTY)
     if after["stopped_by"] and not after["storm_park"]:
-        raise CommandFailed(f"{what} was ended: stopped by {after['stopped_by']}; nothing moves until `rotator resume`")
+        raise CommandFailed(
+            f"{what} was ended: stopped by {spoken(after['stopped_by'])}; nothing moves until `rotator resume`"
+        )
     mover = str(after["moved_by"] or "")
     if not mover.startswith(CONSOLE) or (ours and mover != ours):
         other = "another command" if mover.startswith(CONSOLE) else mover

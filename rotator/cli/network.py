@@ -29,6 +29,8 @@ from rotator.setup.plan import SetupError
 from rotator.setup.questions import network as network_of
 
 PATIENCE_S = 300.0
+_LATER = "ADDRESS"
+"""In place of an address that is not known yet."""
 _POSITION = re.compile(rb"\s*[+;|,]?\s*(?:p|\\get_pos)\s*")
 
 
@@ -41,37 +43,40 @@ def open_network(root: Path, settings: Path | None, allow: str | None, *, undo: 
     if undo:
         propose(network.undone(files, root, path), yes=yes, done=done)
         return
-    machine = this_machine(root)
-    name = _host_name(root) or machine.name
-    if not tree.is_card(root):
+    machine, card = this_machine(root), tree.is_card(root)
+    name = _host_name(root) or ("" if card else machine.name)
+    if card:
+        click.echo(f"The card of {name or 'a Pi without a name'}. Its address is known only after it has started.")
+    else:
         here = ", ".join(str(address.ip) for address in machine.addresses) or "none in a local network"
         click.echo(f"This machine: {name}, address {here}.")
-    chosen = _chosen(allow, machine, yes=yes)
+    chosen = _chosen(allow, machine, yes=yes, card=card)
     plan, port = network.plan(files, root, path, chosen)
     changed = propose(plan, yes=yes, done=done)
-    host = f"{name}.local" if (root / network.ANNOUNCEMENT).parent.is_dir() else None
-    own = host or next((str(address.ip) for address in machine.addresses), name)
-    _say_what_to_type(own, [str(address.ip) for address in machine.addresses] if host else [], port)
-    if not yes and not tree.is_card(root) and sys.stdin.isatty():
+    announced = f"{name}.local" if name and (root / network.ANNOUNCEMENT).parent.is_dir() else ""
+    address = _LATER if card else next((str(each.ip) for each in machine.addresses), name)
+    _say_what_to_type(announced or address, address, port)
+    if not yes and not card and sys.stdin.isatty():
         _try_it(path, port, restart=changed)
 
 
-def _chosen(allow: str | None, machine: Machine, *, yes: bool) -> str | None:
-    """The network that may; None: every machine."""
+def _chosen(allow: str | None, machine: Machine, *, yes: bool, card: bool) -> str | None:
+    """The network that may; None: every machine. A card may start in another network than this machine's."""
     if allow is None and yes:
-        if not machine.networks:
-            raise SetupError("no local network here: say which may with --allow 192.168.1.0/24")
+        if card or not machine.networks:
+            where = "on this card" if card else "here"
+            raise SetupError(f"no local network is known {where}: say which may with --allow 192.168.1.0/24")
         allow = machine.networks[0]
     while allow is None:
         click.echo("Who may turn the antenna over the network? There is no password.")
         for number, each in enumerate(machine.networks, 1):
-            click.echo(f"{number:>4}  computers in {each}")
-        click.echo(f"{len(machine.networks) + 1:>4}  every computer that reaches this one")
+            click.echo(f"{number:>4}  computers in {each}{', where this machine is' if card else ''}")
+        click.echo(f"{len(machine.networks) + 1:>4}  every computer that reaches {'the Pi' if card else 'this one'}")
         click.echo("      or type a network or an address, such as 192.168.1.20")
         try:
             typed = str(click.prompt("Number", default="1" if machine.networks else None)).strip()
         except click.Abort:
-            raise SetupError("nothing was changed") from None
+            raise SetupError("nothing was changed (--allow NETWORK --yes does it without asking)") from None
         offered = [*machine.networks, "all"]
         if typed.isdigit() and 1 <= int(typed) <= len(offered):
             allow = offered[int(typed) - 1]
@@ -88,8 +93,12 @@ def _chosen(allow: str | None, machine: Machine, *, yes: bool) -> str | None:
         raise SetupError(f"--allow: {fault}") from None
 
 
-def _say_what_to_type(host: str, addresses: list[str], port: int) -> None:
-    instead = f" (or {addresses[0]} where the name is not found)" if addresses else ""
+def _say_what_to_type(host: str, address: str, port: int) -> None:
+    instead = ""
+    if address == _LATER:
+        instead = ", where ADDRESS is what `hostname -I` prints on the Pi" if host == _LATER else ""
+    elif host != address:
+        instead = f" (or {address} where the name is not found)"
     click.echo(f"""
 On the PC{instead}:
   Gpredict   Edit, Preferences, Interfaces, Rotators, Add New:

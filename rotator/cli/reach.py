@@ -14,18 +14,24 @@ from collections.abc import Callable, Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from rotator.cli.failed import CommandFailed
+from rotator.cli.announced import boxes
+from rotator.cli.failed import CommandFailed, NoBox
+from rotator.config import places
 from rotator.config.places import INSTALLED, STATE, console_path, monitor_places
 
 
 def monitors(path: Path | None) -> list[Path]:
-    """The paths at which the box with this configuration may have its monitor. Raises ConfigError."""
-    if places := quick_monitors(path):
-        return places
+    """The paths at which the box with this configuration may have its monitor. Raises ConfigError.
+
+    The sockets of a box stand in the folder in which it was started. With a file: the box that runs with this file,
+    wherever that is. Without: the box of this folder, the service, and then this user's other boxes.
+    """
+    if usual := quick_monitors(path):
+        return with_announced(usual, path)
     from rotator.config.load import load  # noqa: PLC0415 - slow, and rarely needed
 
     config = load(path)
-    return monitor_places(config.state.path, config.monitor.path, os.environ)
+    return with_announced(monitor_places(config.state.path, config.monitor.path, os.environ), path)
 
 
 def quick_monitors(path: Path | None) -> list[Path]:
@@ -39,31 +45,52 @@ def quick_monitors(path: Path | None) -> list[Path]:
     return monitor_places(state, monitor, os.environ) if usual else []
 
 
+def with_announced(usual: Sequence[Path], path: Path | None) -> list[Path]:
+    """These paths, and those of the boxes that this user has started in other folders."""
+    running = boxes()
+    if path is not None:
+        file = path.resolve()
+        return [*(box.monitor for box in running if box.config == file), *usual]
+    here = {place.absolute() for place in usual}
+    return [*usual, *(box.monitor for box in running if box.monitor not in here)]
+
+
 def consoles(path: Path | None) -> list[Path]:
     """The paths at which it may have its console. Raises ConfigError."""
     return [console_path(place) for place in monitors(path)]
 
 
-def reach(path: Path | None, places: Callable[[Path | None], Sequence[Path]]) -> socket.socket:
-    """Connect to the box. `places`: `monitors` or `consoles`. Raises CommandFailed, ConfigError.
+def reach(path: Path | None, sockets: Callable[[Path | None], Sequence[Path]]) -> socket.socket:
+    """Connect to the box. `sockets`: `monitors` or `consoles`. Raises CommandFailed, ConfigError.
 
-    With a file, its own box comes before the service. Without one, two boxes that run are one too many: an order for
-    one antenna must not turn the other.
+    With a file, its own box comes before the service. Without one, the service and another box are one too many: an
+    order for one antenna must not turn the other. So are two boxes in other folders.
     """
-    tried = places(path)
+    tried = sockets(path)
     found = [(place, box) for place in tried if (box := connected(place))]
     if not found:
         raise no_box(tried)
     for _, other in found[1:]:
         other.close()
     (place, box), *others = found
-    if others and path is None:
-        box.close()
-        raise CommandFailed(
-            f"two boxes run: one started in this folder ({place}), and the service. For the service add "
-            f"--config {INSTALLED}; for the other end the service first: sudo systemctl stop rotator"
-        )
+    if path is None:
+        rivals = [other for other, _ in others if place != tried[0] or other in _of_the_service()]
+        if rivals:
+            box.close()
+            raise CommandFailed(_which((place, *rivals), tried[0]))
     return box
+
+
+def _of_the_service() -> tuple[Path, Path]:
+    return places.MONITOR_OF_THE_SERVICE, console_path(places.MONITOR_OF_THE_SERVICE)
+
+
+def _which(running: Sequence[Path], here: Path) -> str:
+    names = {here: "the box of this folder"}
+    names |= {socket_path: each.named for each in boxes() for socket_path in (each.monitor, console_path(each.monitor))}
+    names |= dict.fromkeys(_of_the_service(), f"the service (--config {INSTALLED})")
+    told = "; ".join(names.get(place, str(place)) for place in running)
+    return f"{len(running)} boxes run: {told}. Say which: name its file with --config, or go into its folder"
 
 
 def connected(place: Path) -> socket.socket | None:
@@ -80,10 +107,10 @@ def connected(place: Path) -> socket.socket | None:
     return None
 
 
-def no_box(tried: Sequence[Path]) -> CommandFailed:
-    places = " or ".join(map(str, tried))
-    return CommandFailed(
-        f"no box runs here: nothing answers at {places}. Start it with `rotator run`, or name its file with --config"
+def no_box(tried: Sequence[Path]) -> NoBox:
+    where = " or ".join(map(str, tried))
+    return NoBox(
+        f"no box runs here: nothing answers at {where}. Start it with `rotator run`, or name its file with --config"
     )
 
 

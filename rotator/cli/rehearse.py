@@ -17,11 +17,12 @@ from dataclasses import astuple, fields
 from functools import partial
 from io import StringIO
 from pathlib import Path
+from tempfile import TemporaryFile
 
 import click
 
-from rotator.cli.failed import CommandFailed
-from rotator.cli.faults import parse_faults
+from rotator.cli.failed import FAULTY, CommandFailed
+from rotator.cli.faults import FaultInjector, parse_faults
 from rotator.config.axes import AxisTable
 from rotator.config.load import load
 from rotator.config.model import Config
@@ -60,7 +61,8 @@ def rehearse_pass(
     if target is not None and (word is not None or arduino):
         raise click.UsageError("--target is a pass of its own: leave out PASS.csv and --arduino")
     if word is None and target is None and "list" not in faults:
-        return click.echo(_listed())
+        click.echo(_listed())
+        return
     tracked = None
     try:
         if target is not None:
@@ -75,11 +77,13 @@ def rehearse_pass(
         raise click.UsageError("--fault is for the box, not for the Arduino")
     if at_s is not None and target is None and not (config.station.is_known and config.sky.elements):
         raise click.UsageError(NO_SKY)
+    if trace is not None:
+        _make_sure_of(trace)
     make = plant_maker(
         config,
         via=via,
         arduino=arduino,
-        faults=partial(parse_faults, faults),
+        faults=partial(_faults, faults, flown),
         utc_s=None if target else at_s,
         target=tracked,
     )
@@ -87,9 +91,9 @@ def rehearse_pass(
         rows, summary = fly(flown, make, progress)
     if trace is not None:
         _write_trace(trace, rows)
-    if as_json:
-        return click.echo(json.dumps(summary.as_dict()))
-    return click.echo(_sentence(flown, summary, arduino=arduino))
+    click.echo(json.dumps(summary.as_dict()) if as_json else _sentence(flown, summary, arduino=arduino))
+    if summary.faults:
+        raise CommandFailed("\n         ".join(("at the end of the pass:", *summary.faults)), FAULTY)
 
 
 def _listed() -> str:
@@ -148,6 +152,28 @@ def _sentence(flown: Pass, summary: Summary, *, arduino: bool) -> str:
     )
 
 
+def _faults(texts: tuple[str, ...], flown: Pass, world: FaultInjector) -> list[tuple[float, str]]:
+    """Raises click.UsageError also for a fault that would begin after the pass."""
+    plan = parse_faults(texts, world)
+    for at_s, name in plan:
+        if at_s >= flown.end_s:
+            raise click.UsageError(f"{name}@{at_s:g}: {flown.name} ends after {flown.end_s:.0f} s")
+    return plan
+
+
+def _make_sure_of(path: Path) -> None:
+    """Before the flight: that a file can be made there. Raises CommandFailed."""
+    try:
+        with TemporaryFile(dir=path.parent):
+            pass
+    except OSError as fault:
+        raise _not_written(path, fault) from None
+
+
+def _not_written(path: Path, fault: OSError) -> CommandFailed:
+    return CommandFailed(f"{path}: cannot be written: {fault.strerror}")
+
+
 def _write_trace(path: Path, rows: list[Sample]) -> None:
     """As CSV, whole or not at all."""
     text = StringIO(newline="")
@@ -157,4 +183,4 @@ def _write_trace(path: Path, rows: list[Sample]) -> None:
     try:
         write_whole(path, text.getvalue())
     except OSError as fault:
-        raise CommandFailed(f"{path}: cannot be written: {fault.strerror}") from None
+        raise _not_written(path, fault) from None

@@ -8,9 +8,12 @@ from __future__ import annotations
 
 import asyncio
 import logging
+import os
+import shutil
 import sys
+import textwrap
 import time
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import TextIO, cast
 
@@ -18,18 +21,25 @@ from rich.console import RenderableType
 
 from rotator import __version__
 from rotator.app import App
+from rotator.cli.announced import announced, boxes
+from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
 from rotator.cli.output import LINES, PICTURES, Output
+from rotator.cli.reach import connected
 from rotator.cli.run_keys import NEXT, RunKeys
 from rotator.cli.screen import LogRows, draw, has_ascii_only, keys_to, log_to, print_lines, terminal_console
 from rotator.config.load import load
+from rotator.config.places import console_path, monitor_path, runtime_folder
 from rotator.runtime.signals import SignalThread
 from rotator.views import plain_lines, terminal
 from rotator.views.sky_plot import Trail
 
 
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
+    """Raises CommandFailed where a box runs already with these sockets."""
     config = load(path)
+    monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
+    _make_sure_of(monitor)
     app = App(config, path)
     recent = LogRows()
     screen, errors = Output(sys.stdout, LINES if plain else PICTURES), Output(sys.stderr)
@@ -37,10 +47,25 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     log_to(logging.StreamHandler(cast(TextIO, errors)) if plain else recent)
     try:
         chosen = parse_faults(faults, app.station.world)
-        asyncio.run(run_app(app, chosen, screen, None if plain else recent))
+        with nullcontext() if runtime_folder(os.environ) else announced(monitor, path):
+            asyncio.run(run_app(app, chosen, screen, None if plain else recent))
     finally:
         screen.close()
         errors.close()
+
+
+def _make_sure_of(monitor: Path) -> None:
+    """That no box runs here. Two with one state file and one console would be one too many: `rotator stop` would find
+    the other one. Raises CommandFailed.
+    """
+    if (other := connected(console_path(monitor))) is None:
+        return
+    other.close()
+    running = next((box.named for box in boxes() if box.monitor == monitor.absolute()), "a box")
+    raise CommandFailed(
+        f"{running} runs already. `rotator where` shows what it does, `rotator stop` stops its antenna; Ctrl-C in its "
+        "terminal ends it. A second box needs a folder of its own, or a [state] path of its own in its file"
+    )
 
 
 async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, recent: LogRows | None) -> None:
@@ -66,6 +91,15 @@ async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, rec
     finally:
         watcher.cancel()
         await asyncio.gather(watcher, return_exceptions=True)
+    # Below the terminal as it was before the picture.
+    last = plain_lines.farewell(app.loop.status)
+    screen.write("".join(f"{row}\n" for row in (_rows(last) if screen.isatty() else last.split("\n"))))
+
+
+def _rows(text: str) -> list[str]:
+    """Broken between words, for the terminal's width."""
+    columns = shutil.get_terminal_size().columns
+    return [row for line in text.split("\n") for row in textwrap.wrap(line, columns, break_on_hyphens=False)]
 
 
 async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:

@@ -75,7 +75,7 @@ def _pi(root: Path, model: str | None, *, yes: bool) -> Pi | None:
         try:
             model = names[click.prompt("Number", type=click.IntRange(1, len(names))) - 1]
         except click.Abort:
-            raise SetupError("nothing was changed") from None
+            raise SetupError(f"nothing was changed (--pi NAME says it: one of {', '.join(names)})") from None
     short = model.lower().replace(" ", "")
     full = SHORT_NAMES.get(short) or SHORT_NAMES.get(f"{short}b")
     if full is None:

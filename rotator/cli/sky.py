@@ -16,6 +16,7 @@ from rich.table import Table
 
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.cli import sky_plan
+from rotator.cli.failed import CommandFailed
 from rotator.cli.utc import day_and_time, iso, local_time
 from rotator.config.load import load
 from rotator.config.model import Config
@@ -42,7 +43,7 @@ def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bo
         target = find(words, site, catalogue)
         seen, error_deg = motion(target, at_s), expected_error_deg(target, at_s)
     except (Unknown, NotThere) as reason:
-        raise click.ClickException(str(reason)) from None
+        raise CommandFailed(str(reason)) from None
     if as_json:
         told = {
             "name": target.name,
@@ -75,7 +76,7 @@ def show_passes(
     try:
         targets = [find(name, site, catalogue) for name in names] or _all(site, catalogue)
     except (Unknown, NotThere) as reason:
-        raise click.ClickException(str(reason)) from None
+        raise CommandFailed(str(reason)) from None
     found = [each for target in targets for each in passes_of(target, from_s, from_s + hours * 3600, least_deg)]
     found.sort(key=lambda each: each.aos_s or from_s)
     if as_json:
@@ -94,7 +95,7 @@ def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json:
     config = load(path or (INSTALLED if INSTALLED.exists() else None))
     site, catalogue = _sky(config)
     if not config.sky.follow:
-        raise click.ClickException(sky_plan.NOTHING)
+        raise CommandFailed(sky_plan.NOTHING)
     from_s = time.time() if from_s is None else from_s
     plan = sky_plan.planned(config, site, catalogue, from_s, hours)
     if as_json:
@@ -104,10 +105,10 @@ def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json:
 
 
 def _sky(config: Config) -> tuple[Site, Catalogue]:
-    """Raises ClickException without a place. Says which files could not be read."""
+    """Raises CommandFailed without a place. Says which files could not be read."""
     site = build_site(config.station)
     if site is None:
-        raise click.ClickException(NO_PLACE)
+        raise CommandFailed(NO_PLACE)
     catalogue = build_catalogue(config.sky)
     for fault in catalogue.faults:
         click.echo(f"[sky] elements: {fault}", err=True)

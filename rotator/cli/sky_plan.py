@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from rotator.assembly.sky import build_antenna, build_followed
+from rotator.cli.failed import CommandFailed
 from rotator.cli.utc import clock_time, day, iso, local_time
 from rotator.config.model import Config
 from rotator.orbits.catalogue import Catalogue
@@ -32,7 +33,7 @@ def planned(config: Config, site: Site, catalogue: Catalogue, from_s: float, hou
     for fault in faults:
         click.echo(fault, err=True)
     if faults and not followed:
-        raise click.ClickException("none of the followed targets is known")
+        raise CommandFailed("none of the followed targets is known")
     return schedule(followed, build_antenna(config), from_s, from_s + hours * 3600)
 
 

@@ -1,8 +1,8 @@
 """`rotator stop`: stops the antenna without loading the rest of the program, not even the command line's parser.
 
 A person who calls it sees the antenna run into something, and the whole program takes a second to load on a Pi. Without
-a file it stops the box of this folder, and the service. Where the arguments or the file are unusual, it leaves the
-command to the slow way, which has the error texts.
+a file it stops the box of this folder, the service, and this user's other boxes. Where the arguments or the file are
+unusual, it leaves the command to the slow way, which has the error texts.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rotator.cli.failed import CommandFailed
-from rotator.cli.reach import connected, no_box, quick_monitors
+from rotator.cli.reach import connected, no_box, quick_monitors, with_announced
 from rotator.config.places import console_path
 
 STOP = b"stop\n"
@@ -34,10 +34,10 @@ def stop_at_once(arguments: Sequence[str]) -> bool:
             path = Path(name)
         case _:
             return False
-    places = quick_monitors(path)
-    if not places:
+    usual = quick_monitors(path)
+    if not usual:
         return False
-    stop_boxes([console_path(place) for place in places], all_of_them=path is None)
+    stop_boxes([console_path(place) for place in with_announced(usual, path)], all_of_them=path is None)
     return True
 
 

@@ -27,6 +27,8 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
         box.order(f"track {words}")
         if words.casefold() == "off":
             return click.echo("The box tracks nothing.")
+        if words.casefold() == "plan":
+            return click.echo("The box flies its plan: `rotator sky plan` shows it.")
         state = _planned(box)
         if state.startswith("ended: "):
             raise CommandFailed(state.removeprefix("ended: "))

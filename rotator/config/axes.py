@@ -44,9 +44,10 @@ class AxisTable(Table):
     @model_validator(mode="after")
     def _make_sense(self) -> AxisTable:
         if self.min_deg >= self.max_deg:
-            raise ValueError(f"min_deg ({self.min_deg:g}) must be below max_deg ({self.max_deg:g}): swap the two")
+            raise ValueError(self._limits_fault())
         if self.lowest_reading >= self.highest_reading:
-            raise ValueError("lowest_reading must be below highest_reading")
+            lowest, highest = self.lowest_reading, self.highest_reading
+            raise ValueError(f"lowest_reading ({lowest:g}) must be below highest_reading ({highest:g})")
         points = self.calibration
         if points is not None:
             if len(points) < 2:
@@ -57,6 +58,19 @@ class AxisTable(Table):
             if any(b[0] == a[0] for a, b in pairwise(points)) or len(set(rises)) != 1:
                 raise ValueError("calibration: readings must rise, or fall, all the way")
         return self
+
+    def _limits_fault(self) -> str:
+        """What to write, for limits that leave nothing between them. A limit that the file leaves out is named too."""
+        least, most = f"min_deg ({self.min_deg:g})", f"max_deg ({self.max_deg:g})"
+        said = f"{least} must be below {most}"
+        match "min_deg" in self.model_fields_set, "max_deg" in self.model_fields_set:
+            case True, True if self.min_deg > self.max_deg:
+                return f"{said}: swap the two"
+            case False, True:
+                return f"{said}; the file leaves min_deg out: write a greater max_deg, or a min_deg below it"
+            case True, False:
+                return f"{said}; the file leaves max_deg out: write a lower min_deg, or a max_deg above it"
+        return f"{said}: write both stops of the rotor"
 
 
 class Azimuth(AxisTable):

@@ -20,7 +20,7 @@ __all__ = ["SIMULATED", "ConfigError", "Mistake", "load", "parse", "profiles", "
 
 SIMULATED = "simulated"
 """The name of the configuration that runs without a file."""
-_NAMES = "`rotator config --list` has the other rotors"
+_MAKES = "`rotator config --ask --to {}` writes it from your answers; `rotator config --list` shows the shipped files"
 
 
 def load(path: Path | None) -> Config:
@@ -34,7 +34,7 @@ def load(path: Path | None) -> Config:
     except toml_text.NoTextError as none:
         raise ConfigError(str(path), [none.mistake]) from none
     if not any(row.strip() and not row.strip().startswith("#") for row in text.splitlines()):
-        raise ConfigError(str(path), [Mistake(f"is empty: `rotator config g5500 > {path}` fills it; {_NAMES}")])
+        raise ConfigError(str(path), [Mistake(f"is empty: {_MAKES.format(path)}")])
     return parse(text, str(path))
 
 
@@ -71,7 +71,7 @@ def _unreadable(path: Path, fault: OSError) -> str:
         case FileNotFoundError():
             near = difflib.get_close_matches(path.name, _names_in(path.parent), n=1, cutoff=0.6)
             meant = f"did you mean {path.with_name(near[0])}? " if near else ""
-            return f"there is no such file: {meant}`rotator config g5500 > {path}` makes one; {_NAMES}"
+            return f"there is no such file: {meant}{_MAKES.format(path)}"
         case IsADirectoryError():
             return f"is a folder: name the file in it, such as {path / 'rotator.toml'}"
         case PermissionError():

@@ -7,7 +7,7 @@ what is no TOML in `mending`. Imported only when a file has a mistake.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from pydantic import ValidationError
@@ -34,6 +34,7 @@ def mistakes_in(text: str) -> list[Mistake]:
         return [*found, Mistake(str(fault), places(mended.text).get((migrations.KEY,), ())[:1])]
     values = {key: value for key, value in keys.items() if key[:1] != mending.SCRATCH}
     lines = places(mended.text)
+    replaced: set[Place] = set()
     for _ in range(mending.MOST):
         try:
             Config.model_validate(values)
@@ -42,14 +43,23 @@ def mistakes_in(text: str) -> list[Mistake]:
             errors = invalid.errors()
         # A line that could not be read may hold just what is missing.
         told = [error for error in errors if mended.whole or error["type"] not in ("missing", "value_error")]
+        told = [error for error in told if not _follows(error, replaced)]
         new = [mistake for error in told for mistake in _located(error, lines) if mistake not in found]
         found += new
         if any(not error["loc"] for error in errors) or (told and not new):
             break
+        replaced |= {tuple(error["loc"]) for error in errors}
         # One mistake can hide another: limits are compared only if both are numbers. Mend the values, and check again.
         for error in errors:
             _mend(values, list(error["loc"]))
     return found
+
+
+def _follows(error: ErrorDetails, replaced: Collection[Place]) -> bool:
+    """Whether a rule fails over a key whose faulty value was replaced: with the right value it may hold."""
+    place = tuple(error["loc"])
+    named = {(*place, *_place(path)) for path in _PATHS.findall(explain(error))}
+    return error["type"] == "value_error" and not named.isdisjoint(replaced)
 
 
 def _located(error: ErrorDetails, lines: Mapping[Place, tuple[int, ...]]) -> Iterable[Mistake]:

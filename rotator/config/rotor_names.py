@@ -35,11 +35,21 @@ _ROTORS: tuple[tuple[str, KindName, str, str], ...] = (
 
 def type_of(name: str) -> str | None:
     """Advice for a rotor's name where a type belongs: `"G-5500"`; None: no rotor that is known."""
-    words = [re.sub(r"[^a-z0-9]", "", word) for word in (name.lower(), *name.lower().split())]
-    for bare in words:
+    for bare in _written(name):
         if re.fullmatch(_PROTOCOLS, bare):
             return "that is a protocol, which belongs in a [[link]]: the usual rotor is relay-pot"
         for pattern, kind, profile, how in _ROTORS:
             if re.fullmatch(pattern, bare):
                 return f'write "{kind}" ({how}); `rotator config {profile}` prints a file to begin with'
     return None
+
+
+def shipped_file(name: str) -> str | None:
+    """The shipped configuration to begin with, by a rotor's name; None: no rotor that is known."""
+    names = _written(name)
+    return next((profile for bare in names for pattern, _, profile, _ in _ROTORS if re.fullmatch(pattern, bare)), None)
+
+
+def _written(name: str) -> list[str]:
+    """The name and each of its words, as the patterns write them."""
+    return [re.sub(r"[^a-z0-9]", "", word) for word in (name.lower(), *name.lower().split())]

@@ -29,7 +29,8 @@ class StationTable(Table):
     @model_validator(mode="after")
     def _one_place(self) -> StationTable:
         if (self.latitude_deg is None) is not (self.longitude_deg is None):
-            raise ValueError("latitude_deg and longitude_deg go together")
+            missing = "latitude_deg" if self.latitude_deg is None else "longitude_deg"
+            raise ValueError(f"latitude_deg and longitude_deg go together: {missing} is missing")
         if self.locator is not None and self.latitude_deg is not None:
             raise ValueError("must have latitude_deg and longitude_deg, or locator, not both")
         return self

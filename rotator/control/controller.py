@@ -84,7 +84,7 @@ class Controller:
         self._remarks: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         """What the panel has to say of each axis."""
         self._moved_s: float | None = None
-        """When an order last moved the antenna; None: none has, or it is parked."""
+        """When an order last moved the antenna; None: none has since the start, a park or what a person released."""
         self._stepped_s: float | None = None
         self.troubles: list[str] = []
         """Why orders were not carried out, for the log; the caller clears it."""
@@ -179,6 +179,7 @@ class Controller:
             case Stop(axes, latch):
                 self._stop(source, axes, latch=latch, now_s=now_s)
             case Release():
+                self._wait_for_order()
                 self._authority.released()
                 self._acknowledge(now_s, by_person=True)
             case ClearTimed():
@@ -200,6 +201,7 @@ class Controller:
                 self._homing.clear()
                 self._halt(BOTH)
                 self._aiming.clear_nudges()
+                self._moved_s = None
                 self._authority.switch(source, mode)
             case Nudge(axis, offset_deg):
                 self._nudge(axis, offset_deg, now_s)
@@ -315,6 +317,12 @@ class Controller:
             return
         if now_s - self._moved_s >= after_s:
             self._park(now_s)
+
+    def _wait_for_order(self) -> None:
+        """A person lets the box move again. What a stop or a fault has ended does not begin by itself: an idle antenna
+        parks only after the next order."""
+        if self._authority.latched or any(control.fault for control in self._axes.values()):
+            self._moved_s = None
 
     def _stop(self, source: Source, axes: tuple[Axis, ...], *, latch: bool, now_s: float) -> None:
         self._homing.clear()

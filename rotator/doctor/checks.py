@@ -24,6 +24,7 @@ from rotator.doctor import (
     links,
     moteus,
     outputs,
+    running,
     sensors,
     software,
     switches,
@@ -45,6 +46,7 @@ OF_THE_MACHINE: tuple[Check[[Machine]], ...] = (
     Check("clock", "set by the network", health.clock),
     Check("watchdog", "restarts a frozen computer", health.watchdog),
     Check("service", "if installed: it runs, and starts with the Pi", health.service),
+    Check("running box", "its faults, who has stopped it, its notes", running.running_box),
 )
 
 OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (

@@ -13,6 +13,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from rotator.assembly.chips import Chips, real_chips
 
@@ -42,6 +43,8 @@ class Machine:
     free_bytes: Callable[[Path], int]
     """Free bytes on the disk with that file."""
     chips: Chips
+    ask_box: Callable[[], dict[str, Any] | str | None] = lambda: None
+    """The status of the running box, as an object; or why it cannot be asked; None: no box runs."""
 
     def at(self, path: str | Path) -> Path:
         """A file of this machine; a relative path starts in the working folder, as the program's does."""

@@ -7,6 +7,7 @@ protocol.
 from __future__ import annotations
 
 import asyncio
+import errno
 import logging
 import os
 import socket
@@ -30,6 +31,8 @@ def reason(fault: OSError | UnicodeError) -> str:
     match fault:
         case socket.gaierror():
             return fault.strerror or str(fault)
+        case OSError(errno=errno.EADDRINUSE):
+            return f"{os.strerror(errno.EADDRINUSE)}: end what has it (another box?), or write another into the file"
         case OSError(errno=int() as number):
             # asyncio's own text is much longer than the system's.
             return os.strerror(number)

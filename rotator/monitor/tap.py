@@ -11,7 +11,7 @@ from datetime import datetime
 
 from rotator import __version__
 from rotator.links.wire import Wire
-from rotator.monitor.transcript import At, LinkNote, Peer, Way, encode_at, encode_link, encode_peer, encode_piece
+from rotator.monitor.transcript import HEADS, At, LinkNote, Peer, Way, encode_at, encode_link, encode_peer, encode_piece
 from rotator.orders import Source
 from rotator.protocols.session import Beating, Inquiry, Session
 from rotator.status import Status
@@ -54,7 +54,7 @@ class Tap:
         if not self.listeners:
             self._at, self._at_noted = at, moment
         lines = [f"# rotator {__version__}, {moment:%Y-%m-%d}", *map(encode_link, self._links)]
-        lines += map(encode_peer, self._peers.values())
+        lines += [*map(encode_peer, self._peers.values()), *HEADS]
         return [*lines, encode_at(at)] if at else lines
 
     def came(self, source: Source, host: str) -> None:

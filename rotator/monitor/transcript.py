@@ -4,6 +4,8 @@ r"""The bytes of the links as text, one line for each piece, from which a progra
     # link gs232b {"protocol": "gs232b", "pty": "run/gs232"}
     # at 235.00 25.00, under gs232b#1
     # rotctld#2 comes from 192.168.1.20
+    # `at`: azimuth and elevation, degrees on the rotor's own scale
+    # h:m:s here  link#connection  > received, < sent  bytes
     18:03:22.114 gs232b#1 > W235 025\r
     18:03:22.301 gs232b#1 < AZ=235  EL=025\r\n
     18:03:22.377 md01#1 > \hex 57 00 00 00 00 00 00 00 00 00 00 1F 20
@@ -74,6 +76,12 @@ class Peer:
 class Remark:
     text: str
 
+
+HEADS = (
+    "# `at`: azimuth and elevation, degrees on the rotor's own scale",
+    "# h:m:s here  link#connection  > received, < sent  bytes",
+)
+"""What the columns are, for a person who reads along."""
 
 Entry = Piece | LinkNote | At | Peer | Remark
 

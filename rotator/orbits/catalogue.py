@@ -78,10 +78,10 @@ class Catalogue:
                 self._names.setdefault(name, set()).add(number)
         return True
 
-    def find(self, name: str) -> Elements:
+    def find(self, name: str, others: Sequence[str] = ()) -> Elements:
         """By name, by the name in brackets, or by catalogue number; capitals, hyphens and blanks do not count.
 
-        Raises Unknown.
+        Raises Unknown, which tells the names that are near; `others`: names of targets that are no satellites.
         """
         numbers = self._names.get(plain(name), set())
         if len(numbers) == 1:
@@ -89,11 +89,15 @@ class Catalogue:
         if numbers:
             several = ", ".join(f"{self._sets[number].name} ({number})" for number in sorted(numbers)[:8])
             raise Unknown(f'"{name}" may be {several}: name one by its number')
+        shown = {each: self._sets[min(found)].name for each, found in self._names.items()}
+        shown |= {plain(each): each for each in others}
+        near = difflib.get_close_matches(plain(name), shown, n=3, cutoff=0.6)
+        meant = _perhaps(list(dict.fromkeys(shown[each] for each in near)))
         if not self._sets:
-            raise Unknown(f'"{name}" is not known: there are no elements ([sky] elements names files of them)')
-        near = difflib.get_close_matches(plain(name), self._names, n=3, cutoff=0.6)
-        meant = list(dict.fromkeys(self._sets[min(self._names[each])].name for each in near))
-        raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known' + _perhaps(meant))
+            raise Unknown(
+                f'"{name}" is not known{meant or ";"} there are no satellites: [sky] elements names files of them'
+            )
+        raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known{meant}')
 
     def _read(self, path: Path) -> _Kept:
         before = self._kept.get(path)

@@ -52,7 +52,7 @@ def find(words: str, site: Site, catalogue: Catalogue) -> Target:
         return RadioSource(source, site)
     # A satellite may be called as a locator is written: SO50 is one, and a field with the squares 50.
     try:
-        return Satellite(catalogue.find(words), site)
+        return Satellite(catalogue.find(words, [*(name.title() for name in BODIES), *RADIO_SOURCES]), site)
     except Unknown:
         station = _station(words, site)
         if station is None:

@@ -66,12 +66,14 @@ VERBS = (
     Verb("park", "", "Go to the park position, even while a program tracks, and stay there until `resume`"),
     Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
     Verb("point", "AZIMUTH ELEVATION", "Point there"),
-    Verb("track", "[NAME|LOCATOR|AZIMUTH ELEVATION|off]", "Track a satellite, Sun, Moon … from pass to pass"),
+    Verb("track", "[NAME|LOCATOR|AZIMUTH ELEVATION|plan|off]", "Track a satellite, Sun, Moon … from pass to pass"),
     Verb("clock-is-right", "", "You have seen that this computer's clock is right: `track` needs it"),
     Verb("panel", OPERANDS, "Move a switch or a knob of the simulated front panel"),
     Verb("help", "", "This list"),
 )
 _BY_TEXT = {verb.text: verb for verb in VERBS}
+COMMANDS = ("where", "monitor", "doctor", "calibrate", "config", "rehearse", "sky", "run")
+"""Commands of the program that a person takes for words of the console."""
 TURN_WORDS = {turn: word for word, turn in TURNS.items()}
 _SECONDS = re.compile(r"[0-9]{1,3}(?:[.,][0-9]{1,3})?")
 
@@ -129,6 +131,8 @@ def _seconds(text: str) -> float:
 
 
 def _unknown(word: str) -> str:
+    if word in COMMANDS:
+        return f"{word} is no word of the console but a command: rotator {word}"
     meant = difflib.get_close_matches(word, _BY_TEXT, n=1)
     hint = f"; did you mean {meant[0]}?" if meant else "."
     return f"there is no command {_quoted(word)}{hint} There are: {', '.join(_BY_TEXT)}"

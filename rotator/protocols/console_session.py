@@ -19,10 +19,12 @@ from rotator.protocols.lines import LineReader
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object
+from rotator.spoken import spoken
 from rotator.status import Flown, Status
 
 MAX_LINE = 200
 OK, ERROR = "ok", "error: "
+FULL_TURN_DEG, ZENITH_DEG = 360.0, 90.0
 NO_PLACE = (
     "the box does not know where it stands: write [station] with latitude_deg and longitude_deg, or locator, into its "
     "file, and start it again"
@@ -91,7 +93,7 @@ class ConsoleSession:
                 return self._obey(command)
 
     def _obey(self, order: Order) -> bytes:
-        if reason := self._blocked(order):
+        if reason := self._blocked(order) or _beyond(order, self._box.status()):
             return _error(reason)
         match order:
             case Aim() | Jog() | Home():
@@ -125,6 +127,28 @@ class ConsoleSession:
         return held[state] if state else ""
 
 
+def _beyond(order: Order, status: Status) -> str:
+    """Why the rotor has no such angle; empty: it has. A person who names one is not led to another one instead.
+
+    A program's order means a direction all the same: it sends what its satellite does.
+    """
+    match order:
+        case Aim(float() as azimuth_deg, float() as elevation_deg):
+            pass
+        case _:
+            return ""
+    azimuth, elevation = status.azimuth, status.elevation
+    if azimuth_deg > FULL_TURN_DEG and azimuth_deg > azimuth.max_deg:
+        return (
+            f"azimuth {azimuth_deg:g}° names a turn beyond the range of {azimuth.min_deg:g}° to {azimuth.max_deg:g}°; "
+            f"the same direction is {azimuth_deg % FULL_TURN_DEG:g}°"
+        )
+    below = elevation_deg < min(0.0, elevation.min_deg)
+    if below or elevation_deg > max(ZENITH_DEG, elevation.max_deg):
+        return f"elevation {elevation_deg:g}° is outside the range of {elevation.min_deg:g}° to {elevation.max_deg:g}°"
+    return ""
+
+
 def report(status: Status) -> list[str]:
     """The status as lines `name: value`. Lines without a value are left out."""
     lines = [f"{axis.value}: {_stands(status, axis)}" for axis in Axis]
@@ -148,7 +172,7 @@ def report(status: Status) -> list[str]:
     lines += [f"note: {axis.value}: {notice}" for axis in Axis for notice in status.axis(axis).notices]
     if status.simulated:
         lines.append("simulated: nothing real turns")
-    return lines
+    return [spoken(line) for line in lines]
 
 
 def tracked(flown: Flown, now_s: float) -> str:
@@ -183,7 +207,7 @@ def _shown(angle_deg: float) -> str:
 
 
 def _error(reason: str) -> bytes:
-    return _reply(ERROR + reason)
+    return _reply(ERROR + spoken(reason))
 
 
 def _reply(*lines: str) -> bytes:

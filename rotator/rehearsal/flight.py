@@ -78,6 +78,8 @@ class Summary:
     motor_s: float
     recognised: Told | None = None
     """The satellite that the box has recognised in the stream; None: none."""
+    faults: tuple[str, ...] = ()
+    """The faults that hold an axis at the end, each in a sentence."""
 
     def as_dict(self) -> dict[str, object]:
         return _rounded(asdict(self))
@@ -104,6 +106,9 @@ class Plant(Protocol):
 
     def recognised(self) -> Told | None:
         """The satellite that it has recognised in its orders."""
+
+    def faults(self) -> tuple[str, ...]:
+        """The faults that hold an axis now, each in a sentence."""
 
 
 class BoxPlant:
@@ -207,6 +212,9 @@ class BoxPlant:
     def recognised(self) -> Told | None:
         return self._overhearing.told if self._overhearing else None
 
+    def faults(self) -> tuple[str, ...]:
+        return tuple(map(str, self.status.faults))
+
 
 class ArduinoPlant:
     """The emulated Arduino that the box replaces. Its motors and ranges come from the box's configuration."""
@@ -234,6 +242,9 @@ class ArduinoPlant:
 
     def recognised(self) -> None:
         """It knows no satellites."""
+
+    def faults(self) -> tuple[str, ...]:
+        return ()  # the sketch knows none
 
 
 Faults = Callable[[SimRotor], Sequence[tuple[float, str]]]
@@ -300,7 +311,7 @@ def fly(
     else:
         clock.every(1.0, order)
     plant.run_until(begin_s + flown.end_s)
-    return trace, replace(summarise(trace, plant.relay_starts()), recognised=plant.recognised())
+    return trace, replace(summarise(trace, plant.relay_starts()), recognised=plant.recognised(), faults=plant.faults())
 
 
 def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:

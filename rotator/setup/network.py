@@ -17,7 +17,7 @@ from rotator.setup.plan import Change, ChangeSet, Files, SetupError, changes
 
 BEGIN, END = "# rotator setup network: begin", "# rotator setup network: end"
 _WAS = "# was: "
-_OURS = re.compile(r'tcp = "0\.0\.0\.0:\d+"|allow = \["[^"]*"\]|\[\[link\]\]|protocol = "rotctld"|')
+_OURS = re.compile(r'tcp = "0\.0\.0\.0:\d+"|allow = \["[^"]*"(?:, "[^"]*")?\]|\[\[link\]\]|protocol = "rotctld"|')
 USUAL_PORT = 4533
 ANNOUNCEMENT = Path("etc/avahi/services/rotator.service")
 _SERVICE = """\
@@ -115,8 +115,13 @@ def closed(text: str) -> str:
     return "\n".join(kept)
 
 
+def allowed(network: str) -> str:
+    """The key for one network. Programs on the box's own machine stay let in."""
+    return f'allow = ["127.0.0.1", "{network}"]'
+
+
 def _ours(port: int, allow: str | None) -> list[str]:
-    return [f'tcp = "0.0.0.0:{port}"', *([f'allow = ["{allow}"]'] if allow else [])]
+    return [f'tcp = "0.0.0.0:{port}"', *([allowed(allow)] if allow else [])]
 
 
 def _has_avahi(root: Path) -> bool:

@@ -14,6 +14,7 @@ from rotator.config.load import shipped
 from rotator.config.model import Config
 from rotator.config.statements import statements
 from rotator.config.wording import tables
+from rotator.setup.network import allowed
 from rotator.setup.questions import NETWORK_PROGRAM, NONE_YET, ON_THIS_MACHINE, TURNS, UDP, USB_CABLE
 
 _COLUMN = 30
@@ -83,7 +84,7 @@ def _links(answers: Mapping[str, str]) -> list[str]:
     whose, rows = "Gpredict, Look4Sat, rotctl -m 2, on this machine only", ['tcp = "127.0.0.1:4533"']
     if answers["network"] != "here":
         whose = "Gpredict, Look4Sat, rotctl -m 2, on the network"
-        rows = ['tcp = "0.0.0.0:4533"', f'allow = ["{answers["network"]}"]']
+        rows = ['tcp = "0.0.0.0:4533"', allowed(answers["network"])]
     return [*made, _link(whose, "rotctld", *rows)]
 
 

@@ -8,32 +8,14 @@ from __future__ import annotations
 import ipaddress
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 
+from rotator.config.rotor_names import shipped_file
 from rotator.config.station import StationTable
 from rotator.setup.machine import Machine
+from rotator.setup.question import Choice, Question
 
 Answers = Mapping[str, str]
 """By the name of the question."""
-
-
-@dataclass(frozen=True, slots=True)
-class Choice:
-    answer: str
-    words: str
-
-
-@dataclass(frozen=True, slots=True)
-class Question:
-    name: str
-    text: str
-    help: str
-    default: str
-    """The answer of Enter."""
-    choices: tuple[Choice, ...] = ()
-    """Answers with a number; none: a value is typed."""
-    understood: Callable[[str], str] = str.strip
-    """The answer that a typed value means. Raises ValueError, which says what to type."""
 
 
 ROTORS = (
@@ -68,7 +50,7 @@ def questions(answers: Answers, machine: Machine) -> Iterator[Question]:
     """All questions that these answers lead to, in their order; later ones depend on earlier answers."""
     yield Question(
         "rotor", "Which rotor?", "The file begins as the shipped one of this rotor. docs/wiring.md shows each.",
-        "g5500", ROTORS,
+        "g5500", ROTORS, _rotor,
     )  # fmt: skip
     yield Question(
         "hardware", "Is the rotor wired to this machine?",
@@ -124,6 +106,7 @@ def _port(answers: Answers, machine: Machine) -> Question:
             Choice(ON_THIS_MACHINE, "not at all: it runs on this machine"),
             Choice("0.0.0.0:4534", "by network, TCP port 4534"),
         ),
+        _serial_port,
     )  # fmt: skip
 
 
@@ -134,10 +117,25 @@ def _network(machine: Machine) -> Question:
         "here",
         (
             Choice("here", "only programs on this machine"),
-            *(Choice(network, f"those of {network}") for network in machine.networks),
+            *(Choice(network, f"this machine and those of {network}") for network in machine.networks),
         ),
         network,
     )  # fmt: skip
+
+
+def _rotor(name: str) -> str:
+    """The shipped configuration for a rotor's name on its box, such as G-450. Raises ValueError."""
+    if found := shipped_file(name):
+        return found
+    raise ValueError(f'"{name}" is not known. Type the number of one that measures its angle in the same way')
+
+
+def _serial_port(text: str) -> str:
+    if re.fullmatch(r"/dev/[\w./:-]+", text):
+        return text
+    if re.fullmatch(r"com\d+:?", text, re.IGNORECASE):
+        raise ValueError(f"{text.upper()} is the port's name on the PC. Type the number of the cable to the PC")
+    raise ValueError(f'"{text}" is not in the list. Type its number, or a serial port such as /dev/ttyUSB1')
 
 
 def network(text: str) -> str:

@@ -74,7 +74,9 @@ def _content(path: Path) -> Content:
 def hindrance(plan: ChangeSet) -> str | None:
     """The reason why the changes cannot be made, before any is tried; None: they can."""
     for change in plan.changes:
-        folder = next(each for each in change.path.resolve().parents if each.is_dir())
+        folder = next(each for each in change.path.resolve().parents if each.exists())
+        if not folder.is_dir():
+            return f"{folder} is a file, not a folder"
         if os.statvfs(folder).f_flag & os.ST_RDONLY:
             return _read_only(folder)
         if not os.access(folder, os.W_OK, effective_ids=True):

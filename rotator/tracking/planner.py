@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from rotator.control.sky.flight_plan import Antenna
 from rotator.orders import Fly
 from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight, rest_flight
+from rotator.tracking.next_followed import Upcoming, WantedOften, next_followed
 
 POLITE = 10
 """Its niceness: what turns the motors comes first."""
@@ -28,6 +29,7 @@ class ProcessPlanner:
 
     def __init__(self) -> None:
         self._pool: ProcessPoolExecutor | None = None
+        self._closed = False
 
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
         """Raises NeverRises, NotThere, Unknown; RuntimeError where the process fails."""
@@ -37,7 +39,18 @@ class ProcessPlanner:
         """Raises NotThere; RuntimeError where the process fails."""
         return self._compute(rest_flight, wanted, antenna, now)
 
-    def _compute(self, job: Callable[[Wanted, Antenna, Now], Result], *given: Any) -> Result:
+    def plan_followed(self, followed: tuple[WantedOften, ...], antenna: Antenna, now: Now) -> Upcoming | None:
+        """Raises NotThere, Unknown; RuntimeError where the process fails."""
+        return self._compute(next_followed, followed, antenna, now)
+
+    def close(self) -> None:
+        """From any thread. A plan that is under way fails, and none is made any more."""
+        self._closed = True
+        self._end()
+
+    def _compute(self, job: Callable[..., Result], *given: Any) -> Result:
+        if self._closed:
+            raise RuntimeError("the box ends")
         if self._pool is None:
             # Spawned: a copy of this process would hold its relay lines and sockets.
             spawn = multiprocessing.get_context("spawn")
@@ -45,10 +58,10 @@ class ProcessPlanner:
         try:
             return self._pool.submit(job, *given).result(LONGEST_S)
         except (BrokenExecutor, TimeoutError) as failure:
-            self.close()
+            self._end()
             raise RuntimeError(f"the plan could not be made ({failure or type(failure).__name__})") from None
 
-    def close(self) -> None:
+    def _end(self) -> None:
         pool, self._pool = self._pool, None
         if pool is not None:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -9,6 +9,7 @@ import logging
 import threading
 import time
 
+from rotator.tracking.follower import Follower
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_flight import Now
@@ -26,8 +27,11 @@ def _now() -> Now:
 
 
 class TrackingThread:
-    def __init__(self, tracker: Tracker, listener: StreamListener, sky: KnownSky, planner: ProcessPlanner) -> None:
+    def __init__(
+        self, tracker: Tracker, follower: Follower, listener: StreamListener, sky: KnownSky, planner: ProcessPlanner
+    ) -> None:
         self.tracker = tracker
+        self._follower = follower
         self._listener = listener
         self._sky = sky
         self._planner = planner
@@ -53,6 +57,7 @@ class TrackingThread:
                 faults = self._tell(faults)
             self._listener.step(_now)
             self.tracker.step(_now())
+            self._follower.step(_now())
 
     def _tell(self, before: tuple[str, ...]) -> tuple[str, ...]:
         """Each fault of a file of elements once."""

@@ -22,6 +22,8 @@ from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
 log = logging.getLogger(__name__)
 
 TRACK = Source("track")
+PLAN = "plan"
+"""In place of a target: the plan of many passes."""
 TAKES_EFFECT_S = 2.0
 """So soon after its order the antenna is seen to be this room's."""
 JUMPED_S = 0.25
@@ -60,7 +62,9 @@ class Box(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class _Flown:
+class Flown:
+    """A flight that has been ordered. `planned`: when its plan was begun; `ordered_s`: on the loop's clock."""
+
     flight: NextFlight
     planned: Now
     ordered_s: float
@@ -84,9 +88,17 @@ class Tracker:
         """What a person asked for; empty: nothing is tracked."""
         self._asked = 0
         """How many requests there were: a plan for an earlier one is not flown."""
-        self._flown: _Flown | None = None
+        self._flown: Flown | None = None
         self._ended = ""
         """Why the latest tracking has ended by itself."""
+        self._follows = True
+        """The plan of many passes may be flown; `off` ends that, `plan` begins it again."""
+
+    @property
+    def following(self) -> bool:
+        """Whether the plan of many passes has the antenna, as far as this room is concerned."""
+        with self._lock:
+            return self._follows and not self._words
 
     # --- from a console
 
@@ -99,24 +111,27 @@ class Tracker:
             return f"ended: {self._ended}" if self._ended else "off"
 
     def track(self, words: str) -> str:
-        """Begin to track. Returns why not; empty: it does."""
+        """Begin to track. Returns why not; empty: it does. `plan`: what the configuration follows."""
+        if words == PLAN:
+            self._begin("", follows=True)
+            return ""
         try:
             wanted = self._finder.find(words)
         except (Unknown, NotThere) as reason:
             return str(reason)
         if isinstance(wanted, Aim):
-            self._begin("")
+            self._begin("", follows=self._follows)
             self._box.order(wanted)
             return ""
         if not self.clock_trusted():
             return CLOCK_UNSURE
-        self._begin(words)
+        self._begin(words, follows=self._follows)
         return ""
 
     def off(self) -> None:
         """End it. The antenna stops, where this room moves it."""
-        tracked = self._begin("")
-        if tracked and self._box.status().controlled_by == str(TRACK):
+        self._begin("", follows=False)
+        if self._box.status().controlled_by == str(TRACK):
             self._box.order(Stop(BOTH))
 
     def clock_is_right(self) -> None:
@@ -126,13 +141,10 @@ class Tracker:
         """By the system, or by a person's word."""
         return self._clock_told or self._clock_trusted()
 
-    def _begin(self, words: str) -> bool:
-        """Returns whether something was tracked before."""
+    def _begin(self, words: str, *, follows: bool) -> None:
         with self._lock:
-            tracked = bool(self._words)
-            self._words, self._flown, self._ended = words, None, ""
+            self._words, self._flown, self._ended, self._follows = words, None, "", follows
             self._asked += 1
-            return tracked
 
     # --- from its thread
 
@@ -143,7 +155,7 @@ class Tracker:
         if not words:
             return
         status = self._box.status()
-        if flown is not None and (reason := _lost(flown, status, now)):
+        if flown is not None and (reason := lost(flown, status, now)):
             self._end(asked, words, reason)
         elif flown is None or _is_over(flown, now):
             self._fly(words, asked, now)
@@ -164,7 +176,7 @@ class Tracker:
         with self._lock:
             if asked != self._asked:
                 return
-            self._flown = _Flown(flight, now, now.loop_s)
+            self._flown = Flown(flight, now, now.loop_s)
             self._box.order(flight.order)
 
     def _end(self, asked: int, words: str, reason: str) -> None:
@@ -175,7 +187,7 @@ class Tracker:
         log.warning("tracking of %s has ended: %s", words, reason)
 
 
-def _is_over(flown: _Flown, now: Now) -> bool:
+def _is_over(flown: Flown, now: Now) -> bool:
     """Whether a new plan is due."""
     if now.utc_s >= flown.flight.end_utc_s or abs(now.apart_s - flown.planned.apart_s) > JUMPED_S:
         return True
@@ -183,7 +195,7 @@ def _is_over(flown: _Flown, now: Now) -> bool:
     return flown.planned.utc_s < before_s - FRESH_S and now.utc_s >= before_s
 
 
-def _lost(flown: _Flown, status: Status, now: Now) -> str:
+def lost(flown: Flown, status: Status, now: Now) -> str:
     """Why the antenna is not this room's any more; empty: it is."""
     if status.at_s < flown.ordered_s + TAKES_EFFECT_S or now.utc_s >= flown.flight.end_utc_s - 1.0:
         return ""

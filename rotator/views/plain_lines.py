@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hw.ports import Axis, Direction
-from rotator.status import Status
+from rotator.spoken import spoken
+from rotator.status import AxisStatus, Status
 from rotator.views.words import TURNS, WireView, degrees, notes
 
 
@@ -24,10 +25,23 @@ def line(status: Status) -> str:
     if status.mode_switch:
         parts.append(f"mode {status.mode.name}")
     if status.latched:
-        parts.append(f"STOPPED by {status.latched}")
+        parts.append(f"STOPPED by {spoken(status.latched)}")
     parts += [f"FAULT {fault}" for fault in status.faults]
     parts += [f"NOTE {notice}" for notice in notes(status)]
     return "  ".join(parts)
+
+
+def farewell(status: Status) -> str:
+    """What stands when the box has ended."""
+    places = [f"{axis.value} {_last(status.axis(axis))}" for axis in Axis]
+    lines = [f"The box has ended and turns nothing any more. The antenna is at {', '.join(places)}."]
+    return "\n".join([*lines, *(f"FAULT {fault}" for fault in status.faults)])
+
+
+def _last(axis: AxisStatus) -> str:
+    if axis.shown_deg is None:
+        return "unknown"
+    return degrees(axis.shown_deg) + ("" if axis.seen else " (last seen)")
 
 
 def _axis(status: Status, axis: Axis) -> str:

@@ -26,7 +26,9 @@ from rotator.views.words import (
     WARNS,
     WireView,
     headline,
+    is_out,
     lacks,
+    links,
     notes,
     off_target,
     orders_from,
@@ -41,7 +43,7 @@ _LEFT, _BETWEEN = 76, 3
 """Cells that all else keeps beside the plot of the sky, at least, and the cells between the two."""
 _GLASS_ROWS = 18
 """From this height on, the display is shown."""
-_KEYS, _TROUBLE, _ANGLE, _WHO, _MORE, _BARS, _SCALES, _LINK, _NOTE, _FRAME, _HEAD, _RULE, _SPACE, _LOG = range(14)
+_KEYS, _TROUBLE, _ANGLE, _WHO, _MORE, _BARS, _LINKS_LINE, _SCALES, _LINK, _NOTE, _HEAD, _RULE, _SPACE, _LOG = range(14)
 """Ranks of rows: on a low terminal the rows with the highest rank are left out first. The newest log line has the rank
 _LOG, and each older one the next higher rank.
 """
@@ -78,6 +80,8 @@ def picture(
         plot_columns, plot_rows = _plot_beside(width, high)
         left = width - plot_columns - _BETWEEN if plot_columns else width
         every = fewer(list(_rows(left, height)), height)
+        if sum(row.rank == _LINK for row in every) < len(wires):
+            every = fewer(list(_rows(left, height, short=True)), height)
         if plot_columns:
             plotted = sky_plot.plot(plot_columns, plot_rows, status, around.mount, around.trail)
             texts = beside([_padded(row.text, left) for row in every], plotted, _BETWEEN)
@@ -92,11 +96,12 @@ def picture(
             every = [*every[:last], *middle, *every[last:]]
         yield from every
 
-    def _rows(width: int, height: int) -> Iterator[Row]:
+    def _rows(width: int, height: int, *, short: bool = False) -> Iterator[Row]:
+        """`short`: a line in place of the table of links, for a terminal that has no room for all of them."""
         yield from _top(glass, status, wires, width, height)
         yield _BLANK
         yield from axis_rows(status, around.mount, width, Ranks(_ANGLE, _BARS, _SCALES))
-        yield from _links(wires, width)
+        yield from [_links_line(wires)] if short else _links(wires, width)
         yield _BLANK
         for fault in status.faults:
             # What to do this moment is the headline.
@@ -105,7 +110,8 @@ def picture(
             yield from _trouble(to_go_on, width)
         for note in (*status.notices, *lacks(status), *notes(status)):
             yield from wrapped(note, width, WARNS, _NOTE)
-        yield from (Row(Text(line, style="dim"), _LOG + age) for age, line in _newest_last(log_rows))
+        for age, line in _newest_last(log_rows):
+            yield from wrapped(line, width, "dim", _LOG + age)
         if around.typed:
             yield Row(Text(around.typed, style="bold reverse"), _KEYS)
         yield from _keys(width)
@@ -196,12 +202,17 @@ def _links(wires: Sequence[WireView], width: int) -> Iterator[Row]:
     columns = [
         Column("link", [Text(wire.name) for wire in wires]),
         Column("where", [Text(wire.where) for wire in wires], least=16),
-        Column("state", [Text(wire.state) for wire in wires], least=12),
+        Column("state", [Text(wire.state, style=WARNS if is_out(wire) else "") for wire in wires], least=12),
         Column("last in", [Text(_bytes(wire.last_in)) for wire in wires], width=16, least=8, rank=1, end=True),
         Column("last out", [Text(_bytes(wire.last_out)) for wire in wires], width=18, least=10, rank=2, end=True),
     ]
     yield _BLANK
     yield from table(columns, width, rank=_LINK, head_rank=_HEAD, rule_rank=_RULE)
+
+
+def _links_line(wires: Sequence[WireView]) -> Row:
+    words, style = links(wires)
+    return Row(Text(words, style=style), _WHO if any(map(is_out, wires)) else _LINKS_LINE)
 
 
 def _bytes(data: bytes) -> str:

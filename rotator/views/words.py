@@ -11,6 +11,7 @@ from typing import Protocol
 
 from hw.ports import Axis, Direction
 from rotator.orders import Mode
+from rotator.spoken import spoken
 from rotator.status import Flown, Status
 from rotator.views.sky_plot import off_deg
 
@@ -23,6 +24,8 @@ TURNS = {
 GOOD, PLAIN, WARNS, ALARMS = "bold green", "bold", "bold yellow", "bold white on red"
 RELEASE = "resume + Enter: it may move again"
 RELEASE_FAULT = "resume + Enter: go on when repaired"
+OUT = ("closed", "waiting for it")
+"""States of a link that no program can use."""
 PASSES = "This ends by itself when the cause is gone."
 
 
@@ -46,7 +49,9 @@ def headline(status: Status) -> tuple[str, str]:
         return loud, ALARMS
     if status.latched:
         return (
-            f"STORM PARK by {status.latched.partition(':')[0]}" if status.storm else f"STOPPED by {status.latched}",
+            spoken(
+                f"STORM PARK by {status.latched.partition(':')[0]}" if status.storm else f"STOPPED by {status.latched}"
+            ),
             ALARMS,
         )
     if faulted:
@@ -74,7 +79,7 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
     where = next((wire.where for wire in wires if source.partition("#")[0] == wire.name), "")
     recognised = f", recognised as {status.recognised}" if status.recognised else ""
     point = f", point {status.timed_point} of {status.timed_points}" if status.timed_points else ""
-    return f"orders from {source}{recognised}{point}" + (f" ({where})" if where else "")
+    return f"orders from {spoken(source)}{recognised}{point}" + (f" ({where})" if where else "")
 
 
 def rise_or_set(flown: Flown, now_s: float) -> str:
@@ -93,6 +98,19 @@ def _countdown(seconds: float) -> str:
 def off_target(status: Status) -> str:
     off = off_deg(status)
     return "" if off is None else f"{off:.1f}° off target on the sky"
+
+
+def is_out(wire: WireView) -> bool:
+    """Whether the link waits for its port, file or peer: no program can use it now."""
+    return wire.state in OUT
+
+
+def links(wires: Sequence[WireView]) -> tuple[str, str]:
+    """How many links there are and which of them are out, in a few words, and their style."""
+    count = f"{len(wires)} link{'' if len(wires) == 1 else 's'}"
+    if out := [wire for wire in wires if is_out(wire)]:
+        return f"{count}, out: {', '.join(wire.name for wire in out)}", WARNS
+    return (f"{count}, none out" if wires else "no links"), PLAIN
 
 
 def pass_starts(status: Status) -> str:

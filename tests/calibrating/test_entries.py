@@ -13,6 +13,7 @@ from rotator.calibrating.entries import (
     NUMBER_FORM,
     Enter,
     Entry,
+    Help,
     Keyboard,
     Number,
     Press,
@@ -79,17 +80,14 @@ def test_the_right_form_is_shown() -> None:
     assert "438.5" in NUMBER_FORM
 
 
-def test_a_refused_text_stays_for_backspace() -> None:
-    keyboard = Keyboard()
-    for character in "438,x":
-        assert keyboard.key(character) is None
-    refused = keyboard.key("\r")
-    assert isinstance(refused, Unknown)
-    assert "Backspace" in refused.form
-    assert keyboard.typed == "438,x"
-    keyboard.key("\x7f")
-    keyboard.key("5")
-    assert keyboard.key("\r") == Number(438.5)
+def test_a_refused_text_is_gone_and_backspace_mends_one_before_enter() -> None:
+    assert keys("438,x\r438.5") == [Unknown("438,x", NUMBER_FORM), Number(438.5)]
+    assert keys("438,x\x7f5") == [Number(438.5)]
+
+
+@pytest.mark.parametrize("text", ["?", "h", "help"])
+def test_help_is_an_entry(text: str) -> None:
+    assert from_line(text) == Help()
 
 
 def test_an_arrow_within_a_number_turns_nothing_and_drops_nothing() -> None:

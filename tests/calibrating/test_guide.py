@@ -189,7 +189,7 @@ def test_while_it_asks_nothing_turns(calibration: Any) -> None:
     run = calibration()
     run.say("r")
     starts = run.world.relay_starts
-    assert "First answer" in run.say("r")
+    assert "It turns again after your answer. Type y for yes or n for no." in run.say("r")
     assert run.world.relay_starts == starts
 
 

@@ -83,7 +83,7 @@ def test_the_high_end_where_the_low_one_should_be(calibration: Any) -> None:
 def test_an_angle_that_is_none(calibration: Any) -> None:
     run = at_the_low_end(calibration())
     assert "-360 to 720" in run.say("", "999")
-    assert "A number of degrees" in run.say("y")
+    assert "Type one number of degrees, for example 438.5 or -2, and press Enter. Enter alone takes 0;" in run.say("y")
     run.say("n")
     assert run.guide.prompt.startswith("At the low end")
 
@@ -122,6 +122,51 @@ def test_an_operator_who_does_not_want_it(calibration: Any, answer: str) -> None
     run.say("", "450", "f", "", "", answer)
     assert run.guide.ended
     assert run.guide.result is None
+
+
+# --- keys that a person tries
+
+
+def test_help_says_what_each_question_takes_and_all_keys(calibration: Any) -> None:
+    run = calibration()
+    for way, accepted in (
+        ([], "Turn it first: r is clockwise, l is counter-clockwise."),
+        (["r"], "Type y for yes or n for no."),
+        (["y", "l"], "Drive there with r (clockwise) and l (counter-clockwise); then Enter reads it."),
+        ([""], "Enter alone takes 0; n or b: one step back."),
+    ):
+        run.say(*way)
+        prompt = run.guide.prompt
+        said = run.say("?")
+        assert f"{accepted} All keys" in said.replace(" b takes the last point back.", "")
+        assert "? helps; q leaves, and nothing is saved." in said
+        assert run.guide.prompt == prompt
+
+
+def test_back_before_there_is_anything_says_so(calibration: Any) -> None:
+    run = calibration()
+    assert "nothing to take back here. Turn it first" in run.say("b")
+    assert "nothing to take back here. Type y" in run.say("r", "b")
+    assert "no point to take back" in run.say("y", "l", "b")
+
+
+def test_back_at_the_angle_goes_back_to_the_end_and_yes_reads_it(calibration: Any) -> None:
+    run = at_the_low_end(calibration())
+    run.say("", "b")
+    assert run.guide.prompt.startswith("At the low end")
+    assert "It reads 0." in run.say("y")
+
+
+def test_back_at_the_highest_angle_asks_for_the_lowest_again(calibration: Any) -> None:
+    run = at_the_low_end(calibration())
+    run.say("", "0", *["r"] * 40)
+    run.say("", "450", "f", "", "b")
+    assert run.guide.prompt.startswith("Lowest angle")
+
+
+def test_an_entry_that_means_nothing_says_what_is_accepted(calibration: Any) -> None:
+    run = calibration()
+    assert "'é' means nothing here. Turn it first: r is clockwise" in run.say("é")
 
 
 # --- readings

@@ -116,3 +116,21 @@ def test_a_reader_that_goes_away_is_no_traceback(rotator: Callable[..., object],
     os.close(write_end)
     assert b"Traceback" not in done.stderr
     assert b"Exception ignored" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("config --ask", "rotator: the input ended before the last answer: nothing was written"),
+        ("calibrate azimuth", "Left: nothing is saved."),
+        ("setup network --root card --config card/rotator.toml", "nothing was changed (--allow NETWORK --yes does it"),
+    ],
+)
+def test_a_question_without_a_standard_input_is_no_traceback(tmp_path: Path, words: str, said: str) -> None:
+    (tmp_path / "card").mkdir()
+    (tmp_path / "card/rotator.toml").write_text('[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:4533"\n')
+    closed = ["sh", "-c", 'exec "$@" <&-', "sh", sys.executable, "-m", "rotator", *words.split()]
+    done = subprocess.run(closed, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 1
+    assert said in done.stdout + done.stderr
+    assert "Traceback" not in done.stderr

@@ -36,7 +36,7 @@ def test_words_stay_whole_and_a_held_key_is_counted(
     assert len([row for row in rows if "'z' means nothing here." in row]) <= 1
     text = " ".join(" ".join(rows).split())
     assert "The box does not know its limits yet: be ready to cut the motors' supply." in text
-    assert "Ctrl-C or q leaves at any moment: the motors stop, nothing is saved." in text
+    assert "q or Ctrl-C leaves: the motors stop, nothing is saved." in text
 
 
 def typed(keys: str) -> list[Entry]:
@@ -54,7 +54,7 @@ def typed(keys: str) -> list[Entry]:
 def test_a_slip_in_a_number_never_makes_another_number(
     whole: int, decimals: int, slip: str, at: int, mark: str
 ) -> None:
-    """Each of these, wherever it stands after the first digit, leaves the number refused and on the screen."""
+    """Each of these, wherever it stands after the first digit, leaves the number refused."""
     number = f"{whole}{mark}{decimals}"
     start = 2 if whole < 0 else 1
     cut = min(start + at, len(number))
@@ -88,3 +88,13 @@ def test_an_answer_without_a_question_is_not_lost_in_silence(entry: Entry) -> No
 def test_a_stop_needs_no_question() -> None:
     guide = TableGuide(AxisFacts(Axis.AZIMUTH, 0.0, 450.0, 0.02, 0.98), 3.3)
     assert "Not taken: wait until the box asks." not in guide.step(STANDS, StopNow()).lines
+
+
+def test_what_is_typed_is_seen_on_a_narrow_terminal(start_in_terminal: StartInTerminal, config: Path) -> None:
+    """The open question is longer than a row there."""
+    guide = start_in_terminal("calibrate", "azimuth", "--config", config, columns=40)
+    guide.until(r"Press r \(clockwise\)")
+    guide.press("12345,")
+    guide.until("12345,")
+    guide.press("\x7f" * 6 + "q")
+    assert guide.ends() == 1

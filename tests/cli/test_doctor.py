@@ -62,6 +62,17 @@ def test_real_hardware_where_there_is_none(rotator: Rotator, tmp_path: Path) -> 
     assert not any("check itself failed" in check["found"] for check in checks(answer))
 
 
+def test_a_fault_of_the_running_box_is_an_error(rotator: Rotator, start: Start, config: Path) -> None:
+    box = start("run", "--plain", "--config", config, "--fault", "azimuth-pot-open")
+    box.until("FAULT azimuth")
+    answer = rotator("doctor", "--config", config, "--json")
+    assert answer.returncode == 1
+    (told,) = (check for check in checks(answer) if check["name"] == "running box")
+    assert told["ok"] is False
+    assert told["found"].startswith("azimuth: pot open or shorted: ")
+    assert box.stop() == 0
+
+
 def test_the_running_box_is_told_from_another_program(rotator: Rotator, start: Start, config: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         taken = other.getsockname()[1]

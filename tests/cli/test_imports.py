@@ -86,6 +86,15 @@ def test_a_command_for_a_running_box_loads_no_box(console: Path, tmp_path: Path,
     assert loaded(tmp_path, *words, "--config", str(console)) & SLOW == set()
 
 
+def test_a_start_of_the_box_loads_no_library_that_writes_toml(tmp_path: Path) -> None:
+    """`--fault list` ends a start when the whole box has been built."""
+    station = tmp_path / "station.toml"
+    station.write_text('[rotor]\nhardware = "sim"\n')
+    found = loaded(tmp_path, "run", "--config", str(station), "--fault", "list")
+    assert "rotator.app" in found
+    assert "tomlkit" not in found
+
+
 def test_without_a_box_it_says_so_as_quickly(tmp_path: Path) -> None:
     for words in (["where"], ["point", "180", "45"], ["stop"]):
         assert loaded(tmp_path, *words) & SLOW == set()

@@ -43,8 +43,10 @@ def pieces(text: str) -> list[tuple[str, Way, bytes]]:
 
 def test_live(box: Any, start: Start, config: Path, send: Send) -> None:
     monitor = start("monitor", "--config", config)
-    greeting = monitor.until(r"# at [^\n]*\n")
+    greeting = monitor.until(r"# at [-0-9][^\n]*\n")
     assert '# link gs232b {"protocol": "gs232b", "pty": "gs232"}\n' in greeting
+    assert "# `at`: azimuth and elevation, degrees on the rotor's own scale\n" in greeting
+    assert "# h:m:s here  link#connection  > received, < sent  bytes\n" in greeting
     send(b"C2\r")
     heard = monitor.until(r"gs232b#1 < [^\n]*\n")
     assert pieces(heard) == [
@@ -58,7 +60,7 @@ def test_live(box: Any, start: Start, config: Path, send: Send) -> None:
 
 def test_one_link_of_several(box: Any, start: Start, config: Path, send: Send) -> None:
     monitor = start("monitor", "--config", config, "--link", "shack")
-    monitor.until(r"# at [^\n]*\n")
+    monitor.until(r"# at [-0-9][^\n]*\n")
     send(b"C2\r")
     ask_rotctld(box.port)
     heard = monitor.until(r"< [^\n]*\n")
@@ -68,7 +70,7 @@ def test_one_link_of_several(box: Any, start: Start, config: Path, send: Send) -
 
 def test_it_ends_with_the_box(box: Any, start: Start, config: Path) -> None:
     monitor = start("monitor", "--config", config)
-    monitor.until(r"# at [^\n]*\n")
+    monitor.until(r"# at [-0-9][^\n]*\n")
     assert box.stop() == 0
     assert monitor.ends() == 0
     assert monitor.errors == "the box has ended\n"

@@ -13,7 +13,7 @@ import pytest
 
 from rotator.config.load import shipped
 
-KEYS = ["rms_deg", "p95_deg", "max_deg", "relay_starts", "motor_s", "recognised"]
+KEYS = ["rms_deg", "p95_deg", "max_deg", "relay_starts", "motor_s", "recognised", "faults"]
 COLUMNS = ["t", "target_az", "target_el", "antenna_az", "antenna_el", "az_drive", "el_drive"]
 Rotator = Callable[..., Any]
 
@@ -203,8 +203,13 @@ def test_the_sketch_flies_the_same_pass(rotator: Rotator, flown: Path) -> None:
 def test_a_fault_strikes(rotator: Rotator, flown: Path) -> None:
     healthy = figures(rotator("rehearse", flown, "--json"))
     done = rotator("rehearse", flown, "--json", "--fault", "azimuth-pot-open@40")
-    assert figures(done)["max_deg"] > healthy["max_deg"] + 30
-    assert "FAULT azimuth" in done.stderr
+    assert done.returncode == 3
+    struck = json.loads(done.stdout)
+    assert struck["max_deg"] > healthy["max_deg"] + 30
+    assert healthy["faults"] == []
+    (fault,) = struck["faults"]
+    assert fault.startswith("azimuth: pot open or shorted: ")
+    assert done.stderr.endswith(f"rotator: at the end of the pass:\n         {fault}\n")
 
 
 # --- what is refused
@@ -240,6 +245,10 @@ def test_a_bad_pass(rotator: Rotator, tmp_path: Path, text: str | None, said: st
         (("--fault", "gremlins"), "no fault called gremlins", 2),
         (("--arduino", "--fault", "adc-gone"), "--fault is for the box", 2),
         (("--config", "nowhere.toml"), "nowhere.toml: 1 mistake", 2),
+        (("--fault", "azimuth-pot-open@"), "after @ stands the moment in seconds, such as azimuth-pot-open@20", 2),
+        (("--fault", "azimuth-pot-open@-3"), "azimuth-pot-open@-3: after @ stands the moment in seconds", 2),
+        (("--fault", "azimuth-pot-open@nan"), "azimuth-pot-open@nan: after @ stands the moment in seconds", 2),
+        (("--fault", "azimuth-pot-open@120"), "azimuth-pot-open@120: south ends after 120 s", 2),
         (("--trace", "nowhere/trace.csv"), "nowhere/trace.csv: cannot be written: No such file or directory", 1),
     ],
 )

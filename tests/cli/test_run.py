@@ -60,6 +60,7 @@ def test_orders_move_it(start: Start, config: Path, send: Send) -> None:
     send(b"W235 025\r")
     box.until(r"azimuth 23\d°[^A-Z\n]*elevation 2\d°[^A-Z\n]*\n")
     assert box.stop() == 0
+    assert re.search(r"The box has ended .* azimuth 23\d\.\d°, elevation 2\d\.\d°\.\n$", box.rest)
 
 
 # --- a configuration that cannot be used
@@ -129,7 +130,10 @@ def test_a_port_in_use(rotator: Rotator, config: Path) -> None:
         config.write_text(f'[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{port}"\n')
         done = rotator("run", "--config", config)
     assert done.returncode == 1
-    assert done.stderr == f"rotator: 127.0.0.1:{port}: cannot listen there: Address already in use\n"
+    assert done.stderr == (
+        f"rotator: 127.0.0.1:{port}: cannot listen there: Address already in use: "
+        "end what has it (another box?), or write another into the file\n"
+    )
 
 
 def test_a_second_box_on_the_same_terminal(start: Start, rotator: Rotator, config: Path) -> None:

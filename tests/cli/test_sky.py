@@ -31,6 +31,11 @@ def told(
     return CliRunner().invoke(cli, ["sky", *words, "--config", str(config)])
 
 
+def said_by(result: Result) -> str:
+    """With what main() makes a sentence of."""
+    return f"{result.output}{result.exception}"
+
+
 def read(result: Result) -> Any:
     assert result.exit_code == 0, result.output
     return json.loads(result.stdout)
@@ -77,6 +82,8 @@ def test_passes_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:
         (("where", "isx"), '"isx" is not among the 3 satellites known; perhaps ISS?'),
         (("where", "sun", "--at", "tomorrow"), '"tomorrow" is no date and time such as 2026-11-22T18:30:00Z'),
         (("where", "sun", "--at", "9999-01-01T00:00:00Z"), "is not in the years 1957 to 2100"),
+        (("where", "cassa"), '"cassa" is not among the 3 satellites known; perhaps Cas A?'),
+        (("where", "mon"), "perhaps Moon?"),
         (("passes", "JN58td", "nothing"), '"nothing" is not among'),
         (("passes", "iss", "--hours", "0"), "0 hours: 0.01 at least, 336 at most"),
     ],
@@ -84,14 +91,19 @@ def test_passes_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:
 def test_mistakes(tmp_path: Path, words: tuple[str, ...], said: str) -> None:
     result = told(tmp_path, *words)
     assert result.exit_code != 0
-    assert said in result.output
+    assert said in said_by(result)
 
 
 def test_without_a_place_the_keys_are_named(tmp_path: Path) -> None:
     result = told(tmp_path, "where", "sun", place="")
     assert result.exit_code == 1
-    assert "[station]" in result.output
-    assert "latitude_deg and longitude_deg, or locator" in result.output
+    assert "[station]" in said_by(result)
+    assert "latitude_deg and longitude_deg, or locator" in said_by(result)
+
+
+def test_without_elements_a_near_name_is_told_all_the_same(tmp_path: Path) -> None:
+    said = said_by(told(tmp_path, "where", "jupitr", elements=tmp_path / "gone.tle"))
+    assert '"jupitr" is not known; perhaps Jupiter? there are no satellites: [sky] elements names' in said
 
 
 def test_a_file_that_cannot_be_read_is_named_and_the_sun_still_found(tmp_path: Path) -> None:
@@ -153,7 +165,7 @@ def test_a_plan_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:
 def test_who_follows_nothing_is_told_how(tmp_path: Path) -> None:
     result = told(tmp_path, "plan")
     assert result.exit_code == 1
-    assert 'write [[sky.follow]] into the file and below it, for example, name = "ISS"' in result.output
+    assert 'write [[sky.follow]] into the file and below it, for example, name = "ISS"' in said_by(result)
 
 
 def test_a_followed_name_that_is_not_known_is_named_and_the_others_are_planned(tmp_path: Path) -> None:
@@ -168,4 +180,4 @@ def test_a_followed_name_that_is_not_known_is_named_and_the_others_are_planned(t
 def test_where_no_followed_name_is_known_there_is_no_plan(tmp_path: Path) -> None:
     result = told(tmp_path, "plan", more='[[sky.follow]]\nname = "isx"\n')
     assert result.exit_code == 1
-    assert "none of the followed targets is known" in result.output
+    assert "none of the followed targets is known" in said_by(result)

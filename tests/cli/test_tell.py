@@ -65,19 +65,19 @@ def ask_link(folder: Path, line: bytes, answer: bytes) -> None:
 
 def test_transcript_of_a_stop_at_the_box(box: Any, rotator: Rotator, config: Path, send: Send, tmp_path: Path) -> None:
     assert said(rotator("stop", "--config", config)) == "Stopped. Nothing moves until `rotator resume`.\n"
-    box.until("STOPPED by console")
+    box.until("STOPPED by a rotator command")
     send(b"W090 030\r")
     ask_link(tmp_path, b"C2\r", b"AZ=000  EL=000\r\n")
     here = said(rotator("where", "--config", config))
     assert re.fullmatch(
         r"azimuth: -?0\.\d° measured\nelevation: -?0\.\d° measured\nmoved by: nobody\n"
-        r"stopped by: console#\d+; nothing moves until resume\n"
-        r"note: orders from gs232b(#\d+)? are ignored: stopped by console#\d+: nothing moves until resume\n"
+        r"stopped by: a rotator command; nothing moves until resume\n"
+        r"note: orders from gs232b(#\d+)? are ignored: stopped by a rotator command: nothing moves until resume\n"
         r"simulated: nothing real turns\n",
         here,
     )
     assert re.fullmatch(
-        r"rotator: stopped by console#\d+: nothing moves until resume\n",
+        r"rotator: stopped by a rotator command: nothing moves until resume\n",
         why(rotator("tell", "point", 90, 30, "--config", config)),
     )
     assert said(rotator("resume", "--config", config)) == "The antenna may move again.\n"
@@ -97,7 +97,13 @@ def test_transcript_of_a_person_who_points(box: Any, rotator: Rotator, config: P
         r"azimuth \d+\.\d° measured: \+\d+\.\d° from before\.\n", said(rotator("jog", "cw", 1, "--config", config))
     )
     assert why(rotator("point", 700, 30, "--config", config)) == (
-        "rotator: '700.0000' is no azimuth: degrees from -180 to 540\n"
+        "rotator: '700' is no azimuth: degrees from -180 to 540\n"
+    )
+    assert why(rotator("point", 500, 20, "--config", config)) == (
+        "rotator: azimuth 500° names a turn beyond the range of 0° to 450°; the same direction is 140°\n"
+    )
+    assert why(rotator("point", 20, "-5", "--config", config)) == (
+        "rotator: elevation -5° is outside the range of 0° to 180°\n"
     )
     assert json.loads(said(rotator("where", "--json", "--config", config)))["wanted_azimuth_deg"] is None
 
@@ -109,14 +115,17 @@ def test_anything_the_console_knows(box: Any, rotator: Rotator, config: Path) ->
     assert why(rotator("tell", "--config", config, "jgo cw 1")).startswith(
         "rotator: there is no command 'jgo'; did you mean jog? There are: status, "
     )
+    assert why(rotator("tell", "--config", config, "where")) == (
+        "rotator: where is no word of the console but a command: rotator where\n"
+    )
     # One line, however it is typed: no `resume` is behind this stop.
     assert said(rotator("tell", "--config", config, "stop\nresume")) == "ok\n"
-    assert "stopped by: console" in said(rotator("where", "--config", config))
+    assert "stopped by: a rotator command" in said(rotator("where", "--config", config))
 
 
 def test_an_angle_that_is_none(box: Any, rotator: Rotator, config: Path) -> None:
     done = rotator("confirm", "elevation", "-100", "--config", config)
-    assert why(done) == "rotator: '-100.0000' is no elevation: degrees from -90 to 180\n"
+    assert why(done) == "rotator: '-100' is no elevation: degrees from -90 to 180\n"
     assert rotator("confirm", "polarisation", "10", "--config", config).returncode == 2
     assert rotator("confirm", "azimuth", "north", "--config", config).returncode == 2
     assert rotator("confirm", "azimuth", "43,8,5", "--config", config).returncode == 2
@@ -144,6 +153,21 @@ def test_no_box(rotator: Rotator, config: Path) -> None:
             "rotator: no box runs here: nothing answers at nowhere/console. Start it with `rotator run`, "
             "or name its file with --config\n"
         )
+
+
+def test_a_narrow_terminal_breaks_no_word(start_in_terminal: StartInTerminal, box: Any, config: Path) -> None:
+    refused = start_in_terminal("point", "500", "20", "--config", config, columns=40)
+    assert refused.ends() == 1
+    lines = refused.rest.replace("\r", "").splitlines()[-4:]
+    assert " ".join(line.strip() for line in lines) == (
+        "rotator: azimuth 500° names a turn beyond the range of 0° to 450°; the same direction is 140°"
+    )
+    assert all(len(line) <= 40 for line in lines)
+    assert all(line.startswith(" " * 9) for line in lines[1:])
+
+
+def test_the_help_says_what_becomes_of_the_order_when_the_terminal_closes(rotator: Rotator) -> None:
+    assert "a terminal that closes does not: it goes on to its place" in " ".join(said(rotator("point", "-h")).split())
 
 
 # --- what a pot rotor does not understand: with a console that follows a script
@@ -237,7 +261,7 @@ def test_what_was_confirmed_is_what_the_box_then_reads(scripted: Any, rotator: R
     assert said(rotator("confirm", "azimuth", "123,4", "--config", config)) == (
         "Taken: azimuth 123.4° counted. Before: azimuth 20.0° counted.\n"
     )
-    assert console.heard == ["confirm azimuth 123.4000"]
+    assert console.heard == ["confirm azimuth 123.4"]
 
 
 def test_a_confirmation_without_effect_is_no_success(scripted: Any, rotator: Rotator, config: Path) -> None:
@@ -355,7 +379,15 @@ def test_pointing_ends_when_the_antenna_is_there(scripted: Any, rotator: Rotator
     assert said(rotator("point", "180", "45", "--config", config)) == (
         "Arrived: azimuth 178.2° measured, elevation 45.0° measured.\n"
     )
-    assert console.heard == ["point 180.0000 45.0000"]
+    assert console.heard == ["point 180 45"]
+
+
+def test_an_antenna_above_the_trees_is_told_so(scripted: Any, rotator: Rotator, config: Path) -> None:
+    azimuth, elevation = AxisStatus(0.0, 450.0, 180.0), AxisStatus(0.0, 180.0, 14.7, target_deg=15.0, tolerance_deg=4.0)
+    scripted(Status(0.0, azimuth, elevation, controlled_by=COMMAND))
+    assert said(rotator("point", "180", "3", "--config", config)).splitlines()[1] == (
+        "It points no lower than 15.0° there: its range, [mount] horizon, or a forbidden sector."
+    )
 
 
 def test_a_fault_on_the_way_is_named(scripted: Any, rotator: Rotator, config: Path) -> None:
@@ -387,7 +419,7 @@ def test_the_storm_park_is_no_stop(scripted: Any, rotator: Rotator, config: Path
 def test_a_jog_says_how_far_it_went(scripted: Any, rotator: Rotator, config: Path) -> None:
     console = scripted(counted(20), counted(30, turns=True), counted(32.5))
     assert said(rotator("jog", "cw", "1,5", "--config", config)) == "azimuth 32.5° counted: +12.5° from before.\n"
-    assert console.heard == ["jog cw 1.500"]
+    assert console.heard == ["jog cw 1.5"]
 
 
 @pytest.mark.parametrize("order", [["point", 180, 45], ["park"], ["jog", "up", 1]])

@@ -131,6 +131,20 @@ def test_it_may_be_read_by_path(tmp_path: Path) -> None:
         ),
         ("[azimuth]\nmin_deg = 360\nmax_deg = 0\n", "azimuth: min_deg (360) must be below max_deg (0): swap the two"),
         (
+            "[azimuth]\nmax_deg = -10\n",
+            "azimuth: min_deg (0) must be below max_deg (-10); the file leaves min_deg out: "
+            "write a greater max_deg, or a min_deg below it",
+        ),
+        (
+            "[azimuth]\nmin_deg = 450\n",
+            "azimuth: min_deg (450) must be below max_deg (450); the file leaves max_deg out: "
+            "write a lower min_deg, or a max_deg above it",
+        ),
+        (
+            "[azimuth]\nmin_deg = 0\nmax_deg = 0\n",
+            "azimuth: min_deg (0) must be below max_deg (0): write both stops of the rotor",
+        ),
+        (
             "[azimuth]\ncalibration = [[0.1, 0]]\n",
             "azimuth: calibration needs two points or more, each [reading, degrees]",
         ),
@@ -184,7 +198,7 @@ def test_a_long_value_is_not_shown_whole() -> None:
 
 def test_not_there(tmp_path: Path) -> None:
     path = tmp_path / "none.toml"
-    with pytest.raises(ConfigError, match=r"there is no such file: `rotator config g5500 > .*none\.toml` makes one"):
+    with pytest.raises(ConfigError, match=r"there is no such file: `rotator config --ask --to .*none\.toml` writes it"):
         load(path)
 
 
@@ -214,5 +228,5 @@ def test_a_file_without_a_key(tmp_path: Path, text: str) -> None:
     """As a shell leaves it when the command before `>` has failed: it is no simulated rotor that somebody wants."""
     path = tmp_path / "empty.toml"
     path.write_text(text)
-    with pytest.raises(ConfigError, match="is empty: `rotator config g5500 > "):
+    with pytest.raises(ConfigError, match="is empty: `rotator config --ask --to "):
         load(path)

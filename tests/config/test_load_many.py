@@ -70,6 +70,22 @@ def test_every_fault_at_once() -> None:
     )
 
 
+def test_a_rule_over_a_key_with_a_mistake_is_not_told_before_the_mistake_is_mended() -> None:
+    """The latitude is given: nothing is missing beside the longitude."""
+    with pytest.raises(ConfigError) as refused:
+        parse("[station]\nlatitude_deg = 91\nlongitude_deg = 2\n[azimuth]\nmin_deg = 500\nmax_deg = 'x'\n", "a.toml")
+    assert [str(each).split(" = ")[0] for each in refused.value.mistakes] == [
+        "line 2: station.latitude_deg",
+        "line 6: azimuth.max_deg",
+    ]
+
+
+def test_a_rule_over_other_keys_of_that_table_is_told() -> None:
+    with pytest.raises(ConfigError) as refused:
+        parse("[azimuth]\ntolerance_deg = -1\nmin_deg = 360\nmax_deg = 0\n", "a.toml")
+    assert [str(each).partition(":")[0] for each in refused.value.mistakes] == ["line 2", "lines 3 and 4"]
+
+
 def test_a_single_fault_is_one_fault() -> None:
     with pytest.raises(ConfigError) as refused:
         parse("[azimuth]\ntolerance_deg = -1\n", "a.toml")

@@ -9,7 +9,7 @@ import pytest
 from hw.ports import AngleSource, Axis, Direction
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount, Range
-from rotator.faults import Missing
+from rotator.faults import Fault, FaultKind, Missing
 from rotator.orders import (
     Aim,
     Calibrate,
@@ -20,12 +20,13 @@ from rotator.orders import (
     LoadTimed,
     Order,
     Park,
+    RelaysChecked,
     Release,
     RunTimed,
     Speed,
     Stop,
 )
-from rotator.status import AxisStatus, Status
+from rotator.status import AxisStatus, Status, Trust
 
 MOUNT = Mount(Range(0, 350), Range(0, 180))
 ALWAYS: list[Order] = [
@@ -193,3 +194,25 @@ def test_only_an_axis_that_cannot_measure_takes_a_confirmed_angle() -> None:
     told = status()
     told = replace(told, azimuth=replace(told.azimuth, confirmable=True))
     assert refusal(Confirm(Axis.AZIMUTH, 42.0), told, MOUNT) is None
+
+
+def relays_checked(azimuth: AxisStatus) -> str:
+    answer = refusal(RelaysChecked(Axis.AZIMUTH), replace(status(), azimuth=azimuth), MOUNT)
+    return answer.reason if answer else ""
+
+
+def test_relays_are_looked_at_only_where_it_matters_and_the_axis_stands() -> None:
+    healthy = AxisStatus(0, 350, angle_deg=100.0, trusts=(Trust.OPEN, Trust.UNSEEN))
+    assert relays_checked(healthy) == "nothing is in doubt about the relays of azimuth"
+    assert relays_checked(replace(healthy, moving=True)) == (
+        "azimuth turns: its relays can be looked at when it stands; `rotator stop` stops it"
+    )
+    fault = Fault(FaultKind.RELAY_UNSEEN, Axis.AZIMUTH, "the relay clockwise is off, and it stands at 350°")
+    for doubted in (
+        replace(healthy, trusts=(Trust.OPEN, Trust.DOUBTED)),
+        replace(healthy, trusts=(Trust.WELDED, Trust.OPEN)),
+        replace(healthy, waiting=True),
+        replace(healthy, fault=fault),
+    ):
+        assert relays_checked(doubted) == ""
+        assert relays_checked(replace(doubted, moving=True)), "not while it turns"

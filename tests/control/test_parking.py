@@ -7,7 +7,7 @@ import pytest
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
 from rotator.config.load import parse
-from rotator.orders import Aim, Jog, Order, Park, Release, RunTimed, Source
+from rotator.orders import Aim, Jog, Mode, Order, Park, Release, RunTimed, SetMode, Source, Stop
 from rotator.rehearsal.flight import BoxPlant
 
 LINK, CONSOLE = Source("gs232b", 1), Source("console")
@@ -78,3 +78,54 @@ def test_the_park_position_is_on_the_rotors_own_scale() -> None:
     plant.post(CONSOLE, Park())
     plant.run_until(clock() + 60.0)
     assert plant.world.shafts() == pytest.approx(PARKED, abs=1.5)
+
+
+WAYS_TO_STOP: list[tuple[Source, Order]] = [
+    (CONSOLE, Stop(latch=True)),
+    (LINK, Stop()),
+    (LINK, Stop((Axis.AZIMUTH,))),
+    (Source("panel"), SetMode(Mode.AUTO)),
+]
+
+
+@pytest.mark.parametrize("stop", WAYS_TO_STOP, ids=str)
+def test_a_storm_park_that_was_stopped_does_not_go_on_after_resume(stop: tuple[Source, Order]) -> None:
+    station = Station()
+    station.say(LINK, Aim(200, 30), 10.0)
+    station.say(CONSOLE, Park(storm=True), 5.0)
+    assert station.plant.status.moving
+    station.say(*stop, 5.0)
+    station.say(CONSOLE, Release(), 0.0)
+    stood, starts = station.plant.world.antenna(), station.plant.relay_starts()
+    station.plant.run_until(station.clock() + 100.0)
+    assert station.at(*stood)
+    assert station.plant.relay_starts() == starts
+
+
+def test_a_storm_park_that_was_not_stopped_goes_on_after_resume() -> None:
+    station = Station()
+    station.say(LINK, Aim(200, 30), 10.0)
+    station.say(CONSOLE, Park(storm=True), 5.0)
+    station.say(CONSOLE, Release(), 60.0)
+    assert station.at(*PARKED)
+
+
+@pytest.mark.parametrize(
+    ("held", "released"),
+    [
+        ((CONSOLE, Stop(latch=True)), (CONSOLE, Release())),
+        ((Source("panel"), SetMode(Mode.PARK)), (Source("panel"), SetMode(Mode.AUTO))),
+    ],
+    ids=["a stop", "the mode switch"],
+)
+def test_a_person_who_lets_it_go_on_after_a_long_stop_starts_no_motor(
+    held: tuple[Source, Order], released: tuple[Source, Order]
+) -> None:
+    """They may stand on the mast: an idle antenna that parks at this moment would hit them."""
+    station = Station()
+    station.say(LINK, Aim(200, 30), 30.0)
+    station.say(*held, 90.0)
+    station.say(*released, 100.0)
+    assert station.at(200, 30)
+    station.say(LINK, Aim(210, 30), 120.0)
+    assert station.at(*PARKED), "an order begins the idle time again"

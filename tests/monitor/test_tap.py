@@ -9,7 +9,7 @@ import pytest
 
 from rotator.links.wire import KEPT_BYTES, Wire
 from rotator.monitor.tap import Tap, TappedInquiry, TappedSession
-from rotator.monitor.transcript import Way
+from rotator.monitor.transcript import HEADS, Way
 from rotator.orders import Source
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
@@ -61,6 +61,7 @@ def test_every_piece_with_its_time_and_source(room: Room) -> None:
     assert session.receive(b"2\rB\r") == [b"AZ=235  EL=025\r\n", b"EL=025\r\n"]
     assert room.told[1:] == [
         '# link gs232b {"protocol": "gs232b", "pty": "run/gs232"}',
+        *HEADS,
         "# at 235.00 25.00",
         "23:59:58.000 gs232b#1 > C",
         r"23:59:58.000 gs232b#1 > 2\rB\r",

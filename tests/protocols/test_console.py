@@ -188,6 +188,35 @@ def test_what_the_box_refuses_it_says_why(new_box: type[BenchBox]) -> None:
     assert box.orders == []
 
 
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [
+        (b"point 500 20", "azimuth 500° names a turn beyond the range of -90° to 400°; the same direction is 140°"),
+        (b"point 410,5 5", "azimuth 410.5° names a turn beyond the range of -90° to 400°; the same direction is 50.5°"),
+        (b"point 20 -5", "elevation -5° is outside the range of -2° to 110°"),
+        (b"point 20 111", "elevation 111° is outside the range of -2° to 110°"),
+    ],
+)
+def test_an_angle_that_the_rotor_has_not_is_not_led_to_another_one(
+    new_box: type[BenchBox], line: bytes, why: str
+) -> None:
+    box = new_box(azimuth=(-90, 400), elevation=(-2, 110))
+    assert ConsoleSession(box).receive(line + b"\n") == [f"error: {why}\n".encode()]
+    assert box.orders == []
+
+
+@pytest.mark.parametrize("line", [b"point 400 110", b"point 360 0", b"point -170 -2", b"point 270 90"])
+def test_an_angle_at_an_end_and_every_direction_is_taken(new_box: type[BenchBox], line: bytes) -> None:
+    box = new_box(azimuth=(-90, 400), elevation=(-2, 110))
+    assert ConsoleSession(box).receive(line + b"\n") == [b"ok\n"]
+
+
+def test_the_horizon_is_a_direction_where_the_scale_begins_above_it(new_box: type[BenchBox]) -> None:
+    """An offset of the file shifts both ends: a person who says 0 means as low as it goes."""
+    assert ConsoleSession(new_box(elevation=(0.8, 89.5))).receive(b"point 20 0\n") == [b"ok\n"]
+    assert ConsoleSession(new_box(elevation=(0.8, 89.5))).receive(b"point 20 90\n") == [b"ok\n"]
+
+
 def test_help_is_the_table(box: BenchBox) -> None:
     *rows, ok = ConsoleSession(box).receive(b"help\n")[0].decode().splitlines()
     assert ok == "ok"
@@ -267,10 +296,10 @@ def test_transcript_of_a_stop_at_the_box(box: BenchBox) -> None:
     assert link.receive(b"W300 025\r") == []
     assert link.receive(b"C2\r") == [b"AZ=235  EL=025\r\n"]
     assert not turns_within(20)
-    assert person.receive(b"point 300 25\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
-    assert person.receive(b"jog cw 1\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
-    assert person.receive(b"home azimuth\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
-    assert person.receive(b"park\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
+    assert person.receive(b"point 300 25\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
+    assert person.receive(b"jog cw 1\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
+    assert person.receive(b"home azimuth\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
+    assert person.receive(b"park\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
     assert not turns_within(20)
     assert person.receive(b"resume\n") == [b"ok\n"]
     assert not turns_within(20)
@@ -292,13 +321,13 @@ def test_what_follows_resume_need_not_wait_for_the_status(new_box: type[BenchBox
 def test_a_later_stop_is_told_again(box: BenchBox) -> None:
     session = ConsoleSession(AtTheBox(box))
     assert session.receive(b"stop\nresume\npoint 300 25\nstop\n") == [b"ok\n"] * 4
-    assert session.receive(b"point 300 25\n") == [b"error: stopped by console#1: nothing moves until resume\n"]
+    assert session.receive(b"point 300 25\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
 
 
 def test_a_storm_park_holds_like_a_stop(box: BenchBox) -> None:
     session = ConsoleSession(AtTheBox(box))
     assert session.receive(b"park\n") == [b"ok\n"]
-    why = b"error: stopped by console#1: storm park: nothing moves until resume\n"
+    why = b"error: stopped by a rotator command: storm park: nothing moves until resume\n"
     assert session.receive(b"point 300 25\n") == [why]
 
 

@@ -26,7 +26,7 @@ BLOCK = f"""\
 {BEGIN}
 # was: tcp = "127.0.0.1:4533"
 tcp = "0.0.0.0:4533"
-allow = ["192.168.1.0/24"]
+allow = ["127.0.0.1", "192.168.1.0/24"]
 {END}
 """
 
@@ -43,7 +43,7 @@ def test_one_link_opens_and_the_rest_of_the_file_stays(with_avahi: Card) -> None
     assert said.code == 0, said.text
     assert with_avahi.rotator.read_text() == ROTATOR.replace('tcp = "127.0.0.1:4533"\n', BLOCK)
     link = parse(with_avahi.rotator.read_text(), "x").link[0]
-    assert (link.tcp, link.allow) == ("0.0.0.0:4533", ["192.168.1.0/24"])
+    assert (link.tcp, link.allow) == ("0.0.0.0:4533", ["127.0.0.1", "192.168.1.0/24"])
     assert "<port>4533</port>" in (with_avahi.root / ANNOUNCED).read_text()
     assert "Host shack.local, Port 4533" in said.text
     assert "rotctl -m 2 -r shack.local:4533 p" in said.text
@@ -78,6 +78,26 @@ def test_the_question(with_avahi: Card) -> None:
     assert '"192.168.1" is no network: type one such as 192.168.1.0/24' in said.text
     assert said.code == 0
     assert parse(with_avahi.rotator.read_text(), "x").link[0].allow is None
+
+
+def test_a_card_is_named_by_its_own_name_and_no_address_of_this_machine(with_avahi: Card) -> None:
+    said = with_avahi.setup("network", "--allow", "all", "--yes").text
+    assert "The card of shack. Its address is known only after it has started." in said
+    assert "rotctl -m 2 -r shack.local:4533 p" in said
+    for here in (socket.gethostname(), *(str(each.ip) for each in addresses())):
+        assert here not in said
+
+
+def test_a_card_without_name_and_avahi_leaves_the_address_open(card: Card) -> None:
+    said = card.setup("network", "--allow", "all", "--yes").text
+    assert "On the PC, where ADDRESS is what `hostname -I` prints on the Pi:" in said
+    assert "rotctl -m 2 -r ADDRESS:4533 p" in said
+
+
+def test_the_network_of_a_card_has_to_be_said(with_avahi: Card) -> None:
+    said = with_avahi.setup("network", "--yes")
+    assert said.code == 1
+    assert "no local network is known on this card: say which may with --allow 192.168.1.0/24" in said.text
 
 
 def test_without_avahi_it_says_what_to_do(card: Card) -> None:
@@ -130,7 +150,7 @@ def test_every_shipped_file_opens_and_comes_back_to_the_byte(name: str, allow: s
     text = shipped(name).replace('tcp = "127.0.0.1:4533"', f'tcp = "127.0.0.1:4533"{more}').replace("\n", end)
     opened = open_to(text, allow)
     link = next(link for link in parse(opened.text, name).link if link.protocol == "rotctld")
-    assert (link.tcp, link.allow) == ("0.0.0.0:4533", allow and [allow])
+    assert (link.tcp, link.allow) == ("0.0.0.0:4533", allow and ["127.0.0.1", allow])
     assert closed(opened.text) == text
 
 

@@ -19,7 +19,8 @@ from rotator.config.load import load, parse, profiles
 from rotator.config.statements import statements
 from rotator.setup.machine import Machine
 from rotator.setup.new_file import for_the_service, new_file
-from rotator.setup.questions import PROGRAMS, ROTORS, Question, place, questions
+from rotator.setup.question import Question
+from rotator.setup.questions import PROGRAMS, ROTORS, place, questions
 
 MACHINE = Machine(False, ("/dev/serial/by-id/usb-FTDI_A1-if00",), (IPv4Interface("192.168.1.5/24"),), "shack")
 TYPED = {"azimuth": "450", "elevation": "180", "place": "48.85 2.35"}
@@ -57,7 +58,7 @@ def test_every_combination_of_answers_is_a_file_that_loads_and_means_them(data: 
     protocols = [link.protocol for link in config.link]
     assert protocols[-1] == "rotctld"
     assert protocols[:-1] == [each for each in [answers["program"]] if each not in ("rotctld", "none")]
-    assert config.link[-1].allow == (None if answers["network"] == "here" else [answers["network"]])
+    assert config.link[-1].allow == (None if answers["network"] == "here" else ["127.0.0.1", answers["network"]])
     rows = text.split("\n")
     for statement in statements(text):
         if statement.keys and not statement.brackets:
@@ -82,7 +83,7 @@ def test_every_question_has_a_word_of_help_and_offers_its_default() -> None:
         for question in asked:
             assert question.help
             assert not question.choices or question.default in [choice.answer for choice in question.choices]
-            assert question.choices or question.understood(question.default) == question.default
+            assert question.choices or question.answer(question.default) == question.default
 
 
 @pytest.mark.parametrize(
@@ -142,9 +143,31 @@ def test_back_asks_the_question_before_again(here: Path) -> None:
 
 
 def test_an_answer_that_is_none_is_said_and_asked_again(here: Path) -> None:
-    done = config_ask("9", "G-5500", "1", *[""] * 12)
-    assert '"9": type a number from 1 to 7, or Enter for 1' in done.output
-    assert done.exit_code == 0
+    done = config_ask("1", "9", "Pi", *[""] * 12)
+    assert '"9" is not in the list. Type a number from 1 to 2, or a name of the list' in done.output
+    assert load(here / "new.toml").rotor.hardware == "pi"
+
+
+def test_a_name_is_echoed_as_the_line_of_the_list_that_it_means(here: Path) -> None:
+    done = config_ask("G-5500", "no", "", "", "pstrotator", *[""] * 8)
+    for shown in ("= Yaesu G-5500", "= not yet: simulate it", "= PstRotator, SatPC32"):
+        assert shown in done.output
+    assert load(here / "new.toml").link[0].protocol == "gs232b"
+
+
+def test_a_new_folder_is_made_only_when_the_person_has_read_of_it(here: Path) -> None:
+    done = config_ask(*[""] * 8, "n", to="shack/new.toml")
+    assert "make the folder shack for it? [Y/n]" in done.output
+    assert list(here.iterdir()) == []
+    config_ask(*[""] * 8, "maybe", "y", to="shack/new.toml")
+    assert load(here / "shack/new.toml").link
+
+
+def test_a_place_that_cannot_be_written_is_said_before_the_first_question(here: Path) -> None:
+    (here / "mine").write_text("")
+    done = config_ask(to="mine/new.toml")
+    assert "not a folder" in str(done.exception)
+    assert "1." not in done.output
 
 
 @pytest.mark.parametrize("count", range(8))
@@ -169,6 +192,12 @@ def test_it_is_kept_beside_the_new_one(here: Path) -> None:
     (copy,) = here.glob("new.toml.before-rotator-*")
     assert copy.read_text() == "# mine\n"
     assert load(here / "new.toml").link
+
+
+def test_what_comes_next_names_the_file(here: Path) -> None:
+    done = config_ask("", "pi", "", "", "pst", "usb cable", "", "192.168.1.0/24", "", "")
+    for command in ("run", "doctor", "calibrate", "setup network", "setup usb-serial"):
+        assert f"rotator {command} --config new.toml\n" in done.output
 
 
 def test_a_name_is_the_default_of_the_first_question(here: Path) -> None:

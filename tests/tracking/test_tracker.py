@@ -6,103 +6,16 @@ Time is simulated: UTC runs beside the loop's clock. The plan is computed in the
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
-from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
-from rotator.assembly.settings import build_controller, build_mount
-from rotator.assembly.sky import TrackedBox
-from rotator.assembly.station import Station
-from rotator.config.load import parse
-from rotator.control.sky.angles import great_circle_deg
-from rotator.control.sky.flight_plan import Antenna
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
-from rotator.orbits.passes import Pass, passes
 from rotator.orbits.targets import find
-from rotator.orders import BOTH, Aim, Fly, Jog, Release, Source, Stop
-from rotator.runtime.loop import ControlLoop
-from rotator.tracking.known_sky import KnownSky
-from rotator.tracking.listener import StreamListener
-from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight, rest_flight
-from rotator.tracking.tracker import CLOCK_UNSURE, Tracker
-
-ELEMENTS = Path(__file__).parents[1] / "orbits" / "elements-2025.tle"
-BERLIN = Site(52.52, 13.4, 40.0)
-FEBRUARY_S = 1_739_000_000.0
-"""8 February 2025, 07:33:20 UTC: some days after the elements' epochs."""
-PERIOD_S = 0.05
-
-
-class InThisProcess:
-    """Plans at once. `plans`: each, with the moment at which it was made."""
-
-    def __init__(self) -> None:
-        self.plans: list[tuple[Now, NextFlight]] = []
-
-    def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
-        self.plans.append((now, next_flight(wanted, antenna, now)))
-        return self.plans[-1][1]
-
-    def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
-        return rest_flight(wanted, antenna, now)
-
-
-class Box:
-    def __init__(self, begin_utc_s: float, site: Site = BERLIN) -> None:
-        config = parse("", "box")
-        self.clock = SimClock()
-        station = Station(config, self.clock, self.clock.sleep, (10.0, 0.0), add_alarm=self.clock.add_alarm)
-        assert station.world is not None
-        self.world = station.world
-        mount = build_mount(config)
-        self.loop = ControlLoop(build_controller(config), station.rotor, self.clock, PERIOD_S)
-        self.planner = InThisProcess()
-        self.clock_trusted = True
-        sky = KnownSky(site, Catalogue((str(ELEMENTS),)))
-        tracked = TrackedBox(config, self.loop, mount)
-        self.tracker = Tracker(sky, self.planner, tracked, lambda: self.clock_trusted)
-        self._listener = StreamListener(sky, self.planner, tracked, lambda: self.utc_s, self.tracker.clock_trusted)
-        self.loop.overhear(self._listener.hear)
-        self._begin_utc_s = begin_utc_s
-        self.wait(1.0)
-
-    def _now(self) -> Now:
-        return Now(self.utc_s, self.clock())
-
-    @property
-    def utc_s(self) -> float:
-        return self._begin_utc_s + self.clock()
-
-    def set_clock(self, by_s: float) -> None:
-        self._begin_utc_s += by_s
-
-    def wait(self, seconds: float, until: Callable[[], bool] = lambda: False) -> bool:
-        """Let time pass, no longer than until that is so."""
-        end_s = self.clock() + seconds
-        while self.clock() < end_s:
-            if until():
-                return True
-            for _ in range(10):
-                self.clock.sleep(PERIOD_S)
-                self.loop.cycle()
-            self._listener.step(self._now)
-            self.tracker.step(self._now())
-        return until()
-
-    def off_deg(self, name: str) -> float:
-        """Between the boom and the target, as the world has them."""
-        sight = find(name, BERLIN, Catalogue((str(ELEMENTS),))).sight(self.utc_s)
-        boom = self.world.antenna()
-        return great_circle_deg(*boom, sight.azimuth_deg, sight.elevation_deg)
-
-
-def pass_of(name: str, least_deg: float = 20.0) -> Pass:
-    target = find(name, BERLIN, Catalogue((str(ELEMENTS),)))
-    return next(passes(target, FEBRUARY_S + 600.0, FEBRUARY_S + 2 * 86_400.0, least_deg))
+from rotator.orders import BOTH, Aim, Jog, Release, Source, Stop
+from rotator.tracking.tracker import CLOCK_UNSURE
+from tests.tracking.tracked_box import BERLIN, ELEMENTS, Box, pass_of
 
 
 @pytest.fixture

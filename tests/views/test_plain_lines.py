@@ -36,6 +36,17 @@ def test_line() -> None:
     assert plain_lines.line(STATUS) == "azimuth 231° to 235.0° CW  elevation 24°"
 
 
+def test_the_last_line_says_where_the_antenna_is_and_what_is_wrong() -> None:
+    ended = "The box has ended and turns nothing any more. The antenna is at azimuth"
+    assert plain_lines.farewell(STATUS) == f"{ended} 231.3°, elevation 24.0°."
+    blind = replace(STATUS.azimuth, angle_deg=None)
+    lost = replace(STATUS.elevation, seen=False, fault=FAULT)
+    assert plain_lines.farewell(replace(STATUS, azimuth=blind, elevation=lost)).splitlines() == [
+        f"{ended} unknown, elevation 24.0° (last seen).",
+        f"FAULT {FAULT}",
+    ]
+
+
 def test_the_line_stays_while_only_noise_changes() -> None:
     moments = [
         replace(STATUS, at_s=at_s, azimuth=replace(STATUS.azimuth, angle_deg=231.26 + noise, raw=0.5 + noise))

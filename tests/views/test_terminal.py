@@ -305,6 +305,21 @@ def test_where_to_connect_stays_readable_while_links_are_busy(wires: list[Wire])
     assert picture.count(r"EL=024\r\n ") == 2
 
 
+@pytest.mark.parametrize(("columns", "rows"), SIZES)
+@pytest.mark.parametrize("state", ["tracking", "both faulted and stopped"])
+def test_a_link_that_is_out_is_named_at_every_size(columns: int, rows: int, state: str) -> None:
+    """In the table where all links have room, in a line of its own elsewhere."""
+    gone = Wire("usb", "gs232b", "/dev/ttyUSB0", "waiting for it")
+    picture = show(STATES[state], [*BUSY, gone], LOG, (columns, rows))
+    assert "3 links, out: usb" in picture or ("usb " in picture and "waiting" in picture)
+    whole_and_clear(picture, STATES[state], columns, rows)
+
+
+def test_on_a_small_terminal_their_number_is_told(wires: list[Wire]) -> None:
+    assert "2 links, none out" in show(wires=wires, size=(40, 12))
+    assert "2 links" not in show(wires=wires, size=(80, 24))
+
+
 def test_bytes_that_are_no_text_are_escaped(wires: list[Wire]) -> None:
     wires[0].last_in = b"\x00\x1b[2J\xff"
     picture = show(wires=wires)

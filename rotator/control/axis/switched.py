@@ -22,6 +22,7 @@ from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
+from rotator.control.axis.weld_watch import TURNS
 from rotator.control.commands import Command, Decision, Feed, Run, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
@@ -34,6 +35,8 @@ ABOUT_DEG = 0.5
 """What readings scatter of an axis at rest."""
 JOG_TOLERANCE_DEG = 0.5
 """Nearer than this to its limit a jog does not start."""
+WHY_IT_TURNS = (FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF)
+"""Faults that say more than the notice TURNS."""
 BLIND = Notice("a broken pot wire would look like an angle: fit end resistors")
 
 
@@ -339,7 +342,9 @@ class SwitchedAxis:
         blind = BLIND if self.settings.window.blind else None
         single = (reported, self._sensing.notice, self._endurance.notice, blind)
         found = (notice for notice in single if notice is not None)
-        return (*self._gate.notices(now_s), *self._attempts.notices, *found)
+        told = self.fault is not None and self.fault.kind in WHY_IT_TURNS
+        gate = (notice for notice in self._gate.notices(now_s) if not (told and notice == TURNS))
+        return (*gate, *self._attempts.notices, *found)
 
     @property
     def _placed(self) -> bool:

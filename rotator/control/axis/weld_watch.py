@@ -21,6 +21,7 @@ TURNING_SHARE = 0.5
 """An axis faster than this share of its motor's speed is turned by its motor."""
 NOTICED_SHARE = 0.2
 """An axis slower than this share stands; one between the two is noticed."""
+TURNS = Notice("turning with no relay on: wind, or a hand at the control box's switch", "TURNS BY SELF")
 CLEAR_ERRORS = 4.0
 STILL_FAST_S = 0.4
 NOTICED_FOR_S = 3.0
@@ -66,7 +67,7 @@ class WeldWatch:
             return ()
         if self._master and self._noticed_s - self._cut_s > CUT_IN_S:
             return (Notice(f"still turning, though the motors' supply should be off: {CUT_BY_HAND}", "STILL TURNS"),)
-        return (Notice("turning with no relay on: wind, or a hand at the control box's switch", "TURNS BY SELF"),)
+        return (TURNS,)
 
     def judge(self, at_s: float) -> Fault | None:
         """The fault that the latest reading shows, with no relay on."""

@@ -1,0 +1,44 @@
+"""A mistake on the command line: one form for all, what was probably meant, and where help is."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+from rotator.cli.main import main
+
+
+def errors(words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
+    monkeypatch.setattr(sys, "argv", ["rotator", *words])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert isinstance(ended.value.code, int)
+    return ended.value.code, capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "ends"),
+    [
+        ("calibrat", 2, ("rotator: no such command 'calibrat'. Did you mean 'calibrate'?", "`rotator --help`")),
+        ("sky pases", 2, ("rotator: no such command 'pases'. Did you mean 'passes'?", "`rotator sky --help`")),
+        ("doctor --jsn", 2, ("rotator: no such option '--jsn'", "`rotator doctor --help`")),
+        ("point a b", 2, ("rotator: invalid value for 'AZIMUTH': 'a' is no number", "`rotator point --help`")),
+        ("sky where sun", 1, ("rotator: the configuration names no place: write [station]", "rotator:")),
+        ("run --config .", 2, (".: 1 mistake", "  is a folder: name the file in it")),
+    ],
+)
+def test_the_first_line_says_what_and_the_last_where_to_read_on(
+    words: str, code: int, ends: tuple[str, str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ended, text = errors(words.split(), monkeypatch, capsys)
+    lines = text.splitlines()
+    assert ended == code
+    assert lines[0].startswith(ends[0])
+    assert lines[-1].startswith(ends[1])
+
+
+def test_a_group_alone_shows_its_commands(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    _, text = errors(["sky"], monkeypatch, capsys)
+    assert text.startswith("Usage: rotator sky")
+    assert "passes" in text
