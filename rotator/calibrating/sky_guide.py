@@ -20,6 +20,7 @@ from rotator.orders import Aim, Jog, Stop
 from rotator.status import AxisStatus, Status
 
 KEYS = "r l u d steer a little, R L U D further; s stops; Enter takes a point, b takes it back; f ends; q leaves."
+ACCEPTS = "y turns to the target; r l u d steer; Enter: it is centred; b takes the last point back; f: no more."
 FINE_S = 0.15
 """How long one key press turns here: a beam is centred by small steps."""
 READINGS = 20
@@ -130,7 +131,7 @@ class SkyGuide(Guide):
         while True:
             count = f"{len(self._points)} point{'' if len(self._points) == 1 else 's'}"
             prompt = f"{count}. y: turn to {name}; r l u d: steer; Enter: centred; f: no more."
-            match (yield from self._ask(prompt, "Enter takes this point, b the last one back.", may_go_back=True)):
+            match (yield from self._ask(prompt, ACCEPTS, may_go_back=True)):
                 case Yes():
                     yield from self._go()
                 case Enter():
@@ -143,7 +144,7 @@ class SkyGuide(Guide):
                 case Finish() | No():
                     return
                 case _:
-                    self._say(self._keys)
+                    self._say(self._accepts)
 
     def _go(self) -> Steps:
         """Turn to the target, and wait until the antenna stands."""
@@ -224,7 +225,7 @@ class SkyGuide(Guide):
 
     def _press(self, press: Press, *, may_turn: bool) -> None:
         if not may_turn:
-            self._say("First answer, please; then it may turn again.")
+            self._say(f"It turns again after your answer. {self._accepts}")
         elif press.seconds > 0:
             self._pressed_s = self._now_s
             seconds = FINE_S if press.seconds == TAP_S else press.seconds
