@@ -45,7 +45,8 @@ class TrackingThread:
         """Returns when the thread has ended; a plan that is under way is given up."""
         self._stopping.set()
         self._planner.close()
-        self._thread.join()
+        if self._thread.is_alive():  # a box that could not start has not begun it
+            self._thread.join()
 
     def _run(self) -> None:
         refreshed_s, faults = time.monotonic(), self._tell(())
