@@ -1,8 +1,9 @@
 """Whether the antenna keeps out of forbidden sectors, and what going round costs: run `python -m benchmarks.sectors`.
 
 Random worlds on each kind of rotor, with the real drivers on simulated chips: one to three sectors; motors at 0.3 to
-1.5 of the configured speed; coast, play and noise; orders of links, a panel and a person; restarts of the program with
-the world going on. Judged by the simulated shaft and boom alone. `--worlds N` a kind, `--seed N`, `--kind NAME`.
+1.5 of the configured speed; coast, play and noise; orders of links, a panel and a person; passes that are known
+beforehand; restarts of the program with the world going on.
+Judged by the simulated shaft and boom alone. `--worlds N` a kind, `--seed N`, `--kind NAME`.
 """
 
 from __future__ import annotations
@@ -19,21 +20,24 @@ import tomlkit
 
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
-from rotator.assembly.settings import build_controller, build_mount
+from rotator.assembly.settings import build_controller, build_mount, planned_motors
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.control.sky.detour import Detours
+from rotator.control.sky.flight_plan import Antenna, plan_flight
+from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.control.sky.route import Speeds
 from rotator.control.sky.sectors import box_at
-from rotator.orders import Aim, Jog, Mode, Order, Park, Release, SetMode, Source, Stop
+from rotator.orders import Aim, Fly, Jog, Mode, Order, Park, Release, SetMode, Source, Stop
 from rotator.runtime.loop import ControlLoop
 
 PROFILES = ("g5500", "u100", "isel", "servos", "orbit360")
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 LINK, OTHER, PERSON, PANEL = Source("gs232b", 1), Source("rotctld", 1), Source("console"), Source("panel")
+TRACK = Source("track")
 SLOWEST, FASTEST = 0.3, 1.5
 SLOWEST_COUNTED = 0.7
 """A motor that is slower still reaches nothing: its contact changes so late that a pulse may have been missed."""
@@ -141,6 +145,21 @@ class World:
     def anywhere(self) -> Place:
         return self.random.uniform(0, 360), self.random.uniform(0, min(90.0, self.mount.elevation.max_deg))
 
+    def known_pass(self) -> Fly:
+        """A target that goes straight over the sky, planned whole: it begins now, or the antenna waits for it."""
+        draw, now_s = self.random, self.clock()
+        begin_s, lasts_s = now_s + draw.choice([0.0, draw.uniform(0.0, 60.0)]), draw.uniform(30.0, 300.0)
+        (az_a, el_a), (az_b, el_b) = self.anywhere(), self.anywhere()
+        across_deg = az_b - az_a + draw.choice([-360.0, 0.0, 0.0, 360.0])
+        count = int(lasts_s)
+        rows = tuple(
+            (begin_s + t, (az_a + across_deg * t / count) % 360.0, el_a + (el_b - el_a) * t / count)
+            for t in range(count + 1)
+        )
+        stands_deg = [self.loop.status.axis(axis).angle_deg or 0.0 for axis in Axis]
+        antenna = Antenna(self.mount, *planned_motors(self.config), (stands_deg[0], stands_deg[1]))
+        return plan_flight("known", KnownPath(rows), antenna, now_s).order
+
     def run(self, seconds: float) -> None:
         end_s = self.clock() + seconds
         while self._next_s < end_s and not self.outcome.inside:
@@ -212,7 +231,7 @@ def orders(world: World) -> Iterator[None]:
     """A life of orders; each `next` is one chapter of it."""
     draw = world.random
     while True:
-        match draw.choice(["reach", "reach", "reach", "stream", "jog", "park", "hurry", "panel", "restart"]):
+        match draw.choice(["reach", "reach", "reach", "stream", "known", "jog", "park", "hurry", "panel", "restart"]):
             case "reach":
                 world.reach(world.place())
             case "stream":
@@ -222,6 +241,9 @@ def orders(world: World) -> Iterator[None]:
                     high_deg = min(90.0, world.mount.elevation.max_deg)
                     world.order(Aim(azimuth_deg % 360.0, min(max(elevation_deg, 0.0), high_deg)))
                     world.run(1.0)
+            case "known":
+                world.order(world.known_pass(), TRACK)
+                world.run(draw.uniform(5.0, 200.0))
             case "jog":
                 seconds = draw.choice([None, draw.uniform(0.1, 5.0)])
                 world.order(Jog(draw.choice(list(Axis)), draw.choice([Direction.PLUS, Direction.MINUS]), seconds))
