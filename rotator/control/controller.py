@@ -310,6 +310,8 @@ class Controller:
 
     def _park_when_idle(self, now_s: float) -> None:
         """Long after the last order, where the configuration asks for it; never before a first order."""
+        if self._aiming.flown is not None:
+            self._moved_s = now_s  # it waits for its target, or follows it
         after_s = self._settings.park_after_s
         held = self._authority.latched or self._authority.mode is Mode.PARK
         if after_s <= 0 or self._moved_s is None or held or self._timed.running:

@@ -7,6 +7,9 @@ import pytest
 from firmware_sim.clock import SimClock
 from hw.ports import Axis, Direction
 from rotator.config.load import parse
+from rotator.control.sky.flight_plan import Antenna, PlannedMotor, plan_flight
+from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.mount import Mount, Range
 from rotator.orders import Aim, Jog, Mode, Order, Park, Release, RunTimed, SetMode, Source, Stop
 from rotator.rehearsal.flight import BoxPlant
 
@@ -55,6 +58,22 @@ def test_a_minute_after_the_last_order_it_parks_once() -> None:
     starts = station.plant.relay_starts()
     station.plant.run_until(station.clock() + 150.0)
     assert station.plant.relay_starts() == starts
+
+
+def test_an_antenna_that_waits_for_its_target_is_not_idle() -> None:
+    """A satellite rises in three minutes; a minute after it has set, the antenna parks."""
+    station = Station()
+    station.plant.run_until(5.0)
+    begin_s = station.clock() + 180.0
+    path = KnownPath(((begin_s, 200.0, 0.0), (begin_s + 100.0, 240.0, 20.0)))
+    motor = PlannedMotor(6.0, 0.17, 4.0)
+    antenna = Antenna(Mount(Range(0, 450), Range(0, 180)), motor, motor, (180.0, 10.0))
+    station.say(Source("track"), plan_flight("SO-50", path, antenna, station.clock()).order, 175.0)
+    assert station.plant.world.antenna() == pytest.approx((200.0, 0.0), abs=5.0)
+    station.plant.run_until(begin_s + 102.0)
+    assert station.plant.world.antenna() == pytest.approx((240.0, 20.0), abs=5.0)
+    station.plant.run_until(begin_s + 200.0)
+    assert station.at(*PARKED)
 
 
 def test_in_a_storm_it_stays_parked_until_a_person_releases_it() -> None:
