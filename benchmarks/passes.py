@@ -2,7 +2,8 @@
 
 Twelve real passes flown in simulated time by the emulated sketch and by the box at 4, 2 and 1 degrees, beside the least
 error that any relay controller could reach with as many starts, knowing the future (tests/passes/optimum.json).
-Prints a Markdown table; `--svg FILE` keeps the means and draws them. Every figure is the same on every machine.
+Then by the box that knows the pass beforehand, as it does when it tracks by itself (`--known`: these alone). Prints a
+Markdown table; `--svg FILE` keeps the means and draws them. Every figure is the same on every machine.
 """
 
 from __future__ import annotations
@@ -60,20 +61,20 @@ def optimum_deg(pass_name: str, starts: float) -> float:
     return points[-1][1]
 
 
-def fly_one(job: tuple[str, float | None, str]) -> Flight:
-    pass_name, tolerance_deg, extra = job
+def fly_one(job: tuple[str, float | None, str, str]) -> Flight:
+    pass_name, tolerance_deg, extra, via = job
     config = parse(extra, "benchmark")
     if tolerance_deg is not None:
         axes = {axis: getattr(config, axis).model_copy(update={"tolerance_deg": tolerance_deg}) for axis in AXES}
         config = config.model_copy(update=axes)
-    make = plant_maker(config, arduino=tolerance_deg is None)
+    make = plant_maker(config, via=via, arduino=tolerance_deg is None)
     _, summary = fly(read_pass(SHIPPED / f"{pass_name}.csv"), make)
     return Flight(pass_name, tolerance_deg, summary)
 
 
-def fly_all(tolerances: tuple[float | None, ...], extra: str = "") -> list[Flight]:
+def fly_all(tolerances: tuple[float | None, ...], extra: str = "", via: str = "gs232") -> list[Flight]:
     names = [path.stem for path in sorted(SHIPPED.glob("*.csv"))]
-    jobs = [(name, tolerance, extra) for tolerance in tolerances for name in names]
+    jobs = [(name, tolerance, extra, via) for tolerance in tolerances for name in names]
     with ProcessPoolExecutor() as pool:
         return list(pool.map(fly_one, jobs))
 
@@ -104,7 +105,16 @@ def markdown(flights: list[Flight]) -> str:
     return "\n".join(rows)
 
 
+def known() -> None:
+    """The box knows each pass from two minutes before its rise on."""
+    for tolerance in TOLERANCES_DEG:
+        print(means_line(f"known, box at {tolerance:g}°", fly_all((tolerance,), via="track")))
+
+
 def main() -> None:
+    if "--known" in sys.argv:
+        known()
+        return
     flights = fly_all((None, *TOLERANCES_DEG))
     print(markdown(flights))
     print()
@@ -122,6 +132,7 @@ def main() -> None:
     chosen = fly_all((4.0,), noisy)
     quiet = series["box at 4°"][0]
     print(means_line("box at 4°, noise x 4", chosen) + f", {mean([f.starts for f in chosen]) / quiet:.2f} x the starts")
+    known()
     if "--svg" in sys.argv:
         FIGURES.write_text(json.dumps(series, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
         Path(sys.argv[sys.argv.index("--svg") + 1]).write_text(kept(), encoding="utf-8")

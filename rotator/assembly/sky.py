@@ -22,7 +22,6 @@ from rotator.orbits.targets import Fixed, find
 from rotator.orders import Order, Source
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
-from rotator.tracking import system_clock
 from rotator.tracking.follower import Follower
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
@@ -30,6 +29,7 @@ from rotator.tracking.next_flight import Wanted
 from rotator.tracking.next_followed import WantedOften
 from rotator.tracking.planned import Followed
 from rotator.tracking.planner import ProcessPlanner
+from rotator.tracking.system_clock import SystemClock
 from rotator.tracking.thread import TrackingThread
 from rotator.tracking.tracker import TRACK, Tracker
 
@@ -88,9 +88,9 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
     if site is None:
         return None
     sky, planner, box = KnownSky(site, build_catalogue(config.sky)), ProcessPlanner(), TrackedBox(config, loop, mount)
+    clock, simulated = SystemClock(), config.rotor.hardware == "sim"
     # A simulated rotor may live at any time.
-    trusted = system_clock.is_set if config.rotor.hardware == "pi" else lambda: True
-    tracker = Tracker(sky, planner, box, trusted)
+    tracker = Tracker(sky, planner, box, lambda: simulated or clock.is_set)
     listener = StreamListener(sky, planner, box, time.time, tracker.clock_trusted)
     follower = Follower(tracker, planner, box, lambda: wanted_often(config.sky, sky))
 
@@ -99,7 +99,7 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
         follower.heard(source, order)
 
     loop.overhear(hear)
-    return TrackingThread(tracker, follower, listener, sky, planner)
+    return TrackingThread(tracker, follower, listener, sky, planner=planner, clock=clock)
 
 
 def wanted_often(table: SkyTable, sky: KnownSky) -> tuple[WantedOften, ...]:

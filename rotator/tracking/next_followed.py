@@ -56,7 +56,7 @@ def _flight(planned: PlannedPass, flight: Flight, wanted: Wanted, antenna: Anten
     target = wanted.target()
     row_s = SATELLITE_ROW_S if wanted.elements is not None else SLOW_ROW_S
     path = target_path(target, flight.begin_s, flight.end_s, row_s, now.apart_s)
-    order = plan_flight(target.name, path, antenna, now.loop_s).order
+    order = plan_flight(target.name, path, antenna, now.loop_s, begin_on=flight.begin_on).order
     sets_s = planned.found.los_s
     late = order if sets_s is None else replace(order, sets_s=sets_s - now.apart_s)
     return NextFlight(flight.begin_s, flight.end_s, late)

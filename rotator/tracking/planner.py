@@ -10,6 +10,7 @@ import os
 import signal
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
+from contextlib import suppress
 from typing import Any, TypeVar
 
 from rotator.control.sky.flight_plan import Antenna
@@ -71,6 +72,7 @@ class ProcessPlanner:
 
 def _begin() -> None:
     """In the new process. The box ends it; Ctrl-C at the terminal is for the box."""
-    os.nice(POLITE)
+    with suppress(OSError):  # a service may be kept from it
+        os.nice(POLITE)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGHUP, signal.SIG_IGN)

@@ -14,6 +14,7 @@ from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_flight import Now
 from rotator.tracking.planner import ProcessPlanner
+from rotator.tracking.system_clock import SystemClock
 from rotator.tracking.tracker import Tracker
 
 log = logging.getLogger(__name__)
@@ -28,13 +29,21 @@ def _now() -> Now:
 
 class TrackingThread:
     def __init__(
-        self, tracker: Tracker, follower: Follower, listener: StreamListener, sky: KnownSky, planner: ProcessPlanner
+        self,
+        tracker: Tracker,
+        follower: Follower,
+        listener: StreamListener,
+        sky: KnownSky,
+        *,
+        planner: ProcessPlanner,
+        clock: SystemClock,
     ) -> None:
         self.tracker = tracker
         self._follower = follower
         self._listener = listener
         self._sky = sky
         self._planner = planner
+        self._clock = clock
         self._stopping = threading.Event()
         self._thread = threading.Thread(target=self._run, name="tracking", daemon=True)
 
@@ -45,11 +54,13 @@ class TrackingThread:
         """Returns when the thread has ended; a plan that is under way is given up."""
         self._stopping.set()
         self._planner.close()
-        self._thread.join()
+        if self._thread.is_alive():  # a box that could not start has not begun it
+            self._thread.join()
 
     def _run(self) -> None:
         refreshed_s, faults = time.monotonic(), self._tell(())
         while not self._stopping.wait(LOOK_S):
+            self._clock.look(time.monotonic())
             if _now().loop_s - refreshed_s >= REFRESH_S:
                 refreshed_s = _now().loop_s
                 if self._sky.refresh():

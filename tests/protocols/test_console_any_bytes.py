@@ -93,7 +93,8 @@ def confirm(axis: bytes, angle: float) -> Order | None:
 
 
 def point(azimuth: float, elevation: float) -> Order | None:
-    if not (-180 <= azimuth <= 540 and -90 <= elevation <= 180):
+    # A person who names a turn or an elevation that this rotor has not is told so.
+    if not (-180 <= azimuth <= 450 and 0 <= elevation <= 180):
         return None
     return Aim(azimuth + 360 if azimuth < 0 else azimuth, elevation)
 
