@@ -71,6 +71,11 @@ class Cam:
         zone = 2 * math.floor((angle_deg - self.closes_at_deg) / self.spacing_deg)
         return zone + (angle_deg >= self.begins_deg(zone + 1))
 
+    def zones(self, low_deg: float, high_deg: float) -> range:
+        """The zones of a shaft that stands between these angles. One that came down stands in its play: the cam is
+        above the shaft, by `play_deg` at most."""
+        return range(self.zone_at(low_deg), self.zone_at(high_deg + self.play_deg) + 1)
+
     def ahead(self, zone: int) -> frozenset[Direction]:
         """The directions in which a shaft in this zone crosses an edge before its stop."""
         below = self.begins_deg(zone) - self.play_deg > self.low_deg

@@ -117,14 +117,16 @@ class CamCount:
     def place(self, at_s: float, angle_deg: float, *, closed: bool, within_deg: float = 0.0) -> bool:
         """The shaft stands at `angle_deg`. False: the contact's state contradicts the angle, and `trouble` says so.
 
-        A contact in the other state is accepted where one edge of the zone is much nearer than the other. With
+        A contact in the other state is accepted where the play or a much nearer edge of the zone explains it. With
         `within_deg` the angle is only as good as that: exactly one zone so near must have the contact's state.
         """
         if within_deg > 0.0:
             return self._place_near(at_s, angle_deg, within_deg, closed=closed)
-        zone = self.cam.zone_at(angle_deg)
+        zone, *turned_back = self.cam.zones(angle_deg, angle_deg)
         believed = True
-        if closed is not (zone % 2 == 0):
+        if closed is not (zone % 2 == 0) and turned_back:
+            zone = turned_back[0]
+        elif closed is not (zone % 2 == 0):
             above_deg = angle_deg - self.cam.begins_deg(zone)
             below_deg = self.cam.begins_deg(zone + 1) - angle_deg
             believed = min(above_deg, below_deg) <= FORGIVEN * (above_deg + below_deg)
@@ -176,15 +178,15 @@ class CamCount:
     # --- conclusions
 
     def _place_near(self, at_s: float, angle_deg: float, within_deg: float, *, closed: bool) -> bool:
-        low, high = self.cam.zone_at(angle_deg - within_deg), self.cam.zone_at(angle_deg + within_deg)
-        alike = [zone for zone in range(low, high + 1) if closed is (zone % 2 == 0)]
+        near = self.cam.zones(angle_deg - within_deg, angle_deg + within_deg)
+        alike = [zone for zone in near if closed is (zone % 2 == 0)]
         state, place = "closed" if closed else "open", f"within {within_deg:g}° of {angle_deg:.1f}°"
         if len(alike) != 1:
             where = "more than one place" if alike else "no place"
             trouble = f"the contact is {state}, as it is at {where} {place}: correct home_deg, or move the limit switch"
             return self._put(at_s, self.cam.zone_at(angle_deg), angle_deg, trouble)
-        begins_deg, ends_deg = self.cam.begins_deg(alike[0]), self.cam.begins_deg(alike[0] + 1)
-        return self._put(at_s, alike[0], min(max(angle_deg, begins_deg), ends_deg), "")
+        begins_deg = self.cam.begins_deg(alike[0]) - self.cam.play_deg
+        return self._put(at_s, alike[0], min(max(angle_deg, begins_deg), self.cam.begins_deg(alike[0] + 1)), "")
 
     def _put(self, at_s: float, zone: int, angle_deg: float, trouble: str) -> bool:
         self.zone = zone

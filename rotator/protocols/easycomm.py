@@ -62,6 +62,7 @@ _ANGLES = ("AZ", "EL")
 _RADIO = "UP|DN|UM|DM|UR|DR|UC|DC|AO|LO|OP|IP|AN|ST"
 """The standard's words for the radios and the station, which a rotor passes over."""
 _ANGLE = re.compile(f"(AZ|EL)(?P<number>{_DEGREES})?")
+_NUMBERED = re.compile("(AZ|EL)[-+0-9.,]")
 _AFTER = re.compile(f"$|(?P<blank> )(?! *[0-9.,])|(?P<more>[ \\x00-\\x1f\\x7f-\\xff]|AZ|EL|SA|SE|{_RADIO})")
 """What may follow a whole number. `more`: only one with decimals is whole there, as in `AZ1 20.5` a digit is lost."""
 _NAMED = re.compile("[A-Z][!-~]*")
@@ -80,16 +81,22 @@ class Word:
 def parse(line: bytes, level: Level) -> tuple[Word, ...]:
     """The commands in one line, without its end.
 
-    `AZ` and `EL` with their numbers count anywhere in the line, in either order, whatever stands before, between and
-    behind them. When one of the two is damaged (`AZ1x0`, `AZ1 20.5`, `EL` alone beside an azimuth), only the stops of
-    the line count. A single angle, and any other command, counts only in a line without anything strange: the strange
-    part may be what is left of the other angle. Words that begin with a letter (frequencies, modes) are for radios.
+    A pair of `AZ` and `EL` with their numbers counts anywhere in the line, in either order, whatever stands before,
+    between and behind them. When one of the two is damaged (`AZ1x0`, `AZ1 20.5`, `EL` alone beside an azimuth), only
+    the stops of the line count. A single angle counts only between blanks and in a line without anything strange: the
+    strange part may be what is left of the other angle. So does any other command. Words that begin with other letters
+    are not for a rotor: frequencies, modes, the satellite HAZEL5.
     """
     text = line.upper().decode("latin-1").replace("\t", " ").replace(";", " ")
     text = text.lstrip("".join(map(chr, (*range(0x21), *range(0x7F, 0x100)))))
     angles, rest, damaged = _angles(text)
     others = [(match.start(), match[0]) for match in re.finditer("[^ ]+", rest)]
-    words = {at: word for at, part in others if (word := _word(part, level))}
+    between_blanks = {match.start(): match[0] for match in re.finditer("[^ ]+", text)}
+    words = {
+        at: word
+        for at, part in others
+        if (word := _word(part, level)) and (word.verb in _STOPS or between_blanks.get(at) == part)
+    }
     strange = [part for at, part in others if at not in words and not _NAMED.fullmatch(part)]
     stops = {at: word for at, word in words.items() if word.verb in _STOPS}
     values = {word.verb for word in angles.values() if word.value is not None}
@@ -99,7 +106,8 @@ def parse(line: bytes, level: Level) -> tuple[Word, ...]:
         return _in_order(angles | (stops if strange else words))
     foreign = [part for at, part in others if at not in words and not _PLAIN.fullmatch(part)]
     asked = {word.verb for word in angles.values() if word.value is None}
-    if strange or (values and (foreign or asked)):
+    joined = [part for part in between_blanks.values() if _NUMBERED.search(part) and not _ANGLE.fullmatch(part)]
+    if strange or joined or (values and (foreign or asked)):
         return _in_order(stops)
     return _in_order(angles | words)
 
@@ -111,11 +119,11 @@ def _angles(text: str) -> tuple[dict[int, Word], str, bool]:
     for match in _ANGLE.finditer(text):
         number, (begin, end) = match["number"], match.span()
         after = _AFTER.match(text, end)
-        in_a_word = text[:begin][-1:].isalpha() and number is None
-        if in_a_word:
-            continue  # DELTA, HAZEL
+        if re.fullmatch("[A-Z]", text[:begin][-1:]):
+            continue  # DELTA, HAZEL5
         whole = after is not None and (after["more"] is None or bool(number and re.search("[.,][0-9]", number)))
-        damaged = damaged or not whole
+        joined_question = number is None and text[:begin][-1:].strip() != ""
+        damaged = damaged or not whole or joined_question
         angles[begin] = Word(match[1], float(number.replace(",", ".")) if number else None)
         rest = rest[:begin] + " " * (end - begin) + rest[end:]
     return angles, rest, damaged

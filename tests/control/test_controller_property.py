@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any, get_args
 
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
+from rotator.control.axis.goals import LONGEST_WAIT_S, UNCALIBRATED_JOG_S
 from rotator.control.commands import Place
 from rotator.faults import Missing
 from rotator.orders import (
@@ -241,6 +242,13 @@ def test_nothing_is_driven_outward_beyond_its_limit(new_desk: Any, script: Scrip
 
 
 @any_day
+@example(
+    lacks=Missing.LIMITS,
+    script=[
+        (0.0, Jog(Axis.AZIMUTH, Direction.MINUS, None)),
+        (2.5, Jog(Axis.AZIMUTH, Direction.PLUS, None)),
+    ],
+)
 @given(
     lacks=st.sampled_from([Missing.CALIBRATION, Missing.LIMITS, Missing.DIRECTION_CHECK]),
     script=st.lists(st.tuples(st.sampled_from([0.0, 0.05, 0.5, 2.5]), st.none() | moves), min_size=1, max_size=20),
@@ -248,15 +256,25 @@ def test_nothing_is_driven_outward_beyond_its_limit(new_desk: Any, script: Scrip
 def test_an_axis_that_lacks_anything_is_driven_by_jogs_alone(
     new_desk: Any, lacks: Missing, script: list[tuple[float, Order | None]]
 ) -> None:
+    """The time of a press begins when its relay closes: before a reversal the axis is first seen to stand."""
     desk = new_desk(missing=dict.fromkeys(Axis, (lacks,)))
-    pressed_s = dict.fromkeys(Axis, -math.inf)
+    pressed = dict.fromkeys(Axis, (-math.inf, Direction.OFF))
+    closed_s = dict.fromkeys(Axis, math.inf)
+    desk.step()
     for wait_s, order in script:
         desk.step(*([order] if order else []))
         if isinstance(order, Jog):
-            pressed_s[order.axis] = desk.now_s
+            pressed[order.axis] = desk.now_s, order.direction
         for _ in range(1 + round(wait_s / 0.05)):
             for axis, run in desk.runs.items():
-                assert run.direction is Direction.OFF or run.until_s <= pressed_s[axis] + 2.0 + 1e-9
+                if run.direction is Direction.OFF:
+                    closed_s[axis] = math.inf
+                    continue
+                closed_s[axis] = min(closed_s[axis], desk.now_s)
+                pressed_s, direction = pressed[axis]
+                assert run.direction is direction, "driven another way than the latest press"
+                assert closed_s[axis] <= pressed_s + LONGEST_WAIT_S, "driven long after the press"
+                assert run.until_s <= closed_s[axis] + UNCALIBRATED_JOG_S + 1e-9, "driven for longer than a press"
             desk.step()
 
 

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from hw.ports import Axis, Direction
@@ -89,28 +89,41 @@ def direction(azimuth: float | None, elevation: float | None) -> Iterator[Order]
 
 
 def easycomm_motions(heard: bytes, level: int) -> list[Order]:
-    """Whatever might be meant: in each line every pair of angles, every turn and every park, in order."""
+    """Whatever might be meant: in each line every angle, every pair, every turn and every park, in order.
+
+    A single angle, a turn and a park stand between blanks. Of a pair each may be joined to anything but a letter before
+    it, and with another order between them the two are orders of their own.
+    """
     motions: list[Order] = []
     for line in re.split(rb"[\r\n]", heard.upper())[:-1]:
-        azimuths: list[float | None] = [None]
-        elevations: list[float | None] = [None]
+        azimuths, elevations = angles(b"AZ", line), angles(b"EL", line)
+        both = [(azimuth, elevation) for azimuth in azimuths for elevation in elevations]
+        apart = [each for azimuth, elevation in both for each in ((azimuth, None), (None, elevation))]
+        pairs = [aim for pair in both + apart for aim in direction(*pair)]
         for word in re.split(rb"[ ;\t]", line):
             bare = word.lstrip(bytes(range(0x20)) + bytes(range(0x7F, 0x100)))
             try:
                 number = float(bare[2:].replace(b",", b"."))
             except ValueError:
                 number = None
-            if number is not None and bare[:2] in (b"AZ", b"EL"):
-                (azimuths if bare[:2] == b"AZ" else elevations).append(number)
-                pairs = ((azimuth, elevation) for azimuth in azimuths for elevation in elevations)
-                motions += [aim for pair in pairs for aim in direction(*pair)]
+            if number is not None and bare[:2] == b"AZ":
+                motions += direction(number, None)
+            if number is not None and bare[:2] == b"EL":
+                motions += direction(None, number)
             if level >= 2 and bare[:1] == b"M" and len(bare) == 2 and bare[1:] in TURNS:
                 motions.append(TURNS[bare[1:]])
             if level >= 3 and bare[:1] == b"V" and bare[1:2] in TURNS and number:
                 motions.append(TURNS[bare[1:2]])
             if level >= 2 and bare == b"PARK":
                 motions.append(Park())
+            motions += pairs
     return motions
+
+
+def angles(name: bytes, line: bytes) -> list[float]:
+    """The numbers behind this name, wherever it is not the end of a word."""
+    numbers = re.findall(rb"(?<![A-Z])" + name + rb"([-+]?(?:\d+[.,]?\d*|[.,]\d+))", line)
+    return [float(number.replace(b",", b".")) for number in numbers]
 
 
 def spid_motions(heard: bytes, protocol: str) -> list[Order]:
@@ -162,6 +175,8 @@ def test_nothing_crashes_and_answers_are_well_formed(
 
 @pytest.mark.parametrize("protocol", SESSIONS)
 @settings(max_examples=examples(200), deadline=None)
+@example(pieces=[b"Aa", b"AZ0", b"\n"])
+@example(pieces=[b"AZ1.5", b"EL2.5", b"UP3", b"\n"])
 @given(pieces=PIECES)
 def test_what_moves_is_what_was_said(new_box: type[BenchBox], protocol: str, pieces: list[bytes]) -> None:
     box, heard = new_box((0, 540)), b"".join(pieces)

@@ -89,6 +89,7 @@ def test_visual_basics_numbers(text: bytes, value: float) -> None:
         b"AZ2\xff35.5 EL25.0",
         b"AZ235.5 EL",
         b"AZ235.5 E",
+        b"AZ235.5EL EL25.0",
         b"AZ235.5 L25.0",
         b"AZ235.5 EX25.0",
         b"Z235.5 EL25.0",
@@ -133,9 +134,25 @@ def test_each_level_has_the_commands_of_those_below(level: Level, known: set[str
     assert {word.verb for word in parse(line, level)} == known
 
 
-@pytest.mark.parametrize("line", [b"DELTA 12", b"HAZEL", b"HAZEL 3.5 DELTA4"])
+@pytest.mark.parametrize(
+    "line", [b"DELTA 12", b"HAZEL", b"HAZEL 3.5 DELTA4", b"HAZEL5", b"AaAZ0", b"XAZ1.5 YEL2.5", b"AZ5 HAZEL5"]
+)
 def test_letters_within_a_word_are_no_angle(line: bytes) -> None:
     assert parse(line, Level.III) == ()
+
+
+def test_a_satellites_name_changes_no_pair() -> None:
+    assert parse(b"AZ235.5 EL25.0 HAZEL5", Level.II) == (Word("AZ", 235.5), Word("EL", 25.0))
+
+
+@pytest.mark.parametrize("line", [b"UP145AZ5.5", b"AZ5.5DN435", b"VR5AZ5.5", b"#AZ5.5", b"AZ5.5UP1 MR", b"AZ5.5\x00"])
+def test_a_single_angle_that_is_joined_to_something_moves_nothing(line: bytes) -> None:
+    assert parse(line, Level.III) == ()
+    assert parse(line + b" SA SE", Level.III) == (Word("SA"), Word("SE"))
+
+
+def test_a_turn_that_is_joined_to_a_pair_is_none() -> None:
+    assert parse(b"VR5AZ235.5EL25.0", Level.III) == (Word("AZ", 235.5), Word("EL", 25.0))
 
 
 @pytest.mark.parametrize("line", [b"AZ235.5 EL25.0", b"EL25.0 AZ235.5", b"AZ9.05EL114.8"])

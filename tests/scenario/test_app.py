@@ -80,6 +80,17 @@ async def terminal(path: Path) -> AsyncIterator[Line]:
 
 
 @asynccontextmanager
+async def watching(path: Path) -> AsyncIterator[Line]:
+    """A client of the monitor. It is closed also where the test fails: else a later test is blamed for its socket."""
+    reader, writer = await asyncio.open_unix_connection(str(path))
+    try:
+        yield Line(reader, writer.write)
+    finally:
+        writer.close()
+        await asyncio.gather(writer.wait_closed(), return_exceptions=True)
+
+
+@asynccontextmanager
 async def connection(port: int) -> AsyncIterator[Line]:
     reader, writer = await asyncio.open_connection("127.0.0.1", port)
     try:
@@ -220,9 +231,11 @@ def test_its_links_can_be_watched_and_where_they_cannot_it_runs_all_the_same(con
             async with asyncio.timeout(PATIENCE_S):
                 while not (tmp_path / "monitor").is_socket():
                     await asyncio.sleep(0)
-            async with running(App(second)), terminal(tmp_path / "other") as other:
-                reader, writer = await asyncio.open_unix_connection(str(tmp_path / "monitor"))
-                watcher = Line(reader, writer.write)
+            async with (
+                running(App(second)),
+                terminal(tmp_path / "other") as other,
+                watching(tmp_path / "monitor") as watcher,
+            ):
                 assert (await watcher.answer()).startswith(b"# rotator ")
                 await other.ask(b"C2\r")
                 await line.ask(b"C2\r")
@@ -231,7 +244,6 @@ def test_its_links_can_be_watched_and_where_they_cannot_it_runs_all_the_same(con
                     while b" < AZ" not in heard:
                         heard = await watcher.answer()
                 assert heard.endswith(b" gs232b#1 < AZ=000  EL=000\\r\\n\n")
-                writer.close()
         assert not (tmp_path / "monitor").exists()
 
     asyncio.run(talk())

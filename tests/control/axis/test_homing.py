@@ -6,7 +6,7 @@ import dataclasses
 import random
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from firmware_sim.rotors.relay_pulse import U100_MOTOR
@@ -79,6 +79,14 @@ def cams(draw: st.DrawFn) -> Cam:
 
 
 @settings(max_examples=50, suppress_health_check=[HealthCheck.too_slow])
+@example(
+    cam=dataclasses.replace(CAM, closed_deg=0.6, closes_at_deg=4.625, play_deg=0.3),
+    start_deg=0.0,
+    lag_s=0.0625,
+    pace=1.0,
+    bounce_s=0.0,
+    seed=0,
+)
 @given(
     cam=cams(),
     start_deg=st.floats(0.0, 20.0),

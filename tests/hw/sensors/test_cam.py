@@ -297,3 +297,28 @@ def test_a_place_must_fit_the_contact(angle_deg: float, closed: bool, believed: 
     assert count.place(0.0, angle_deg, closed=closed) is believed
     assert count.zone == zone
     assert bool(count.trouble) is not believed
+
+
+PLAY = Cam(spacing_deg=5.0, closed_deg=0.6, closes_at_deg=-0.375, speed_dps=6.0, play_deg=0.3, low_deg=0.0)
+"""At its low stop of 0.0° the cam is between 0.0° and 0.3°: closed to 0.225°, open above."""
+
+
+@pytest.mark.parametrize(("closed", "zone"), [(True, 0), (False, 1)])
+def test_at_a_stop_within_the_play_the_contact_says_where_the_cam_is(closed: bool, zone: int) -> None:
+    count = at(0.0, closed=closed, cam=PLAY)
+    assert (count.zone, count.angle_deg()) == (zone, 0.0)
+
+
+@pytest.mark.parametrize(("angle_deg", "closed"), [(2.0, True), (1.5, True), (4.9, False)])
+def test_play_explains_no_more_than_itself(angle_deg: float, closed: bool) -> None:
+    assert not CamCount(PLAY).place(0.0, angle_deg, closed=closed)
+
+
+def test_where_play_makes_a_switchs_place_double_it_is_not_believed() -> None:
+    """Within 0.4° of 0.4° is the upper end of the gap below a closure of 0.6°, and with the play the gap above it."""
+    cam = Cam(spacing_deg=5.0, closed_deg=0.6, closes_at_deg=0.3, speed_dps=6.0)
+    assert CamCount(cam).place(0.0, 0.4, closed=False, within_deg=0.4)
+    with_play = Cam(spacing_deg=5.0, closed_deg=0.6, closes_at_deg=0.3, speed_dps=6.0, play_deg=0.2)
+    count = CamCount(with_play)
+    assert not count.place(0.0, 0.4, closed=False, within_deg=0.4)
+    assert count.trouble.startswith("the contact is open, as it is at more than one place within 0.4° of 0.4°")
