@@ -96,6 +96,7 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
 
     def hear(source: Source, order: Order) -> None:
         listener.hear(source, order)
+        tracker.heard(source, order)
         follower.heard(source, order)
 
     loop.overhear(hear)

@@ -93,7 +93,9 @@ class Follower:
         if upcoming is None:
             return
         self._again_utc_s = min(self._again_utc_s, upcoming.set_off_utc_s)
-        if upcoming.flight is not None and self._tracker.following:
+        # The plan took a while: a stop or another sender may have come since.
+        status = self._box.status()
+        if upcoming.flight is not None and self._may_fly(status, now):
             log.info("the plan's next pass: %s", upcoming.flight.order.name)
-            self._flown = Flown(upcoming.flight, now, now.loop_s)
+            self._flown = Flown(upcoming.flight, now, status.at_s)
             self._box.order(upcoming.flight.order)

@@ -15,7 +15,7 @@ from typing import Protocol
 from rotator.control.sky.flight_plan import Antenna
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.orders import BOTH, Aim, Fly, Order, Source, Stop
+from rotator.orders import BOTH, Aim, Fly, LetGo, Order, Park, Release, SetMode, Source, Stop
 from rotator.status import Status
 from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
 
@@ -89,6 +89,10 @@ class Tracker:
         self._asked = 0
         """How many requests there were: a plan for an earlier one is not flown."""
         self._flown: Flown | None = None
+        self._held_by = ""
+        """Who has stopped the antenna, or has let it go on after a stop or a fault, since the request."""
+        self._mover = ""
+        """Who moved the antenna at the request."""
         self._ended = ""
         """Why the latest tracking has ended by itself."""
         self._follows = True
@@ -99,6 +103,13 @@ class Tracker:
         """Whether the plan of many passes has the antenna, as far as this room is concerned."""
         with self._lock:
             return self._follows and not self._words
+
+    def heard(self, source: Source, order: Order) -> None:
+        """An order of any sender. What a stop has ended does not begin by itself, also where a plan is under way."""
+        match order:
+            case Stop() | SetMode() | LetGo() | Release() | Park(storm=True) if source != TRACK:
+                with self._lock:
+                    self._held_by = str(source)
 
     # --- from a console
 
@@ -142,8 +153,10 @@ class Tracker:
         return self._clock_told or self._clock_trusted()
 
     def _begin(self, words: str, *, follows: bool) -> None:
+        mover = self._box.status().controlled_by
         with self._lock:
             self._words, self._flown, self._ended, self._follows = words, None, "", follows
+            self._held_by, self._mover = "", mover
             self._asked += 1
 
     # --- from its thread
@@ -151,11 +164,12 @@ class Tracker:
     def step(self, now: Now) -> None:
         """Look once. It may compute for seconds."""
         with self._lock:
-            words, asked, flown = self._words, self._asked, self._flown
+            words, asked, flown, held_by = self._words, self._asked, self._flown, self._held_by
         if not words:
             return
-        status = self._box.status()
-        if flown is not None and (reason := lost(flown, status, now)):
+        if held_by:
+            self._end(asked, words, f"{held_by} stopped it, or let it go on")
+        elif flown is not None and (reason := lost(flown, self._box.status(), now)):
             self._end(asked, words, reason)
         elif flown is None or _is_over(flown, now):
             self._fly(words, asked, now)
@@ -173,11 +187,17 @@ class Tracker:
         except (Unknown, NotThere, NeverRises, RuntimeError) as reason:
             self._end(asked, words, str(reason))
             return
+        status = self._box.status()
         with self._lock:
-            if asked != self._asked:
+            # The plan took a while: another request, a stop or another sender may have come since.
+            if asked != self._asked or self._held_by or status.latched:
                 return
-            self._flown = Flown(flight, now, now.loop_s)
-            self._box.order(flight.order)
+            taken = status.controlled_by not in (str(TRACK), self._mover)
+            if not taken:
+                self._flown, self._mover = Flown(flight, now, status.at_s), str(TRACK)
+                self._box.order(flight.order)
+        if taken:
+            self._end(asked, words, f"{status.controlled_by} moves the antenna")
 
     def _end(self, asked: int, words: str, reason: str) -> None:
         with self._lock:

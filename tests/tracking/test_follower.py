@@ -54,6 +54,19 @@ def test_who_takes_the_antenna_has_it_for_ten_minutes_and_the_next_pass_is_flown
     assert rise.loop.status.controlled_by == "track"
 
 
+def test_a_stop_that_comes_while_it_plans_is_not_undone_by_the_plan(rise: Box) -> None:
+    def meanwhile() -> None:
+        if rise.utc_s > set_off_s:
+            rise.loop.post(PC, Stop())
+            rise.loop.cycle()
+
+    set_off_s = rise.utc_s + 60.0
+    rise.planner.meanwhile = meanwhile
+    rise.wait(175.0)
+    assert rise.loop.status.flown is None
+    assert rise.loop.status.controlled_by == ""
+
+
 def test_off_ends_it_and_plan_begins_it_again(rise: Box) -> None:
     rise.wait(170.0)
     rise.tracker.off()

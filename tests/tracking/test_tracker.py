@@ -13,7 +13,7 @@ from hw.ports import Axis, Direction
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.targets import find
-from rotator.orders import BOTH, Aim, Jog, Release, Source, Stop
+from rotator.orders import BOTH, Aim, Jog, Mode, Order, Release, SetMode, Source, Stop
 from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.tracking.tracked_box import BERLIN, ELEMENTS, Box, pass_of
 
@@ -99,6 +99,46 @@ def test_another_sender_takes_the_antenna_and_keeps_it(rise: Box, source: Source
     rise.wait(30.0)
     assert rise.world.antenna() == pytest.approx(stood, abs=0.1)
     assert len(rise.planner.plans) == 1
+
+
+@pytest.mark.parametrize(
+    "orders",
+    [
+        [(PC, Stop(BOTH))],
+        [(PERSON, Stop(latch=True)), (PERSON, Release())],
+        [(PC, Aim(100.0, 10.0))],
+        [(Source("panel"), SetMode(Mode.JOG)), (Source("panel"), SetMode(Mode.AUTO))],
+    ],
+    ids=["S", "stop and resume", "another sender", "the panel's switch"],
+)
+def test_what_comes_while_it_plans_is_not_undone_by_the_plan(rise: Box, orders: list[tuple[Source, Order]]) -> None:
+    """On a slow computer a plan takes ten seconds."""
+
+    def meanwhile() -> None:
+        for source, order in orders:
+            rise.loop.post(source, order)
+        rise.loop.cycle()
+
+    rise.planner.meanwhile = meanwhile
+    assert rise.tracker.track("iss") == ""
+    rise.wait(3.0)
+    rise.planner.meanwhile = lambda: None
+    assert rise.tracker.state.startswith("ended: ")
+    assert rise.loop.status.flown is None
+    rise.wait(30.0)
+    assert rise.loop.status.flown is None
+
+
+def test_a_stop_at_the_very_end_of_a_pass_is_no_end_of_a_pass(rise: Box) -> None:
+    found = pass_of("iss")
+    assert found.los_s is not None
+    late = Box(found.los_s - 20.0)
+    assert late.tracker.track("iss") == ""
+    late.wait(19.5)
+    late.loop.post(PC, Stop(BOTH))
+    late.wait(30.0)
+    assert late.loop.status.flown is None
+    assert late.tracker.state == "ended: gs232b#1 stopped it, or let it go on"
 
 
 def test_after_a_fault_that_a_person_has_acknowledged_nothing_goes_on(rise: Box) -> None:

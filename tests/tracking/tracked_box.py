@@ -36,12 +36,14 @@ PERIOD_S = 0.05
 
 
 class InThisProcess:
-    """Plans at once. `plans`: each, with the moment at which it was made."""
+    """Plans at once. `plans`: each, with the moment at which it was made. `meanwhile` happens while it computes."""
 
     def __init__(self) -> None:
         self.plans: list[tuple[Now, NextFlight]] = []
+        self.meanwhile: Callable[[], None] = lambda: None
 
     def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
+        self.meanwhile()
         self.plans.append((now, next_flight(wanted, antenna, now)))
         return self.plans[-1][1]
 
@@ -49,6 +51,7 @@ class InThisProcess:
         return rest_flight(wanted, antenna, now)
 
     def plan_followed(self, followed: tuple[WantedOften, ...], antenna: Antenna, now: Now) -> Upcoming | None:
+        self.meanwhile()
         return next_followed(followed, antenna, now)
 
 
@@ -75,6 +78,7 @@ class Box:
 
     def _hear(self, source: Source, order: Order) -> None:
         self._listener.hear(source, order)
+        self.tracker.heard(source, order)
         self._follower.heard(source, order)
 
     def _now(self) -> Now:
