@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import time
 from contextlib import suppress
+from dataclasses import replace
 
 from rotator.assembly.settings import build_mount, planned_motors
 from rotator.config.model import Config
 from rotator.config.sky import SkyTable
 from rotator.config.station import StationTable
-from rotator.control.sky.flight_plan import Antenna
+from rotator.control.sky.flight_plan import Antenna, PlannedMotor
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.sectors import Place
 from rotator.orbits.catalogue import Catalogue, Unknown
@@ -21,7 +22,7 @@ from rotator.orbits.sight import NotThere
 from rotator.orbits.targets import Fixed, find
 from rotator.orders import Order, Source
 from rotator.runtime.loop import ControlLoop
-from rotator.status import Status
+from rotator.status import AxisStatus, Status
 from rotator.tracking.follower import Follower
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
@@ -114,6 +115,16 @@ def wanted_often(table: SkyTable, sky: KnownSky) -> tuple[WantedOften, ...]:
     return tuple(found)
 
 
+def _as_learnt(motor: PlannedMotor, axis: AxisStatus) -> PlannedMotor:
+    """The plan knows one speed for both directions: the mean of what the box has found."""
+    if axis.learnt is None:
+        return motor
+    speed_dps, coast_deg = (
+        sum(getattr(each, name) for each in axis.learnt) / len(axis.learnt) for name in ("speed_dps", "coast_deg")
+    )
+    return replace(motor, speed_dps=speed_dps, coast_s=coast_deg / speed_dps)
+
+
 class TrackedBox:
     """The box as its tracker sees it: `rotator.tracking.tracker.Box`."""
 
@@ -126,10 +137,11 @@ class TrackedBox:
         return self._loop.status
 
     def antenna(self) -> Antenna | None:
-        azimuth_deg, elevation_deg = self._loop.status.azimuth.angle_deg, self._loop.status.elevation.angle_deg
-        if azimuth_deg is None or elevation_deg is None:
+        azimuth, elevation = self._loop.status.azimuth, self._loop.status.elevation
+        if azimuth.angle_deg is None or elevation.angle_deg is None:
             return None
-        return Antenna(self._mount, *self._motors, (azimuth_deg, elevation_deg))
+        motors = _as_learnt(self._motors[0], azimuth), _as_learnt(self._motors[1], elevation)
+        return Antenna(self._mount, *motors, (azimuth.angle_deg, elevation.angle_deg))
 
     def order(self, order: Order, source: Source = TRACK) -> None:
         self._loop.post(source, order)

@@ -68,7 +68,7 @@ class Box:
         self.planner = InThisProcess()
         self.clock_trusted = True
         sky = KnownSky(site, Catalogue((str(ELEMENTS),)))
-        tracked = TrackedBox(config, self.loop, mount)
+        self.tracked = tracked = TrackedBox(config, self.loop, mount)
         self.tracker = Tracker(sky, self.planner, tracked, lambda: self.clock_trusted)
         self._listener = StreamListener(sky, self.planner, tracked, lambda: self.utc_s, self.tracker.clock_trusted)
         self._follower = Follower(self.tracker, self.planner, tracked, lambda: wanted_often(config.sky, sky))
