@@ -15,7 +15,6 @@ from rotator.control.sky.mount import Mount
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import passes
-from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
 from rotator.orbits.targets import find
 from rotator.orders import Fly
@@ -24,8 +23,6 @@ from rotator.runtime.loop import ControlLoop
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.next_flight import (
     AHEAD_S,
-    SATELLITE_ROW_S,
-    SLOW_ROW_S,
     NextFlight,
     Now,
     Wanted,
@@ -78,6 +75,5 @@ def next_pass(config: Config, words: str, after_utc_s: float) -> tuple[Pass, Sky
         raise PassError(f"{target.name} does not rise within {AHEAD_S / 86_400:.0f} days")
     if found.aos_s is None or found.los_s is None or not math.isfinite(found.los_s - found.aos_s):
         raise PassError(f"{target.name} does not rise and set: there is no pass to fly")
-    row_s = SATELLITE_ROW_S if isinstance(target, Satellite) else SLOW_ROW_S
-    rows = target_path(target, found.aos_s, found.los_s, row_s, apart_s=found.aos_s).rows
+    rows = target_path(target, found.aos_s, found.los_s, apart_s=found.aos_s).rows
     return Pass(target.name, rows), SkyTarget(words, found.aos_s, config, site, catalogue)

@@ -14,7 +14,7 @@ from dataclasses import replace
 from rotator.orbits.recognition import Recognised, StreamWatch
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.orders import Fly, Order, Source
+from rotator.orders import Order, Source
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.next_flight import Now, Wanted
 from rotator.tracking.tracker import Box, Planner
@@ -40,8 +40,7 @@ class StreamListener:
         self._watch = StreamWatch(sky.satellites())
 
     def hear(self, source: Source, order: Order) -> None:
-        if not isinstance(order, Fly):
-            self._heard.append((source, order, self._utc()))
+        self._heard.append((source, order, self._utc()))
 
     def know(self) -> None:
         """The elements have changed."""

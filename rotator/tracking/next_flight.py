@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.route import Way
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
@@ -78,10 +79,16 @@ def next_flight(wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
     found = next(passes(target, now.utc_s, now.utc_s + AHEAD_S), None)
     if found is None:
         raise NeverRises(f"{target.name} does not rise within {AHEAD_S / 86_400:.0f} days")
-    begin_s, end_s = _span(found, now.utc_s)
-    row_s = SATELLITE_ROW_S if wanted.elements is not None else SLOW_ROW_S
-    path = target_path(target, begin_s, end_s, row_s, now.apart_s)
-    order = plan_flight(target.name, path, antenna, now.loop_s).order
+    return flight_between(target, found, _span(found, now.utc_s), antenna, now)
+
+
+def flight_between(
+    target: Target, found: Pass, span_s: tuple[float, float], antenna: Antenna, now: Now, *, begin_on: Way | None = None
+) -> NextFlight:
+    """The part of a pass from one moment of UTC to another, planned whole. `begin_on`: as in `plan_flight`."""
+    begin_s, end_s = span_s
+    path = target_path(target, begin_s, end_s, now.apart_s)
+    order = plan_flight(target.name, path, antenna, now.loop_s, begin_on=begin_on).order
     sets_s = math.inf if found.los_s is None else found.los_s - now.apart_s
     order = replace(order, sets_s=sets_s, expected_error_deg=_error_deg(target, begin_s, end_s))
     return NextFlight(begin_s, end_s, order)
@@ -99,8 +106,9 @@ def rest_flight(wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
     return replace(order, sets_s=rest.sets_s - now.apart_s, expected_error_deg=error_deg)
 
 
-def target_path(target: Target, begin_s: float, end_s: float, row_s: float, apart_s: float = 0.0) -> KnownPath:
+def target_path(target: Target, begin_s: float, end_s: float, apart_s: float) -> KnownPath:
     """Where it is from one moment of UTC to another, on a clock that is `apart_s` behind UTC."""
+    row_s = SATELLITE_ROW_S if isinstance(target, Satellite) else SLOW_ROW_S
     count = max(2, math.ceil((end_s - begin_s) / row_s) + 1)
     moments_s = [min(begin_s + index * row_s, end_s) for index in range(count - 1)] + [max(end_s, begin_s + row_s)]
     rows = []

@@ -5,11 +5,11 @@ Knows the followed targets as plain values, so that another process can compute 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from rotator.control.sky.flight_plan import Antenna, plan_flight
-from rotator.tracking.next_flight import SATELLITE_ROW_S, SLOW_ROW_S, NextFlight, Now, Wanted, target_path
-from rotator.tracking.planned import Flight, Followed, PlannedPass
+from rotator.control.sky.flight_plan import Antenna
+from rotator.tracking.next_flight import NextFlight, Now, Wanted, flight_between
+from rotator.tracking.planned import Followed
 from rotator.tracking.schedule import schedule
 
 PLANNED_S = 86_400.0
@@ -25,6 +25,10 @@ class WantedOften:
     priority: float
     min_culmination_deg: float
 
+    def followed(self) -> Followed:
+        """As the plan of many passes takes it. Raises NotThere, Unknown."""
+        return Followed(self.wanted.target(), self.priority, self.min_culmination_deg)
+
 
 @dataclass(frozen=True, slots=True)
 class Upcoming:
@@ -36,27 +40,16 @@ class Upcoming:
 
 def next_followed(followed: tuple[WantedOften, ...], antenna: Antenna, now: Now) -> Upcoming | None:
     """None: there is nothing to fly for a day."""
-    targets = {each.wanted.target().name: each for each in followed}
-    planned = schedule(
-        [Followed(each.wanted.target(), each.priority, each.min_culmination_deg) for each in followed],
-        antenna,
-        now.utc_s,
-        now.utc_s + PLANNED_S,
-    )
-    flights = [(each.flight.set_off_s, each, each.flight) for each in planned if each.flight is not None]
+    wishes = [each.followed() for each in followed]
+    targets = {each.target.name: each.target for each in wishes}
+    planned = schedule(wishes, antenna, now.utc_s, now.utc_s + PLANNED_S)
+    flights = [(each.flight.set_off_s, each.found, each.flight) for each in planned if each.flight is not None]
     if not flights:
         return None
-    set_off_s, first, flight = min(flights, key=lambda each: each[0])
+    set_off_s, found, flight = min(flights, key=lambda each: each[0])
     if set_off_s > now.utc_s + SOON_S:
         return Upcoming(set_off_s, None)
-    return Upcoming(set_off_s, _flight(first, flight, targets[first.name].wanted, antenna, now))
-
-
-def _flight(planned: PlannedPass, flight: Flight, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
-    target = wanted.target()
-    row_s = SATELLITE_ROW_S if wanted.elements is not None else SLOW_ROW_S
-    path = target_path(target, flight.begin_s, flight.end_s, row_s, now.apart_s)
-    order = plan_flight(target.name, path, antenna, now.loop_s, begin_on=flight.begin_on).order
-    sets_s = planned.found.los_s
-    late = order if sets_s is None else replace(order, sets_s=sets_s - now.apart_s)
-    return NextFlight(flight.begin_s, flight.end_s, late)
+    span_s = flight.begin_s, flight.end_s
+    return Upcoming(
+        set_off_s, flight_between(targets[found.name], found, span_s, antenna, now, begin_on=flight.begin_on)
+    )
