@@ -21,8 +21,9 @@ from rotator.assembly.hands import hands
 from rotator.assembly.links import build_links
 from rotator.assembly.panel import panel_thread
 from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
-from rotator.assembly.sky import build_sky, build_tracking
+from rotator.assembly.sky import build_sky
 from rotator.assembly.station import Station
+from rotator.assembly.tracking import build_tracking
 from rotator.calibrating.at_start import CompassAtStart, watch
 from rotator.calibrating.compass import CompassReader
 from rotator.calibrating.facts import north_facts

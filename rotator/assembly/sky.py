@@ -1,38 +1,15 @@
-"""The sky over the station that a configuration names: its place, satellites, the clock, a tracker."""
+"""The sky over the station that a configuration names: its place, its satellites, the system's clock."""
 
 from __future__ import annotations
 
 import time
-from contextlib import suppress
-from dataclasses import replace
 
-from rotator.assembly.settings import build_mount, planned_motors
-from rotator.config.model import Config
 from rotator.config.sky import SkyTable
 from rotator.config.station import StationTable
-from rotator.control.sky.flight_plan import Antenna, PlannedMotor
-from rotator.control.sky.mount import Mount
-from rotator.control.sky.sectors import Place
-from rotator.orbits.catalogue import Catalogue, Unknown
+from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
 from rotator.orbits.locator import from_locator
-from rotator.orbits.satellite import Satellite
-from rotator.orbits.sight import NotThere
-from rotator.orbits.targets import Fixed, find
-from rotator.orders import Order, Source
-from rotator.runtime.loop import ControlLoop
-from rotator.status import AxisStatus, Status
-from rotator.tracking.follower import Follower
-from rotator.tracking.known_sky import KnownSky
-from rotator.tracking.listener import StreamListener
-from rotator.tracking.next_flight import Wanted
-from rotator.tracking.next_followed import WantedOften
-from rotator.tracking.planned import Followed
-from rotator.tracking.planner import ProcessPlanner
-from rotator.tracking.system_clock import SystemClock
-from rotator.tracking.thread import TrackingThread
-from rotator.tracking.tracker import TRACK, Tracker
 
 
 def build_site(station: StationTable) -> Site | None:
@@ -54,102 +31,3 @@ def build_sky(station: StationTable) -> Sky | None:
 def build_catalogue(sky: SkyTable) -> Catalogue:
     """Files that cannot be read are among its faults."""
     return Catalogue(sky.elements)
-
-
-def build_followed(sky: SkyTable, site: Site, catalogue: Catalogue) -> tuple[list[Followed], list[str]]:
-    """What `[[sky.follow]]` names, and a sentence for each table whose target is not known or never rises."""
-    followed: dict[str, Followed] = {}
-    faults = []
-    for number, table in enumerate(sky.follow):
-        where = f"sky.follow[{number}]"
-        try:
-            target = find(table.name, site, catalogue)
-        except (Unknown, NotThere) as reason:
-            faults.append(f"{where}: {reason}")
-            continue
-        if isinstance(target, Fixed):
-            faults.append(f'{where}: "{table.name}" is a fixed direction: it has no passes')
-        elif target.name in followed:
-            faults.append(f'{where}: "{table.name}" is {target.name}, which is followed already')
-        else:
-            followed[target.name] = Followed(target, table.priority, table.min_culmination_deg)
-    return list(followed.values()), faults
-
-
-def build_antenna(config: Config, stands_deg: Place | None = None) -> Antenna:
-    """As a plan sees it: at the park position, unless told where it stands."""
-    mount = build_mount(config)
-    azimuth, elevation = planned_motors(config)
-    return Antenna(mount, azimuth, elevation, stands_deg or (mount.park_azimuth_deg, mount.park_elevation_deg))
-
-
-def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingThread | None:
-    """Not started yet; None where the file names no place."""
-    site = build_site(config.station)
-    if site is None:
-        return None
-    sky, planner, box = KnownSky(site, build_catalogue(config.sky)), ProcessPlanner(), TrackedBox(config, loop, mount)
-    clock, simulated = SystemClock(), config.rotor.hardware == "sim"
-    # A simulated rotor may live at any time.
-    tracker = Tracker(sky, planner, box, lambda: simulated or clock.is_set)
-    listener = StreamListener(sky, planner, box, time.time, tracker.clock_trusted)
-    follower = Follower(tracker, planner, box, lambda: wanted_often(config.sky, sky))
-
-    def hear(source: Source, order: Order) -> None:
-        listener.hear(source, order)
-        tracker.heard(source, order)
-        follower.heard(source, order)
-
-    loop.overhear(hear)
-    return TrackingThread(tracker, follower, listener, sky, planner=planner, clock=clock)
-
-
-def wanted_often(table: SkyTable, sky: KnownSky) -> tuple[WantedOften, ...]:
-    """What `[[sky.follow]]` names, as far as it is known now."""
-    found = []
-    for each in table.follow:
-        with suppress(Unknown, NotThere):
-            wanted = sky.find(each.name)
-            if isinstance(wanted, Wanted):
-                found.append(WantedOften(wanted, each.priority, each.min_culmination_deg))
-    return tuple(found)
-
-
-def _as_learnt(motor: PlannedMotor, axis: AxisStatus) -> PlannedMotor:
-    """The plan knows one speed for both directions: the mean of what the box has found."""
-    if axis.learnt is None:
-        return motor
-    speed_dps, coast_deg = (
-        sum(getattr(each, name) for each in axis.learnt) / len(axis.learnt) for name in ("speed_dps", "coast_deg")
-    )
-    return replace(motor, speed_dps=speed_dps, coast_s=coast_deg / speed_dps)
-
-
-class TrackedBox:
-    """The box as its tracker sees it: `rotator.tracking.tracker.Box`."""
-
-    def __init__(self, config: Config, loop: ControlLoop, mount: Mount) -> None:
-        self._loop = loop
-        self._mount = mount
-        self._motors = planned_motors(config)
-
-    def status(self) -> Status:
-        return self._loop.status
-
-    def antenna(self) -> Antenna | None:
-        azimuth, elevation = self._loop.status.azimuth, self._loop.status.elevation
-        if azimuth.angle_deg is None or elevation.angle_deg is None:
-            return None
-        motors = _as_learnt(self._motors[0], azimuth), _as_learnt(self._motors[1], elevation)
-        return Antenna(self._mount, *motors, (azimuth.angle_deg, elevation.angle_deg))
-
-    def order(self, order: Order, source: Source = TRACK) -> None:
-        self._loop.post(source, order)
-
-
-def build_satellites(config: Config) -> list[Satellite]:
-    """Those whose elements the configuration names, as the station sees them; none without a place."""
-    site = build_site(config.station)
-    if site is None:
-        return []
-    return KnownSky(site, build_catalogue(config.sky)).satellites()

@@ -13,11 +13,12 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from rotator.assembly.sky import build_antenna, build_followed
+from rotator.assembly.tracking import build_antenna, wanted_often
 from rotator.cli.utc import clock_time, day, iso, local_time
 from rotator.config.model import Config
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
+from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.planned import Followed, PlannedPass
 from rotator.tracking.schedule import schedule
 
@@ -32,10 +33,10 @@ NARROW = 64
 
 def followed_by(config: Config, site: Site, catalogue: Catalogue) -> list[Followed]:
     """What `[[sky.follow]]` names. Says which targets are not known."""
-    followed, faults = build_followed(config.sky, site, catalogue)
+    wanted, faults = wanted_often(config.sky, KnownSky(site, catalogue))
     for fault in faults:
         click.echo(fault, err=True)
-    return followed
+    return [each.followed() for each in wanted]
 
 
 def planned(config: Config, followed: Sequence[Followed], from_s: float, hours: float) -> tuple[PlannedPass, ...]:

@@ -16,8 +16,8 @@ from firmware_sim.rotors.rotor import SimRotor
 from rotator.assembly.arduino import arduino_station
 from rotator.assembly.settings import build_controller, build_mount, build_offsets, planned_motors
 from rotator.assembly.simulation import simulated_boom
-from rotator.assembly.sky import build_satellites
 from rotator.assembly.station import Station
+from rotator.assembly.tracking import build_satellites
 from rotator.config.model import Config
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.flight_plan import Antenna, plan_flight

@@ -8,7 +8,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from rotator.assembly.sky import TrackedBox, build_catalogue, build_site
+from rotator.assembly.sky import build_catalogue, build_site
+from rotator.assembly.tracking import TrackedBox
 from rotator.config.model import Config
 from rotator.control.sky.flight_plan import Antenna
 from rotator.control.sky.mount import Mount

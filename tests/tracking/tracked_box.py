@@ -10,8 +10,8 @@ from pathlib import Path
 
 from firmware_sim.clock import SimClock
 from rotator.assembly.settings import build_controller, build_mount
-from rotator.assembly.sky import TrackedBox, wanted_often
 from rotator.assembly.station import Station
+from rotator.assembly.tracking import TrackedBox, wanted_often
 from rotator.config.load import parse
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.flight_plan import Antenna
@@ -71,7 +71,7 @@ class Box:
         self.tracked = tracked = TrackedBox(config, self.loop, mount)
         self.tracker = Tracker(sky, self.planner, tracked, lambda: self.clock_trusted)
         self._listener = StreamListener(sky, self.planner, tracked, lambda: self.utc_s, self.tracker.clock_trusted)
-        self._follower = Follower(self.tracker, self.planner, tracked, lambda: wanted_often(config.sky, sky))
+        self._follower = Follower(self.tracker, self.planner, tracked, lambda: wanted_often(config.sky, sky)[0])
         self.loop.overhear(self._hear)
         self._begin_utc_s = begin_utc_s
         self.wait(1.0)
