@@ -1,4 +1,4 @@
-"""The names of senders as a person reads them: `console#8` is a command that somebody typed in a terminal.
+"""The names of senders as a person reads them: `console#8` is a command that a person typed in a terminal.
 
 Knows the form of such a name. Logs and objects for programs keep the name itself, which tells two connections apart.
 """

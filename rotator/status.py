@@ -99,7 +99,7 @@ class AxisStatus:
 
     @property
     def points_deg(self) -> float | None:
-        """Where the boom points, as programs are told it: on the turn of the axis, and above 90° over the top."""
+        """Where the boom points, as programs read it: on the turn of the axis, and above 90° over the top."""
         return None if self.shown_deg is None else self.shown_deg + self.correction_deg
 
     @property

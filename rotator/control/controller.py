@@ -250,8 +250,8 @@ class Controller:
             self._moved_s = now_s
 
     def _fly_for_stream(self, order: Fly, source: Source, now_s: float) -> None:
-        """What a recognised stream asks for, flown as planned. It takes the antenna from nobody: the plan took a while
-        to compute, and what has happened since stays in force."""
+        """What a recognised stream asks for, flown as planned. It takes the antenna from no other sender: the plan took
+        a while to compute, and what has happened since stays in force."""
         moves = self._authority.controlled_by == source and not self._timed.running
         if not moves or any(control.fault for control in self._axes.values()):
             return

@@ -130,7 +130,7 @@ class BoxPlant:
         utc_s: float | None = None,
         target: SkyTarget | None = None,
     ) -> None:
-        """`target`: what the box tracks by itself, by its own elements; None: the pass is told to it.
+        """`target`: what the box tracks by itself, by its own elements; None: it gets the pass.
 
         `utc_s`: when the pass begins; None: no satellite is recognised.
         """

@@ -80,7 +80,7 @@ class Desk:
 
     @property
     def status(self) -> Status:
-        """As of the last step, made once somebody looks."""
+        """As of the last step, made when a test reads it."""
         if self._status is None:
             self._status = self.controller.status(self.now_s)
         return self._status

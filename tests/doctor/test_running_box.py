@@ -1,4 +1,4 @@
-"""What the doctor is told by the box that runs: its faults count as errors, what holds it as warnings."""
+"""What the doctor reads from the running box: its faults count as errors, what holds it as warnings."""
 
 from __future__ import annotations
 

@@ -92,7 +92,7 @@ class BenchBox:
         }
         self._controller = Controller(Settings(axes[Axis.AZIMUTH], axes[Axis.ELEVATION], self._mount, PERIOD_S))
         self._status: Status | None = None
-        """As of the last cycle, once somebody has asked for it."""
+        """As of the last cycle, made when a test reads it."""
 
     def status(self) -> Status:
         if self._status is None:

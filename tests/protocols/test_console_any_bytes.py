@@ -93,7 +93,7 @@ def confirm(axis: bytes, angle: float) -> Order | None:
 
 
 def point(azimuth: float, elevation: float) -> Order | None:
-    # A person who names a turn or an elevation that this rotor has not is told so.
+    # A person who names a turn or an elevation beyond this rotor's range gets an error.
     if not (-180 <= azimuth <= 450 and 0 <= elevation <= 180):
         return None
     return Aim(azimuth + 360 if azimuth < 0 else azimuth, elevation)

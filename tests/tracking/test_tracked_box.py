@@ -1,4 +1,4 @@
-"""What a plan is told of the running box: its motors as they were learnt, in place of what the file says."""
+"""What a plan knows of the running box: its motors as they were learnt, in place of what the file says."""
 
 from __future__ import annotations
 
