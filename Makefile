@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests docs reference drills test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines bench fuzz soak mutants picture picture-gpredict drawings dist deb lock clean
+.PHONY: run test check tests docs reference drills test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -22,9 +22,9 @@ check: $(VENV)/.dev
 
 # More at once than there are cores, for many tests wait for a foreign program's own pauses.
 tests: $(VENV)/.dev
-	$(BIN)/pytest -n 4 --dist worksteal $(TESTS)
+	$(BIN)/pytest -n 3 --dist worksteal $(TESTS)
 
-# Any bytes, any orders, any files: every test that searches, with all of its examples. `make test` tries a quarter of them.
+# Any bytes, any orders, any files, long sweeps: every test that searches, with all its cases. `make test` tries a quarter.
 test-search: $(VENV)/.dev
 	ROTATOR_SEARCH=whole $(BIN)/pytest -n 4 --dist worksteal -m "hypothesis or search" $(TESTS)
 
@@ -45,6 +45,10 @@ test-rotors: $(VENV)/.dev
 # The five machines as their builders have them, in real time: processes, threads, files, clients, power cuts.
 test-machines: $(VENV)/.dev
 	$(BIN)/pytest -n 8 --dist worksteal tests/machines
+
+# The page in Debian's Chromium, before the real program on a simulated rotor.
+test-page: $(VENV)/.dev
+	$(BIN)/pytest -n 2 --dist worksteal tests/page
 
 # install.sh and the .deb in Debian roots, amd64 and emulated arm64: as root, some minutes. The roots are kept in ~/.cache/gs232-rotator.
 test-install: $(VENV)/.release
@@ -70,10 +74,12 @@ bench: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.rotors
 	$(BIN)/python -m benchmarks.mount
 	$(BIN)/python -m benchmarks.schedule
+	$(BIN)/python -m benchmarks.scan
 	$(BIN)/python -m benchmarks.faults
 	$(BIN)/python -m benchmarks.latency
 	$(BIN)/python -m benchmarks.startup
 	$(BIN)/python -m benchmarks.clients
+	$(BIN)/python -m benchmarks.page
 
 # Hostile bytes on every link of two running boxes, for ten minutes or as long as MINUTES says.
 fuzz: $(VENV)/.dev
@@ -95,6 +101,10 @@ mutants: $(VENV)/.mutants
 # The picture of it running, from the running box itself.
 picture: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.screenshot docs/img/run.svg
+
+# The pictures of the page, from the running box itself, in Chromium.
+picture-page: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.page_pictures docs/img
 
 # Gpredict's window while it tracks with the box: sudo apt install gpredict xvfb xdotool imagemagick
 picture-gpredict: $(VENV)/.dev

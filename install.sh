@@ -21,7 +21,7 @@ It says what it would do, asks, and only then does it.
   --wheels DIR      take everything from DIR, nothing from the network
   --arch ARCH       for --fetch-wheels: arm64, armhf or amd64; this machine's unless given
 
-A configuration of moteus controllers, or of chips on the kernel's SPI, brings the packages that these need.
+A configuration of moteus controllers, of chips on the kernel's SPI, or of a broker brings the packages that these need.
 Another Python than python3: sudo PYTHON=python3.12 ./install.sh
 END
 }

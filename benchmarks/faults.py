@@ -228,12 +228,19 @@ def worst(drill: Drill) -> float:
 
 def table() -> str:
     """What docs/safety.md shows."""
-    rows = ["| fault | what is injected | limit | relays off after |", "| --- | --- | --- | --- |"]
-    for drill in DRILLS:
-        name = f"[{drill.fault}](troubleshooting.md#{drill.fault.replace(' ', '-')})"
-        kind = " (notice)" if drill.notice else ""
-        rows.append(f"| {name}{kind} | {drill.injected} | {drill.limit_s:g} s | {worst(drill):.2f} s |")
-    return "\n".join(rows) + "\n"
+    lines = ["fault | what is injected | limit | relays off after", "--|--|--|--"]
+    lines += [row(number, worst(drill)) for number, drill in enumerate(DRILLS)]
+    return "\n".join(lines) + "\n"
+
+
+def row(number: int, worst_s: float) -> str:
+    """A fault is named once, in the first of its rows."""
+    drill = DRILLS[number]
+    name = f"[{drill.fault}](troubleshooting.md#{drill.fault.replace(' ', '-')}){' (notice)' if drill.notice else ''}"
+    before = DRILLS[number - 1]
+    if number and (before.fault, before.notice) == (drill.fault, drill.notice):
+        name = "|"
+    return f"{name} | {drill.injected} | {drill.limit_s:g} s | {worst_s:.2f} s"
 
 
 if __name__ == "__main__":

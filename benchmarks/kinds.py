@@ -17,8 +17,9 @@ from multiprocessing import get_context
 from benchmarks.passes import mean
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
-from rotator.rehearsal.flight import Sample, Summary, fly, plant_maker
+from rotator.rehearsal.flight import Summary, fly, plant_maker
 from rotator.rehearsal.passes import SHIPPED, read_pass
+from rotator.views.trace import Sample
 
 AWAY_DEG = 10.0
 """Off by this much, a second is lost."""
@@ -103,18 +104,18 @@ def row(name: str, flights: list[Flight]) -> str:
     starts = [summary.relay_starts for summary in each]
     told = "–" if None in starts else f"{mean([float(count or 0) for count in starts]):.1f}"
     return (
-        f"| {name} | {mean([s.rms_deg for s in each]):.3g}° (most {max(s.rms_deg for s in each):.3g}°) "
-        f"| {mean([s.p95_deg for s in each]):.3g}° (most {max(s.p95_deg for s in each):.3g}°) "
+        f"{name} | {mean([s.rms_deg for s in each]):.3g}° ({max(s.rms_deg for s in each):.3g}°) "
+        f"| {mean([s.p95_deg for s in each]):.3g}° ({max(s.p95_deg for s in each):.3g}°) "
         f"| {max(s.max_deg for s in each):.3g}° | {told} "
-        f"| {max(flight.away_s for flight in flights):.1f} s | {max(flight.swings for flight in flights)} |"
+        f"| {max(flight.away_s for flight in flights):.1f} s | {max(flight.swings for flight in flights)}"
     )
 
 
 def markdown(flights: list[Flight]) -> str:
     """A row for each kind; where north is an end of the range, the passes across it have one of their own."""
     rows = [
-        "| rotor | rms, mean | 95 % within | worst | starts | longest beyond 10° | swings |",
-        "|---|---|---|---|---|---|---|",
+        "rotor | rms: mean (most) | 95 % within: mean (most) | worst | starts | longest beyond 10° | swings",
+        "--|--|--|--|--|--|--",
     ]
     for kind in dict.fromkeys(flight.kind for flight in flights):
         mine = [flight for flight in flights if flight.kind == kind]
@@ -128,12 +129,12 @@ def markdown(flights: list[Flight]) -> str:
 
 
 def details(flights: list[Flight]) -> str:
-    rows = ["| rotor | pass | rms | 95 % | worst | starts | beyond 10° | swings |", "|---|---|---|---|---|---|---|---|"]
+    rows = ["rotor | pass | rms | 95 % | worst | starts | beyond 10° | swings", "--|--|--|--|--|--|--|--"]
     for flight in flights:
         each = flight.summary
         rows.append(
-            f"| {flight.kind.name} | {flight.pass_name} | {each.rms_deg:.3f}° | {each.p95_deg:.3f}° "
-            f"| {each.max_deg:.2f}° | {each.relay_starts} | {flight.away_s:.1f} s | {flight.swings} |"
+            f"{flight.kind.name} | {flight.pass_name} | {each.rms_deg:.3f}° | {each.p95_deg:.3f}° "
+            f"| {each.max_deg:.2f}° | {each.relay_starts} | {flight.away_s:.1f} s | {flight.swings}"
         )
     return "\n".join(rows)
 

@@ -12,6 +12,7 @@ import json
 import os
 import random
 import select
+import socket
 import statistics
 import subprocess
 import sys
@@ -29,6 +30,8 @@ protocol = "gs232b"
 pty = "{folder}/gs232"
 [state]
 path = "{folder}/state.json"
+[page]
+listen = "127.0.0.1:{port}"
 [relays]
 dead_time_s = 0.05
 [sim.azimuth]
@@ -131,7 +134,10 @@ def measure(seconds: float) -> Result:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         config = folder / "rotator.toml"
-        config.write_text(CONFIG.format(folder=folder))
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            port = probe.getsockname()[1]
+        config.write_text(CONFIG.format(folder=folder, port=port))
         box = subprocess.Popen([sys.executable, "-c", BOX, str(config)], stdout=subprocess.PIPE, text=True)
         try:
             while not (folder / "gs232").exists():

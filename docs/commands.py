@@ -13,7 +13,7 @@ from rotator.protocols.status_object import tables
 PAGE = Path(__file__).parent / "reference" / "commands.md"
 HEAD = """# Commands
 
-For a person, or a script, at the Pi. `rotator --help` lists the commands, `rotator COMMAND --help` has examples. A
+`rotator --help` lists the commands, `rotator COMMAND --help` has examples. A
 number may have a decimal point or a comma. `point`, `jog`, `park` and `home` wait until the antenna stands; Ctrl-C
 stops it.
 
@@ -30,8 +30,8 @@ The fields stay; new ones may come. `rotator tell status json` prints the same o
 
 
 def page() -> str:
-    codes = "\n".join(f"| {code} | {meaning} |" for code, meaning in EXIT_CODES.items())
-    return f"{HEAD}## Exit codes\n\n| code | meaning |\n| --- | --- |\n{codes}\n{STATUS}{tables()}\n"
+    codes = "\n".join(f"{code} | {meaning}" for code, meaning in EXIT_CODES.items())
+    return f"{HEAD}## Exit codes\n\ncode | meaning\n--|--\n{codes}\n{STATUS}{tables()}\n"
 
 
 if __name__ == "__main__":

@@ -24,10 +24,10 @@ DOCS = Path(__file__).resolve().parent
 
 
 def console_table() -> str:
-    rows = ["| say | what it does |", "| --- | --- |"]
+    rows = ["say | what it does", "--|--"]
     for verb in VERBS:
         usage = verb.usage.replace("|", "\\|")
-        rows.append(f"| `{usage}` | {verb.help} |")
+        rows.append(f"`{usage}` | {verb.help}")
     return "\n".join(rows) + "\n"
 
 

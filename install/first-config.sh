@@ -9,3 +9,7 @@ case $text in
     *'[state]'*) ;;
     *) printf '\n[state]\npath = "/var/lib/rotator/state.json"\n' ;;
 esac
+case $text in
+    *'[page]'*) ;;
+    *) printf '\n[page]  # on private networks anyone may look and STOP; to move the antenna a browser is paired: rotator pair\nlisten = "0.0.0.0:8232"\n' ;;
+esac

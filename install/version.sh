@@ -12,6 +12,7 @@ check_python() {
 MOTEUS='moteus>=1.1,<2'
 MOTEUS_NEEDS=(importlib-metadata packaging 'python-can>=4.3')
 SPIDEV='spidev>=3.6'
+PAHO='paho-mqtt>=2.1,<3'
 
 find_extras() { # sets extras: what the configuration that is there, or else the profile, needs beside the rest
     extras=$("$PYTHON" - "$CONFIG" "$source_at" "rotator/config/profiles/$profile.toml" <<'END'
@@ -29,9 +30,10 @@ try:
     rotor = file["rotor"]
     kind, is_pi = rotor.get("type"), rotor.get("hardware") == "pi"
     on_spi = is_pi and any(isinstance(table, dict) and table.get("spi") == "kernel" for table in file.values())
+    has_broker = "broker" in file.get("mqtt", {})
 except (OSError, KeyError, ValueError, AttributeError, TypeError, zipfile.BadZipFile):
     sys.exit()  # a profile there is not, or a file that is wrong: the program itself says so, in a moment
-print(*["moteus"] * (kind == "moteus"), *["spidev"] * on_spi)
+print(*["moteus"] * (kind == "moteus"), *["spidev"] * on_spi, *["paho"] * has_broker)
 END
     )
 }
@@ -80,6 +82,7 @@ build_version() { # The print goes in last and says that the folder is whole.
     if [ -n "$wheels" ]; then from=(--no-index --find-links "$wheels"); fi
     case $extras in *moteus*) more+=("${MOTEUS_NEEDS[@]}") ;; esac
     case $extras in *spidev*) more+=("$SPIDEV") ;; esac
+    case $extras in *paho*) more+=("$PAHO") ;; esac
     {
         make_environment "$version_at" && put_in "${from[@]}" "$source_at" "${more[@]}" &&
             case $extras in *moteus*) put_in "${from[@]}" --no-deps "$MOTEUS" ;; esac &&

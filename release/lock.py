@@ -24,7 +24,7 @@ def write(source: Source) -> Path:
         text = run(
             *(sys.executable, "-m", "uv", "pip", "compile", "--quiet", "--universal", "--python-version", "3.11"),
             *("--upgrade", "--generate-hashes", "--no-header", "--no-annotate", "--no-emit-index-url"),
-            *("--extra", "moteus", "--overrides", never, "pyproject.toml"),
+            *("--extra", "moteus", "--extra", "mqtt", "--overrides", never, "pyproject.toml"),
             epoch_s=source.epoch_s,
             cwd=source.folder,
         )

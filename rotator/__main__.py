@@ -14,6 +14,7 @@ UNWRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EPIPE)
 
 def main() -> None:
     _open_closed_streams()
+    _stand_somewhere()
     try:
         _run()
     except KeyboardInterrupt:  # while the program still loads or starts: later each command handles it itself
@@ -39,6 +40,17 @@ def _open_closed_streams() -> None:
                 os.close(nothing)
         if getattr(sys, name) is None:
             setattr(sys, name, open(fd, mode, closefd=False))  # noqa: SIM115 - it stays open to the end
+
+
+def _stand_somewhere() -> None:
+    """The folder may have been deleted, and made anew by `git clone`: a stop works from there, too."""
+    try:
+        os.getcwd()
+    except OSError:
+        if sys.argv[1:2] != ["stop"]:
+            sys.stderr.write("rotator: this folder has been deleted: go into another one, or into the new one (cd .)\n")
+            sys.exit(NOT_DONE)
+        os.chdir("/")
 
 
 def _run() -> None:

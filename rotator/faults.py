@@ -131,6 +131,38 @@ class FaultKind(Enum):
         return self.text.replace(" ", "-")
 
 
+POT = "pot"
+OF_ANOTHER_SENSOR = {
+    FaultKind.POT_OPEN: ("SENSOR shows no angle", "NO ANGLE", "Check the SENSOR's wires, its supply and its place"),
+    FaultKind.POT_JUMPS: (
+        "SENSOR jumps",
+        "ANGLE JUMPS",
+        "Look for a loose wire or magnet, your own transmitter, or an angle that was confirmed wrong",
+    ),
+    FaultKind.BAD_READINGS: (
+        FaultKind.BAD_READINGS.text,
+        FaultKind.BAD_READINGS.lcd,
+        "Look for a loose wire, or motor cables beside the SENSOR's",
+    ),
+    FaultKind.WRONG_WAY: (
+        "SENSOR moves the wrong way",
+        FaultKind.WRONG_WAY.lcd,
+        "Look which way the antenna turned: swap the motor's two directions, or those of the SENSOR",
+    ),
+    FaultKind.STANDS_STILL: (
+        "motor runs and SENSOR stands still",
+        FaultKind.STANDS_STILL.lcd,
+        FaultKind.STANDS_STILL.advice,
+    ),
+    FaultKind.RUN_TOO_LONG: (
+        FaultKind.RUN_TOO_LONG.text,
+        FaultKind.RUN_TOO_LONG.lcd,
+        "Look for a slow motor, or a SENSOR that slips on its shaft",
+    ),
+}
+"""What the faults that speak of a pot are called where another SENSOR reads the angle: text, LCD, and advice."""
+
+
 @dataclass(frozen=True, slots=True)
 class Fault:
     """One fault that stopped an axis: what was measured, the limit it broke, and the page that explains it."""
@@ -147,16 +179,33 @@ class Fault:
     """What a person must do this moment, in a few words in capitals; empty: nothing."""
     passing: bool = False
     """The fault ends with its cause, without being acknowledged."""
+    sensor: str = POT
+    """What reads the angle of this axis, in a word."""
+    advice: str = ""
+    """What a person does about it; empty: what its kind says."""
 
     @property
     def name(self) -> str:
         return self.kind.text
 
+    @property
+    def lcd(self) -> str:
+        """Its text on the LCD beside the axis."""
+        return self._words[1]
+
+    @property
+    def _words(self) -> tuple[str, str, str]:
+        """Text, LCD, and advice, as they fit the sensor of the axis."""
+        own = self.kind.text, self.kind.lcd, self.kind.advice
+        text, lcd, advice = own if self.sensor == POT else OF_ANOTHER_SENSOR.get(self.kind, own)
+        return text.replace("SENSOR", self.sensor), lcd, advice.replace("SENSOR", self.sensor)
+
     def __str__(self) -> str:
         loud = f"{self.act_now} " if self.act_now else ""
         limit = f", limit {self.limit}" if self.limit else ""
-        advice = self.kind.advice.replace("AXIS", self.axis.value)
-        seen = f"{self.axis.value}: {self.kind.text}: {self.measured}{limit}"
+        text, _, advice = self._words
+        advice = (self.advice or advice).replace("AXIS", self.axis.value)
+        seen = f"{self.axis.value}: {text}: {self.measured}{limit}"
         return f"{loud}{seen}. {advice} (see {self.page}#{self.kind.anchor})"
 
 

@@ -104,6 +104,9 @@ class Jog:
     axis: Axis
     direction: Direction
     seconds: float | None = None
+    held: bool = False
+    """A person holds a button over a network. The time counts from the order on, also while a relay waits, for no
+    later order may come. OFF: the button is let go, which ends this sender's own jog and nothing else."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,14 +169,14 @@ class Speed:
 
 
 class Mode(Enum):
-    """Which source may move the antenna: the position of a front panel's mode switch."""
+    """Which source may move the antenna: the position of a front panel's mode switch, or of that on the page."""
 
     AUTO = "auto"
     """The links, with the panel's nudges added."""
     MANUAL = "manual"
-    """The panel's knobs alone."""
+    """The panel's knobs alone; or the person who has set it."""
     JOG = "jog"
-    """The panel's jog switches alone."""
+    """The panel's jog switches alone; or the buttons that the person who has set it holds."""
     PARK = "park"
     """No source: the antenna stays where it is."""
 
@@ -235,7 +238,22 @@ class Leave:
     """The sender's connection has ended: its jog without a time and its stream end with it."""
 
 
-Personal = SetMode | Nudge | Home | Confirm | RelaysChecked | LetGo | Remark
+@dataclass(frozen=True, slots=True)
+class Take:
+    """A person takes the antenna: it stops, and holds it until `GiveBack`. Orders of programs have no effect then.
+
+    Not `stops`: what this person moves or tracks goes on.
+    """
+
+    stops: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class GiveBack:
+    """A person lets the programs move the antenna again."""
+
+
+Personal = SetMode | Nudge | Home | Confirm | RelaysChecked | LetGo | Remark | Take | GiveBack
 """Orders that only a person at the panel or on the console may give."""
 
 Pointing = Aim | Fly | LoadTimed | RunTimed | Park
@@ -244,8 +262,15 @@ Pointing = Aim | Fly | LoadTimed | RunTimed | Park
 Order = Pointing | Jog | Stop | Release | ClearTimed | Calibrate | Speed | Leave | Personal
 
 
-PERSONS = ("console", "panel", "calibrate")
+PAGE = "page"
+"""The page of the box: each of its paired browsers is a connection of this link."""
+CONSOLE, PANEL = "console", "panel"
+PERSONS = (CONSOLE, PANEL, "calibrate", PAGE)
 """What a person uses at the box, as the link of a source. No link of the configuration has such a name."""
+MQTT = "mqtt"
+"""The broker of [mqtt], as the link of a source: a program, however many stand behind it."""
+TRACKER = "track"
+"""What tracks a target because a person said so, as the link of a source."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,8 +282,18 @@ class Source:
 
     @property
     def is_person(self) -> bool:
-        """A person gives these orders at the box: at the console, at the panel, in a calibration."""
+        """A person gives these orders at the box: at the console, at the panel, on the page, in a calibration."""
         return self.link in PERSONS
+
+    @property
+    def holds(self) -> bool:
+        """What this person moves stays theirs until it is given back, for a person on the page looks away."""
+        return self.link == PAGE
+
+    @property
+    def may_be_held_off(self) -> bool:
+        """Whether its orders have no effect while a person holds the antenna: programs, and the page of another."""
+        return self.link == PAGE or not (self.is_person or self.link == TRACKER)
 
     def __str__(self) -> str:
         return f"{self.link}#{self.connection}" if self.connection else self.link

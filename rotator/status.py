@@ -111,6 +111,11 @@ class AxisStatus:
         return not self.moving and off_deg <= self.tolerance_deg + AT_END_NOISES * self.noise_deg
 
     @property
+    def relays_in_doubt(self) -> bool:
+        """It matters to the axis that a person has seen its relays open."""
+        return self.fault is not None or self.waiting or Trust.DOUBTED in self.trusts or Trust.WELDED in self.trusts
+
+    @property
     def uncalibrated(self) -> str:
         """What this axis lacks, as text; empty: it is commissioned."""
         return ", ".join(f"{each.text} ({self.lost})" if each is Missing.HOMING else each.text for each in self.missing)
@@ -132,6 +137,16 @@ class Flown:
 
 
 @dataclass(frozen=True, slots=True)
+class Latch:
+    """A stop that only a person releases."""
+
+    by: str
+    """Who has stopped the antenna."""
+    storm: bool = False
+    """It is a storm park: the antenna may be sent to its park position, and nowhere else."""
+
+
+@dataclass(frozen=True, slots=True)
 class Status:
     at_s: float
     azimuth: AxisStatus
@@ -140,16 +155,20 @@ class Status:
     """The direction last ordered, as ordered: what the display calls SAT."""
     wanted_elevation_deg: float | None = None
     latched: str = ""
-    """The source of a stop that only a person releases; empty: there is none."""
+    """The source of a stop or storm park that only a person releases; empty: there is none."""
     storm: bool = False
-    """The stop that is latched is a storm park, and the antenna is at it."""
+    """What is latched is a storm park, and the antenna is at it."""
     controlled_by: str = ""
+    held_by: str = ""
+    """The person who has taken the antenna and not given it back; empty: there is none."""
     timed_point: int = 0
     timed_points: int = 0
     simulated: bool = False
     speed_level: int = 4
     mode: Mode = Mode.AUTO
-    """The position of the front panel's mode switch; without one, AUTO."""
+    """The position of the front panel's mode switch; without one, what a person has set: AUTO at the start."""
+    mode_by: str = ""
+    """Who has set it; empty: nobody, as at the start."""
     mode_switch: bool = False
     """A front panel has such a switch."""
     flown: Flown | None = None
@@ -161,6 +180,11 @@ class Status:
 
     def axis(self, axis: Axis) -> AxisStatus:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
+
+    @property
+    def latch(self) -> Latch | None:
+        """What has to survive the end of the program; None: nothing is latched."""
+        return Latch(self.latched, storm=self.storm) if self.latched else None
 
     @property
     def recognised(self) -> str:

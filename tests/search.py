@@ -1,16 +1,24 @@
 """How far a search goes: `make test` tries a quarter of the examples of each, `make test-search` all of them.
 
-Knows numbers of examples alone. A search is a test with hypothesis, or one with the mark
-`search` that draws its own cases. What it looks for is the same in both.
+Knows numbers of examples alone. A search is a test with hypothesis, or one with the mark `search`: it draws its own
+cases, or sweeps over many that are dear, each a world of its own. What it looks for is the same in both.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
+from typing import TypeVar
 
 WHOLE = os.environ.get("ROTATOR_SEARCH") == "whole"
 LEAST = 10
+Case = TypeVar("Case")
 
 
 def examples(most: int) -> int:
     return most if WHOLE else max(most // 4, min(most, LEAST))
+
+
+def some(cases: Sequence[Case]) -> Sequence[Case]:
+    """The cases of a sweep: every fourth from the first on, or all."""
+    return cases if WHOLE else cases[::4]

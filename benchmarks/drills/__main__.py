@@ -30,11 +30,12 @@ def main() -> None:
     seed = random.SystemRandom().randrange(1 << 31) if given.seed is None else given.seed
     if not given.json:
         print(f"seed {seed}", flush=True)
-    tallies, found = run(seed, given.hours, given.kind or "", first=given.first)
     if given.json:
+        tallies, found = run(seed, given.hours, given.kind or "", first=given.first)
         print(json.dumps(_as_dict(seed, tallies, found)))
     else:
-        print("\n".join([_table(tallies), *(_story(each) for each in found)]))
+        tallies, found = run(seed, given.hours, given.kind or "", first=given.first, tell=_tell)
+        print(_table(tallies))
     sys.exit(bool(found))
 
 
@@ -71,13 +72,14 @@ def _drawn(name: str) -> Drill:
     return draw(seed, kind)
 
 
-def _story(found: Found) -> str:
+def _tell(found: Found) -> None:
     KEPT.mkdir(parents=True, exist_ok=True)
     path = KEPT / f"{found.seed}-{found.drill.kind}.json"
     path.write_text(found.drill.to_json(), encoding="utf-8")
-    return (
+    print(
         f"\n{found.violation}\n{found.drill.to_json()}drawn from {found.seed}/{found.drill.kind}; "
-        f"replay it: python -m benchmarks.drills --replay {path}"
+        f"replay it: python -m benchmarks.drills --replay {path}\n",
+        flush=True,
     )
 
 

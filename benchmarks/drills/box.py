@@ -16,15 +16,15 @@ import tomlkit
 
 from benchmarks.drills.script import Drill
 from benchmarks.drills.speech import PROTOCOLS
+from benchmarks.drills.tracking import DrilledTracking
 from firmware_sim.clock import SimClock
 from firmware_sim.rotors.rotor import SimRotor
 from hw.ports import Axis
 from hw.safety.lines_off import switch_off
-from rotator.app import open_relays
 from rotator.assembly.hands import hands
 from rotator.assembly.links import session_maker
 from rotator.assembly.panel import panel_thread
-from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets
+from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets, build_relays_file
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.links import Link
@@ -71,7 +71,10 @@ def _merge(values: dict[str, Any], more: dict[str, Any]) -> None:
 class Box:
     """One run of the program. `world`: the simulated rotor that an earlier run has left; None: a new one."""
 
-    def __init__(self, drill: Drill, config: Config, folder: Path, clock: SimClock, world: SimRotor | None) -> None:
+    def __init__(
+        self, drill: Drill, config: Config, folder: Path, clock: SimClock, world: SimRotor | None, *, begun_s: float
+    ) -> None:
+        """`begun_s`: when the drill began, on the clock."""
         self.config = config
         self._clock = clock
         self._folder = folder
@@ -89,7 +92,7 @@ class Box:
         )
         assert self.station.world is not None
         self.world: SimRotor = self.station.world
-        learnt, relays = build_learnt(config), open_relays(config)
+        learnt, relays = build_learnt(config), build_relays_file(config)
         commissioning = Axis(drill.commissioning) if drill.commissioning else None
         trusts = relays.load() if relays else None
         controller = build_controller(config, learnt.load(), commissioning, trusts=trusts, panel=config.panel.fitted)
@@ -108,6 +111,9 @@ class Box:
         self._mount = build_mount(config)
         self._numbers = itertools.count(1)
         self._sessions: dict[str, tuple[Session, Client]] = {}
+        self._sources: dict[str, Source] = {}
+        """Of the sessions."""
+        self.tracking = DrilledTracking(config, self.loop, self._mount, clock, begun_s)
         self.panel = self._panel() if config.panel.fitted else None
 
     def cycle(self, *, blind: bool = False) -> None:
@@ -134,6 +140,12 @@ class Box:
         """The connection ends; the next bytes come on a new one."""
         if who in self._sessions:
             self._sessions.pop(who)[1].left()
+            del self._sources[who]
+
+    def recognise(self, who: str, words: str) -> None:
+        """The orders of this program have been recognised as an arc."""
+        if who in self._sources:
+            self.tracking.recognise(self._sources[who], words)
 
     def act(self) -> None:
         """The control thread is woken by an order."""
@@ -145,6 +157,7 @@ class Box:
 
     def end(self) -> None:
         """SIGTERM: a proper end. Raises HardwareError."""
+        self.tracking.end()
         for who in list(self._sessions):
             self.leave(who)
         self.loop.stop()
@@ -158,6 +171,7 @@ class Box:
     def die(self) -> None:
         """SIGKILL: nothing more is said to any chip, and the sentinel opens the lines that stop the motors."""
         self.alive = False
+        self.tracking.end()
         self.world.gpio.bury_process()
         self._clock.sleep(SENTINEL_S)
         if self.station.lines:
@@ -165,14 +179,14 @@ class Box:
 
     def _session(self, who: str) -> tuple[Session, Client]:
         if who not in self._sessions:
-            source = Source(who, next(self._numbers))
+            self._sources[who] = source = Source(who, next(self._numbers))
             client = Client(self.loop, self._mount, source, clock=self._clock)
             self._sessions[who] = self._speaks(who, client), client
         return self._sessions[who]
 
     def _speaks(self, who: str, client: Client) -> Session:
         if who.startswith("console"):
-            return ConsoleSession(client, hands(self.world))
+            return ConsoleSession(client, hands(self.world), self.tracking.tracker)
         place = {"udp": "127.0.0.1:12000"} if who == "pstrotator" else {"tcp": "127.0.0.1:4000"}
         calibrates = {"may_calibrate": True} if who == "gs232a" else {}
         return session_maker(Link.model_validate({"protocol": PROTOCOLS[who], **place, **calibrates}), client)

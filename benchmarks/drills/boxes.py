@@ -9,6 +9,8 @@ import random
 from dataclasses import dataclass
 from typing import Any
 
+from benchmarks.drills.arcs import draw_arc
+
 PANEL: dict[str, Any] = {
     "adc_address": 0x49,
     "azimuth_knob": 0,
@@ -141,6 +143,8 @@ def draw_mast(chance: random.Random, rotor: Rotor) -> Mast:
         tables["control"] = {"rate_hz": 20}  # as every other kind; its own 50 Hz costs more than twice as much
     if chance.random() < 0.25:
         _sector(chance, tables, start_deg, top_deg)
+    if chance.random() < 0.1:
+        tables["sky"] = {"follow": [{"name": draw_arc(chance, chance.uniform(0.0, 200.0))} for _ in range(2)]}
     commissioning = chance.choice(BOTH) if rotor.kind in ("relay-pot", "relay-pulse") and chance.random() < 0.15 else ""
     return Mast(rotor, tables, start_deg, top_deg, speed_dps, has_panel, has_switches, has_pots, commissioning)
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -107,8 +107,13 @@ def small_one(drill: Drill, violation: Violation) -> Found:
     return Found(shown, replace(least, seed=drill.seed))
 
 
-def run(seed: int, hours: float, kind: str = "", *, first: bool = False) -> tuple[dict[str, Tally], list[Found]]:
-    """A whole campaign, on the cores that it may use. `first`: it ends at the first violation, which stays as it is."""
+def run(
+    seed: int, hours: float, kind: str = "", *, first: bool = False, tell: Callable[[Found], None] = lambda _found: None
+) -> tuple[dict[str, Tally], list[Found]]:
+    """A whole campaign, on the cores that it may use. `first`: it ends at the first violation, which stays as it is.
+
+    `tell`: of each find at once, for a campaign may take hours.
+    """
     tallies: dict[str, Tally] = {}
     everything: list[Found] = []
     with ProcessPoolExecutor(len(os.sched_getaffinity(0)), mp_context=get_context("fork")) as pool:
@@ -119,6 +124,7 @@ def run(seed: int, hours: float, kind: str = "", *, first: bool = False) -> tupl
             tally.cpu_s += cpu_s
             for each in found:
                 tally.by_judge[each.violation.judge] += 1
+                tell(each)
             everything += found
             if first and found:
                 pool.shutdown(wait=False, cancel_futures=True)

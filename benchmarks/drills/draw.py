@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import random
 
+from benchmarks.drills.arcs import draw_arc
 from benchmarks.drills.boxes import BOTH, KINDS, ROTORS, Mast, draw_mast
 from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
 from benchmarks.drills.stories import stories
@@ -161,7 +162,12 @@ def _person(chance: random.Random, mast: Mast, who: str, seconds: float) -> list
     events = []
     for _ in range(chance.randrange(1, 8)):
         at_s = chance.uniform(0.0, seconds)
-        match chance.randrange(10):
+        match chance.randrange(12):
+            case 10:
+                events.append(_event(at_s, CLOCK, "plans", chance.choice((0.1, 1.0, 10.0))))
+                events.append(_event(at_s, who, "track", draw_arc(chance, at_s)))
+            case 11:
+                events.append(_event(at_s, who, "track", chance.choice(("off", "plan"))))
             case 0 | 1:
                 events.append(_event(at_s, who, "stop"))
                 if chance.random() < 0.7:

@@ -41,6 +41,10 @@ class FrontPanel:
     def settled(self) -> bool:
         return self._turn is None
 
+    def may_turn(self, now_s: float) -> bool:
+        """Whether the mode switch turns, and may count by now."""
+        return self._turn is not None and self._turn.since_s <= now_s
+
     def begin_anew(self) -> None:
         """The program begins anew, and reads the switch again."""
         self.mode = "auto"

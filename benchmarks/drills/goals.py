@@ -8,6 +8,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
+TURN_DEG, ZENITH_DEG = 360.0, 90.0
+
 
 @dataclass(frozen=True, slots=True)
 class Ranges:
@@ -16,6 +18,17 @@ class Ranges:
     low_deg: float
     high_deg: float
     flips: bool
+
+    def turns_deg(self, azimuth_deg: float, elevation_deg: float) -> list[float]:
+        """Every axis angle that shows there, on any turn, over the top too where it may be."""
+        over = self.flips or elevation_deg > ZENITH_DEG
+        bases = (azimuth_deg, azimuth_deg + TURN_DEG / 2) if over else (azimuth_deg,)
+        return [base % TURN_DEG + TURN_DEG * turn for base in bases for turn in range(-2, 3)]
+
+    def elevations_deg(self, elevation_deg: float) -> tuple[float, ...]:
+        over = self.flips or elevation_deg > ZENITH_DEG
+        angles = (elevation_deg, 180.0 - elevation_deg) if over else (elevation_deg,)
+        return tuple(min(max(angle, self.low_deg), self.high_deg) for angle in angles)
 
 
 @dataclass(slots=True)

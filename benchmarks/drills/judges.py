@@ -40,6 +40,8 @@ STREAM_LEAD_S = 5.0
 START_S = 0.5
 """So long a motor may take to get going; a shorter pulse of current is no try."""
 GOING_SHARE = 0.1
+MET_S = 0.7
+"""What holds an axis so soon after its relay opened might as well be the end of its coast."""
 CHATTER_S, CHATTER_STARTS, STARTS_AN_ORDER = 10.0, 20, 2
 """An order starts each axis once; so many more in that time are no control."""
 
@@ -76,6 +78,10 @@ class AxisCase:
     """Limit switches show its ends, also where it was never set up."""
     deaf: bool = False
     """The chip of its control box does not hear: only its supply stops it, as the master a welded relay."""
+    misplaced: bool = False
+    """Something may hold it where neither its limits nor its sensor say so."""
+    ran_on_s: float = 0.0
+    """For how long a welded relay has turned it since the box switched that relay off."""
     patience_s: float = TRY_S
     """How long it may take to see that it stands."""
     beyond_s: float = 0.0
@@ -150,11 +156,16 @@ class Judges:
                 # run of a counting axis, and in a calibration, where a person watches.
                 unseen = case.counts and not case.trusted and case.pressed_s < case.patience_s / COUNTED_PERIODS
                 homes = self._orders.axes[truth.name].homes
-                excused = truth.welded and truth.at_stop and (homes or unseen or self._orders.attended)
+                met = case.misplaced and case.pressed_s < case.patience_s and case.ran_on_s < MET_S
+                excused = truth.welded and truth.at_stop and (homes or unseen or met or self._orders.attended)
                 if not excused:
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
             self._welded(truth, case)
+            if not truth.welded or (truth.coil and truth.coil == truth.power):
+                case.ran_on_s = 0.0
+            elif not truth.stands:
+                case.ran_on_s += self._past_s
             if not (truth.power and truth.coil) or (case.deaf and truth.at_stop):
                 case.rest(at_stop=truth.at_stop != 0)
                 continue

@@ -8,32 +8,38 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 from benchmarks.drills.front_panel import FrontPanel
-from benchmarks.drills.goals import AxisOrders, Goal, Ranges
+from benchmarks.drills.goals import TURN_DEG, ZENITH_DEG, AxisOrders, Goal, Ranges
 from benchmarks.drills.script import PANEL, PEOPLE, Event
+from benchmarks.drills.shifts import Shifts
 from benchmarks.drills.silenced import Silenced
+from benchmarks.drills.tracked import Tracked
 from benchmarks.drills.wavering import Wavering
 
 AXES = ("azimuth", "elevation")
 WAYS = {"cw": ("azimuth", 1), "ccw": ("azimuth", -1), "up": ("elevation", 1), "down": ("elevation", -1)}
-TURN_DEG = 360.0
 UNCALIBRATED_S = 2.0
 """A press of an axis that was never set up."""
 PUT_OFF_S = 6.0
 """A jog with a time may begin so late: when the axis has been seen to stand."""
 PANEL_S = 0.2
 """A jog switch is read twice before it counts, and once when it is let go."""
-ZENITH_DEG, OVERHEAD_DEG = 90.0, 4.0
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
+
+
+REFUSES_S = 0.3
+"""The box sees so late that an axis has come to rest."""
 
 
 class Orders:
     """Give it every event (`note`), and the time (`expire`). `lacking`: the axis that was never set up.
 
     `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes. `confirms`: a person
-    may tell the box where an axis stands. `counts`: the axes count, and may not be homed.
+    may tell the box where an axis stands. `counts`: the axes count, and may not be homed. `turns`: whether an axis
+    turns, or its motor is fed: the box may refuse to be told then where it stands.
     """
 
     def __init__(
@@ -45,7 +51,9 @@ class Orders:
         parks_idle: bool = False,
         over_top: Callable[[], bool] = lambda: False,
         confirms: bool = True,
+        turns: Callable[[str], bool] = lambda _axis: False,
         counts: bool = False,
+        follows: bool = False,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
         self._ranges = dict(zip(AXES, ranges, strict=True))
@@ -54,6 +62,8 @@ class Orders:
         self._parks_idle = parks_idle
         self._over_top = over_top
         self._confirms = confirms
+        self._turns = turns
+        self._turned_s = dict.fromkeys(AXES, -math.inf)
         self._counts = counts
         self.latched = False
         """A person has stopped it, and has not let it go."""
@@ -67,14 +77,16 @@ class Orders:
         self.goes_round = False
         """Forbidden sectors lie in the way: an order for one axis may turn both."""
         self._silenced = Silenced()
+        self._tracked = Tracked(self.axes, self._ranges, follows=follows, lacking=lacking)
         self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
         self.heard = 0
         """How many orders there have been."""
         self._storm = False
+        self._shifts = Shifts()
 
     @property
     def attended(self) -> bool:
-        """A person sets the box up, and watches the antenna: a relay in doubt is only a note to that person."""
+        """A person sets the box up, and watches the antenna."""
         return bool(self.lacking)
 
     def holds(self, axis: str) -> bool:
@@ -94,18 +106,20 @@ class Orders:
         self._forget(now_s)
         self._release(now_s)
         self._panel.begin_anew()
+        self._shifts = Shifts()
+        self._tracked.begin_anew()
 
     def links_lost(self, now_s: float) -> None:
         """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
-        if not self._storm and self._panel.mode == "auto" and PANEL not in self._senders():
+        at_panel = self._panel.mode != "auto" or any(PANEL in orders.goals for orders in self.axes.values())
+        if not self._storm and not at_panel:
             self._forget(now_s)
 
-    def _senders(self) -> set[str]:
-        return {sender for orders in self.axes.values() for sender in orders.goals}
-
     def expire(self, now_s: float) -> None:
-        for orders in self.axes.values():
+        for axis, orders in self.axes.items():
             orders.expire(now_s)
+            if self._turns(axis):
+                self._turned_s[axis] = now_s
         if self._panel.pressed and not self.latched:
             self._forget(now_s)
             self.latched = True
@@ -114,8 +128,11 @@ class Orders:
             if turned.mode != before:
                 self._forget(now_s, turned.since_s)
                 self._silenced.forget()
+                self._shifts.cleared()
             if turned.releases:
                 self._release(now_s)
+        if not self._held:
+            self._tracked.keep(now_s)
 
     def note(self, event: Event) -> None:
         self.heard += 1
@@ -125,7 +142,15 @@ class Orders:
             self._note_person(event)
         else:
             self._note_order(event)
+        self._note_flights(event)
         self._may_idle(event.at_s)
+
+    def _note_flights(self, event: Event) -> None:
+        refused = (self._held or self._storm) and self._panel.settled  # a switch that turns now may release it
+        if event.what == "track" and event.text(0) != "off" and refused:
+            return
+        free = self._panel.mode == "auto" and self._panel.settled and not self._held and not self._storm
+        self._tracked.note(event, takes=free and not self.lacking and not self._counts)
 
     def _may_idle(self, now_s: float) -> None:
         """Once there has been an order, a box that parks when it is idle may do so."""
@@ -153,8 +178,10 @@ class Orders:
                 self._anywhere(event, event.text(0))
                 self.axes[event.text(0)].homes = True
             case "confirm":
-                # It has no effect in a storm park, while an axis homes, and where the sensor measures.
-                if self._confirms and not self._storm and not any(orders.homes for orders in self.axes.values()):
+                # It has no effect in a storm park, while an axis homes or turns, and where the sensor measures.
+                turned = event.at_s - self._turned_s[event.text(0)] <= REFUSES_S
+                homes = any(orders.homes for orders in self.axes.values())
+                if self._confirms and not self._storm and not homes and not turned:
                     self._end(event.text(0), event.at_s)
             case _ if self._storm and not self._counts:
                 pass  # a storm park holds every other order back
@@ -177,25 +204,29 @@ class Orders:
                 axis, way = WAYS[event.text(0)]
                 until_s = event.at_s + event.number(1) + PANEL_S
                 self.axes[axis].goals[PANEL] = Goal(way=way, said_s=event.at_s, until_s=until_s)
-            case "jog":  # it may shift the target in force
-                self._anywhere(event, WAYS[event.text(0)][0])
+            case "jog":  # it may shift the target in force, and those that come later
+                axis, way = WAYS[event.text(0)]
+                self._anywhere(event, axis)
+                self._shifts.press(axis, way)
 
     def _note_order(self, event: Event) -> None:
         match event.what:
             case "aim":
                 # Orders that were refused, before it was homed, make no sender that a stop silences.
-                if self._silenced.aim(event) and not self._counts:
+                # A turn of the mode switch lets senders go again, perhaps already now.
+                silenced = self._silenced.aim(event) and not self._panel.may_turn(event.at_s)
+                if silenced and not self._counts:
                     return
             case "stop":
                 self._silenced.stop(event)
-            case "ask" | "junk" | "speed":
+            case "ask" | "junk" | "speed" | "recognised":
                 pass
             case _:
                 self._silenced.other(event)
         match event.what:
             case "aim":
                 self._aim_azimuth(event, event.number(1))
-                self._aim(event, "elevation", self._elevations(event.number(1)))
+                self._aim_elevation(event, event.number(1))
             case "aim-azimuth":
                 if self._shows_over_top or self.goes_round:
                     self._anywhere(event, "elevation")
@@ -203,7 +234,7 @@ class Orders:
             case "aim-elevation":
                 if self.goes_round or (self._shows_over_top and event.number(0) <= ZENITH_DEG):
                     self._anywhere(event, "azimuth")
-                self._aim(event, "elevation", self._elevations(event.number(0)))
+                self._aim_elevation(event, event.number(0))
             case "jog":
                 axis, way = WAYS[event.text(0)]
                 seconds = event.number(1) if len(event.args) > 1 else math.inf
@@ -220,7 +251,11 @@ class Orders:
             case "park":
                 for axis in AXES:
                     self._aim(event, axis, (self._park_deg[axis],))
-            case "list" | "run-list":
+            case "list":  # until it runs, its first point is the target
+                first = replace(event, args=event.args[1:3])
+                self._aim_azimuth(first, first.number(1))
+                self._aim_elevation(first, first.number(1))
+            case "run-list":
                 for axis in AXES:
                     self._anywhere(event, axis)
             case "leave":
@@ -243,6 +278,7 @@ class Orders:
     def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
         self._storm = False
         self._wavering.forget()
+        self._tracked.stopped(now_s, said_before_s)
         for axis in self.axes:
             self._end(axis, now_s, said_before_s)
 
@@ -256,6 +292,9 @@ class Orders:
 
     def _aim(self, event: Event, axis: str, angles_deg: tuple[float, ...], ends_deg: tuple[float, ...] = ()) -> None:
         if axis == self.lacking:
+            return
+        if event.who in self._tracked.recognised:
+            self._anywhere(event, axis)
             return
         goals, rate_dps = self.axes[axis].goals, 0.0
         before = goals.get(event.who)
@@ -271,27 +310,21 @@ class Orders:
         over = any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
         return over or self._ranges["azimuth"].flips or self._over_top()
 
+    def _aim_elevation(self, event: Event, elevation_deg: float) -> None:
+        span = self._ranges["elevation"]
+        shifted_deg = self._shifts.shifted("elevation", elevation_deg)
+        self._aim(event, "elevation", tuple(angle for each in shifted_deg for angle in span.elevations_deg(each)))
+
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
         """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
-        turns_deg = self._turns(event.number(0), elevation_deg)
-        span, ends_deg = (
-            self._ranges["azimuth"],
-            self._wavering.ends(event.at_s, turns_deg, overhead=abs(elevation_deg - ZENITH_DEG) < OVERHEAD_DEG),
-        )
+        turns_deg = [
+            angle_deg
+            for shifted_deg in self._shifts.shifted("azimuth", event.number(0))
+            for angle_deg in self._ranges["azimuth"].turns_deg(shifted_deg, elevation_deg)
+        ]
+        span, ends_deg = self._ranges["azimuth"], self._wavering.ends(event.at_s, turns_deg, elevation_deg)
         angles_deg = tuple(angle for angle in turns_deg if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
         before = self.axes["azimuth"].goals.get(event.who)
         if before and (event.number(0) > TURN_DEG or not angles_deg):
             angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
         self._aim(event, "azimuth", angles_deg, ends_deg)
-
-    def _turns(self, azimuth_deg: float, elevation_deg: float) -> list[float]:
-        """Every axis angle that shows there, on any turn, over the top too where it may be."""
-        over = self._ranges["azimuth"].flips or elevation_deg > 90.0
-        bases = (azimuth_deg, azimuth_deg + 180.0) if over else (azimuth_deg,)
-        return [base % TURN_DEG + TURN_DEG * turn for base in bases for turn in range(-2, 3)]
-
-    def _elevations(self, elevation_deg: float) -> tuple[float, ...]:
-        span = self._ranges["elevation"]
-        over = self._ranges["azimuth"].flips or elevation_deg > 90.0
-        angles = (elevation_deg, 180.0 - elevation_deg) if over else (elevation_deg,)
-        return tuple(min(max(angle, span.low_deg), span.high_deg) for angle in angles)

@@ -70,7 +70,7 @@ class _Play:
         log.handlers, log.level = [self._words], logging.WARNING
         self._chance = random.Random(drill.seed)
         self._config = configured(drill, self._folder)
-        self._box = Box(drill, self._config, self._folder, self._clock, None)
+        self._box = Box(drill, self._config, self._folder, self._clock, None, begun_s=STARTED_S)
         self._world = World(self._box.world, self._clock)
         self._troubles = Troubles(self._box.world, self._clock, drill.seed)
         self._cases = axis_cases(self._config, self._world.axes)
@@ -125,6 +125,7 @@ class _Play:
                 continue
             self._sleep_until(next_s)
             self._tick()
+            self._box.tracking.turn()
             self._cycle()
             self._look()
             late_s = self._chance.uniform(0.0, self._jitter_s) if self._now_s < self._jitter_until_s else 0.0
@@ -192,6 +193,9 @@ class _Play:
         if event.what == "leave":
             self._orders.note(event)
             self._box.leave(event.who)
+        elif event.what == "recognised":
+            self._orders.note(event)
+            self._box.recognise(event.who, event.text(0))
         else:
             if event.what == "confirm":
                 event = self._confirmed(event)
@@ -241,6 +245,12 @@ class _Play:
                 self._silence.begin("hung", self._now_s)
             case "stalled":
                 self._stalled_s = self._now_s, self._now_s + seconds
+            case "plans":
+                self._box.tracking.planner.takes_s = seconds
+            case "plans-fail":
+                self._box.tracking.planner.fails = bool(seconds)
+            case "set":
+                self._box.tracking.ahead_s += seconds
             case "jitter":
                 self._jitter_until_s, self._jitter_s = self._now_s + seconds, event.number(1)
 
@@ -257,7 +267,7 @@ class _Play:
         self._stalled_s, self._unheard = None, []
         self._orders.forget_all(self._now_s)
         self._pass(event.number(0), dead=True)
-        self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world)
+        self._box = Box(self._drill, self._config, self._folder, self._clock, self._box.world, begun_s=STARTED_S)
         self._back_s = self._now_s
         begins_anew(self._config, self._cases, self._world.axes)
 

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from benchmarks.drills.goals import Ranges
+from benchmarks.drills.arcs import Arc
+from benchmarks.drills.goals import ZENITH_DEG, Ranges
 from benchmarks.drills.judges import COUNTED_PERIODS, TRY_S, AxisCase, Judges
-from benchmarks.drills.orders import ZENITH_DEG, Orders
+from benchmarks.drills.orders import Orders
 from benchmarks.drills.script import WORLD, Drill, Event
 from benchmarks.drills.world import AxisTruth
 from hw.ports import AngleSource, Axis
@@ -76,7 +77,11 @@ def build_orders(config: Config, truths: list[AxisTruth], cases: tuple[AxisCase,
         (park_deg[0] + shift.azimuth_deg, park_deg[1] + shift.elevation_deg),
         lacking=lacking,
         over_top=lambda: truths[1].shaft_deg + shift.elevation_deg + cases[1].slack_deg > ZENITH_DEG,
+        turns=lambda name: any(
+            truth.name == name and (truth.power or truth.coil or abs(truth.speed_dps) > 0.0) for truth in truths
+        ),
         parks_idle=config.mount.park_after_s > 0,
+        follows=bool(config.sky.follow),
         counts=config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
         confirms=config.kind.confirmable or config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
     )
@@ -97,6 +102,11 @@ def lapse(drill: Drill) -> Iterator[Event]:
                 for number in range(int(count)):
                     turned_deg = azimuth_deg + (spread_deg if number % 2 else 0.0)
                     yield Event(event.at_s + number / rate_hz, event.who, "aim", (turned_deg % 360.0, elevation_deg))
+            case "arc":
+                words, every_s, count = event.text(0), event.number(1), event.number(2)
+                for number in range(int(count)):
+                    at_s = event.at_s + number * every_s
+                    yield Event(at_s, event.who, "aim", Arc.parse(words).direction(at_s))
             case _:
                 yield event
 
@@ -121,7 +131,10 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
             case "noise":
                 case.slack_deg += NOISE_SIGMAS * event.number(1)
                 case.patience_s = max(case.patience_s, NOISY_TRY_S)
+            case "obstacle":
+                case.misplaced = True
             case "drift":
+                case.misplaced = True
                 case.slack_deg += abs(event.number(2))
                 # A control box follows its own pot: where the other one drifts, it is held beside its place.
                 case.feels = case.feels and config.rotor.type != "digipot"
@@ -138,6 +151,8 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.trusted, case.astray = False, True
             case "fault" if plain == "select-broken":
                 case.deaf = True
+            case "fault" if plain == "stop-early":
+                case.misplaced = True
             case "fault" if case.counts:
                 case.trusted = False
 

@@ -23,6 +23,8 @@ DRIVEN = ("motor-stalled", "pot-stuck", "stands", "jammed", "contact-stuck-open"
 CRACKLES, GAP = ("every", "pot-crackles"), 20
 """Each so many-th reading is bad: from 4 of 100 on that is told."""
 PERIOD_S = 0.05
+TRACKING = "rotator.tracking"
+"""That a target is tracked no longer tells no fault."""
 TURNING_SHARE = 0.5
 """A welded contact or a hand turns it as fast as this share of its speed: slower is a wind, and only a notice."""
 
@@ -37,7 +39,8 @@ class Words(logging.Handler):
         self.lines: list[tuple[float, str]] = []
 
     def emit(self, record: logging.LogRecord) -> None:
-        self.said_s = self._clock()
+        if not record.name.startswith(TRACKING):
+            self.said_s = self._clock()
         if len(self.lines) < 2000:
             self.lines.append((self.said_s, record.getMessage()))
 

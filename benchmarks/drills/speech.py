@@ -136,6 +136,8 @@ def _console(event: Event) -> str:
             return f"confirm {axis} {float(angle_deg):.2f}"
         case "panel", (*words,):
             return "panel " + " ".join(f"{word:.3g}" if isinstance(word, float) else str(word) for word in words)
+        case "track", (words,):
+            return f"track {words}"
         case "ask", ():
             return "status"
     return ""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import random
 from collections.abc import Callable
 
+from benchmarks.drills.arcs import draw_arc
 from benchmarks.drills.boxes import BOTH, Mast
 from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Event
 
@@ -81,7 +82,7 @@ class Story:
                 return
             self._turn("auto")
         aim_deg = [self._far(0), self._far(1)]
-        match self._chance.randrange(11):
+        match self._chance.randrange(14):
             case 0:
                 self._jog(self._link, way)
             case 1:
@@ -92,6 +93,10 @@ class Story:
                 self._insist(aim_deg)
             case 9:
                 self._waver()
+            case 10 | 11:
+                self._track()
+            case 12:
+                self._recognised()
             case 4 if "gs232" in self._link:
                 self._add(self._link, "list", 2.0, *aim_deg, self._near(0), self._near(1), *aim_deg)
                 self._pause()
@@ -153,6 +158,27 @@ class Story:
         self._add(self._link, "stream", *aim_deg, 0.0, 0.0, 1.0, float(count))
         self.ends_s += self._chance.choice((0.5, 5.0))
 
+    def _track(self) -> None:
+        """A person tracks; what happens next may happen while the plan is computed."""
+        chance = self._chance
+        self._add(CLOCK, "plans", chance.choice((0.1, 1.0, 3.0, 10.0)))
+        if chance.random() < 0.05:
+            self._add(CLOCK, "plans-fail", 1.0)
+        words = draw_arc(chance, self.ends_s) if chance.random() < 0.9 else f"{self._near(0):g} {self._near(1):g}"
+        self._add(self._person, "track", words)
+        self.ends_s += chance.choice((0.0, 0.5, 2.0, 4.0, 15.0, 40.0))
+        if chance.random() < 0.1:
+            self._add(CLOCK, "set", chance.choice((-30.0, 0.5, 10.0)))
+
+    def _recognised(self) -> None:
+        """A program sends the directions of a target that the box recognises, and plans, while things happen."""
+        words, every_s = draw_arc(self._chance, self.ends_s), self._chance.choice((0.5, 1.0, 2.0))
+        self._add(CLOCK, "plans", self._chance.choice((0.1, 1.0, 3.0)))
+        self._add(self._link, "arc", words, every_s, round(self._chance.choice((20.0, 60.0, 90.0)) / every_s))
+        self.ends_s += self._chance.choice((2.0, 5.0, 15.0))
+        self._add(self._link, "recognised", words)
+        self._pause()
+
     def _waver(self) -> None:
         """A hand that goes to and fro."""
         for turn in range(8):
@@ -196,7 +222,9 @@ class Story:
         if self._mast.has_panel and self._chance.random() < 0.3:
             self._stop_at_panel()
             return
-        match self._chance.randrange(9):
+        match self._chance.randrange(10):
+            case 9:
+                self._add(self._person, "track", "off")
             case 0 | 1:
                 self._add(self._link, "stop")
             case 2 | 3:

@@ -103,6 +103,8 @@ class Troubles:
                 self._unweld(axis)
             case "pace" | "push" | "sticks":
                 self._turn(what, axis, float(args[1]))
+            case "obstacle":
+                self._hold_up(axis, float(args[1]))
             case _ if axis in self.wipers:
                 self._spoil(self.wipers[axis], what, args[1:])
 
@@ -133,6 +135,15 @@ class Troubles:
             return
         motor.advance(self._clock())
         setattr(motor, {"pace": "pace", "push": "pushed", "sticks": "sticks_s"}[what], share)
+
+    def _hold_up(self, axis: str, room_deg: float) -> None:
+        """From now on something holds the axis so far from here, both ways; infinitely far: nothing but its stops."""
+        if (motor := self.motor(axis)) is None:
+            return
+        motor.advance(self._clock())
+        spec, here_deg = motor.spec, motor.shaft_deg
+        motor.stop_low_deg = max(spec.stop_low_deg, here_deg - room_deg)
+        motor.stop_high_deg = min(spec.stop_high_deg, here_deg + room_deg)
 
     def _spoil(self, wiper: Wiper, what: str, args: tuple[float | str, ...]) -> None:
         match what:

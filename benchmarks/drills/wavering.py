@@ -2,8 +2,8 @@
 
 Knows the rule of docs/pointing.md: the first swing right round begins at once, each further one within two minutes
 waits, up to 96 s, for a target that stays. A target that moves is followed on the turn on which it began; once its
-path is certain to leave the range the antenna may unwind ahead of it. Knows axis angles alone, and no order but those
-that it is given.
+path is certain to leave the range, also by half a turn over the zenith, the antenna may unwind ahead of it. Knows no
+order but those that it is given.
 """
 
 from __future__ import annotations
@@ -15,8 +15,11 @@ REMEMBERS_S = 120.0 + 96.0
 STREAM_ORDERS, STREAM_GAP_S, STREAM_STEP_DEG = 4, 5.0, 10.0
 """So many orders, no further apart than both, and not all for one place, are a target that moves."""
 
+ZENITH_DEG, HALF_TURN_DEG, NEAR_ZENITH_DEG = 90.0, 180.0, 4.0
 CERTAIN_S, AHEAD_S = 45.0, 900.0
 """After so long the path of a moving target is certain, and it is looked at for so long ahead."""
+SWING_S = 120.0
+"""No swing takes longer: only so long before the zenith is it worth while."""
 
 
 class Wavering:
@@ -25,17 +28,18 @@ class Wavering:
         self._before_deg: tuple[float, ...] = ()
         """Where the order before could be met, also beyond the range."""
         self._swung_s = float("-inf")
-        self._stream: list[tuple[float, float]] = []
-        """The latest orders that may belong to one moving target: when, and an angle that shows there."""
+        self._stream: list[tuple[float, float, float]] = []
+        """The latest orders that may belong to one moving target: when, an angle that shows there, the elevation."""
 
     def forget(self) -> None:
         """Nothing is ordered any more; the swings made count on."""
         self._before_deg = ()
         self._stream.clear()
 
-    def ends(self, now_s: float, turns_deg: list[float], *, overhead: bool = False) -> tuple[float, ...]:
+    def ends(self, now_s: float, turns_deg: list[float], elevation_deg: float) -> tuple[float, ...]:
         """The ends of the range where the target may be waited for. `turns_deg`: all angles that show there, on every
-        turn, also beyond the range. `overhead`: at the zenith each azimuth shows it, and the antenna may stay."""
+        turn, also beyond the range. At the zenith each azimuth shows it, and the antenna may stay."""
+        overhead = abs(elevation_deg - ZENITH_DEG) < NEAR_ZENITH_DEG
         near_deg = [
             angle_deg
             for angle_deg in turns_deg
@@ -43,7 +47,7 @@ class Wavering:
         ]
         beyond_deg = [angle_deg for angle_deg in near_deg if not self._low_deg <= angle_deg <= self._high_deg]
         within_deg = [angle_deg for angle_deg in turns_deg if self._low_deg <= angle_deg <= self._high_deg]
-        moves = self._moves(now_s, turns_deg)
+        moves = self._moves(now_s, turns_deg, elevation_deg)
         may_wait = bool(beyond_deg) and (moves or now_s - self._swung_s <= REMEMBERS_S)
         if beyond_deg:
             self._swung_s = now_s
@@ -52,25 +56,28 @@ class Wavering:
         waits_deg = {min(max(angle_deg, self._low_deg), self._high_deg) for angle_deg in beyond_deg if may_wait}
         return tuple(waits_deg | self._unwinds())
 
-    def _moves(self, now_s: float, turns_deg: list[float]) -> bool:
+    def _moves(self, now_s: float, turns_deg: list[float], elevation_deg: float) -> bool:
         """Whether this order belongs to a target that moves."""
         if not self._stream:
             within_deg = (angle_deg for angle_deg in turns_deg if self._low_deg <= angle_deg <= self._high_deg)
             near_deg = next(within_deg, turns_deg[0])
         else:
-            before_s, before_deg = self._stream[-1]
+            before_s, before_deg, _ = self._stream[-1]
             near_deg = min(turns_deg, key=lambda angle_deg: abs(angle_deg - before_deg))
             if now_s - before_s > STREAM_GAP_S or abs(near_deg - before_deg) > STREAM_STEP_DEG:
                 self._stream.clear()
-        self._stream.append((now_s, near_deg))
-        return len(self._stream) >= STREAM_ORDERS and any(angle_deg != near_deg for _, angle_deg in self._stream)
+        self._stream.append((now_s, near_deg, elevation_deg))
+        return len(self._stream) >= STREAM_ORDERS and any(angle_deg != near_deg for _, angle_deg, _ in self._stream)
 
     def _unwinds(self) -> set[float]:
         """The end where a moving target is awaited that will come round to it, once that is certain."""
-        (began_s, began_deg), (now_s, here_deg) = self._stream[0], self._stream[-1]
+        (began_s, began_deg, low_deg), (now_s, here_deg, raised_deg) = self._stream[0], self._stream[-1]
         if now_s - began_s < CERTAIN_S:
             return set()
         there_deg = here_deg + AHEAD_S * (here_deg - began_deg) / (now_s - began_s)
-        if there_deg > self._high_deg:
-            return {self._low_deg}
-        return {self._high_deg} if there_deg < self._low_deg else set()
+        soon_deg = raised_deg + SWING_S * (raised_deg - low_deg) / (now_s - began_s)
+        climbs = low_deg < raised_deg <= ZENITH_DEG < soon_deg + NEAR_ZENITH_DEG
+        # Beyond the zenith it is half a turn further, this way or that.
+        turned_deg = HALF_TURN_DEG if climbs else 0.0
+        ends = {self._low_deg} if there_deg + turned_deg > self._high_deg else set()
+        return ends | {self._high_deg} if there_deg - turned_deg < self._low_deg else ends

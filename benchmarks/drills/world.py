@@ -45,6 +45,8 @@ class AxisTruth:
     pushed: bool = False
     """A hand or the wind turns it."""
     shorted_s: float = 0.0
+    told_dps: float = math.inf
+    """How fast a motor that follows a set point is told to turn; infinite: it is told no speed."""
     relayed: bool = False
     """Relays of the box itself feed its motor."""
 
@@ -57,7 +59,8 @@ class AxisTruth:
 
     @property
     def stands(self) -> bool:
-        return abs(self.speed_dps) < STANDS_DPS
+        """It does not turn though it is told to: a set point that creeps, as at the end of a move, is no such order."""
+        return abs(self.speed_dps) < STANDS_DPS <= self.told_dps
 
 
 Look = Callable[[AxisTruth], None]
@@ -160,5 +163,6 @@ def _see_moteus(truth: AxisTruth, rotor: SimMoteusRotor, place: int) -> None:
     truth.shaft_deg = truth.boom_deg
     rev_s = motor.set_point.velocity_rev_s if motor.mode in (Mode.POSITION, Mode.TIMEOUT) else 0.0
     sense = rotor.sense(name)
+    truth.told_dps = abs(rev_s / rotor.rev_per_turn(name)) * 360.0
     truth.power = 0 if abs(rev_s) < 1e-6 else (1 if rev_s * sense > 0 else -1)
     truth.coil = truth.power

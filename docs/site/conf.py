@@ -21,7 +21,10 @@ html_theme = "furo"
 html_title = "gs232-rotator"
 html_show_sphinx = False
 html_copy_source = False
-html_static_path: list[str] = []
+html_static_path = ["static"]
+html_css_files = ["pages.css"]
+smartquotes = False
+"""Values of the file keep their straight quotes, and three dots stay three dots."""
 myst_heading_anchors = 4
 """Headings get the anchors that forges give them: links work there and here."""
 myst_links_external_new_tab = True

@@ -181,7 +181,8 @@ class SimI2CBus:
             return replies
 
     def _lapses(self, address: int) -> bool:
-        return any(lapse.strikes() for lapse in self.lapses.get(address, ()))
+        lapses = self.lapses.get(address)
+        return lapses is not None and any(lapse.strikes() for lapse in lapses)
 
     def _spend(self, wire_bytes: int) -> None:
         duration_s = wire_bytes * self._byte_s

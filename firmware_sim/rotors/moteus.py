@@ -109,7 +109,11 @@ class SimMoteusRotor(SimRotor):
 
     def sense(self, axis: str) -> int:
         """1: the controller's scale rises as the axis's does; -1: it falls."""
-        return 1 if self._specs[axis].rev_per_turn > 0 else -1
+        return 1 if self.rev_per_turn(axis) > 0 else -1
+
+    def rev_per_turn(self, axis: str) -> float:
+        """Revolutions of the controller's scale for a turn of the antenna; negative if the directions are opposite."""
+        return self._specs[axis].rev_per_turn
 
     def antenna(self) -> tuple[float, float]:
         azimuth_deg, elevation_deg = (self._antenna_deg(name) for name in self._specs)

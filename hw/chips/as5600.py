@@ -10,8 +10,6 @@ from __future__ import annotations
 from hw.ports import AngleSource, HardwareError, I2CBus
 
 ADDRESS = 0x36
-ADDRESS_L = 0x40
-"""The AS5600L's address as delivered."""
 
 STATUS = 0x0B
 RAW_ANGLE = 0x0C

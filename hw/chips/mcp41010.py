@@ -9,7 +9,6 @@ from __future__ import annotations
 from hw.buses.spi import SpiBus
 
 STEPS = 256
-MID_STEP = 128
 _WRITE = 0x11
 _SHUT_DOWN = 0x21
 

@@ -9,7 +9,6 @@ a stop then opens the relay of the supply.
 
 from __future__ import annotations
 
-import logging
 import threading
 from collections.abc import Callable, Iterable
 
@@ -18,8 +17,6 @@ from hw.drives.control_box import BoxSpec, ControlBox
 from hw.drives.positioned import DriveAngle, wait_until
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import AngleSource, Axis, HardwareError, OutputLines
-
-log = logging.getLogger(__name__)
 
 ENABLE = "box_enable"
 """The relay of the boxes' supply. A chip starts in the middle: a box with supply from power-on turns there."""
@@ -50,6 +47,10 @@ class DigipotDrive:
         self._clock = clock
         self._enable = enable
         self._powered = False
+        self._astray_deg: dict[Axis, float] = {}
+        """How far each axis turned otherwise than its step says, when its supply was cut for that."""
+        self.barred = False
+        """The supply stays off, whatever is aimed at, until `restore`."""
         self._refresh_s = 0.0
         self._boxes = {
             Axis.AZIMUTH: ControlBox("azimuth box", *azimuth, clock()),
@@ -71,7 +72,7 @@ class DigipotDrive:
                 self._stop(box)
                 return
             box.scale.check(angle_deg)
-            if box.deaf:
+            if box.deaf or self.barred:
                 return
             box.order(angle_deg)
             self._feed(box, now_s)
@@ -100,6 +101,22 @@ class DigipotDrive:
                 raise HardwareError("the control boxes cannot be released: no relay is wired to their supply")
             self._advance()
             self._cut()
+
+    def cut(self) -> bool:
+        """Switch the boxes' supply off until `restore`. False: no relay is wired for it. Raises HardwareError."""
+        with self._changed:
+            if self._enable is None:
+                return False
+            self._advance()
+            self.barred = True
+            self._cut()
+            return True
+
+    def restore(self) -> None:
+        """Allow the supply again: the next aim switches it on."""
+        with self._changed:
+            self.barred = False
+            self._astray_deg.clear()
 
     def due_s(self) -> float | None:
         with self._changed:
@@ -138,7 +155,7 @@ class DigipotDrive:
         """The rotor was measured at `angle_deg` now; the model goes on from there.
 
         A box that turns otherwise than its step says has lost that step, or does not hear its chip: it gets the step
-        again, and then loses its supply. After that no aim counts before a stop.
+        again, and then loses its supply until `restore`.
         """
         with self._changed:
             box = self._boxes[axis]
@@ -148,11 +165,13 @@ class DigipotDrive:
             astray_deg = box.astray_deg(angle_deg)
             if astray_deg > LOST_STEP_DEG:
                 box.repeat()
-            if astray_deg > ASTRAY_DEG and self._enable is not None:
-                log.warning("%s: the box turns otherwise than it is told: its supply is off", axis.value)
-                self._cut()
-                for each in self._boxes.values():
-                    each.deaf = True
+            if astray_deg > ASTRAY_DEG and self.cut():
+                self._astray_deg[axis] = astray_deg
+
+    def astray_deg(self, axis: Axis) -> float:
+        """How far it turned otherwise than its step says before its supply was cut for that; 0: it was not."""
+        with self._changed:
+            return self._astray_deg.get(axis, 0.0)
 
     def position_known(self, axis: Axis) -> bool:
         """Whether the rotor must be where the model has it: a full travel is over, or it was measured."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction, HardwareError, LeaseWatch, OutputLines
@@ -197,9 +198,15 @@ class RelayBank:
         if self._master_wired:
             levels[MASTER] = True
             self._master_until_s, self._feeding = now_s + MASTER_LINGER_S, False
-        self._lines.set(levels)
+        # A line that fails may have switched all the same: the relay counts as closed until it is opened.
         motor = self._motors[axis]
         motor.on = motor.last = direction
+        try:
+            self._lines.set(levels)
+        except HardwareError:
+            with suppress(HardwareError):  # the guard tries again: its lease is over
+                self._open(axis, now_s)
+            raise
 
     def _open(self, axis: Axis, now_s: float) -> None:
         motor = self._motors[axis]

@@ -13,7 +13,7 @@ from enum import Enum
 from hw.moteus.faults import LIMITS, Limit, explain
 from hw.moteus.orders import WATCHDOG_S, Answer, Home, Mode, MoteusSpec, Move, Order, Query, SetOutput, Stop
 from hw.moteus.placing import Placing
-from hw.ports import Axis, HardwareError
+from hw.ports import HardwareError
 
 MOVING_EVERY_S = 0.02
 """Seconds between two orders to a moving axis."""
@@ -27,6 +27,9 @@ FORGIVEN_S = 2.0
 held meanwhile, and still knows its place."""
 ERRAND_S = 2.0
 """An operator's request is dropped when it cannot be delivered to the controller within so many seconds."""
+
+MOVES_DPS, STANDS_DPS = 0.01, 0.5
+"""Faster than the first an axis moves; slower than the second one can look where it points."""
 
 
 class Wish(Enum):
@@ -43,7 +46,7 @@ class MoteusAxis:
     (`missed`).
     """
 
-    def __init__(self, axis: Axis, spec: MoteusSpec, *, look_only: bool = False) -> None:
+    def __init__(self, spec: MoteusSpec, *, look_only: bool = False) -> None:
         """`look_only`: asks, and gives the controller nothing, its turn included."""
         self.spec = spec
         self._look_only = look_only
@@ -62,7 +65,7 @@ class MoteusAxis:
         """How many orders were not answered so far."""
         self.came_back = False
         """The order before the latest answer was not answered."""
-        self._name = f"{axis.value}: moteus {spec.can_id}"
+        self._name = f"moteus {spec.can_id}"
         self._placing = Placing(spec)
         self._aim = (0.0, 0.0, 0.0)  # angle_deg, rate_dps, and the moment of the command
         self._errands: deque[Stop | SetOutput] = deque()
@@ -114,6 +117,8 @@ class MoteusAxis:
         answer = self._must_answer(now_s)
         if not math.isfinite(angle_deg):
             raise HardwareError(f"{self._name}: {angle_deg}° is no angle")
+        if self._faster_than(STANDS_DPS):
+            raise HardwareError(f"{self._name}: it turns; look where it points when it stands")
         agreed_deg = angle_deg if exactly else self._placing.agreed_deg(answer, angle_deg)
         if agreed_deg is None:
             raise HardwareError(
@@ -143,7 +148,10 @@ class MoteusAxis:
 
     @property
     def moving(self) -> bool:
-        return self.answer is not None and abs(self.answer.velocity_rev_s) > self.spec.span_rev(0.01)
+        return self._faster_than(MOVES_DPS)
+
+    def _faster_than(self, speed_dps: float) -> bool:
+        return self.answer is not None and abs(self.answer.velocity_rev_s) > self.spec.span_rev(speed_dps)
 
     @property
     def at_rest(self) -> bool:

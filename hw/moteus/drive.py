@@ -34,8 +34,8 @@ class MoteusDrive:
         self._clock = clock
         self._lock = threading.RLock()
         self._axes = {
-            Axis.AZIMUTH: MoteusAxis(Axis.AZIMUTH, azimuth, look_only=look_only),
-            Axis.ELEVATION: MoteusAxis(Axis.ELEVATION, elevation, look_only=look_only),
+            Axis.AZIMUTH: MoteusAxis(azimuth, look_only=look_only),
+            Axis.ELEVATION: MoteusAxis(elevation, look_only=look_only),
         }
         self._offline: str | None = None
         self.on_news: Callable[[], None] = lambda: None

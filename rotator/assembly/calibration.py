@@ -6,6 +6,7 @@ the questions that the operator is asked.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,13 +16,14 @@ from rotator.assembly.sensors import compass_chip
 from rotator.assembly.settings import build_controller, build_offsets
 from rotator.config.model import Config
 from rotator.control.controller import Controller
+from rotator.status import Latch, Trusts
+from rotator.store import compass
+from rotator.store.learnt import Motors
 
 SCALES_DEG = {Axis.AZIMUTH: (-360.0, 720.0), Axis.ELEVATION: (-90.0, 210.0)}
 """The angles of an axis that the configuration file accepts."""
 SETTLE_S = 2.0
 """A motor that goes to an angle by itself still moves for 1.5 s: it brakes from 30°/s at 20°/s²."""
-COMPASS_FILE = "compass.json"
-"""Beside the state file: what the compass forgets without power."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,9 +54,15 @@ def calibration_traits(config: Config, axis: Axis) -> CalibrationTraits:
     )
 
 
-def calibration_controller(config: Config, axis: Axis) -> Controller:
-    """A controller that treats `axis` as never set up: it obeys jog only, 2 s a press."""
-    return build_controller(_without_limits(config, axis), commissioning=axis)
+def calibration_controller(
+    config: Config,
+    axis: Axis,
+    learnt: Mapping[Axis, Motors] | None = None,
+    trusts: Mapping[Axis, Trusts] | None = None,
+    latch: Latch | None = None,
+) -> Controller:
+    """A controller that treats `axis` as never set up: it obeys jog only, 2 s a press. The others as there."""
+    return build_controller(_without_limits(config, axis), learnt, commissioning=axis, trusts=trusts, latch=latch)
 
 
 def open_compass(config: Config, board: Board) -> Compass:
@@ -72,7 +80,7 @@ def compass_path(config: Config) -> Path | None:
 
     A simulated world that is kept has a state file of its own.
     """
-    return Path(config.state.path).with_name(COMPASS_FILE) if config.keeps_files else None
+    return Path(config.state.path).with_name(compass.FILE_NAME) if config.keeps_files else None
 
 
 def _reach_deg(config: Config, axis: Axis) -> tuple[float, float]:

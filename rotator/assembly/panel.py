@@ -82,6 +82,7 @@ def panel_thread(
     *,
     knobs: Path | None = None,
     pulses: Callable[[], Iterable[Axis]] = lambda: (),
+    failed: Callable[[Exception], None] = lambda failure: None,
 ) -> PanelThread:
     """The panel, ready to be started. `knobs`: the file with their full scales; None: they are not kept."""
     table = config.panel
@@ -90,5 +91,5 @@ def panel_thread(
     wiring = KnobWiring(table.knob_lowest_reading, table.knob_highest_reading, table.knob_zero)
     panel = Panel(PanelSettings(table.has_mode_switch, nudge_deg, wiring, LAMP_TEST_S), kept.load() if kept else {})
     if kept is None:
-        return PanelThread(panel, parts, status, post, clock, pulses=pulses)
-    return PanelThread(panel, parts, status, post, clock, keep=kept.save, pulses=pulses)
+        return PanelThread(panel, parts, status, post, clock, pulses=pulses, failed=failed)
+    return PanelThread(panel, parts, status, post, clock, keep=kept.save, pulses=pulses, failed=failed)

@@ -27,8 +27,10 @@ from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.control.sky.pointing_model import PointingModel
 from rotator.faults import Missing
 from rotator.orders import Mode
-from rotator.status import ALL_OPEN, LearntMotor, Trusts
+from rotator.status import ALL_OPEN, Latch, LearntMotor, Trusts
+from rotator.store import relays
 from rotator.store.learnt import LearntFile, Motors
+from rotator.store.relays import RelaysFile
 
 
 def build_offsets(config: Config) -> Offsets:
@@ -60,6 +62,12 @@ def build_sector(table: ForbiddenTable, shift: Offsets) -> Sector:
     )
 
 
+def build_relays_file(config: Config) -> RelaysFile | None:
+    """The file in which a doubt about a relay survives the program; None where the rotor does not, or has no relays."""
+    kept = config.keeps_files and config.rotor.switched
+    return RelaysFile(Path(config.state.path).with_name(relays.FILE_NAME)) if kept else None
+
+
 def build_learnt(config: Config) -> LearntFile:
     """The file of the learnt motors. It ignores figures that were learnt with other settings of the motor."""
 
@@ -85,9 +93,11 @@ def build_controller(
     commissioning: Axis | None = None,
     *,
     trusts: Mapping[Axis, Trusts] | None = None,
+    latch: Latch | None = None,
     panel: bool = False,
 ) -> Controller:
-    """`learnt`: the motors as earlier runs learnt them; `trusts`: what an earlier run knew of the relays.
+    """`learnt`: the motors as earlier runs learnt them; `trusts`: what an earlier run knew of the relays; `latch`: the
+    stop that was latched when it ended.
 
     `commissioning`: an axis to be treated as never set up.
 
@@ -115,6 +125,7 @@ def build_controller(
             simulated=config.rotor.hardware == "sim",
             park_after_s=config.mount.park_after_s,
             on_sky=config.mount.tolerance == "sky",
+            latch=latch,
             mode=Mode.PARK if panel and config.panel.has_mode_switch else Mode.AUTO,
             attended=commissioning is not None,
         )
@@ -149,11 +160,14 @@ def axis_settings(
             speed_dps=table.speed_dps,
             window=ANYTHING if in_degrees else window,
             calibration=calibration,
+            sensor=config.angle(axis).sensor,
             missing=EVERYTHING if commissioning else lacks,
             source=source(config, axis),
             near_deg=NEAR_DEG + config.kind.slack_deg(axis),
             accel_dps2=config.kind.accel_dps2(axis),
             confirmable=config.kind.confirmable,
+            own_motor=config.kind.own_motor,
+            master=config.kind.switches_supply,
         )
     return SwitchedSettings(
         axis=axis,
@@ -162,6 +176,7 @@ def axis_settings(
         motor=Motor(table.speed_dps, table.speed_dps * table.coast_s),
         window=ANYTHING if in_degrees else window,
         calibration=calibration,
+        sensor=config.angle(axis).sensor,
         missing=EVERYTHING if commissioning else lacks,
         source=source(config, axis),
         longest_run_s=table.longest_run_s,
@@ -227,7 +242,9 @@ def homing(config: Config, axis: Axis, shift: Offsets) -> HomingSettings | None:
 def planned_motors(config: Config) -> tuple[PlannedMotor, PlannedMotor]:
     """What a plan of a whole pass has to know of azimuth and elevation, as the file has it."""
     azimuth, elevation = (
-        PlannedMotor(table.speed_dps, table.coast_s, table.tolerance_deg, switched=config.rotor.switched)
+        PlannedMotor(
+            table.speed_dps, table.coast_s, table.tolerance_deg, table.backlash_deg, switched=config.rotor.switched
+        )
         for table in (config.azimuth, config.elevation)
     )
     return azimuth, elevation

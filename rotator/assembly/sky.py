@@ -1,15 +1,21 @@
-"""The sky over the station that a configuration names: its place, its satellites, the system's clock."""
+"""The sky over the station that a configuration names: its place, its satellites, the system's clock.
+
+Knows where elements are read from, and where they are fetched to.
+"""
 
 from __future__ import annotations
 
 import time
+from pathlib import Path
 
-from rotator.config.sky import SkyTable
+from rotator.config.model import Config
 from rotator.config.station import StationTable
-from rotator.orbits.catalogue import Catalogue
+from rotator.orbits.catalogue import Catalogue, Read, read_file
 from rotator.orbits.celestial import Sky
 from rotator.orbits.earth import Site
 from rotator.orbits.locator import from_locator
+from rotator.store import uploads
+from rotator.store.fetches import FOLDER, file_of
 
 
 def build_site(station: StationTable) -> Site | None:
@@ -19,7 +25,7 @@ def build_site(station: StationTable) -> Site | None:
         longitude_deg, latitude_deg = from_locator(station.locator)
     if longitude_deg is None or latitude_deg is None:
         return None
-    return Site(latitude_deg, longitude_deg, station.altitude_m)
+    return Site(latitude_deg, longitude_deg, station.altitude_m, refraction=station.refraction)
 
 
 def build_sky(station: StationTable) -> Sky | None:
@@ -28,6 +34,29 @@ def build_sky(station: StationTable) -> Sky | None:
     return None if site is None else Sky(site, time.time)
 
 
-def build_catalogue(sky: SkyTable) -> Catalogue:
+def build_catalogue(config: Config) -> Catalogue:
     """Files that cannot be read are among its faults."""
-    return Catalogue(sky.elements)
+    return Catalogue(config.sky.elements, to_come=_to_come(config))
+
+
+def build_later_catalogue(config: Config, read: Read = read_file) -> Catalogue:
+    """The same, and nothing is read before its first `refresh`."""
+    return Catalogue(config.sky.elements, to_come=_to_come(config), read=read, later=True)
+
+
+def _to_come(config: Config) -> list[Path]:
+    return [*fetched_files(config), uploaded_folder(config)]
+
+
+def uploaded_folder(config: Config) -> Path:
+    """Where files are that a person has sent by the page."""
+    return Path(config.state.path).with_name(uploads.FOLDER)
+
+
+def fetched_files(config: Config) -> list[Path]:
+    """The file of each address of `[sky] fetch`, there or not."""
+    return [file_of(address, fetched_folder(config)) for address in config.sky.fetch]
+
+
+def fetched_folder(config: Config) -> Path:
+    return Path(config.state.path).with_name(FOLDER)

@@ -6,6 +6,7 @@ with its drivers.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
@@ -20,12 +21,15 @@ from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel import Sentinel
 from rotator.assembly.board import Board
 from rotator.assembly.kinds import builder
-from rotator.assembly.panel import panel_parts
+from rotator.assembly.panel import panel_parts, panel_thread
 from rotator.assembly.rotors import Assembly
 from rotator.assembly.simulation import SimulatedStation
 from rotator.config.model import Config
-from rotator.panel.thread import PanelParts
+from rotator.orders import Order
+from rotator.panel.thread import PanelParts, PanelThread
 from rotator.rotors.port import AddAlarm, Rotor
+from rotator.runtime.loop import ControlLoop
+from rotator.store import knobs
 
 
 def off_lines(config: Config, chip: Callable[[], str]) -> RelayLines | None:
@@ -164,3 +168,21 @@ class Station:
                 return Hd44780(port, self._sleep)
             case _:
                 return None
+
+
+def fitted_panel(
+    config: Config, station: Station, loop: ControlLoop, post: Callable[[Order], None]
+) -> PanelThread | None:
+    """The front panel of a running box, not started yet; None: it has none. `post` takes its orders."""
+    if station.panel is None:
+        return None
+    return panel_thread(
+        config,
+        station.panel,
+        lambda: loop.status,
+        post,
+        time.monotonic,
+        knobs=Path(config.state.path).with_name(knobs.FILE_NAME) if config.keeps_files else None,
+        pulses=station.rotor.closed_contacts,
+        failed=loop.fail,
+    )

@@ -6,21 +6,25 @@ Knows the parts and what each is given. `assembly.sky` knows the station and its
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 from rotator.assembly.settings import build_mount, planned_motors
-from rotator.assembly.sky import build_catalogue, build_site
+from rotator.assembly.sky import build_catalogue, build_later_catalogue, build_site
 from rotator.config.model import Config
 from rotator.config.sky import SkyTable
+from rotator.control.admission import refusal
 from rotator.control.sky.flight_plan import Antenna, PlannedMotor
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.sectors import Place
 from rotator.orbits.catalogue import Unknown
-from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
 from rotator.orders import Aim, Order, Source
 from rotator.runtime.loop import ControlLoop
 from rotator.status import AxisStatus, Status
+from rotator.store.priorities import FILE_NAME, Priorities
+from rotator.tracking.file_reader import FileReader
 from rotator.tracking.follower import Follower
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
@@ -31,17 +35,17 @@ from rotator.tracking.thread import TrackingThread
 from rotator.tracking.tracker import TRACK, Tracker
 
 
-def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingThread | None:
-    """Not started yet; None where the file names no place."""
-    site = build_site(config.station)
-    if site is None:
-        return None
-    sky, planner, box = KnownSky(site, build_catalogue(config.sky)), ProcessPlanner(), TrackedBox(config, loop, mount)
+def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingThread:
+    """Not started yet. Without a place it tracks directions and tables."""
+    reader, planner, box = FileReader(), ProcessPlanner(), TrackedBox(config, loop, mount)
+    sky = KnownSky(build_site(config.station), build_later_catalogue(config, reader.read))
     clock, simulated = SystemClock(), config.rotor.hardware == "sim"
     # A simulated rotor may live at any time.
     tracker = Tracker(sky, planner, box, lambda: simulated or clock.is_set)
     listener = StreamListener(sky, planner, box, time.time, tracker.clock_trusted)
-    follower = Follower(tracker, planner, box, lambda: wanted_often(config.sky, sky)[0])
+    priorities = build_priorities(config)
+    begun_s = time.monotonic() if config.keeps_files else None
+    follower = Follower(tracker, planner, box, lambda: wanted_often(config.sky, sky, priorities.of)[0], begun_s)
 
     def hear(source: Source, order: Order) -> None:
         listener.hear(source, order)
@@ -49,11 +53,27 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
         follower.heard(source, order)
 
     loop.overhear(hear)
-    return TrackingThread(tracker, follower, listener, sky, planner=planner, clock=clock)
+    return TrackingThread(
+        tracker, follower, listener, sky, planner=planner, reader=reader, clock=clock, priorities=priorities
+    )
 
 
-def wanted_often(table: SkyTable, sky: KnownSky) -> tuple[tuple[WantedOften, ...], list[str]]:
-    """What `[[sky.follow]]` names, and a sentence for each table whose target is not known or has no passes."""
+def build_priorities(config: Config) -> Priorities:
+    """Those that a person has changed on the page."""
+    return Priorities(Path(config.state.path).with_name(FILE_NAME))
+
+
+def _as_written(_name: str, written: float) -> float:
+    return written
+
+
+def wanted_often(
+    table: SkyTable, sky: KnownSky, priority: Callable[[str, float], float] = _as_written
+) -> tuple[tuple[WantedOften, ...], list[str]]:
+    """What `[[sky.follow]]` names, and a sentence for each table whose target is not known or has no passes.
+
+    `priority`: from what a table is called and says to the priority in force.
+    """
     found: dict[str, WantedOften] = {}
     faults = []
     for number, each in enumerate(table.follow):
@@ -69,7 +89,7 @@ def wanted_often(table: SkyTable, sky: KnownSky) -> tuple[tuple[WantedOften, ...
         elif name in found:
             faults.append(f'{where}: "{each.name}" is {name}, which is followed already')
         else:
-            found[name] = WantedOften(wanted, each.priority, each.min_culmination_deg)
+            found[name] = WantedOften(wanted, priority(each.name, each.priority), each.min_culmination_deg)
     return tuple(found.values()), faults
 
 
@@ -108,13 +128,14 @@ class TrackedBox:
         motors = _as_learnt(self._motors[0], azimuth), _as_learnt(self._motors[1], elevation)
         return Antenna(self._mount, *motors, (azimuth.angle_deg, elevation.angle_deg))
 
+    def refusal(self, order: Order) -> str:
+        refused = refusal(order, self._loop.status, self._mount)
+        return refused.reason if refused else ""
+
     def order(self, order: Order, source: Source = TRACK) -> None:
         self._loop.post(source, order)
 
 
-def build_satellites(config: Config) -> list[Satellite]:
-    """Those whose elements the configuration names, as the station sees them; none without a place."""
-    site = build_site(config.station)
-    if site is None:
-        return []
-    return KnownSky(site, build_catalogue(config.sky)).satellites()
+def build_known_sky(config: Config) -> KnownSky:
+    """With its elements read, for what runs in simulated time."""
+    return KnownSky(build_site(config.station), build_catalogue(config))

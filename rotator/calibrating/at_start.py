@@ -1,24 +1,31 @@
 """The azimuth's angle by the compass on the boom, after power-on and without a question: `[compass] at_start`.
 
 Knows when the azimuth does not know its angle, what the compass reads meanwhile, and which angles of the range that
-allows. Pure but for `watch`, which reads the chip in a thread. Moves nothing: it gives the same order as a person who
-confirms an angle, and only where the compass leaves no choice.
+allows. Pure but for the functions at its end, which read the chip in a thread. Moves nothing: it gives the same order
+as a person who confirms an angle, and only where the compass leaves no choice.
 """
 
 from __future__ import annotations
 
 import asyncio
 import logging
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Coroutine
+from typing import Any
 
 from hw.ports import Axis
+from rotator.assembly.board import Board
+from rotator.assembly.calibration import compass_path, open_compass
 from rotator.calibrating.axis_state import position_unknown
 from rotator.calibrating.bearing import CompassReading, HeadingSample, NorthUncertain, find_north, possible_angles_deg
 from rotator.calibrating.compass import READ_EVERY_S, CompassReader
 from rotator.calibrating.compass_guide import SAMPLES
-from rotator.calibrating.facts import NorthFacts
-from rotator.orders import Confirm
+from rotator.calibrating.facts import NorthFacts, north_facts
+from rotator.config.model import Config
+from rotator.orders import Confirm, Source
+from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
+from rotator.store.compass import CompassFile
 
 log = logging.getLogger(__name__)
 
@@ -102,3 +109,13 @@ async def watch(
                 log.warning("compass: the azimuth stays unknown: %s", start.trouble)
             said = start.trouble or said
         await asyncio.sleep(READ_EVERY_S if wanted else IDLE_S)
+
+
+def watch_at_start(config: Config, board: Board, loop: ControlLoop) -> Coroutine[Any, Any, None]:
+    """What settles an azimuth that does not know its angle after power-on."""
+    corrections = compass_path(config)
+    compass = open_compass(config, board)
+    reader = CompassReader(compass, time.monotonic, CompassFile(corrections) if corrections else None)
+    start = CompassAtStart(north_facts(config, has_file=corrections is not None))
+    source = Source("compass")
+    return watch(reader, start, lambda: loop.status, lambda order: loop.post(source, order))

@@ -107,8 +107,10 @@ class CompassGuide(Guide):
         self.prompt = "Reading the compass; hands off."
         samples: list[HeadingSample] = []
         seen = self._compass
-        while len(samples) < SAMPLES and not isinstance(self._entry, StopNow):
+        while len(samples) < SAMPLES:
             yield
+            if isinstance(self._entry, StopNow):
+                return []
             compass, angle_deg = self._compass, self._axis.angle_deg
             if compass is None or compass is seen or compass.problem:
                 continue

@@ -112,6 +112,9 @@ class Guide:
     def _take(self, status: Status, entry: Entry | None) -> None:
         """Note the status and the entry. Raises Abandoned where the status ends the guide."""
         self._latest, self._entry = status, entry
+        if status.latched:
+            # Over the console's socket, or at the panel: what this guide orders has no effect any more.
+            raise Abandoned(f"Stopped at the {status.latched}: the motors stand. {NOTHING_SAVED}")
 
     def _halt(self) -> None:
         self._orders.append(Stop())

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from contextlib import ExitStack
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Protocol
 
@@ -17,7 +16,6 @@ from hw.ports import Axis, HardwareError
 from rotator.assembly.board import Board
 from rotator.assembly.calibration import SCALES_DEG, calibration_controller, calibration_traits, open_compass
 from rotator.assembly.settings import build_controller
-from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.axis_guide import AxisFacts, AxisGuide
 from rotator.calibrating.compass import CompassReader
@@ -27,19 +25,12 @@ from rotator.calibrating.facts import north_facts
 from rotator.calibrating.guide import Guide
 from rotator.calibrating.north_guide import NorthGuide
 from rotator.calibrating.readings import DEGREES
-from rotator.calibrating.results import AngleConfirmed, AxisCalibrated, MountFound, NorthFound, Result
-from rotator.calibrating.sky_facts import sky_facts
-from rotator.calibrating.sky_guide import Sighting, SkyGuide
-from rotator.calibrating.sky_table import miss_text
+from rotator.calibrating.results import AngleConfirmed, AxisCalibrated, NorthFound, Result
 from rotator.calibrating.table_guide import TableGuide
 from rotator.config.model import Config
 from rotator.control.controller import Controller
-from rotator.control.sky.model_fit import SkyPoint
-from rotator.control.sky.pointing_model import PERFECT
-from rotator.orbits.sight import Target
 from rotator.orders import Source
 from rotator.runtime.loop import ControlLoop
-from rotator.status import AxisStatus, Status
 from rotator.store.compass import CompassFile
 
 CALIBRATE = Source("calibrate")
@@ -72,25 +63,18 @@ class AxisRig:
     """One axis, treated as never set up: it obeys jog only, 2 s a press."""
 
     def __init__(self, config: Config, axis: Axis, station: Station, clock: Callable[[], float]) -> None:
-        self.guide: AxisGuide = _axis_guide(config, axis)
-        self.loop = _control_loop(config, calibration_controller(config, axis), station, clock)
+        self.guide: AxisGuide = axis_guide(config, axis)
+        self.loop = control_loop(config, calibration_controller(config, axis), station, clock)
 
     @property
     def result(self) -> AxisCalibrated | None:
         return self.guide.result
 
     def step(self, entry: Entry | None = None) -> tuple[str, ...]:
-        return _step(self.guide, self.loop, entry)
+        return step(self.guide, self.loop, entry)
 
     def picture(self) -> tuple[str, bool]:
-        axis = self.loop.status.axis(self.guide.facts.axis)
-        facts = self.guide.facts
-        reading = "----" if axis.raw is None else self.guide.reading_text(axis.raw)
-        if axis.raw is not None and not facts.lowest_reading <= axis.raw <= facts.highest_reading:
-            reading += f", which no whole sensor reads: {facts.lowest_reading:g} to {facts.highest_reading:g}"
-        direction = "  it waits, and looks whether the axis stands" if axis.waiting else ""
-        direction = f"  {self.guide.direction_text(axis.drive)}" if axis.drive else direction
-        return f"reading {reading}{direction}", bool(axis.drive)
+        return picture(self.guide, self.loop)
 
     def start(self) -> None:
         """Only the loop runs, and the session starts that."""
@@ -118,7 +102,7 @@ class NorthRig:
         self._saving = False
         compass = open_compass(config, Board(station.world, self._opened, clock, sleep))
         self.compass = CompassReader(compass, clock, CompassFile(corrections) if corrections else None)
-        self.loop = _control_loop(config, build_controller(config), station, clock)
+        self.loop = control_loop(config, build_controller(config), station, clock)
         self.guide = NorthGuide(north_facts(config, has_file=corrections is not None))
 
     @property
@@ -129,7 +113,7 @@ class NorthRig:
         reader = self.compass
         if reader.latest:
             self.guide.see(reader.latest)
-        lines = _step(self.guide, self.loop, entry)
+        lines = step(self.guide, self.loop, entry)
         if self.guide.save_wanted and not self._saving:
             reader.request_save()
             self._saving = True
@@ -151,73 +135,30 @@ class NorthRig:
         self._opened.close()
 
 
-class SkyRig:
-    """The whole box as configured, and a target on the sky. `utc`: the time by the box's clock, in seconds since 1970.
-
-    Raises NotThere.
-    """
-
-    def __init__(
-        self, config: Config, station: Station, clock: Callable[[], float], target: Target, utc: Callable[[], float]
-    ) -> None:
-        self._target, self._utc = target, utc
-        self._boom = simulated_boom(config) if station.world else None
-        self._world = station.world
-        self.loop = _control_loop(config, build_controller(config), station, clock)
-        self.guide = SkyGuide(sky_facts(config, _called(target.name)))
-        self._seen = self._sighting()
-
-    @property
-    def result(self) -> MountFound | None:
-        return self.guide.result
-
-    def step(self, entry: Entry | None = None) -> tuple[str, ...]:
-        self._seen = self._sighting()
-        self.guide.see(self._seen)
-        return _step(self.guide, self.loop, entry)
-
-    def picture(self) -> tuple[str, bool]:
-        status, seen = self.loop.status, self._seen
-        angles = " ".join("----" if each.points_deg is None else f"{each.points_deg:.1f}°" for each in _axes(status))
-        text = f"boom {angles}  {self._target.name} {seen.azimuth_deg:.1f}° {seen.elevation_deg:.1f}°"
-        return f"{text}  {seen.finder}", status.moving
-
-    def start(self) -> None:
-        """Only the loop runs, and the session starts that."""
-
-    def stop(self) -> None:
-        """Only the loop runs, and the session stops that."""
-
-    def _sighting(self) -> Sighting:
-        now_s = self._utc()
-        sight, finder = self._target.sight(now_s), ""
-        if self._boom is not None and self._world is not None:
-            seen = SkyPoint(*self._boom(*self._world.antenna()), sight.azimuth_deg, sight.elevation_deg)
-            finder = f"SIM: along the boom it is {miss_text(seen.miss(PERFECT))}"
-        moment = f"{datetime.fromtimestamp(now_s, UTC):%d %b %Y %H:%M:%S} UTC"
-        return Sighting(sight.azimuth_deg, sight.elevation_deg, moment, finder)
-
-
-def _called(name: str) -> str:
-    return f"the {name}" if name in ("Sun", "Moon") else name
-
-
-def _axes(status: Status) -> tuple[AxisStatus, AxisStatus]:
-    return status.azimuth, status.elevation
-
-
-def _control_loop(config: Config, controller: Controller, station: Station, clock: Callable[[], float]) -> ControlLoop:
+def control_loop(config: Config, controller: Controller, station: Station, clock: Callable[[], float]) -> ControlLoop:
     return ControlLoop(controller, station.rotor, clock, 1 / config.control.rate_hz, after_good_step=station.beat)
 
 
-def _step(guide: Guide, loop: ControlLoop, entry: Entry | None) -> tuple[str, ...]:
+def step(guide: Guide, loop: ControlLoop, entry: Entry | None) -> tuple[str, ...]:
     result = guide.step(loop.status, entry)
     for order in result.orders:
         loop.post(CALIBRATE, order)
     return result.lines
 
 
-def _axis_guide(config: Config, axis: Axis) -> AxisGuide:
+def picture(guide: AxisGuide, loop: ControlLoop) -> tuple[str, bool]:
+    """The reading and the direction in one line, and whether the axis is driven."""
+    facts = guide.facts
+    axis = loop.status.axis(facts.axis)
+    reading = "----" if axis.raw is None else guide.reading_text(axis.raw)
+    if axis.raw is not None and not facts.lowest_reading <= axis.raw <= facts.highest_reading:
+        reading += f", which no whole sensor reads: {facts.lowest_reading:g} to {facts.highest_reading:g}"
+    direction = "  it waits, and looks whether the axis stands" if axis.waiting else ""
+    direction = f"  {guide.direction_text(axis.drive)}" if axis.drive else direction
+    return f"reading {reading}{direction}", bool(axis.drive)
+
+
+def axis_guide(config: Config, axis: Axis) -> AxisGuide:
     """The guide that fits the axis's sensor. Raises HardwareError where the axis cannot be calibrated this way."""
     table = config.axis(axis)
     if config.in_degrees(axis):

@@ -17,8 +17,11 @@ from hw.ports import Axis
 from rotator.assembly.calibration import compass_path
 from rotator.assembly.station import Station
 from rotator.calibrating.results import AngleConfirmed, Result
-from rotator.calibrating.rig import AxisRig, NorthRig, Rig, SkyRig
+from rotator.calibrating.rig import AxisRig, NorthRig, Rig
 from rotator.calibrating.saving import as_toml, save
+from rotator.calibrating.sky_rig import SkyRig, receiver_at
+from rotator.calibrating.sky_table import Residuals
+from rotator.calibrating.stops import UNREACHED, Stops
 from rotator.calibrating.typed_ahead import TypedAhead
 from rotator.config.load import ConfigError
 from rotator.config.model import Config
@@ -47,7 +50,8 @@ class Screen(Protocol):
 class CalibrationSession:
     """`path`: the file that results are saved in; None: they are shown instead. `open_station` raises HardwareError.
 
-    `target`, `utc`: what the boom is to point at, and the time, for the task SKY.
+    For the task SKY: `target`, `utc`: what the boom is to point at, and the time. `receiver`: the address of the
+    rigctld that hears it, `sim`, or None. `draw` gets the points with what is left at each.
     """
 
     def __init__(
@@ -60,7 +64,11 @@ class CalibrationSession:
         *,
         target: Target | None = None,
         utc: Callable[[], float] = time.time,
+        receiver: str | None = None,
+        draw: Callable[[Residuals], None] = lambda _shown: None,
     ) -> None:
+        self._receiver = receiver
+        self._draw = draw
         self._target = target
         self._utc = utc
         self._config = config
@@ -90,33 +98,52 @@ class CalibrationSession:
             return NorthRig(self._config, station, time.monotonic, time.sleep, corrections=corrections)
         if task == SKY:
             assert self._target is not None, "the command names one"
-            return SkyRig(self._config, station, time.monotonic, self._target, self._utc)
+            return self._sky_rig(self._target, station)
         return AxisRig(self._config, Axis(task), station, time.monotonic)
+
+    def _sky_rig(self, target: Target, station: Station) -> SkyRig:
+        def source() -> tuple[float, float]:
+            sight = target.sight(self._utc())
+            return sight.azimuth_deg, sight.elevation_deg
+
+        receiver = None
+        if self._receiver is not None:
+            receiver = receiver_at(self._receiver, self._config, station, time.monotonic, source)
+        return SkyRig(self._config, station, time.monotonic, target, self._utc, receiver=receiver)
 
     async def _calibrate(self, task: str, station: Station, stop: asyncio.Event) -> Result | None:
         """Run one guide to its end. The motors stand when it returns, and when it raises."""
         rig = self._rig(task, station)
-        engine = Engine(rig.loop, station.rotor)
+        engine, stops = Engine(rig.loop, station.rotor), Stops(self._config, rig.loop, station)
         async with self._screen.open(rig):
             try:
                 ended = engine.start()
+                stops.start()
                 rig.start()
-                asked = ""
+                asked, told = "", False
                 while not (rig.guide.ended or stop.is_set() or ended.done()):
                     if lines := rig.step(self._screen.typed.next(rig.guide)):
                         self._screen.show(*lines)
                     if rig.guide.prompt != asked:
                         asked = rig.guide.prompt
                         self._screen.ask(asked)
+                    if stops.unreached and not told:
+                        told = True
+                        self._screen.show(UNREACHED)
                     await asyncio.sleep(POLL_S)
             finally:
                 # The motors first: a compass that hangs takes seconds to stop.
                 try:
                     failure = await engine.halt()
                 finally:
-                    await asyncio.to_thread(rig.stop)
+                    try:
+                        await stops.end()
+                    finally:
+                        await asyncio.to_thread(rig.stop)
         if failure is not None:
             raise failure
+        if isinstance(rig, SkyRig) and rig.guide.residuals is not None:
+            await asyncio.to_thread(self._draw, rig.guide.residuals)
         if not rig.guide.ended:
             self._screen.show(f"Stopped: the motors stand, nothing of the {task} is saved.")
         return rig.result

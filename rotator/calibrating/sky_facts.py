@@ -12,6 +12,7 @@ from rotator.assembly.settings import build_mount, build_offsets
 from rotator.config.model import Config
 from rotator.config.mount_model import SkyRow
 from rotator.control.sky.model_fit import SkyPoint
+from rotator.control.sky.mount import Mount
 from rotator.control.sky.offsets import Offsets
 from rotator.control.sky.pointing_model import PointingModel
 
@@ -20,11 +21,16 @@ from rotator.control.sky.pointing_model import PointingModel
 class SkyFacts:
     target: str
     """The name of what the boom is to point at."""
-    model: PointingModel
-    """The model in force."""
+    mount: Mount
+    """With the model in force."""
+    beam_deg: float
     points: tuple[SkyPoint, ...]
     """Those of earlier times."""
     shift: Offsets
+
+    @property
+    def model(self) -> PointingModel:
+        return self.mount.model
 
     def own_scale(self, points: tuple[SkyPoint, ...]) -> tuple[SkyRow, ...]:
         """The points as the file keeps them."""
@@ -46,4 +52,4 @@ def sky_facts(config: Config, target: str) -> SkyFacts:
         SkyPoint(axis_deg + shift.azimuth_deg, raised_deg + shift.elevation_deg, azimuth_deg, elevation_deg)
         for axis_deg, raised_deg, azimuth_deg, elevation_deg in config.mount.model.points
     )
-    return SkyFacts(target, build_mount(config).model, points, shift)
+    return SkyFacts(target, build_mount(config), config.station.beam_deg, points, shift)

@@ -7,14 +7,15 @@ comes with `see`. The antenna moves by the operator's presses, and by an order t
 from __future__ import annotations
 
 import math
+from collections.abc import Generator
 from dataclasses import dataclass
 
 from rotator.calibrating.entries import TAP_S, Back, Enter, Entry, Finish, No, Press, StopNow, Yes
 from rotator.calibrating.guide import CONFIRM_S, NOTHING_SAVED, ORDER_TAKEN_S, Abandoned, Guide, Steps
 from rotator.calibrating.results import MountFound
 from rotator.calibrating.sky_facts import SkyFacts
-from rotator.calibrating.sky_table import miss_text, picture, table, terms_text
-from rotator.control.sky.model_fit import Fit, NoFit, SkyPoint, fitted
+from rotator.calibrating.sky_table import Residuals, found_text, miss_text, pictures, table, terms_text
+from rotator.control.sky.model_fit import NoFit, SkyPoint, fitted
 from rotator.control.sky.pointing_model import PERFECT
 from rotator.orders import Aim, Jog, Stop
 from rotator.status import AxisStatus, Status
@@ -49,9 +50,11 @@ class SkyGuide(Guide):
     def __init__(self, facts: SkyFacts) -> None:
         super().__init__(KEYS, -360.0, 720.0)
         self.result: MountFound | None = None
+        self.residuals: Residuals | None = None
+        """What was shown last of how far off the boom is at each point."""
         self._facts = facts
         self._seen = Sighting(0.0, 0.0, "")
-        self._points: list[SkyPoint] = []
+        self.points: list[SkyPoint] = []
         self._moved = False
         self._pressed_s: float | None = None
 
@@ -75,13 +78,7 @@ class SkyGuide(Guide):
         self._moved = status.moving
 
     def _path(self) -> Steps:
-        name = self._facts.target
-        self._say(
-            f"How the mount really stands, by {name}. Steer the antenna until {name} is in the middle of its beam: by",
-            "its signal, by its shadow, or along the boom. Be ready to cut its supply. Space or s stops it.",
-            f"  {KEYS}",
-            "  Never look along the boom at the Sun." if name == "the Sun" else "",
-        )
+        self._explain()
         yield
         yield from self._await_axes()
         self._check_axes()
@@ -92,6 +89,15 @@ class SkyGuide(Guide):
             yield from self._earlier()
         yield from self._collect()
         yield from self._propose()
+
+    def _explain(self) -> None:
+        name = self._facts.target
+        self._say(
+            f"How the mount really stands, by {name}. Steer the antenna until {name} is in the middle of its beam: by",
+            "its signal, by its shadow, or along the boom. Be ready to cut its supply. Space or s stops it.",
+            f"  {KEYS}",
+            "  Never look along the boom at the Sun." if name == "the Sun" else "",
+        )
 
     def _await_axes(self) -> Steps:
         """Wait until each axis has an angle, or the box knows why it has none."""
@@ -121,23 +127,22 @@ class SkyGuide(Guide):
     def _earlier(self) -> Steps:
         count = len(self._facts.points)
         if (yield from self._agrees(f"The file has {count} point{'s' if count > 1 else ''}. Keep them? y or n:")):
-            self._points += self._facts.points
+            self.points += self._facts.points
 
     # --- points
 
     def _collect(self) -> Steps:
-        name = self._facts.target
         self._say("", "One or two points tell the offsets, three a tilt, six and more all. Take them far apart.")
         while True:
-            count = f"{len(self._points)} point{'' if len(self._points) == 1 else 's'}"
-            prompt = f"{count}. y: turn to {name}; r l u d: steer; Enter: centred; f: no more."
+            count = f"{len(self.points)} point{'' if len(self.points) == 1 else 's'}"
+            prompt = f"{count}. y: {self._offer}; r l u d: steer; Enter: centred; f: no more."
             match (yield from self._ask(prompt, ACCEPTS, may_go_back=True)):
                 case Yes():
                     yield from self._go()
                 case Enter():
                     yield from self._take_point()
-                case Back() if self._points:
-                    point = self._points.pop()
+                case Back() if self.points:
+                    point = self.points.pop()
                     self._say(f"Taken back: the point at {point.azimuth_deg:.1f}°, {point.elevation_deg:.1f}°.")
                 case Back():
                     self._say("There is no point to take back.")
@@ -146,28 +151,35 @@ class SkyGuide(Guide):
                 case _:
                     self._say(self._accepts)
 
+    @property
+    def _offer(self) -> str:
+        return f"turn to {self._facts.target}"
+
     def _go(self) -> Steps:
         """Turn to the target, and wait until the antenna stands."""
         self._check_up()
-        seen = self._seen
-        self._orders += [Stop(), Aim(seen.azimuth_deg, seen.elevation_deg, place=True)]
         self.prompt = f"It turns to {self._facts.target}; s stops it."
+        if problem := (yield from self._turn(self._seen.azimuth_deg, self._seen.elevation_deg)):
+            self._say(problem)
+
+    def _turn(self, azimuth_deg: float, elevation_deg: float, stands_s: float = STANDS_S) -> Generator[None, None, str]:
+        """Turn there, and wait until the antenna has stood for so long. Returns why it does not; empty: it does."""
+        self._orders += [Stop(), Aim(azimuth_deg, elevation_deg, place=True)]
         began_s = still_s = self._now_s
-        yield
-        while self._now_s - still_s < STANDS_S or self._now_s - began_s < ORDER_TAKEN_S:
-            if isinstance(self._entry, StopNow):
+        while self._now_s - still_s < stands_s or self._now_s - began_s < ORDER_TAKEN_S:
+            yield
+            # Looked at first after each step: in the last one, too, a stop ends more than this turn.
+            if isinstance(self._entry, (Press, StopNow)):
                 self._halt()
-                self._say("Stopped.")
-                return
+                return "Stopped."
             if self._now_s - began_s > PATIENCE_S:
                 self._halt()
-                self._say("It has not come to rest: stopped.")
-                return
+                return "It has not come to rest: stopped."
             self._check_axes()
             if self._status.moving:
                 still_s = self._now_s
-            yield
         self._orders.append(Stop())
+        return ""
 
     def _take_point(self) -> Steps:
         """The axes as they stand, and the target where it was when the operator said so."""
@@ -179,6 +191,7 @@ class SkyGuide(Guide):
         self.prompt = "Reading; hands off."
         sums, count, read_s = [0.0, 0.0], 0, None
         while count < READINGS:
+            yield
             if isinstance(self._entry, (Press, StopNow)) or self._status.moving:
                 self._say("Refused: it moved while it was read. Let it stand.")
                 return
@@ -187,16 +200,17 @@ class SkyGuide(Guide):
                 read_s, count = self._now_s, count + 1
                 sums = [sums[0] + angles_deg[0], sums[1] + angles_deg[1]]
             self._check_axes()
-            yield
-        point = SkyPoint(sums[0] / count, sums[1] / count, seen.azimuth_deg, seen.elevation_deg)
+        self._add(SkyPoint(sums[0] / count, sums[1] / count, seen.azimuth_deg, seen.elevation_deg))
+
+    def _add(self, point: SkyPoint) -> None:
         miss = point.miss(self._facts.model)
         if math.hypot(*miss) > FARTHEST_DEG:
             self._say(f"Refused: {self._facts.target} is {math.hypot(*miss):.0f}° from where the boom points.")
             return
-        self._points.append(point)
+        self.points.append(point)
         self._say(
-            f"Point {len(self._points)}: the axes at {point.axis_azimuth_deg:.2f}°, {point.axis_elevation_deg:.2f}°; "
-            f"{self._facts.target} at {seen.azimuth_deg:.2f}°, {seen.elevation_deg:.2f}°,",
+            f"Point {len(self.points)}: the axes at {point.axis_azimuth_deg:.2f}°, {point.axis_elevation_deg:.2f}°; "
+            f"{self._facts.target} at {point.azimuth_deg:.2f}°, {point.elevation_deg:.2f}°,",
             f"   {miss_text(miss)} of where the boom should point by the model in force.",
         )
 
@@ -205,21 +219,23 @@ class SkyGuide(Guide):
     def _propose(self) -> Steps:
         before = self._facts.model
         try:
-            fit = fitted(self._points, before)
+            fit = fitted(self.points, before)
         except NoFit as reason:
-            self._say(*table(self._points, before, None), f"{str(reason)[0].upper()}{str(reason)[1:]}. {NOTHING_SAVED}")
+            self._say(*table(self.points, before, None), f"{str(reason)[0].upper()}{str(reason)[1:]}. {NOTHING_SAVED}")
             return
+        self.residuals = Residuals(tuple(self.points), before, fit.model)
         self._say(
             "",
-            *table(self._points, before, fit.model),
-            *picture(self._points, before, fit.model),
+            *table(self.points, before, fit.model),
+            *pictures(self.residuals),
             "",
             f"  now   {terms_text(before)}" if before != PERFECT else "  now   none",
             f"  then  {terms_text(fit.model)}",
-            f"It points {fit.before_deg:.2f}° off now, and {fit.rms_deg:.2f}° with the new terms (rms).{_found(fit)}",
+            f"It points {fit.before_deg:.2f}° off now, and {fit.rms_deg:.2f}° with the new terms (rms)."
+            f"{found_text(fit)}",
         )
         if (yield from self._agrees("Save it? y or n:")):
-            self.result = MountFound(fit.model, self._facts.own_scale(tuple(self._points)))
+            self.result = MountFound(fit.model, self._facts.own_scale(tuple(self.points)))
         else:
             self._say(NOTHING_SAVED)
 
@@ -230,13 +246,3 @@ class SkyGuide(Guide):
             self._pressed_s = self._now_s
             seconds = FINE_S if press.seconds == TAP_S else press.seconds
             self._orders.append(Jog(press.axis, press.direction, seconds))
-
-
-def _found(fit: Fit) -> str:
-    match len(fit.terms):
-        case 2:
-            return " IA and IE are found; for the tilt it takes three points or more, far apart."
-        case 4:
-            return " CA and NPAE stay: for these it takes six points, low and high."
-        case _:
-            return ""

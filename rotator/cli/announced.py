@@ -1,14 +1,17 @@
 """Which boxes a user runs, and in which folders: so that `rotator stop` stops a box from any folder.
 
 A box in the foreground leaves a small file while it runs: the path of its monitor's socket, its folder and its file.
-Knows these files. Does not connect: a box that was killed leaves its file, and the next start removes it. The service
-needs none, for its sockets have a place of their own.
+Root finds every user's: with `sudo` a person means the box that runs, also another user's. Knows these files. Does not
+connect: a box that was killed leaves its file, and the next start removes it. The service needs none, for its sockets
+have a place of their own.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+import pwd
+import stat
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import NamedTuple
@@ -16,6 +19,16 @@ from typing import NamedTuple
 from rotator.config.places import console_path
 
 FOLDER = Path("gs232-rotator", "boxes")
+STATE_OF_A_USER = Path(".local", "state")
+LONGEST = 16384
+"""More bytes than two paths and a folder can have."""
+
+
+class Home(NamedTuple):
+    """Another user's home folder."""
+
+    folder: Path
+    owner: int
 
 
 class Announced(NamedTuple):
@@ -47,30 +60,60 @@ def announced(monitor: Path, config: Path | None, environment: Mapping[str, str]
             note.unlink(missing_ok=True)
 
 
-def boxes(environment: Mapping[str, str] = os.environ) -> list[Announced]:
-    """The boxes of this user whose sockets are there."""
+def boxes(environment: Mapping[str, str] = os.environ, others: Sequence[Home] | None = None) -> list[Announced]:
+    """The boxes of this user whose sockets are there. For root also those of `others`, which are all other users."""
+    others = _other_homes() if others is None else others
+    found = _boxes_in(_folder(environment))
+    for home in others:
+        found += _boxes_in(home.folder / STATE_OF_A_USER / FOLDER, home.owner)
+    return list(dict.fromkeys(found))
+
+
+def _boxes_in(folder: Path, owner: int | None = None) -> list[Announced]:
+    """`owner`: files and sockets of other users do not count, or this user could lead root to another one's box."""
     try:
-        notes = sorted(_folder(environment).iterdir())
+        notes = sorted(folder.iterdir())
     except OSError:
         return []
-    return [box for note in notes if (box := _read(note)) is not None and console_path(box.monitor).is_socket()]
+    return [box for note in notes if (box := _read(note, owner)) is not None and _is_there(box, owner)]
 
 
-def _read(note: Path) -> Announced | None:
+def _is_there(box: Announced, owner: int | None) -> bool:
     try:
-        monitor, folder, config = note.read_text(encoding="utf-8").splitlines()
+        socket_file = console_path(box.monitor).lstat()
+    except OSError:
+        return False
+    return stat.S_ISSOCK(socket_file.st_mode) and owner in (None, socket_file.st_uid)
+
+
+def _other_homes() -> list[Home]:
+    """For root: of every user but root."""
+    if os.geteuid() != 0:
+        return []
+    return [Home(Path(user.pw_dir), user.pw_uid) for user in pwd.getpwall() if user.pw_uid != 0]
+
+
+def _read(note: Path, owner: int | None) -> Announced | None:
+    try:
+        # Another user may have put a link or a pipe there: it is not followed, and not waited for.
+        file = os.open(note, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        with open(file, "rb") as opened:
+            what = os.fstat(file)
+            if not stat.S_ISREG(what.st_mode) or owner not in (None, what.st_uid):
+                return None
+            monitor, folder, config = opened.read(LONGEST).decode("utf-8").splitlines()
+        return Announced(Path(monitor), Path(folder), Path(config) if config else None)
     except (OSError, ValueError):
         return None
-    return Announced(Path(monitor), Path(folder), Path(config) if config else None)
 
 
 def _remove_old(folder: Path) -> None:
     for note in folder.iterdir():
-        box = _read(note)
-        if box is None or not console_path(box.monitor).is_socket():
+        box = _read(note, None)
+        if box is None or not _is_there(box, None):
             note.unlink(missing_ok=True)
 
 
 def _folder(environment: Mapping[str, str]) -> Path:
-    state = environment.get("XDG_STATE_HOME") or os.path.expanduser("~/.local/state")
+    state = environment.get("XDG_STATE_HOME") or Path(os.path.expanduser("~")) / STATE_OF_A_USER
     return Path(state) / FOLDER

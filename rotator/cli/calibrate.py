@@ -25,19 +25,26 @@ from hw.ports import Axis
 from rotator.app import open_station
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.assembly.station import Station
+from rotator.calibrating.receiver import BadAddress
 from rotator.calibrating.rig import Rig
 from rotator.calibrating.session import SKY, CalibrationSession
+from rotator.calibrating.sky_rig import check
+from rotator.calibrating.sky_table import Residuals
 from rotator.calibrating.typed_ahead import TypedAhead
+from rotator.cli.announced import announced
 from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
 from rotator.cli.reach import connected, consoles
 from rotator.cli.screen import draw, log_to, stop_on_signals
-from rotator.cli.sky import NO_PLACE
 from rotator.config.load import load
 from rotator.config.model import Config
+from rotator.config.places import monitor_path
+from rotator.config.station import NO_PLACE
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, Target
 from rotator.orbits.targets import find
+from rotator.store.whole import write_whole
+from rotator.views.residual_svg import residual_svg
 
 
 def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None, *, plain: bool) -> int:
@@ -49,8 +56,20 @@ def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None,
     return asyncio.run(_run(config, path, faults, tasks, plain=plain))
 
 
-def calibrate_sky(path: Path | None, faults: tuple[str, ...], words: str, at_s: float | None, *, plain: bool) -> int:
-    """`words`: the target's name. `at_s`: the moment at which a simulated calibration begins; None: now."""
+def calibrate_sky(
+    path: Path | None,
+    faults: tuple[str, ...],
+    words: str,
+    at_s: float | None,
+    *,
+    plain: bool,
+    receiver: str | None = None,
+    svg: Path | None = None,
+) -> int:
+    """`words`: the target's name. `at_s`: the moment at which a simulated calibration begins; None: now.
+
+    `receiver`: the address of its rigctld, or `sim`; None: a person finds the target. `svg`: the picture of the points.
+    """
     config = load(path)
     if config.rotor.hardware != "sim":
         if at_s is not None:
@@ -65,11 +84,15 @@ def calibrate_sky(path: Path | None, faults: tuple[str, ...], words: str, at_s: 
     if site is None:
         raise CommandFailed(NO_PLACE)
     try:
-        target = find(words, site, build_catalogue(config.sky))
+        target = find(words, site, build_catalogue(config))
         target.sight(utc())
-    except (Unknown, NotThere) as reason:
+        if receiver is not None:
+            check(receiver, config)
+    except (Unknown, NotThere, BadAddress) as reason:
         raise CommandFailed(str(reason)) from None
-    return asyncio.run(_run(config, path, faults, [SKY], plain=plain, target=target, utc=utc))
+    return asyncio.run(
+        _run(config, path, faults, [SKY], plain=plain, target=target, utc=utc, receiver=receiver, svg=svg)
+    )
 
 
 async def _run(
@@ -81,6 +104,8 @@ async def _run(
     plain: bool,
     target: Target | None = None,
     utc: Callable[[], float] = time.time,
+    receiver: str | None = None,
+    svg: Path | None = None,
 ) -> int:
     stop = stop_on_signals()
     log_to(logging.StreamHandler())
@@ -88,8 +113,26 @@ async def _run(
     logging.getLogger().setLevel(logging.CRITICAL)
     screen: PlainLines | LivePicture = PlainLines() if plain else LivePicture()
     on_open = partial(_inject, faults)
-    session = CalibrationSession(config, path, screen, open_station, on_open, target=target, utc=utc)
-    return 0 if await session.run(tasks, stop) else 1
+
+    def drawn(shown: Residuals) -> None:
+        if svg is not None:
+            _draw(shown, svg, screen)
+
+    session = CalibrationSession(
+        config, path, screen, open_station, on_open, target=target, utc=utc, receiver=receiver, draw=drawn
+    )
+    # `rotator stop` finds it from any folder.
+    with announced(monitor_path(config.state.path, config.monitor.path, os.environ), path):
+        return 0 if await session.run(tasks, stop) else 1
+
+
+def _draw(shown: Residuals, svg: Path, screen: PlainLines | LivePicture) -> None:
+    try:
+        write_whole(svg, residual_svg(shown.points, shown.before, shown.after))
+    except OSError as fault:
+        screen.show(f"{svg}: cannot be written: {fault.strerror}")
+    else:
+        screen.show(f"The points are drawn in {svg}.")
 
 
 class PlainLines:
@@ -191,7 +234,8 @@ def _refuse_beside_running_box(path: Path | None) -> None:
         if box := connected(place):
             box.close()
             raise CommandFailed(
-                "the box is running, and two programs cannot have the motors: end it (sudo systemctl stop rotator)"
+                "the box is running, or another calibration, and two programs cannot have the motors: end it (sudo "
+                "systemctl stop rotator)"
             )
 
 

@@ -94,6 +94,17 @@ class Commands(click.Group):
             self.add_command(command)
             self._headings.setdefault(heading, []).append(str(command.name))
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """`help WORDS` is `WORDS --help`."""
+        if args[0] != "help":
+            return super().resolve_command(ctx, args)
+        if not args[1:]:
+            click.echo(ctx.get_help())
+            ctx.exit()
+        return super().resolve_command(ctx, [*args[1:], "--help"])
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         return [name for names in self._headings.values() for name in names]
 

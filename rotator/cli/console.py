@@ -90,14 +90,44 @@ def _is_near(status: BoxStatus, axis: str, angle_deg: float) -> bool:
 
 def relays_checked(path: Path | None, axis: str, *, yes: bool) -> None:
     with RunningBox(path) as box:
-        if box.status()[axis]["moving"]:
+        now = box.status()[axis]
+        if now["moving"]:
             raise Refused(f"{axis} turns: first `rotator stop`, then look at its relays")
+        if not now["relays_in_doubt"]:
+            raise Refused(f"nothing is in doubt about the relays of {axis}")
         agree(f"With both relays of {axis} switched off: does its motor have no current, from either of them?", yes=yes)
         box.order(f"relays-checked {axis}")
         failed = faults(box.status(), (axis,))
     click.echo(
         f"The relays of {axis} count as open." + (" Acknowledge the fault with `rotator resume`." if failed else "")
     )
+
+
+def pair(path: Path | None) -> None:
+    with RunningBox(path) as box:
+        (code,) = box.order("pair")
+    click.echo(f"{code} is the code. Type it on the page within two minutes; the box's display shows it too.")
+
+
+def paired(path: Path | None) -> None:
+    with RunningBox(path) as box:
+        lines = box.order("pair list")
+    click.echo("\n".join(lines) if lines else "Nothing is paired: `rotator pair` prints a code for a browser.")
+
+
+def revoke(path: Path | None, number: int) -> None:
+    with RunningBox(path) as box:
+        box.order(f"pair revoke {number}")
+    click.echo("It is paired no more.")
+
+
+def token(path: Path | None, name: str) -> None:
+    """Print a token alone, for a script. Raises Refused for a name that is none."""
+    if not name.strip():
+        raise Refused("a token needs a name, by which you can revoke it")
+    with RunningBox(path) as box:
+        (printed,) = box.order(f"pair token {name}")
+    click.echo(printed)
 
 
 def hand(path: Path | None, words: Sequence[str]) -> None:

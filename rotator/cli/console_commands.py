@@ -51,13 +51,14 @@ def point(path: Path | None, wait: bool, azimuth: float, elevation: float) -> No
 )
 @CONFIG
 @click.option("--clock-is-right", is_flag=True, help="You have seen that the computer's clock shows the right time.")
-@click.argument("words", nargs=-1, required=True, metavar="NAME|LOCATOR|AZ EL|plan|off")
+@click.argument("words", nargs=-1, metavar="[NAME|LOCATOR|AZ EL|FILE.csv|plan|off]")
 def track(path: Path | None, clock_is_right: bool, words: tuple[str, ...]) -> None:
     """Let the box track a target by itself, from pass to pass.
 
     NAME: ISS, 25544, so50, sun, moon, mars, "cas a". It needs [station] in the box's file, and for satellites [sky]
     elements. The antenna goes to where the target rises and waits there. Any other order ends it. `plan` goes back to
-    what [[sky.follow]] names; `off` tracks nothing.
+    what [[sky.follow]] names; `off` tracks nothing. Without words it tells what is tracked. FILE.csv is a table
+    t,az,el: t in seconds from now, or in UTC as 2026-11-22T18:30:00Z.
     """
     from rotator.cli.track import begin
 
@@ -94,10 +95,11 @@ def park(path: Path | None, wait: bool) -> None:
 
 @click.command(epilog=examples("rotator stop"))
 @CONFIG
-def stop(path: Path | None) -> None:
+@click.argument("words", nargs=-1, metavar="")
+def stop(path: Path | None, words: tuple[str, ...]) -> None:
     """Stop the antenna until `rotator resume`. Until then no link can move it.
 
-    Without --config it stops every box that you run, in whichever folder, and the service.
+    Without --config it stops every box that you run, in whichever folder, and the service; with sudo every user's.
     """
     from rotator.cli import reach
     from rotator.cli.stop import STOPPED, stop_boxes
@@ -187,6 +189,27 @@ def panel(path: Path | None, words: tuple[str, ...]) -> None:
     from rotator.cli import console
 
     console.hand(path, words)
+
+
+@click.command(epilog=examples("rotator pair", "rotator pair --list", "rotator pair --token logger"))
+@CONFIG
+@click.option("--list", "listed", is_flag=True, help="List all that are paired, with their numbers.")
+@click.option("--revoke", type=click.IntRange(1, 1_000_000), metavar="NUMBER", help="Pair this one no more.")
+@click.option("--token", metavar="NAME", help="Print a token for a program of this name.")
+def pair(path: Path | None, listed: bool, revoke: int | None, token: str | None) -> None:
+    """Print the code that pairs a browser with the box."""
+    from rotator.cli import console
+
+    if listed + (revoke is not None) + (token is not None) > 1:
+        raise click.UsageError("--list, --revoke and --token: one at a time")
+    if listed:
+        console.paired(path)
+    elif revoke is not None:
+        console.revoke(path, revoke)
+    elif token is not None:
+        console.token(path, token)
+    else:
+        console.pair(path)
 
 
 @click.command(context_settings=ANY_WORDS, epilog=examples("rotator tell help", "rotator tell status json"))

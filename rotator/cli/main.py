@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import shutil
 import sys
+from collections.abc import Sequence
 from io import TextIOWrapper
 from pathlib import Path
 
@@ -55,7 +56,7 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
     epilog=examples(
         "rotator rehearse                  # lists the passes that are there",
         "rotator rehearse north-1-iss",
-        "rotator rehearse mine.csv --config station.toml --trace flight.csv",
+        "rotator rehearse mine.csv --config station.toml --svg flight.svg",
     )
 )
 @CONFIG
@@ -68,6 +69,7 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
     help="The protocol of the orders; `track`: the box knows the pass beforehand.",
 )
 @click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the flight to this CSV file.")
+@click.option("--svg", type=click.Path(path_type=Path, dir_okay=False), help="Draw the flight into this SVG file.")
 @click.option("--json", "as_json", is_flag=True, help="Print the summary as JSON.")
 @click.option("--target", metavar="NAME", help="Fly the next pass of a satellite, Sun or Moon, tracked by the box.")
 @click.option(
@@ -84,6 +86,7 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
     pass_file: str | None,
     via: str,
     trace: Path | None,
+    svg: Path | None,
     as_json: bool,
     target: str | None,
     at_s: float | None,
@@ -102,7 +105,16 @@ def rehearse(  # noqa: PLR0917 - click calls it by keyword
     from rotator.cli.rehearse import rehearse_pass
 
     rehearse_pass(
-        pass_file, path, faults, via=via, trace=trace, as_json=as_json, arduino=arduino, target=target, at_s=at_s
+        pass_file,
+        path,
+        faults,
+        via=via,
+        trace=trace,
+        as_json=as_json,
+        arduino=arduino,
+        target=target,
+        at_s=at_s,
+        svg=svg,
     )
 
 
@@ -121,7 +133,7 @@ def arduino(pty: Path, path: Path | None, plain: bool) -> None:
     epilog=examples(
         "rotator calibrate --config station.toml",
         "rotator calibrate --config station.toml elevation",
-        "rotator calibrate --config station.toml sky --target moon",
+        "rotator calibrate --config station.toml sky --receiver 127.0.0.1:4532",
     )
 )
 @CONFIG
@@ -130,8 +142,17 @@ def arduino(pty: Path, path: Path | None, plain: bool) -> None:
 @click.argument("what", required=False, type=click.Choice(["azimuth", "elevation", "north", "sky"]))
 @click.option("--target", metavar="NAME", help="sky: what the antenna is steered to; the Sun, if left out.")
 @click.option("--at", "at_s", type=utc_time, metavar="UTC", help="sky: begin at this moment; for a simulated rotor.")
+@click.option("--receiver", metavar="HOST:PORT", help="sky: its rigctld; the box finds the target by the strength.")
+@click.option("--svg", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE", help="sky: draw the points.")
 def calibrate(  # noqa: PLR0917 - click calls it by keyword
-    path: Path | None, faults: tuple[str, ...], plain: bool, what: str | None, target: str | None, at_s: float | None
+    path: Path | None,
+    faults: tuple[str, ...],
+    plain: bool,
+    what: str | None,
+    target: str | None,
+    at_s: float | None,
+    receiver: str | None,
+    svg: Path | None,
 ) -> None:
     """Set up axes, find north, or how the mount leans.
 
@@ -141,9 +162,9 @@ def calibrate(  # noqa: PLR0917 - click calls it by keyword
 
     plain = plain or not (sys.stdin.isatty() and _draws())
     if what == "sky":
-        sys.exit(calibrate_sky(path, faults, target or "sun", at_s, plain=plain))
-    if target is not None or at_s is not None:
-        raise click.UsageError("--target and --at go with: rotator calibrate sky")
+        sys.exit(calibrate_sky(path, faults, target or "sun", at_s, plain=plain, receiver=receiver, svg=svg))
+    if any(option is not None for option in (target, at_s, receiver, svg)):
+        raise click.UsageError("--target, --at, --receiver and --svg go with: rotator calibrate sky")
     sys.exit(calibrate_axes(path, faults, what, plain=plain))
 
 
@@ -300,14 +321,15 @@ def _draws() -> bool:
 
 cli.under("The antenna", console.where, console.point, console.jog, console.park, console.stop, console.resume)
 cli.under("An axis that asks for a person", console.home, console.confirm, console.relays_checked, console.let_go)
-cli.under("The box", run, doctor, monitor, console.tell, off)
+cli.under("The box", run, doctor, monitor, console.pair, console.tell, off)
 cli.under("The sky", sky, console.track)
 cli.under("Setting up", show_config, calibrate, set_up)
 cli.under("Without a rotor", rehearse, arduino, console.panel)
 
 
-def main() -> None:
-    """Run the command. An error that the user can repair is printed as a sentence; exit codes: `rotator.cli.failed`.
+def main(words: Sequence[str] | None = None) -> None:
+    """Run the command of these words; None: of the command line. An error that the user can repair is printed as a
+    sentence; exit codes: `rotator.cli.failed`.
 
     Raises KeyboardInterrupt.
     """
@@ -316,7 +338,7 @@ def main() -> None:
             # A terminal without ° or a file name that is no text must not end the command.
             stream.reconfigure(errors="backslashreplace")
     try:
-        sys.exit(cli(standalone_mode=False))
+        sys.exit(cli(words, prog_name="rotator", standalone_mode=False))
     except click.ClickException as mistake:
         say_mistake(mistake)
         sys.exit(mistake.exit_code)

@@ -18,6 +18,7 @@ from rotator.cli.announced import boxes
 from rotator.cli.failed import CommandFailed, NoBox
 from rotator.config import places
 from rotator.config.places import INSTALLED, STATE, console_path, monitor_places
+from rotator.store.plain import read_plain
 
 
 def monitors(path: Path | None) -> list[Path]:
@@ -118,4 +119,4 @@ def _text(path: Path | None) -> str:
     """Raises OSError, UnicodeDecodeError."""
     if path is None:
         return (files("rotator.config") / "simulated.toml").read_text(encoding="utf-8")
-    return path.read_text(encoding="utf-8-sig")
+    return read_plain(path).decode("utf-8-sig")

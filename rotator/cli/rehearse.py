@@ -21,19 +21,23 @@ from tempfile import TemporaryFile
 
 import click
 
+from rotator.assembly.settings import build_mount
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.faults import FaultInjector, parse_faults
 from rotator.config.axes import AxisTable
 from rotator.config.load import load
 from rotator.config.model import Config
-from rotator.rehearsal.flight import Sample, Summary, fly, plant_maker
-from rotator.rehearsal.passes import FORM, SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
+from rotator.protocols.table_text import FORM
+from rotator.rehearsal.flight import Summary, fly, plant_maker
+from rotator.rehearsal.passes import SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
 from rotator.rehearsal.sky_target import next_pass
 from rotator.store.whole import write_whole
+from rotator.views.pass_svg import Flown, draw
+from rotator.views.trace import Sample
 
 NO_SKY = (
     "--at is for a box that knows satellites: write [station] with latitude_deg and longitude_deg, or locator, and "
-    "[sky] elements into the file of --config"
+    "[sky] elements or fetch into the file of --config"
 )
 
 
@@ -48,6 +52,7 @@ def rehearse_pass(
     at_s: float | None,
     arduino: bool,
     target: str | None = None,
+    svg: Path | None = None,
 ) -> None:
     """`word`: the name of a shipped pass, or a file; None: list the names.
 
@@ -71,14 +76,17 @@ def rehearse_pass(
             flown = find_pass(word or shipped_names()[0])
     except PassError as fault:
         raise CommandFailed(str(fault)) from None
-    if trace and word and trace.exists() and Path(word).exists() and trace.samefile(word):
-        raise click.UsageError("--trace would write over the pass")
+    outputs = {option: file for option, file in (("--trace", trace), ("--svg", svg)) if file is not None}
+    for option, file in outputs.items():
+        if word and file.exists() and Path(word).exists() and file.samefile(word):
+            raise click.UsageError(f"{option} would write over the pass")
     if arduino and faults:
         raise click.UsageError("--fault is for the box, not for the Arduino")
-    if at_s is not None and target is None and not (config.station.is_known and config.sky.elements):
+    knows_satellites = config.station.is_known and (config.sky.elements or config.sky.fetch)
+    if at_s is not None and target is None and not knows_satellites:
         raise click.UsageError(NO_SKY)
-    if trace is not None:
-        _make_sure_of(trace)
+    for file in outputs.values():
+        _make_sure_of(file)
     make = plant_maker(
         config,
         via=via,
@@ -91,6 +99,9 @@ def rehearse_pass(
         rows, summary = fly(flown, make, progress)
     if trace is not None:
         _write_trace(trace, rows)
+    if svg is not None:
+        flier = Flown("the sketch" if arduino else "the antenna", "red" if arduino else "blue", rows, summary)
+        _write(svg, draw(flown.name, [flier], build_mount(config)))
     click.echo(json.dumps(summary.as_dict()) if as_json else _sentence(flown, summary, arduino=arduino))
     if summary.faults:
         raise CommandFailed("\n         ".join(("at the end of the pass:", *summary.faults)), FAULTY)
@@ -180,7 +191,11 @@ def _write_trace(path: Path, rows: list[Sample]) -> None:
     writer = csv.writer(text)
     writer.writerow(field.name for field in fields(Sample))
     writer.writerows([round(value, 4) for value in astuple(row)] for row in rows)
+    _write(path, text.getvalue())
+
+
+def _write(path: Path, text: str) -> None:
     try:
-        write_whole(path, text.getvalue())
+        write_whole(path, text)
     except OSError as fault:
         raise _not_written(path, fault) from None

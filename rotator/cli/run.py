@@ -1,7 +1,7 @@
 """`rotator run`: the box in the foreground, with a live picture in a terminal, or plain lines elsewhere.
 
-Starts the faults of --fault. `rotator.cli.run_keys` knows the keys, `rotator.views` draws the picture; `rotator.app` is
-the box.
+Starts the faults of --fault, and the box anew where the page wants that. `rotator.cli.run_keys` knows the keys,
+`rotator.views` draws the picture; `rotator.app` is the box.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from rich.console import RenderableType
 
 from rotator import __version__
 from rotator.app import App
+from rotator.cli.anew import restored, start_anew, text_of
 from rotator.cli.announced import announced, boxes
 from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
@@ -29,7 +30,9 @@ from rotator.cli.reach import connected
 from rotator.cli.run_keys import NEXT, RunKeys
 from rotator.cli.screen import LogRows, draw, has_ascii_only, keys_to, log_to, print_lines, terminal_console
 from rotator.config.load import load
+from rotator.config.model import Config
 from rotator.config.places import console_path, monitor_path, runtime_folder
+from rotator.runtime.anew import Anew
 from rotator.runtime.signals import SignalThread
 from rotator.views import plain_lines, terminal
 from rotator.views.sky_plot import Trail
@@ -37,21 +40,38 @@ from rotator.views.sky_plot import Trail
 
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
     """Raises CommandFailed where a box runs already with these sockets."""
-    config = load(path)
-    monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
-    _make_sure_of(monitor, path)
-    app = App(config, path)
+    anew = Anew()
+    restored(path)
+    good = text_of(path)
+    app = _app(path, anew)
     recent = LogRows()
     screen, errors = Output(sys.stdout, LINES if plain else PICTURES), Output(sys.stderr)
     # Before a thread of the app can log above the picture.
     log_to(logging.StreamHandler(cast(TextIO, errors)) if plain else recent)
     try:
         chosen = parse_faults(faults, app.station.world)
-        with nullcontext() if runtime_folder(os.environ) else announced(monitor, path):
-            asyncio.run(run_app(app, chosen, screen, None if plain else recent))
+
+        def run(app: App) -> None:
+            with nullcontext() if runtime_folder(os.environ) else announced(_monitor(app.config), path):
+                asyncio.run(run_app(app, chosen, screen, None if plain else recent, anew))
+            # Those of the command line have begun, and a person has seen them.
+            chosen.clear()
+
+        run(app)
+        start_anew(path, anew, lambda: _app(path, anew), run, good)
     finally:
         screen.close()
         errors.close()
+
+
+def _app(path: Path | None, anew: Anew) -> App:
+    config = load(path)
+    _make_sure_of(_monitor(config), path)
+    return App(config, path, anew=anew)
+
+
+def _monitor(config: Config) -> Path:
+    return monitor_path(config.state.path, config.monitor.path, os.environ)
 
 
 def _make_sure_of(monitor: Path, path: Path | None) -> None:
@@ -72,8 +92,10 @@ def _make_sure_of(monitor: Path, path: Path | None) -> None:
     )
 
 
-async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, recent: LogRows | None) -> None:
-    """Run until a signal or a key ends it.
+async def run_app(
+    app: App, faults: list[tuple[float, str]], screen: Output, recent: LogRows | None, anew: Anew
+) -> None:
+    """Run until a signal or a key ends it, or until the page wants it to start anew.
 
     `faults`: seconds after the start, and the simulator's name of each. `recent`: the log rows of the picture; None:
     print plain lines.
@@ -85,18 +107,23 @@ async def run_app(app: App, faults: list[tuple[float, str]], screen: Output, rec
         with suppress(RuntimeError):  # the event loop has ended already
             events.call_soon_threadsafe(stop.set)
 
+    def ended_by_signal() -> None:
+        anew.forget()
+        ended()
+
+    anew.on_asked = ended
     for at_s, name in faults:
         assert app.station.world is not None, "faults are for the simulator"
         events.call_later(at_s, app.station.world.inject, name)
     watcher = asyncio.create_task(_plain(app, stop, screen) if recent is None else _picture(app, stop, screen, recent))
     try:
-        with SignalThread(ended):
+        with SignalThread(ended_by_signal):
             await app.run(stop)
     finally:
         watcher.cancel()
         await asyncio.gather(watcher, return_exceptions=True)
     # Below the terminal as it was before the picture.
-    last = plain_lines.farewell(app.loop.status)
+    last = "The page starts the box anew." if anew.asked else plain_lines.farewell(app.loop.status)
     screen.write("".join(f"{row}\n" for row in (_rows(last) if screen.isatty() else last.split("\n"))))
 
 
@@ -108,7 +135,7 @@ def _rows(text: str) -> list[str]:
 
 async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
     """Lines, and at a terminal the same keys as in the picture."""
-    wires = [link.wire for link in app.links]
+    wires = app.wires
     keys = RunKeys(app.console)
 
     def greeting() -> list[str]:
@@ -126,7 +153,7 @@ async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
 
 
 async def _picture(app: App, stop: asyncio.Event, screen: Output, recent: LogRows) -> None:
-    wires = [link.wire for link in app.links]
+    wires = app.wires
     keys, trail, plain = RunKeys(app.console), Trail(), has_ascii_only(screen)
 
     def glass() -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from rotator.protocols.session import Box
 
 WORDS = ("park", "resume")
 STOP, QUIT = " ", "q"
+STAYS = "a fault stays until repaired"
 NEXT = "Enter does it"
 """What is said of a word that is being typed."""
 ENTER, BACK, ESCAPE = "\r\n", "\x7f\b", "\x1b"
@@ -56,7 +57,8 @@ class RunKeys:
             answer = self._session.receive(f"{word}\n".encode())[0].decode().strip()
             refused = answer.removeprefix(ERROR) if answer.startswith(ERROR) else ""
             self._show("")
-            self.line = f"{word}: {refused}" if refused else f"{word}: done"
+            stays = STAYS if word == "resume" and self._box.status().faults else ""
+            self.line = f"{word}: {refused or stays or 'done'}"
         elif word:
             self._show(word, f"write it whole: {' or '.join(WORDS)}")
 

@@ -14,13 +14,14 @@ import termios
 import tty
 from collections import deque
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import IO, cast
 
 from rich.console import Console, RenderableType
 from rich.live import Live
 
 from rotator.cli.output import Output
+from rotator.spoken import spoken
 from rotator.views.plain_characters import ascii_only
 
 PICTURE_HZ = 5
@@ -28,14 +29,14 @@ LOG_ROWS = 40
 
 
 class LogRows(logging.Handler):
-    """The latest log lines, for the picture."""
+    """The latest log lines, for the picture, with the senders' names as a person says them."""
 
     def __init__(self) -> None:
         super().__init__()
         self.rows: deque[str] = deque(maxlen=LOG_ROWS)
 
     def emit(self, record: logging.LogRecord) -> None:
-        self.rows.append(self.format(record).splitlines()[0])
+        self.rows.append(spoken(self.format(record).splitlines()[0]))
 
 
 def log_to(handler: logging.Handler) -> None:
@@ -89,7 +90,7 @@ async def print_lines(greeting: Callable[[], list[str]], line: Callable[[], str]
 
 @contextmanager
 def keys_to(handle: Callable[[str], None]) -> Iterator[None]:
-    """While it is open, each key goes to `handle` without Enter. Without a terminal: nothing."""
+    """While it is open, each key goes to `handle` without Enter. Without a terminal, or once it is gone: nothing."""
     if not sys.stdin.isatty():
         yield
         return
@@ -97,10 +98,25 @@ def keys_to(handle: Callable[[str], None]) -> Iterator[None]:
     before = termios.tcgetattr(fd)
     tty.setcbreak(fd)
     events = asyncio.get_running_loop()
-    events.add_reader(fd, lambda: handle(os.read(fd, 1).decode("latin-1")))
+
+    def read() -> None:
+        try:
+            key = os.read(fd, 1)
+        except OSError:
+            key = b""
+        if key:
+            handle(key.decode("latin-1"))
+        else:
+            # A terminal that is gone would be readable for ever, and cost a whole core. The kernel tells the first
+            # program in it alone, and that may have been `make run`: the box ends as it does then.
+            events.remove_reader(fd)
+            signal.raise_signal(signal.SIGHUP)
+
+    events.add_reader(fd, read)
     try:
         yield
     finally:
         events.remove_reader(fd)
-        # Not after the last output (TCSADRAIN): after Ctrl-S that would be never.
-        termios.tcsetattr(fd, termios.TCSANOW, before)
+        with suppress(termios.error):  # of a terminal that is gone
+            # Not after the last output (TCSADRAIN): after Ctrl-S that would be never.
+            termios.tcsetattr(fd, termios.TCSANOW, before)

@@ -21,6 +21,7 @@ from rotator.cli.utc import day_and_time, iso, local_time
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import INSTALLED
+from rotator.config.station import NO_PLACE
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import Pass
@@ -29,9 +30,6 @@ from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, Target, expected_error_deg, motion
 from rotator.orbits.targets import find
 
-NO_PLACE = (
-    "the configuration names no place: write [station] with latitude_deg and longitude_deg, or locator, into the file"
-)
 NO_PASS = "no pass in this time"
 
 
@@ -77,18 +75,25 @@ def show_passes(
         targets = [find(name, site, catalogue) for name in names] or _all(site, catalogue)
     except (Unknown, NotThere) as reason:
         raise CommandFailed(str(reason)) from None
-    found = [each for target in targets for each in passes_of(target, from_s, from_s + hours * 3600, least_deg)]
-    found.sort(key=lambda each: each.aos_s or from_s)
+    found = [
+        (target, each) for target in targets for each in passes_of(target, from_s, from_s + hours * 3600, least_deg)
+    ]
+    found.sort(key=lambda pair: pair[1].aos_s or from_s)
     if as_json:
         plan = sky_plan.planned(config, sky_plan.followed_by(config, site, catalogue), from_s, hours)
-        flown = {(each.name, each.found.tca_s): each for each in reversed(plan) if each.flight}
-        told = [(each, flown.get((each.name, each.tca_s))) for each in found]
-        click.echo(json.dumps([{**_as_dict(each), "plan": how and sky_plan.as_dict(how)} for each, how in told]))
+        # A long pass may be flown in parts: its first one is told.
+        parts = {(each.name, each.found.tca_s): each for each in reversed(plan)}
+        rows = []
+        for target, each in found:
+            how = parts.get((each.name, each.tca_s))
+            error = {"expected_error_deg": round(_error_deg(target, each), 2)}
+            rows.append({**_as_dict(each), **error, "plan": how and sky_plan.as_dict(how)})
+        click.echo(json.dumps(rows))
         return
     if not found:
         click.echo(NO_PASS)
         return
-    _table(found)
+    _table([each for _, each in found])
 
 
 def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json: bool) -> None:
@@ -103,8 +108,10 @@ def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json:
     plan = sky_plan.planned(config, followed, from_s, hours)
     if as_json:
         click.echo(json.dumps([{**_as_dict(each.found), **sky_plan.as_dict(each)} for each in plan]))
-    else:
-        sky_plan.show(plan, from_s)
+        return
+    sky_plan.show(plan, from_s)
+    for line in sky_plan.changed(config):
+        click.echo(line)
 
 
 def _sky(config: Config) -> tuple[Site, Catalogue]:
@@ -112,7 +119,7 @@ def _sky(config: Config) -> tuple[Site, Catalogue]:
     site = build_site(config.station)
     if site is None:
         raise CommandFailed(NO_PLACE)
-    catalogue = build_catalogue(config.sky)
+    catalogue = build_catalogue(config)
     for fault in catalogue.faults:
         click.echo(f"[sky] elements: {fault}", err=True)
     return site, catalogue
@@ -129,6 +136,15 @@ def _all(site: Site, catalogue: Catalogue) -> list[Target]:
         except NotThere as reason:
             click.echo(str(reason), err=True)
     return targets
+
+
+def _error_deg(target: Target, each: Pass) -> float:
+    """The largest that is to be expected in the pass, from the age of the elements."""
+    moments_s = [moment_s for moment_s in (each.aos_s, each.tca_s, each.los_s) if moment_s is not None]
+    try:
+        return max(expected_error_deg(target, moment_s) for moment_s in moments_s)
+    except NotThere:
+        return 0.0
 
 
 def _as_dict(each: Pass) -> dict[str, object]:

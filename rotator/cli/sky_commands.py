@@ -86,4 +86,17 @@ def plan(path: Path | None, as_json: bool, from_s: float | None, hours: float) -
     show_plan(path, from_s, hours, as_json=as_json)
 
 
-sky.under("Commands", where, passes, plan)
+@click.command(epilog=examples("rotator sky elements"))
+@CONFIG
+@JSON
+def elements(path: Path | None, as_json: bool) -> None:
+    """Show which elements there are, and how old.
+
+    And what came of fetching them.
+    """
+    from rotator.cli.sky_elements import show_elements
+
+    show_elements(path, as_json=as_json)
+
+
+sky.under("Commands", where, passes, plan, elements)

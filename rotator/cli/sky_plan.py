@@ -13,7 +13,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from rotator.assembly.tracking import build_antenna, wanted_often
+from rotator.assembly.tracking import build_antenna, build_priorities, wanted_often
 from rotator.cli.utc import clock_time, day, iso, local_time
 from rotator.config.model import Config
 from rotator.orbits.catalogue import Catalogue
@@ -33,10 +33,21 @@ NARROW = 64
 
 def followed_by(config: Config, site: Site, catalogue: Catalogue) -> list[Followed]:
     """What `[[sky.follow]]` names. Says which targets are not known."""
-    wanted, faults = wanted_often(config.sky, KnownSky(site, catalogue))
+    wanted, faults = wanted_often(config.sky, KnownSky(site, catalogue), build_priorities(config).of)
     for fault in faults:
         click.echo(fault, err=True)
     return [each.followed() for each in wanted]
+
+
+def changed(config: Config) -> list[str]:
+    """A line for each priority that a person has changed on the page."""
+    priorities = build_priorities(config)
+    inforce = [(each, priorities.of(each.name, each.priority)) for each in config.sky.follow]
+    return [
+        f"{each.name}: priority {now:g}, changed on the page; the file says {each.priority:g}"
+        for each, now in inforce
+        if now != each.priority
+    ]
 
 
 def planned(config: Config, followed: Sequence[Followed], from_s: float, hours: float) -> tuple[PlannedPass, ...]:

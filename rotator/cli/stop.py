@@ -1,8 +1,9 @@
 """`rotator stop`: stops the antenna without loading the rest of the program, not even the command line's parser.
 
 A person who calls it sees the antenna run into something, and the whole program takes a second to load on a Pi. Without
-a file it stops the box of this folder, the service, and this user's other boxes. Where the arguments or the file are
-unusual, it leaves the command to the slow way, which has the error texts.
+a file it stops the box of this folder, the service, and this user's other boxes; for root every user's. A stop counts
+whatever words follow it. Where an option or the file is unusual, it leaves the command to the slow way, which has the
+error texts.
 """
 
 from __future__ import annotations
@@ -28,12 +29,12 @@ def stop_at_once(arguments: Sequence[str]) -> bool:
     Raises CommandFailed: there is no box, or it has not obeyed.
     """
     match arguments:
-        case []:
+        case ["--config", name, *words]:
+            path: Path | None = Path(name)
+        case words:
             path = None
-        case ["--config", name]:
-            path = Path(name)
-        case _:
-            return False
+    if any(word.startswith("-") for word in words):
+        return False
     usual = quick_monitors(path)
     if not usual:
         return False

@@ -15,16 +15,26 @@ from rotator.cli.box import RunningBox
 from rotator.cli.failed import CommandFailed
 
 LOOK_S = 0.2
+MOST_BYTES = 1_000_000
 PATIENCE_S = 60.0
 """A plan takes some seconds, on a slow computer ten times as long."""
 
 
 def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
-    """Returns when the antenna goes to wait for the target, or follows it. Raises CommandFailed."""
+    """Returns when the antenna goes to wait for the target, or follows it. Raises CommandFailed.
+
+    Without words: tell what is tracked.
+    """
+    table = _table(words) if words else None
     with RunningBox(path) as box:
         if clock_is_right:
             box.order("clock-is-right")
-        box.order(f"track {words}")
+        if not words:
+            return click.echo(_goes_on(box))
+        if table is not None:
+            _hand_in(box, table, Path(words).stem)
+        else:
+            box.order(f"track {words}")
         if words.casefold() == "off":
             return click.echo("The box tracks nothing.")
         if words.casefold() == "plan":
@@ -37,7 +47,43 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
         tracks = _tracks(box)
     if tracks is None:
         raise CommandFailed("the box has a plan, and the antenna did not take it up: `rotator where` tells more")
-    return click.echo(_sentence(tracks))
+    return click.echo(_sentence(tracks, "rises" if table is None else "begins"))
+
+
+def _table(words: str) -> list[str] | None:
+    """The lines of the file that the words name; None: they name no file. Raises CommandFailed."""
+    path = Path(words)
+    if path.suffix.lower() != ".csv" and not path.is_file():
+        return None
+    from rotator.protocols.table_text import FORM, TableError, read_table  # noqa: PLC0415 - no other target needs it
+    from rotator.store.plain import read_plain  # noqa: PLC0415
+
+    try:
+        text = read_plain(path, MOST_BYTES).decode("utf-8-sig")
+        read_table(text, path.stem, str(path))
+    except OSError as fault:
+        raise CommandFailed(f"{path}: {fault.strerror}") from None
+    except UnicodeDecodeError:
+        raise CommandFailed(f"{path}: is no text file (UTF-8). {FORM}") from None
+    except TableError as mistake:
+        raise CommandFailed(str(mistake)) from None
+    return text.splitlines()
+
+
+def _hand_in(box: RunningBox, lines: list[str], name: str) -> None:
+    """Line by line, so that the box names the same lines as an editor."""
+    box.order("table")
+    for line in lines:
+        box.order(f"table {line if line.strip() else ','}")
+    box.order(f"track-table {'-'.join(name.split())[:40] or 'table'}")
+
+
+def _goes_on(box: RunningBox) -> str:
+    (state,) = box.order("track")
+    tracks = box.status()["tracks"]
+    if tracks is not None:
+        return _sentence(tracks)
+    return "The box makes a plan." if state == "planning" else "The box tracks nothing."
 
 
 def _planned(box: RunningBox) -> str:
@@ -60,14 +106,16 @@ def _tracks(box: RunningBox) -> dict[str, Any] | None:
     return None
 
 
-def _sentence(tracks: dict[str, Any]) -> str:
+def _sentence(tracks: dict[str, Any], begins: str = "rises") -> str:
     wait_s = tracks["begins_in_s"]
     if wait_s > 0:
-        text = f"{tracks['name']} rises in {_time(wait_s)}. The antenna goes there, and waits for it."
+        text = f"{tracks['name']} {begins} in {_time(wait_s)}. The antenna waits for it there."
+    elif begins == "begins":
+        text = f"{tracks['name']} goes on for {_time(tracks['ends_in_s'])} more. The antenna follows it."
     elif tracks["ends_in_s"] is None:
-        text = f"{tracks['name']} is always up. The antenna goes to it."
+        text = f"{tracks['name']} is always up. The antenna follows it."
     else:
-        text = f"{tracks['name']} is up for {_time(tracks['ends_in_s'])} more. The antenna goes to it."
+        text = f"{tracks['name']} is up for {_time(tracks['ends_in_s'])} more. The antenna follows it."
     if tracks["expected_error_deg"] >= 0.1:
         text += f" Expect an error of up to {tracks['expected_error_deg']:.1f}°, from the age of its elements."
     return text

@@ -22,29 +22,27 @@ class Adc(Table):
     kind: Literal["ads1115", "mcp3208"] = "ads1115"
     """An ADS1115 (16 bits, 4 inputs, I2C) or an MCP3208 (12 bits, 8 inputs, SPI)."""
     bus: I2CBus = 1
-    """ADS1115: 1 is the bus on the header."""
+    """ADS1115: its bus."""
     address: I2CAddress = 0x48
     """ADS1115: 0x48 with its ADDR pin at GND, 0x49 at its supply, 0x4a at SDA, 0x4b at SCL."""
     spi: Literal["lines", "kernel"] = "lines"
-    """MCP3208: on any GPIO lines, or on the Pi's SPI controller (dtparam=spi=on, Python package spidev)."""
+    """MCP3208: any GPIO lines, or the Pi's SPI controller (dtparam=spi=on, Python package spidev)."""
     select: Gpio = 8
-    """MCP3208: its CS; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
+    """MCP3208: its CS; with the Pi's controller GPIO 8 is CE0, 7 is CE1."""
     sck: Gpio = 11
-    """MCP3208: its CLK."""
     si: Gpio = 10
-    """MCP3208: its DIN."""
     so: Gpio = 9
-    """MCP3208: its DOUT."""
+    """MCP3208: its CLK, DIN, DOUT."""
     azimuth_channel: Input = 0
     """The input with the azimuth wiper: 0 for A0 or CH0."""
     elevation_channel: Input = 1
     """The input with the elevation wiper."""
     reference_channel: Input | None = None
-    """ADS1115: the input with the pots' supply, if it is wired; the supply's voltage then no longer matters."""
+    """ADS1115: the input with the pots' supply, whose voltage then does not matter."""
     supply_v: float = Field(3.3, gt=0.5, le=5.5)
     """The pots' supply where no input measures it. Wire the MCP3208's VREF to it."""
     rate_sps: Literal[128, 250, 475, 860] = 860
-    """ADS1115: conversions a second. Fewer give less noise; each cycle waits for two conversions."""
+    """ADS1115: conversions a second. Fewer give less noise; each cycle waits for two."""
 
     def channel(self, axis: Axis) -> int:
         """The input with the wiper of this axis."""

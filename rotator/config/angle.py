@@ -19,5 +19,7 @@ class Angle:
     """The readings are degrees on the rotor's own scale, and need no calibration."""
     pot: bool = False
     """A pot on the converter is read."""
+    sensor: str = "pot"
+    """What reads it, in a word for the messages of faults."""
     by: str = ""
     """The source of the degrees, in words for the user; empty for a calibration."""

@@ -23,23 +23,24 @@ class AxisTable(Table):
     speed_dps: float = Field(6.0, gt=0, le=360)
     """The motor's speed, roughly: the box learns the exact one."""
     coast_s: float = Field(0.17, ge=0, le=5)
-    """How far the motor runs on after it is switched off, as seconds at full speed."""
+    """How far the motor runs on when switched off, as seconds at full speed."""
+    backlash_deg: float = Field(0.0, ge=0, le=10)
+    """Play between sensor and antenna, where you know it: on passes that the box plans, each step allows for it."""
     calibration: list[Point] | None = None
     """Points [reading, degrees]; the reading is the wiper's share of the pot's supply, 0 to 1."""
     lowest_reading: float = Field(0.02, ge=-0.1, le=1)
-    """A reading below this means a broken wire or a shorted pot."""
     highest_reading: float = Field(0.98, ge=0, le=1.1)
-    """A reading above this means the same. End resistors keep all valid readings between the two."""
+    """Readings outside these mean a broken wire or a shorted pot; end resistors keep all others inside."""
     sensor: SensorTable = SensorTable()
     """The sensor of the axis's angle."""
     direction_checked: bool = False
-    """Set it after you have seen the antenna turn clockwise on CW, and up on UP."""
+    """Set it after you have seen the antenna turn clockwise on CW, up on UP."""
     offset_deg: float = Field(0.0, ge=-180, le=180)
     """Where the antenna points when the rotor's own scale says 0."""
     longest_run_s: float = Field(300.0, ge=0, le=86_400)
-    """The longest run from cold before the motor must rest; runs add up, and rest takes off. 0: no limit."""
+    """The longest run from cold before the motor must rest; runs add up. 0: no limit."""
     rest_s: float = Field(300.0, gt=0, le=86_400)
-    """The time to cool fully after the longest run. The motor may run again after half of it."""
+    """The time to cool fully after that. The motor may run again after half of it."""
 
     @model_validator(mode="after")
     def _make_sense(self) -> AxisTable:
@@ -79,8 +80,8 @@ class Azimuth(AxisTable):
 
 class Elevation(AxisTable):
     min_deg: float = Field(0.0, ge=-90, le=180)
-    """The lowest elevation of an order; below 0 for a rotor that goes below the horizon."""
+    """Below 0 for a rotor that goes below the horizon."""
     max_deg: float = Field(180.0, ge=0, le=210)
-    """The highest elevation of an order; 90 for a rotor that cannot go over the top."""
+    """90 for a rotor that cannot go over the top."""
     speed_dps: float = Field(2.7, gt=0, le=360)
     """The motor's speed, roughly: the box learns the exact one."""

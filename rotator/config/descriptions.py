@@ -1,4 +1,4 @@
-"""Gives each key of the model its meaning: the docstring below it in the source.
+"""Gives each key of the model its meaning: the next docstring below it in the source. Several keys may share one.
 
 Knows the source as text. Pydantic could collect these docstrings itself, but it would read the source of every table at
 each start of the box, which takes a tenth of a second on a PC. The documents need them, the box does not.
@@ -30,12 +30,13 @@ def _written_in(table: type) -> dict[str, str]:
         return {}
     (body,) = ast.parse(textwrap.dedent(inspect.getsource(table))).body
     assert isinstance(body, ast.ClassDef)
-    return {
-        key.target.id: " ".join(below.value.value.split())
-        for key, below in zip(body.body, body.body[1:], strict=False)
-        if isinstance(key, ast.AnnAssign)
-        and isinstance(key.target, ast.Name)
-        and isinstance(below, ast.Expr)
-        and isinstance(below.value, ast.Constant)
-        and isinstance(below.value.value, str)
-    }
+    texts: dict[str, str] = {}
+    keys: list[str] = []
+    for statement in body.body:
+        match statement:
+            case ast.AnnAssign(target=ast.Name(id=key)):
+                keys.append(key)
+            case ast.Expr(value=ast.Constant(value=str(text))):
+                texts |= dict.fromkeys(keys, " ".join(text.split()))
+                keys = []
+    return texts

@@ -18,25 +18,22 @@ class Relays(Table):
     """GPIO numbers (BCM). The default pins have pull-downs at boot, and belong to no bus."""
 
     chip: str | None = None
-    """A path such as /dev/gpiochip0; left out, the box finds the chip of the 40-pin header by its label."""
+    """A path such as /dev/gpiochip0; left out, the box finds the header's chip."""
     azimuth_cw: Gpio = 22
-    """Turns clockwise."""
     azimuth_ccw: Gpio = 23
-    """Turns counter-clockwise."""
     elevation_up: Gpio = 24
-    """Turns up."""
     elevation_down: Gpio = 25
-    """Turns down."""
+    """The relay that turns this way."""
     master: Gpio | None = None
     """An output that switches the motors' supply."""
     heartbeat: Gpio | None = None
-    """An output that toggles after each good step of the control loop, for a one-shot that gates the motors' supply."""
+    """An output that toggles while the control loop is well, for a one-shot on the motors' supply."""
     active: Literal["high", "low"] = "high"
-    """The level that closes a relay; the same for all relays and the master."""
+    """The level that closes a relay and the master."""
     dead_time_s: float = Field(0.5, ge=0.05, le=5)
     """The pause of a motor before it reverses."""
     one_at_a_time: bool = False
-    """Run one motor at a time, for a small transformer: the second waits for the first."""
+    """One motor at a time, for a small transformer."""
 
     def turning(self, axis: Axis) -> tuple[int, int]:
         """The GPIOs of the two relays of an axis: clockwise or up, then the other way."""
@@ -58,25 +55,20 @@ class Relays(Table):
 
 class Lcd(Table):
     kind: Literal["none", "gpio", "pcf8574"] = "gpio"
-    """No display, a display on six GPIO lines, or a display on an I2C backpack (PCF8574)."""
+    """None, on six GPIO lines, or on an I2C backpack (PCF8574)."""
     bus: I2CBus = 1
-    """Backpack: 1 is the bus on the header."""
+    """Backpack: its bus."""
     address: I2CAddress = 0x27
     """Backpack: usually 0x27 or 0x3f."""
     backpack: Literal["ywrobot", "lcm1602", "mjkdz", "lcdxio", "swapped"] = "ywrobot"
-    """Backpack: how its bits are wired to the display; nearly every board sold is `ywrobot`."""
+    """Backpack: its wiring; nearly every board sold is `ywrobot`."""
     rs: Gpio = 17
-    """Six lines: RS."""
     e: Gpio = 27
-    """Six lines: E."""
     d4: Gpio = 5
-    """Six lines: D4."""
     d5: Gpio = 6
-    """Six lines: D5."""
     d6: Gpio = 12
-    """Six lines: D6."""
     d7: Gpio = 13
-    """Six lines: D7."""
+    """Six lines: the display's pins."""
 
     @property
     def lines(self) -> dict[str, int]:

@@ -23,9 +23,9 @@ class ForbiddenTable(Table):
     azimuth_deg: Point
     """[from, to] in azimuth, on the rotor's own scale."""
     elevation_deg: Point
-    """[from, to] in elevation, on the rotor's own scale: beyond 90 the antenna is over the top."""
+    """[from, to] in elevation; beyond 90 the antenna is over the top."""
     margin_deg: float = Field(2.0, ge=0, le=45)
-    """What is kept free around it on all sides: for the play of the gears, the sensor's error, and wind."""
+    """Kept free on all sides: for the gears' play, the sensor's error, wind."""
 
     @model_validator(mode="after")
     def _rises(self) -> ForbiddenTable:

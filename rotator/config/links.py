@@ -12,7 +12,7 @@ from typing import Final, Literal
 from pydantic import Field, field_validator, model_validator
 
 from rotator.config.table import Table
-from rotator.orders import PERSONS
+from rotator.orders import MQTT, PERSONS
 
 ProtocolName = Literal[
     "gs232a", "gs232b", "gs232-f1efw", "rotctld", "rotctld-follow",
@@ -44,53 +44,52 @@ class Link(Table):
     protocol: ProtocolName
     """The protocol of the program at the other end."""
     name: str | None = Field(None, min_length=1, max_length=24)
-    """The link's name in the log and on the display; left out, its protocol."""
+    """Its name in the log and on the display; left out, its protocol."""
     pty: str | None = Field(None, min_length=1)
     """The path of a symlink to a pseudo-terminal, for programs on the same machine."""
     serial: str | None = Field(None, min_length=1)
-    """A serial port, or a URL of pyserial; the box waits for a missing one."""
+    """A serial port, or a URL of pyserial; a missing one is waited for."""
     tcp: str | None = None
-    """The address where the box listens, "host:port"."""
+    """Where the box listens, "host:port"."""
     connect: str | None = None
-    """rotctld-follow: the rotctld whose position the box asks for and follows, "host:port"."""
+    """rotctld-follow: the rotctld whose position the box follows, "host:port"."""
     poll_s: float = Field(0.1, ge=0.02, le=10)
-    """rotctld-follow: the time between two questions."""
+    """rotctld-follow: the time between questions."""
     udp: str | None = None
-    """pstrotator, n1mm, macdoppler: where the box receives datagrams, "host:port"; 0.0.0.0 for broadcasts too."""
+    """pstrotator, n1mm, macdoppler: where the box listens, "host:port"; 0.0.0.0 for broadcasts too."""
     file: str | None = Field(None, min_length=1)
-    """wsjtx: the path of its azel.dat; the box waits for a missing file."""
+    """wsjtx: the path of its azel.dat; a missing file is waited for."""
     body: Literal["Moon", "Sun", "Source"] = "Moon"
     """wsjtx: the body to follow."""
     rotor_name: str | None = Field(None, min_length=1, max_length=40)
-    """n1mm: obey only orders for the rotor of this name, capitals as in N1MM; left out, obey all."""
+    """n1mm: obey only orders for this rotor, capitals as in N1MM; left out, all."""
     status_to: str | None = None
-    """n1mm: the PC that shows the antenna's angle, "address:13010"; 255.255.255.255 for all PCs. Needs rotor_name."""
+    """n1mm: the PC that shows the angle, "address:13010"; 255.255.255.255 for all PCs. Needs rotor_name."""
     baud: int | None = Field(None, ge=50, le=4_000_000)
     """Serial ports only; always 8N1. Left out, 9600; rot1prog 1200, rot2prog 600, dcu1 4800."""
     ack: Literal["none", "cr"] | None = None
-    """GS-232: the reply to a command that is no question; old Hamlib (3.x) needs the CR. Left out, none, or cr with
-    strict."""
+    """GS-232: the reply to an order; Hamlib 3.x needs the CR. Left out, none; with strict cr."""
     empty_line: Literal["none", "?>"] | None = None
-    """GS-232: the reply to an empty line; COSMOS waits for ?>. Left out, none, or ?> with strict."""
+    """GS-232: the reply to an empty line; COSMOS waits for ?>. Left out, none; with strict ?>."""
     strict: bool = False
-    """GS-232: answer as Yaesu's manual says where most programs are better served otherwise: a CR to commands, ?> to an
-    empty line; GS-232B also: O and F wait for a Y, Z changes the centre that H3 shows."""
+    """GS-232: answer as Yaesu's manual: as ack and empty_line; B: O and F wait for a Y, Z changes the centre that H3
+    shows."""
     may_calibrate: bool = False
-    """GS-232: let O, F, O2 and F2 take the present reading as an end of the range."""
+    """GS-232: O, F, O2 and F2 take the reading as an end of the range."""
     report_moves: bool = False
-    """GS-232: a line `AZ = 235, EL = 25` after each move, unasked, as KO6TH's controller prints it."""
+    """GS-232: a line `AZ = 235, EL = 25` after each move, unasked, as from KO6TH's controller."""
     easycomm_answer: Literal["named", "pstrotator"] = "named"
-    """EasyComm: the reply to AZ EL: AZ235.0 EL25.0, or +235.0 25.0 (reported to be what PstRotator needs)."""
+    """EasyComm: the reply to AZ EL: AZ235.0 EL25.0, or +235.0 25.0 for PstRotator, it is said."""
     pulses_per_degree: Literal[1, 2, 4, 10] | None = None
     """Rot2Prog and MD-01: the resolution of orders. Left out, rot2prog 2, md01 10."""
     read_only: bool = False
     """Answer questions, and refuse all orders, a stop too."""
     allow: list[str] | None = None
-    """Network links: addresses and networks of the machines that may connect; left out, every machine may."""
+    """Network links: addresses and networks that may connect; left out, all may."""
     most_clients: int = Field(128, ge=1, le=1000)
     """TCP: the most connections at a time."""
     most_per_s: int = Field(100, ge=1, le=10_000)
-    """The most orders a second of one connection. Of those beyond, only the newest acts. A stop always acts at once."""
+    """The most orders a second of a connection; beyond, only the newest acts."""
 
     @model_validator(mode="after")
     def _one_place(self) -> Link:
@@ -119,6 +118,8 @@ class Link(Table):
     def _no_link_is_a_person(cls, name: str | None) -> str | None:
         if name in PERSONS:
             raise ValueError(f"{name} is the name of what a person uses at the box: {', '.join(PERSONS)}; take another")
+        if name == MQTT:
+            raise ValueError(f"{name} is the name of [mqtt]; take another")
         return name
 
     @model_validator(mode="after")
@@ -168,12 +169,7 @@ class Link(Table):
     @field_validator("allow")
     @classmethod
     def _networks(cls, texts: list[str] | None) -> list[str] | None:
-        for text in texts or ():
-            try:
-                ipaddress.ip_network(text, strict=False)
-            except ValueError:
-                raise ValueError(f'"{text}" must be an address or a network, such as "192.168.1.0/24"') from None
-        return texts
+        return networks(texts)
 
     @field_validator("tcp", "connect", "udp")
     @classmethod
@@ -218,6 +214,16 @@ def address(text: str) -> tuple[str, int]:
     if not parts or not 0 < int(parts[3]) <= LAST_PORT:
         raise ValueError(f'"{text}" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"')
     return parts[1] or parts[2], int(parts[3])
+
+
+def networks(texts: list[str] | None) -> list[str] | None:
+    """The same. Raises ValueError where one is no address and no network."""
+    for text in texts or ():
+        try:
+            ipaddress.ip_network(text, strict=False)
+        except ValueError:
+            raise ValueError(f'"{text}" must be an address or a network, such as "192.168.1.0/24"') from None
+    return texts
 
 
 _THIS_MACHINE = frozenset(("localhost", "127.0.0.1", "::1", "0.0.0.0", "::"))

@@ -15,11 +15,14 @@ from pydantic import ValidationError
 from rotator.config import migrations, toml_text
 from rotator.config.mistake import ConfigError, Mistake
 from rotator.config.model import Config
+from rotator.store.plain import NoPlainFileError
 
 __all__ = ["SIMULATED", "ConfigError", "Mistake", "load", "parse", "profiles", "shipped"]
 
 SIMULATED = "simulated"
 """The name of the configuration that runs without a file."""
+SIMULATED_FILE = Path(__file__).with_name("simulated.toml")
+"""Its file, for a program that needs one."""
 _MAKES = "`rotator config --ask --to {}` writes it from your answers; `rotator config --list` shows the shipped files"
 
 
@@ -39,14 +42,15 @@ def load(path: Path | None) -> Config:
 
 
 def shipped(name: str = SIMULATED) -> str:
-    """The text of a shipped configuration. Raises ConfigError for an unknown name, with the list of names."""
+    """The text of a shipped configuration. Capitals do not matter. Raises ConfigError with the list of names."""
+    name = name.lower()
     if name == SIMULATED:
-        return files("rotator.config").joinpath("simulated.toml").read_text(encoding="utf-8")
+        return SIMULATED_FILE.read_text(encoding="utf-8")
     if name not in profiles():
         known = [SIMULATED, *profiles()]
-        near = difflib.get_close_matches(name.lower(), known, n=1, cutoff=0.6)
-        meant = f"; did you mean {near[0]}?" if near else ""
-        raise ConfigError(name, [Mistake(f"no such configuration{meant}; there are: {', '.join(known)}")])
+        near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
+        meant = f" Did you mean {near[0]}?" if near else ""
+        raise ConfigError(name, [Mistake(f"there is no such configuration.{meant} There are: {', '.join(known)}")])
     return files("rotator.config").joinpath("profiles", f"{name}.toml").read_text(encoding="utf-8")
 
 
@@ -69,11 +73,13 @@ def parse(text: str, name: str) -> Config:
 def _unreadable(path: Path, fault: OSError) -> str:
     match fault:
         case FileNotFoundError():
-            near = difflib.get_close_matches(path.name, _names_in(path.parent), n=1, cutoff=0.6)
-            meant = f"did you mean {path.with_name(near[0])}? " if near else ""
+            near = difflib.get_close_matches(path.stem, _names_in(path.parent), n=1, cutoff=0.6)
+            meant = f"did you mean {path.with_name(near[0] + '.toml')}? " if near else ""
             return f"there is no such file: {meant}{_MAKES.format(path)}"
         case IsADirectoryError():
             return f"is a folder: name the file in it, such as {path / 'rotator.toml'}"
+        case NoPlainFileError(strerror=str(what)):
+            return what
         case PermissionError():
             return "you may not read it: put sudo before the command, or let its owner give you the right (chmod +r)"
         case _:
@@ -82,6 +88,6 @@ def _unreadable(path: Path, fault: OSError) -> str:
 
 def _names_in(folder: Path) -> list[str]:
     try:
-        return [each.name for each in folder.iterdir() if each.suffix == ".toml"]
+        return [each.stem for each in folder.iterdir() if each.suffix == ".toml"]
     except OSError:
         return []

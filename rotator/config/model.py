@@ -25,6 +25,8 @@ from rotator.config.kinds.relay_pulse import Pulses, RelayPulse
 from rotator.config.kinds.servo import Servo, ServoKind
 from rotator.config.links import NEEDS_STATION, Link, is_same_place
 from rotator.config.mount_model import MountModelTable
+from rotator.config.mqtt import MqttTable
+from rotator.config.page import PageTable
 from rotator.config.panel import LimitsTable, PanelTable
 from rotator.config.places import STATE
 from rotator.config.rotors import Rotor, with_usual
@@ -41,25 +43,24 @@ SWITCH_ROOM_DEG = 2.0
 
 class MountTable(Table):
     flip: Literal["off", "over-top"] = "off"
-    """`over-top`: the box may decide to turn the antenna over the top. Only after you have watched antenna and cables
-    clear the mast all the way."""
+    """`over-top`: the box may turn the antenna over the top. Only after you have watched antenna and cables clear the
+    mast."""
     north: Literal["true", "magnetic"] = "true"
-    """The north on which the azimuth scale was aligned; orders and reports always use true north."""
+    """The north of the azimuth scale; orders and reports always use true north."""
     declination_deg: float | None = Field(None, ge=-180, le=180)
-    """How far a compass at your place points east of true north (west: minus); `magnetic` needs it."""
+    """How far a compass points east of true north (west: minus); `magnetic` needs it."""
     tolerance: Literal["sky", "axis"] = "sky"
-    """What `tolerance_deg` means: degrees on the sky, with a moving target followed ahead of time; or `axis`, as an
-    Arduino does it: plain degrees of each axis, compared with the latest order. For motors on relays."""
+    """What `tolerance_deg` means, for motors on relays. Degrees on the sky, ahead of a moving target; or, as an Arduino
+    does it, of each axis from the latest order."""
     park_azimuth_deg: float = Field(0.0, ge=0, le=450)
-    """The azimuth of the park position, on the rotor's own scale."""
     park_elevation_deg: float = Field(0.0, ge=0, le=180)
-    """The elevation of the park position, on the rotor's own scale."""
+    """The park position, on the rotor's own scale."""
     park_after_s: float = Field(0.0, ge=0, le=86_400)
     """Park after this time without an order; 0: never."""
     horizon: list[Point] = Field(default_factory=list)
     """Points [azimuth, lowest elevation] of trees and roofs; azimuths rise from 0 to below 360."""
     forbidden: list[ForbiddenTable] = Field(default_factory=list, max_length=16)
-    """A box of azimuth and elevation in which the antenna would touch something: no path crosses it. 16 at most."""
+    """Where the antenna would touch something: no path crosses it. 16 at most."""
     model: MountModelTable = MountModelTable()
     """How the mount really stands, as `rotator calibrate sky` finds it."""
 
@@ -87,13 +88,12 @@ class StateTable(Table):
 
 class MonitorTable(Table):
     path: str | None = Field(None, min_length=1)
-    """The socket for `rotator monitor`; left out, `monitor` in systemd's runtime directory, else beside the state
-    file."""
+    """The socket for `rotator monitor`; left out, in systemd's runtime directory, else beside the state file."""
 
 
 class Control(Table):
     rate_hz: float = Field(20.0, ge=20, le=100)
-    """How often the box reads the sensors and decides on the motors; orders act at once."""
+    """How often the box reads its sensors and decides; orders act at once."""
 
 
 class Config(Table):
@@ -104,8 +104,7 @@ class Config(Table):
     elevation: Elevation = Elevation()
     """The elevation axis."""
     station: StationTable = StationTable()
-    """Where the antenna stands on the earth: for satellites, Sun and Moon, telescope programs (`lx200`, `stellarium`)
-    and PstRotator's `LLH`."""
+    """Where the antenna stands: for the sky, telescope programs and PstRotator's `LLH`."""
     sky: SkyTable = SkyTable()
     """What is known of the sky."""
     mount: MountTable = MountTable()
@@ -116,6 +115,10 @@ class Config(Table):
     """What the box remembers from one run to the next."""
     monitor: MonitorTable = MonitorTable()
     """The monitor of the bytes on the links."""
+    mqtt: MqttTable = MqttTable()
+    """A broker of messages, for Home Assistant and the like; needs the extra `mqtt`."""
+    page: PageTable = PageTable()
+    """The page for a browser, and its API. Moving the antenna there needs pairing: `rotator pair`."""
     pulses: Pulses = Pulses()
     """Rotor type relay-pulse: contacts that are counted, as on the Alliance U-100."""
     moteus: Moteus = Moteus()
@@ -123,7 +126,7 @@ class Config(Table):
     servo: Servo = Servo()
     """Rotor type servo: two hobby servos on a PCA9685."""
     digipot: Digipot = Digipot()
-    """Rotor type digipot: an MCP41010 in place of each control box's knob."""
+    """Rotor type digipot: an MCP41010 for each control box's knob."""
     compass: CompassTable = CompassTable()
     """The compass that finds north."""
     relays: Relays = Relays()
@@ -133,14 +136,14 @@ class Config(Table):
     panel: PanelTable = PanelTable()
     """A front panel. A part without a key is not fitted."""
     limits: LimitsTable = LimitsTable()
-    """Limit switches on the rotor: normally closed, to ground, so that a broken wire acts as a reached limit."""
+    """Limit switches: normally closed, to ground, so that a broken wire acts as a reached limit."""
     lcd: Lcd = Lcd()
     """The 16×2 display."""
     sim: Sim = Sim()
     """The simulated rotor. Real hardware ignores it."""
     link: list[Link] = Field(default_factory=list)
-    """A link to a program; as many as you like. Each has exactly one of `pty`, `serial`, `tcp` (rotctld-follow:
-    `connect`; pstrotator, n1mm, macdoppler: `udp`; wsjtx: `file`; stellarium and pstrotatoraz: `tcp`)."""
+    """A link to a program. Each has exactly one place: `pty`, `serial` or `tcp`; stellarium and pstrotatoraz `tcp`;
+    rotctld-follow `connect`; pstrotator, n1mm, macdoppler `udp`; wsjtx `file`."""
 
     @model_validator(mode="before")
     @classmethod

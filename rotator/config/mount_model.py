@@ -33,7 +33,7 @@ class MountTerms(Table):
 
 class MountModelTable(MountTerms):
     points: list[SkyRow] = Field(default_factory=list, max_length=200)
-    """What the terms come from: azimuth and elevation of the rotor, then of the sky."""
+    """Where the terms come from: azimuth and elevation of the rotor, then of the sky."""
 
     @field_validator("points")
     @classmethod

@@ -26,55 +26,47 @@ LAMPS = (
 
 class PanelTable(Table):
     adc_bus: I2CBus = 1
-    """The bus of the ADS1115 that reads the knobs and the jog switches."""
+    """The bus of the ADS1115 for knobs and jog switches."""
     adc_address: I2CAddress = 0x49
-    """Its address: 0x49 with its ADDR pin at its supply."""
+    """0x49 with its ADDR pin at its supply."""
     azimuth_knob: Channel | None = None
-    """The wiper of the azimuth knob; the knobs need the mode switch."""
     elevation_knob: Channel | None = None
-    """The wiper of the elevation knob."""
+    """The wiper of the knob; needs the mode switch."""
     knob_lowest_reading: float = Field(0.02, ge=-0.1, le=1)
-    """A knob's reading below this means a broken wire; it then moves nothing."""
     knob_highest_reading: float = Field(0.98, ge=0, le=1.1)
-    """A knob's reading above this means the same. -0.1 and 1.1 for knobs without end resistors: no wire is watched."""
+    """A knob's reading outside these means a broken wire and moves nothing; -0.1 and 1.1 without end resistors."""
     knob_zero: float = Field(0.075, ge=0, le=0.2)
-    """A knob's reading at its minimum, with the end resistors of the wiring page; 0 without."""
+    """A knob's reading at its minimum; 0 without end resistors."""
     jog: Channel | None = None
-    """Both jog switches, over the resistors of the wiring page."""
+    """Both jog switches, over their resistors."""
     reference: Channel | None = None
-    """The supply of knobs and jog switches, if it is wired to an input; its voltage then no longer matters."""
+    """The supply of knobs and jog switches, whose voltage then does not matter."""
     supply_v: float = Field(3.3, gt=0.5, le=5.5)
-    """The supply of knobs and jog switches where no input measures it."""
+    """The same supply where no input measures it."""
     mode_msb: Gpio | None = None
-    """The mode switch's contact of value 2, to ground. Closed contacts add up: MANUAL 0, PARK 1, AUTO 2, JOG 3."""
     mode_lsb: Gpio | None = None
-    """The mode switch's contact of value 1, to ground."""
+    """The mode switch's contacts of value 2 and 1, to ground; closed ones add up: MANUAL 0, PARK 1, AUTO 2, JOG 3."""
     calibrate: Gpio | None = None
-    """The calibrate switch, to ground; closed at power-up, it calibrates the knobs. Needs the mode switch."""
+    """The calibrate switch, to ground: closed at power-up, it calibrates the knobs. Needs the mode switch."""
     stop: Gpio | None = None
     """The stop button, normally closed, to ground: a broken wire acts as a pressed button."""
     azimuth_nudge_deg: float = Field(5.0, gt=0, le=45)
-    """The step of an order for a press of the azimuth's jog switch in AUTO; a rotor that counts: its pulse spacing."""
     elevation_nudge_deg: float = Field(5.0, gt=0, le=45)
-    """The same for the elevation's jog switch."""
+    """The step of a press of the jog switch in AUTO; a rotor that counts: its pulse spacing."""
     outputs_bus: I2CBus = 1
-    """The bus of the PCA9685 that drives meters and lamps; servos need another PCA9685."""
+    """The bus of the PCA9685 for meters and lamps; servos need another."""
     outputs_address: I2CAddress = 0x41
-    """Its address: 0x41 with its bridge A0 closed."""
+    """0x41 with its bridge A0 closed."""
     azimuth_meter: Output | None = None
-    """The output of the azimuth meter, over its trimmer."""
     elevation_meter: Output | None = None
-    """The output of the elevation meter."""
+    """The output of the meter, over its trimmer."""
     meter_full_scale: float = Field(1.0, gt=0, le=1)
-    """The duty cycle of a meter's output at full scale."""
+    """A meter's duty cycle at full scale."""
     lamp_manual: Output | None = None
-    """Lit in MANUAL."""
     lamp_park: Output | None = None
-    """Lit in PARK."""
     lamp_auto: Output | None = None
-    """Lit in AUTO."""
     lamp_jog: Output | None = None
-    """Lit in JOG."""
+    """Lit in the mode of its name."""
     lamp_data: Output | None = None
     """Lit while data comes from a program."""
     lamp_motor: Output | None = None
@@ -82,11 +74,10 @@ class PanelTable(Table):
     lamp_stop: Output | None = None
     """Lit from a press of the stop button until the release."""
     lamp_azimuth_pulse: Output | None = None
-    """Lit while the azimuth's index contact is closed."""
     lamp_elevation_pulse: Output | None = None
-    """Lit while the elevation's index contact is closed."""
+    """Lit while the index contact is closed."""
     lamp_switch: Output | None = None
-    """Lit when the box accepts a jog switch, and until the mode switch has been still for a second."""
+    """Lit when a jog switch counts, and until the mode switch has settled."""
 
     @model_validator(mode="after")
     def _fits_together(self) -> PanelTable:
@@ -165,13 +156,10 @@ class LimitsTable(Table):
     """Normally closed, to ground: a broken wire acts as a reached limit."""
 
     azimuth_low: Gpio | None = None
-    """Opens at the counter-clockwise end of the azimuth."""
     azimuth_high: Gpio | None = None
-    """Opens at the clockwise end of the azimuth."""
     elevation_low: Gpio | None = None
-    """Opens at the low end of the elevation."""
     elevation_high: Gpio | None = None
-    """Opens at the high end of the elevation."""
+    """The switch at this end; azimuth high is the clockwise one."""
 
     @property
     def switches(self) -> dict[str, int]:

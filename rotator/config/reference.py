@@ -1,22 +1,22 @@
-"""Makes the key tables of docs/reference/keys.md from the model, so that page and program agree.
+"""Makes the lists of keys of docs/reference/keys.md from the model, so that page and program agree.
 
-Knows Markdown, the legend of the tables, and the short name of each type of value. The keys and their meanings come
+Knows Markdown, the legend of the lists, and the short name of each type of value. The keys and their meanings come
 from the model.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from types import NoneType, UnionType
-from typing import Annotated, Any, Literal, Union, get_args, get_origin
+from itertools import groupby
+from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from rotator.config.descriptions import describe
+from rotator.config.keys import NAMED, bare, table_of
 from rotator.config.model import Config
 from rotator.config.rotors import USUAL
-from rotator.config.table import Channel, Gpio, I2CAddress, I2CBus
 
 _KINDS = {
     str: "text",
@@ -31,92 +31,95 @@ _KINDS = {
 _EDGES = {"ge": "from {}", "gt": "above {}", "le": "to {}", "lt": "below {}"}
 _LENGTHS = {"min_length": "{} or more", "max_length": "up to {}"}
 """The wording of a limit. No text may be empty, and the page does not repeat that."""
-_HEADINGS = ("key", "default; allowed", "meaning")
-_LEFT_OUT = "–"
 _LEGEND = """\
-First the default (–: none, the key may be left out), then what is allowed: a number from 0 to 360 (`0…360`), above 0 to
-45 (`>0…45`), a *whole* number. *GPIO*: 0 to 57, the BCM number. *Bus*: the N of /dev/i2c-N, 0 to 255. *Address*: an I2C
-address, 0x08 to 0x77. *Input*: A0 to A3 of an ADS1115, as 0 to 3. *Pairs*: a list of [number, number]."""
+In brackets stands the default, as code, then what is allowed: a number from 0 to 360 (0…360), above 0 to 45 (>0…45), a
+*whole* number. A key without a default may be left out, unless it *must be given*. *GPIO*: 0 to 57, the BCM number.
+*Bus*: the N of /dev/i2c-N, 0 to 255; 1 is on the header. *Address*: an I2C address, 0x08 to 0x77. *Input*: A0 to A3 of
+an ADS1115, as 0 to 3. *Pairs*: a list of [number, number]."""
 _AXES = ("azimuth", "elevation")
 """Two tables with the same keys, which the page shows as one."""
 
 
+Row = tuple[str, str, str, str]
+"""Key, default, what else is allowed, meaning."""
+
+
 def reference() -> str:
-    """A legend; a heading, a sentence and a table of keys for each table of the file; the defaults of each kind."""
+    """A legend; a heading, a sentence and a list of keys for each table of the file; the defaults of each kind."""
     describe(Config)
-    return "\n\n".join([_LEGEND, *_tables([("", Config)]), _usual()]) + "\n"
+    return "\n\n".join([_LEGEND, *_tables([("", Config)], {}), _usual()]) + "\n"
 
 
 def _usual() -> str:
-    rows: list[tuple[str, ...]] = [("`rotor.type`", "defaults"), ("---", "---")]
+    lines = []
     for kind, places in USUAL.items():
-        if not places:
-            continue
         tables_of: dict[str, list[str]] = {}
         for place, keys in places.items():
             for key, value in keys.items():
                 tables_of.setdefault(f"`{key} = {_toml(value)}`", []).append(f"`{place}`")
-        rows.append((f"`{kind}`", "; ".join(f"{each} in {', '.join(tables)}" for each, tables in tables_of.items())))
+        if tables_of:
+            lines.append(f"- `{kind}`: " + "; ".join(f"{each} in {', '.join(at)}" for each, at in tables_of.items()))
     intro = "Defaults that differ from those above (limits: on the simulated rotor only)."
-    return f"### By kind of rotor\n\n{intro}\n\n{_rows(rows)}"
+    return f"### By kind of rotor\n\n{intro}\n\n" + "\n".join(lines)
 
 
-def _tables(models: list[tuple[str, type[BaseModel]]]) -> Iterator[str]:
+def _tables(models: list[tuple[str, type[BaseModel]]], told: dict[Row, str]) -> Iterator[str]:
     """The tables inside these models: one model, or those of both axes, which have the same keys."""
     fields = models[0][1].model_fields
     for name, field in fields.items():
-        if _table_of(field)[0] is None or (name == _AXES[1] and _AXES[0] in fields):
+        if table_of(field)[0] is None or (name == _AXES[1] and _AXES[0] in fields):
             continue
         names = _AXES if name == _AXES[0] and _AXES[1] in fields else (name,)
         tables = [(f"{prefix}{each}", model.model_fields[each]) for prefix, model in models for each in names]
-        yield from _section(tables)
-        yield from _tables([(f"{path}.", kind) for path, each in tables if (kind := _table_of(each)[0]) is not None])
+        yield from _section(tables, told)
+        within = [(f"{path}.", kind) for path, each in tables if (kind := table_of(each)[0]) is not None]
+        yield from _tables(within, told)
 
 
-def _section(tables: list[tuple[str, FieldInfo]]) -> Iterator[str]:
-    headings = [f"[[{path}]]" if _table_of(field)[1] else f"[{path}]" for path, field in tables]
+def _section(tables: list[tuple[str, FieldInfo]], told: dict[Row, str]) -> Iterator[str]:
+    """One table of the file, or the same table of both axes. `told`: the keys so far, and the table of each."""
+    headings = [f"[[{path}]]" if table_of(field)[1] else f"[{path}]" for path, field in tables]
     yield f"### {' and '.join(f'`{heading}`' for heading in headings)}"
     sentences = [_described(*each) for each in zip(headings, (field for _, field in tables), strict=True)]
     if len(set(sentences)) == 1:
         yield sentences[0]
     rows = [
-        [_row(path, key, each) for key, each in kind.model_fields.items() if _table_of(each)[0] is None]
+        [_row(path, key, each) for key, each in kind.model_fields.items() if table_of(each)[0] is None]
         for path, field in tables
-        if (kind := _table_of(field)[0]) is not None
+        if (kind := table_of(field)[0]) is not None
     ]
-    if rows[0]:
-        both = [_merged(*each) for each in zip(*rows, strict=True)]
-        shown = [(key, "; ".join(filter(None, (default, allowed))), meaning) for key, default, allowed, meaning in both]
-        yield _rows([_HEADINGS, tuple("---" for _ in _HEADINGS), *shown])
+    lines = list(_lines([_merged(*each) for each in zip(*rows, strict=True)], headings[0], told))
+    if lines:
+        yield "\n".join(lines)
 
 
-def _merged(row: tuple[str, ...], other: tuple[str, ...] | None = None) -> tuple[str, ...]:
+def _lines(rows: list[Row], table: str, told: dict[Row, str]) -> Iterator[str]:
+    """The lines of a list. Neighbours with one meaning share a line, and keys of an earlier table are only named."""
+    for before, same in groupby(rows, key=told.get):
+        if before is not None:
+            yield f"- {', '.join(key for key, *_ in same)}: as in `{before}`."
+            continue
+        for meaning, alike in groupby(same, key=lambda row: row[-1]):
+            keys, *cells, _ = zip(*alike, strict=True)
+            values = "; ".join(filter(None, (", ".join(each if len(set(each)) > 1 else each[:1]) for each in cells)))
+            yield f"- {', '.join(keys)}{f' ({values})' if values else ''}: {meaning}"
+    for row in rows:
+        told.setdefault(row, table)
+
+
+def _merged(row: Row, other: Row | None = None) -> Row:
     """One row for a key of both axes. A cell names both values where they differ."""
     if other is None:
         return row
-    *cells, meaning = (a if a == b else f"{a}, elevation {b}" for a, b in zip(row, other, strict=True))
-    if row[-1] != other[-1]:
-        meaning = f"{row[-1]} Elevation: {other[-1][0].lower()}{other[-1][1:]}"
-    return *cells, meaning
+    key, default, allowed, _ = (a if a == b else f"{a}, elevation {b}" for a, b in zip(row, other, strict=True))
+    meaning = row[-1] if row[-1] == other[-1] else f"{row[-1]} Elevation: {other[-1][0].lower()}{other[-1][1:]}"
+    return key, default, allowed, meaning
 
 
-def _table_of(field: FieldInfo) -> tuple[type[BaseModel] | None, bool]:
-    """The table that a field holds, None for a key, and whether the file may have several such tables."""
-    inner = get_args(field.annotation)
-    many = get_origin(field.annotation) is list
-    kind = inner[0] if many else field.annotation
-    return (kind, many) if isinstance(kind, type) and issubclass(kind, BaseModel) else (None, False)
-
-
-def _rows(rows: list[tuple[str, ...]]) -> str:
-    return "\n".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |" for row in rows)
-
-
-def _row(heading: str, key: str, field: FieldInfo) -> tuple[str, ...]:
-    """Key, default, what else is allowed, meaning."""
-    kind, limits = _bare(field.annotation, list(field.metadata))
+def _row(heading: str, key: str, field: FieldInfo) -> Row:
+    kind, limits = bare(field.annotation, list(field.metadata))
     default = _default(field)
-    named = next((name for name, known in _NAMED.items() if kind is int and limits == known), "")
+    named = next((name for name, known in NAMED.items() if kind is int and limits == known), "")
     if named == "address" and field.default is not None:
         default = f"`0x{field.default:02x}`"
     return f"`{key}`", default, named or _allowed(kind, limits, field), _described(f"{heading} {key}", field)
@@ -139,29 +142,6 @@ def _described(what: str, field: FieldInfo) -> str:
     return field.description
 
 
-def _bare(kind: Any, limits: list[Any]) -> tuple[Any, list[Any]]:
-    """A key's kind without `| None` and without annotations; those join the limits."""
-    if get_origin(kind) in (Union, UnionType):
-        (kind,) = (each for each in get_args(kind) if each is not NoneType)
-        return _bare(kind, limits)
-    if get_origin(kind) is Annotated:
-        kind, *notes = get_args(kind)
-        for note in notes:
-            limits = limits + (list(note.metadata) if isinstance(note, FieldInfo) else [note])
-        return _bare(kind, limits)
-    if get_origin(kind) is list:
-        # The limits of the items are no limits of the list.
-        return list[_bare(get_args(kind)[0], [])[0]], limits  # type: ignore[misc]
-    return kind, limits
-
-
-_NAMED = {
-    name: _bare(kind, [])[1]
-    for name, kind in {"GPIO": Gpio, "bus": I2CBus, "address": I2CAddress, "input": Channel}.items()
-}
-"""The limits of each kind of whole number that the legend explains."""
-
-
 def _bounds(limits: list[Any], kind: Any) -> str:
     wording = _LENGTHS if kind is str or get_origin(kind) is list else _EDGES
     edges = {name: getattr(limit, name) for limit in limits for name in wording if hasattr(limit, name)}
@@ -179,7 +159,7 @@ def _default(field: FieldInfo) -> str:
     if field.is_required():
         return "must be given"
     value = field.get_default(call_default_factory=True)
-    return _LEFT_OUT if value is None else f"`{_toml(value)}`"
+    return "" if value is None else f"`{_toml(value)}`"
 
 
 def _toml(value: object) -> str:

@@ -17,7 +17,7 @@ from tomlkit.items import Array
 from rotator.config import toml_text
 from rotator.config.load import ConfigError, Mistake, parse
 from rotator.config.migrations import FormatError, brought_up
-from rotator.store.whole import write_whole
+from rotator.config.writing import WRITING, replace
 
 Points = Sequence[Sequence[float]]
 LONG_TABLE = 4
@@ -31,19 +31,19 @@ def save_table(
 
     The old file stays beside it as `.bak`. Raises OSError or ConfigError, and then the file is unchanged.
     """
-    try:
-        before = toml_text.read(path)
-        text = changed(before, name, calibration=calibration, points=points, **values)
-    except (TOMLKitError, TOMLDecodeError) as fault:
-        raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault
-    except FormatError as fault:
-        raise ConfigError(str(path), [Mistake(str(fault))]) from fault
-    except toml_text.NoTextError as none:
-        raise ConfigError(str(path), [none.mistake]) from none
-    # A text that the next start would refuse is not written.
-    parse(text, str(path))
-    write_whole(path.with_name(path.name + ".bak"), before)
-    write_whole(path, text)
+    with WRITING:
+        try:
+            before = toml_text.read(path)
+            text = changed(before, name, calibration=calibration, points=points, **values)
+        except (TOMLKitError, TOMLDecodeError) as fault:
+            raise ConfigError(str(path), [Mistake(f"is not TOML any more: {fault}")]) from fault
+        except FormatError as fault:
+            raise ConfigError(str(path), [Mistake(str(fault))]) from fault
+        except toml_text.NoTextError as none:
+            raise ConfigError(str(path), [none.mistake]) from none
+        # A text that the next start would refuse is not written.
+        parse(text, str(path))
+        replace(path, before, text)
 
 
 def changed(

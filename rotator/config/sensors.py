@@ -19,20 +19,20 @@ Arrow = Literal["+x", "-x", "+y", "-y", "+z", "-z"]
 
 class SensorTable(Table):
     kind: Literal["own", "pot", "as5600", "mpu6050"] = "own"
-    """`own`: what belongs to `rotor.type` (pot, counted contact, controller or model). Else a pot on the converter, an
-    AS5600 under a magnet, or an MPU6050 on the boom that feels gravity (elevation only)."""
+    """What belongs to `rotor.type`; a pot on the converter; an AS5600 under a magnet; an MPU6050 on the boom
+    (elevation only)."""
     bus: I2CBus = 1
-    """AS5600, MPU6050: 1 is the bus on the header."""
+    """The bus of an AS5600 or MPU6050."""
     address: I2CAddress | None = None
-    """AS5600, MPU6050. Left out: 0x36 or 0x68."""
+    """Left out: AS5600 0x36, MPU6050 0x68."""
     zero_turn: float = Field(0.0, ge=0, lt=1)
-    """AS5600: the place in its turn where the reading jumps from 1 to 0. Put it outside the axis's range."""
+    """AS5600: where in its turn the reading jumps from 1 to 0: outside the axis's range."""
     forward: Arrow = "+x"
-    """MPU6050: the board's arrow that points along the boom."""
+    """MPU6050: the board's arrow along the boom."""
     up: Arrow = "+z"
-    """MPU6050: the board's arrow that points up while the boom is level."""
+    """MPU6050: the arrow that points up, the boom level."""
     averaged: int = Field(4, ge=1, le=16)
-    """MPU6050: the number of readings in an average, within 0.3 s."""
+    """MPU6050: readings in an average, within 0.3 s."""
 
     @property
     def angle(self) -> Angle | None:
@@ -43,9 +43,9 @@ class SensorTable(Table):
             case "pot":
                 return Angle(AngleSource.MEASURED, in_degrees=False, pot=True)
             case "as5600":
-                return Angle(AngleSource.MEASURED, in_degrees=False)
+                return Angle(AngleSource.MEASURED, in_degrees=False, sensor="encoder")
             case "mpu6050":
-                return Angle(AngleSource.MEASURED, by="told by gravity")
+                return Angle(AngleSource.MEASURED, sensor="tilt sensor", by="told by gravity")
 
     @property
     def i2c(self) -> tuple[int, int] | None:
@@ -68,19 +68,17 @@ class SensorTable(Table):
 
 class CompassTable(Table):
     kind: Literal["none", "bno055"] = "none"
-    """A BNO055 on the boom finds north for `rotator calibrate north` and `at_start`; it never steers."""
+    """A BNO055 on the boom finds north; it never steers."""
     bus: I2CBus = 3
-    """On a Pi before the 5 a bus of dtoverlay=i2c-gpio: on the header's bus 1 this chip's clock stretching spoils the
-    answers."""
+    """On a Pi before the 5 a bus of dtoverlay=i2c-gpio: bus 1 fails with this chip's clock stretching."""
     address: I2CAddress = 0x28
     """0x28 with its ADR pin low, 0x29 high."""
     mounting: Literal["P0", "P1", "P2", "P3", "P4", "P5", "P6", "P7"] = "P1"
-    """How the board is mounted, as in the data sheet; P1: flat, chip up."""
+    """The mounting, as in the data sheet; P1: flat, chip up."""
     offset_deg: float = Field(0.0, ge=-180, le=180)
     """The boom's direction, clockwise from the forward arrow of the compass."""
     at_start: bool = False
-    """A moteus that does not know its azimuth after power-on takes it from the compass, without a question. Only after
-    `rotator calibrate north` has found the offset, and only within min_deg and max_deg."""
+    """A moteus that does not know its azimuth takes it from the compass, after `rotator calibrate north`."""
 
     def chips(self) -> list[I2CChip]:
         """The compass chip; empty without a compass."""

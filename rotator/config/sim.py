@@ -41,7 +41,6 @@ class Sim(PerAxis, Table):
     mount: MountTerms = MountTerms()
     """How the simulated mount really stands."""
     world: str | None = Field(None, min_length=1)
-    """A file with the true angles of the simulated rotor: it stands there again in the next run. The box then keeps its
-    own files (counts, knobs, compass) as on a Pi. Left out: each run begins at start_deg."""
+    """A file with the true angles, from which the next run begins; the box then keeps its other files, as on a Pi."""
     bus_takes_time: bool = True
-    """Transfers on the simulated I2C bus take as long as on a real one."""
+    """The simulated I2C bus is as slow as a real one."""

@@ -6,27 +6,68 @@ Knows keys and bounds. Does not read elements, and does not know which names the
 from __future__ import annotations
 
 from typing import Any
+from urllib.parse import urlsplit
 
 from pydantic import Field, field_validator, model_validator
 
+from rotator.config.links import address, networks
 from rotator.config.table import Table
 
 
 class FollowTable(Table):
     name: str = Field(min_length=1, max_length=80)
-    """A satellite, Sun, Moon, a planet or a radio source, named as in `rotator sky where`."""
+    """As in `rotator sky where`."""
     priority: float = Field(1.0, gt=0, le=1000)
-    """Where two are up at once: a minute of one with priority 2 is worth two minutes of one with priority 1."""
+    """Where two are up at once, a minute at priority 2 is worth two at priority 1."""
     min_culmination_deg: float = Field(0.0, ge=0, le=90)
     """Leave out passes that stay lower than this."""
 
 
 class SkyTable(Table):
     elements: list[str] = Field(default_factory=list, max_length=64)
-    """Files of orbital elements, folders of them, or patterns such as `/var/lib/elements/*.json`: OMM as JSON or CSV,
-    or TLE. They are read again when they change."""
+    """Files of elements, folders, or patterns such as `/var/lib/elements/*.json`: OMM as JSON or CSV, or TLE; read
+    again when they change."""
+    fetch: list[str] = Field(default_factory=list, max_length=16)
+    """Addresses, http or https, from which the box fetches elements."""
+    serve: str | None = None
+    """Where other boxes fetch its elements, "host:port"; `fetch = "http://HOST:PORT/elements"` there."""
+    allow: list[str] | None = None
+    """serve: addresses and networks of the machines that may; left out, those of private networks."""
     follow: list[FollowTable] = Field(default_factory=list, max_length=100)
-    """A target whose passes are wanted: `rotator sky plan` shows which of them the antenna flies."""
+    """A target whose passes are wanted; `rotator sky plan` shows which are flown."""
+
+    @field_validator("fetch", mode="before")
+    @classmethod
+    def _one_address(cls, value: Any) -> Any:
+        return [value] if isinstance(value, str) else value
+
+    @field_validator("fetch")
+    @classmethod
+    def _addresses(cls, texts: list[str]) -> list[str]:
+        for number, text in enumerate(texts):
+            if not _is_address(text):
+                raise ValueError(f'"{text}" must be an address such as "https://HOST/elements.json"')
+            if text in texts[:number]:
+                raise ValueError(f'"{text}" stands there twice: take one out')
+        return texts
+
+    @field_validator("serve")
+    @classmethod
+    def _a_place(cls, text: str | None) -> str | None:
+        if text is not None:
+            address(text)
+        return text
+
+    @field_validator("allow")
+    @classmethod
+    def _networks(cls, texts: list[str] | None) -> list[str] | None:
+        return networks(texts)
+
+    @model_validator(mode="after")
+    def _allowed_what(self) -> SkyTable:
+        if self.allow is not None and self.serve is None:
+            raise ValueError('allow is for serve, which says where others fetch: serve = "0.0.0.0:8233"')
+        return self
 
     @field_validator("follow", mode="before")
     @classmethod
@@ -47,3 +88,14 @@ class SkyTable(Table):
                     f'follow[{number}] names "{self.follow[number].name}", as follow[{first}] does: take one out'
                 )
         return self
+
+
+def _is_address(text: str) -> bool:
+    """Whether it is a whole address of http or https, as a request can hold it."""
+    try:
+        parts = urlsplit(text)
+        named = bool(parts.hostname) and (parts.port is None or parts.port > 0)
+    except ValueError:
+        return False
+    readable = text.isascii() and text.isprintable() and " " not in text and "@" not in parts.netloc
+    return parts.scheme in ("http", "https") and named and readable

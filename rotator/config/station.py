@@ -1,6 +1,6 @@
 """The `[station]` table of the configuration file: where on the earth the antenna stands.
 
-Knows the two ways to name a place, how exact it must be, and the antenna's beam. Does not compute with them.
+Knows the two ways to name a place, how exact it must be, the antenna's beam, and its air. Does not compute with them.
 """
 
 from __future__ import annotations
@@ -11,20 +11,26 @@ from pydantic import Field, field_validator, model_validator
 
 from rotator.config.table import Table
 
+NO_PLACE = (
+    "the configuration names no place: write [station] with latitude_deg and longitude_deg, or locator, into its file "
+    "(`rotator config > station.toml` makes one), and name that with --config"
+)
 _LOCATOR = re.compile(r"[A-R]{2}[0-9]{2}[A-X]{2}(?:[0-9]{2}(?:[A-X]{2}(?:[0-9]{2})?)?)?", re.IGNORECASE)
 
 
 class StationTable(Table):
     latitude_deg: float | None = Field(None, ge=-90, le=90)
-    """Degrees north; south of the equator negative. Goes with longitude_deg."""
+    """Degrees north; south is negative. Goes with longitude_deg."""
     longitude_deg: float | None = Field(None, ge=-180, le=180)
-    """Degrees east; west of Greenwich negative."""
+    """Degrees east; west is negative."""
     altitude_m: float = Field(0.0, ge=-430, le=9000)
     """Metres above the sea."""
     locator: str | None = None
-    """In place of the two: a Maidenhead locator of 6 to 12 characters. 4 would leave a star 1° in doubt."""
+    """In place of the two: a Maidenhead locator of 6 to 12 characters."""
     beam_deg: float = Field(20.0, gt=0, le=180)
     """The antenna's beam, from edge to edge at half power: beyond half of it a pointing error is warned of."""
+    refraction: bool = False
+    """Point higher, as air bends radio waves: 0.6° at the horizon, 0.2° at 5°. Not for what programs send."""
 
     @model_validator(mode="after")
     def _one_place(self) -> StationTable:

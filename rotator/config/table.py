@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Annotated, Protocol, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, JsonValue
 
 from hw.ports import Axis
 
@@ -15,6 +15,8 @@ Gpio = Annotated[int, Field(ge=0, le=57)]
 I2CAddress = Annotated[int, Field(ge=0x08, le=0x77)]
 I2CBus = Annotated[int, Field(ge=0, le=255)]
 Channel = Annotated[int, Field(ge=0, le=3)]
+SECRET: dict[str, JsonValue] = {"writeOnly": True}
+"""The mark of a key that no other person may read."""
 Point = Annotated[tuple[float, float], Field(strict=False)]
 
 

@@ -9,6 +9,7 @@ import codecs
 from pathlib import Path
 
 from rotator.config.mistake import Mistake
+from rotator.store.plain import read_plain
 
 
 class NoTextError(Exception):
@@ -21,7 +22,7 @@ class NoTextError(Exception):
 
 def read(path: Path) -> str:
     """Raises OSError, NoTextError."""
-    data = path.read_bytes()
+    data = read_plain(path)
     if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or b"\0" in data[:4]:
         raise NoTextError(
             Mistake(

@@ -10,7 +10,7 @@ from hw.ports import AngleSource, Axis
 from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.orders import Aim, Calibrate, Confirm, Fly, Home, Jog, LoadTimed, Order, Park, Refusal, RelaysChecked
-from rotator.status import AxisStatus, Status, Trust
+from rotator.status import Status
 
 SENT_DEG = {Axis.AZIMUTH: (-180.0, 540.0), Axis.ELEVATION: (-90.0, 180.0)}
 """The angles that a program may send, as in Hamlib. What the rotor can reach of them is the mount's matter."""
@@ -32,17 +32,14 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return Refusal(f"{axis.value} knows its angle: it needs no homing")
         case Confirm(axis) if not status.axis(axis).confirmable:
             return Refusal(f"{axis.value} measures its angle: there is nothing to confirm")
+        case Confirm(axis) if status.axis(axis).moving:
+            return Refusal(f"{axis.value} turns: stop it (`rotator stop`), and look where it points when it stands")
         case RelaysChecked(axis) if status.axis(axis).moving:
             return Refusal(f"{axis.value} turns: its relays can be looked at when it stands; `rotator stop` stops it")
-        case RelaysChecked(axis) if not _in_doubt(status.axis(axis)):
+        case RelaysChecked(axis) if not status.axis(axis).relays_in_doubt:
             return Refusal(f"nothing is in doubt about the relays of {axis.value}")
         case _:
             return None
-
-
-def _in_doubt(axis: AxisStatus) -> bool:
-    """Whether it matters to the axis that a person has seen its relays open."""
-    return axis.fault is not None or axis.waiting or Trust.DOUBTED in axis.trusts or Trust.WELDED in axis.trusts
 
 
 def _places(status: Status) -> tuple[float | None, float | None]:

@@ -17,7 +17,7 @@ from rotator.control.going_round import GoingRound
 from rotator.control.sky.joining import joined
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.nudges import Nudges
-from rotator.control.sky.pointing import Goals, Pointing
+from rotator.control.sky.pointing import AimGoal, Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
 from rotator.orders import BOTH, Aim, Fly, Source
@@ -51,12 +51,11 @@ class Aiming:
 
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
-        self._flight = None
-        self._asked_s = now_s
         wanted = self._pointing.wanted
         asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
         aim = self._nudges.applied(asked)
         if not aim.engaged:
+            self._end_flight()
             for axis in self._axes.values():
                 axis.halt()
             self._asked = None
@@ -65,12 +64,20 @@ class Aiming:
             stands_deg = self._azimuth.angle_deg
             from_deg = self._mount.azimuth.min_deg if stands_deg is None else stands_deg
             near_deg, over = self._round.turn(now_s, aim, from_deg)
-            self._set_goals(self._pointing.aim(now_s, aim, near_deg, self._elevation.angle_deg or 0.0, over=over))
-            self._asked = asked
+            goals = self._pointing.aim(now_s, aim, near_deg, self._elevation.angle_deg or 0.0, over=over)
+            self._end_flight()
+            self._set_goals(goals)
+            self._asked, self._asked_s = asked, now_s
         elif aim.elevation_deg is not None:
             self.forget((Axis.ELEVATION,))
             self._round.aim(Axis.ELEVATION, self._pointing.raise_to(aim.elevation_deg, self._azimuth.angle_deg or 0.0))
-            self._asked = asked
+            self._asked, self._asked_s = asked, now_s
+
+    def _end_flight(self) -> None:
+        """Another order takes its place: an axis that this one does not name stays at its target."""
+        if self._flight is not None:
+            self._flight = None
+            self._round.forget_paths()
 
     def fly(self, order: Fly, now_s: float) -> None:
         """Fly a planned pass from now on. Raises Unreachable; then everything is as it was."""
@@ -127,10 +134,15 @@ class Aiming:
         """Point again at the order in force, with the nudges of now. Raises Unreachable."""
         if self._asked is not None and self._asked.engaged:
             self.point_at(self._asked, now_s)
+        elif self._flight is not None:
+            self._flight.begin_goals_anew()
+            self._fly_on(now_s)
 
     def drop(self) -> None:
-        """The order in force is not to be repeated, nor flown on."""
+        """The order in force is not to be repeated, nor followed on: an axis that still aims stays at its target."""
         self._asked = self._flight = None
+        self._pointing.end_stream()
+        self._round.forget_paths()
 
     def end_stream(self) -> None:
         """No more orders come from that sender: the target stands at the last one."""
@@ -141,6 +153,7 @@ class Aiming:
         """Stop these axes and forget what they were asked for."""
         for axis in axes:
             self._axes[axis].halt()
+        self._round.stop(axes)
         self.forget(axes)
 
     def forget(self, axes: tuple[Axis, ...]) -> None:
@@ -168,8 +181,8 @@ class Aiming:
     def _fly_on(self, now_s: float) -> None:
         assert self._flight is not None
         for axis, goal in self._flight.goals(now_s).items():
-            self._round.aim(axis, goal)
-        wanted = self._flight.wanted(now_s)
+            self._round.aim(axis, self._nudged(self._flight, axis, goal, now_s))
+        wanted = self._nudges.applied(self._flight.wanted(now_s))
         if self._flight.following is None:
             self._pointing.show(wanted)
         else:
@@ -177,6 +190,18 @@ class Aiming:
         if self._flight.ended(now_s):
             self.end_following()
             self._flight = None
+
+    def _nudged(self, flight: Flight, axis: Axis, goal: AimGoal, now_s: float) -> AimGoal:
+        across_deg, up_deg = (self._nudges.of(each) for each in Axis)
+        if not across_deg and not up_deg:
+            return goal
+        if axis is Axis.AZIMUTH:
+            return goal.mapped(lambda angle_deg: self._mount.azimuth.nearest(angle_deg + across_deg))
+        way = flight.way(now_s)
+        azimuth_deg = self._mount.azimuth.nearest(way.azimuth_deg + across_deg)
+        # Over the top the elevation axis goes down where the antenna goes up.
+        raised_deg = -up_deg if way.flipped else up_deg
+        return goal.mapped(lambda angle_deg: self._mount.clear_deg(azimuth_deg, angle_deg + raised_deg))
 
     def notices(self, axis: Axis) -> tuple[Notice, ...]:
         """What a forbidden sector keeps this axis from."""

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import math
 
-from rotator.control.rights import AT_MODE, Deed, State, hindrance
+from rotator.control.rights import Deed, State, at_mode, hindrance, mode_words
 from rotator.control.senders import PAUSE_S, Pair, Senders
-from rotator.orders import Mode, Source
+from rotator.orders import CONSOLE, PAGE, PANEL, Mode, Source
+from rotator.spoken import held_by
+from rotator.status import Latch
 
 AGREE_DEG = 4.0
 LET_GO_S = 0.5
@@ -21,15 +23,18 @@ MOST_SHOWN = 4
 class Authority:
     """Every order that would move an axis asks here first. `agree_deg`: so far apart, two directions are the same."""
 
-    def __init__(self, mode: Mode = Mode.AUTO, agree_deg: float = AGREE_DEG) -> None:
-        self.latched = ""
-        """The source of a stop that only a person releases; empty: there is none."""
-        self.storm = False
+    def __init__(self, mode: Mode = Mode.AUTO, agree_deg: float = AGREE_DEG, latch: Latch | None = None) -> None:
+        """`latch`: what was in force when the program ended. A storm park is not driven on: a person orders it anew."""
+        self.latched = latch.by if latch else ""
+        """The source of a stop or storm park that only a person releases; empty: there is none."""
+        self.storm = latch is not None and latch.storm
         """The latch is a storm park that goes on."""
         self.mode = mode
         self.controlled_by: Source | None = None
+        self.held_by: Source | None = None
+        """The person who has taken the antenna, and has not given it back."""
         self._panel: Source | None = None
-        """The panel that switched to this mode. In MANUAL and JOG it alone moves the antenna."""
+        """Who switched to this mode: the panel, or a person. In MANUAL and JOG nobody else moves the antenna."""
         self._held_on_s = -math.inf
         """When the panel's jog switch last sent an order, held on since before a stop."""
         self._senders = Senders(agree_deg)
@@ -46,7 +51,7 @@ class Authority:
 
     def begin_storm(self, source: Source) -> None:
         """A person parks the antenna before a storm: only a stop or the mode switch ends that."""
-        self.latched, self.storm = f"{source}: storm park", True
+        self.latched, self.storm = str(source), True
         self.controlled_by = source
 
     def stopped_axis(self, source: Source, now_s: float) -> None:
@@ -69,8 +74,43 @@ class Authority:
     def switch(self, panel: Source, mode: Mode) -> None:
         """A person turns the mode switch."""
         self.mode, self._panel = mode, panel
-        self.controlled_by = None
+        self.controlled_by = self.held_by = None
         self._end_storm(panel)
+
+    @property
+    def mode_by(self) -> str:
+        return str(self._panel or "")
+
+    def _end_mode_of_a_person(self) -> None:
+        """What is set at no switch ends when somebody takes the antenna, or gives it back."""
+        if self._panel is not None and self._panel.link != PANEL:
+            self.mode, self._panel = Mode.AUTO, None
+
+    def _set_this_mode(self, source: Source) -> bool:
+        """Whether this is who set the mode: on the console, which has a connection for each command, any of them.
+
+        A person at the panel is held off by its own switch alone.
+        """
+        if self._panel is None or source == self._panel:
+            return self._panel is not None
+        return source.link == CONSOLE == self._panel.link or (source.link == PANEL and self._panel.link == PAGE)
+
+    def take(self, source: Source, *, stopped: bool) -> None:
+        """A person takes the antenna. `stopped`: its motors have been stopped for that."""
+        if source != self._panel:
+            self._end_mode_of_a_person()
+        self.held_by = source
+        if stopped:
+            self.controlled_by = None
+
+    def give_back(self, source: Source) -> None:
+        """A person gives it back: the next order of a program counts. Another one on the page takes it over first."""
+        if self.held_by not in (None, source) and source.may_be_held_off:
+            return
+        self._end_mode_of_a_person()
+        self.held_by = None
+        self._senders.free_all()
+        self._ignored.clear()
 
     def left(self, source: Source, now_s: float) -> bool:
         """The connection of `source` has ended. Returns whether the stream that moved the antenna ended with it."""
@@ -96,6 +136,8 @@ class Authority:
             return False
         self._senders.take(source, now_s)
         self.controlled_by = source
+        if source.holds:
+            self.held_by = source
         return True
 
     def allows(self, source: Source, now_s: float, deed: Deed, *, homing: bool = False) -> bool:
@@ -121,14 +163,16 @@ class Authority:
         """The states that hold the antenna back from `source`, the strongest first, and the words for each."""
         held = {}
         if self.latched:
-            held[State.STORM if self.storm else State.STOPPED] = (
-                f"stopped by {self.latched}: nothing moves until resume"
-            )
-        at_panel = source == self._panel and self.mode in (Mode.MANUAL, Mode.JOG)
-        if self.mode is not Mode.AUTO and not at_panel:
-            held[AT_MODE[self.mode]] = f"the panel's switch is at {self.mode.name}"
+            held[State.STORM if self.storm else State.STOPPED] = held_by(self.latched, storm=self.storm)
+        own = self._set_this_mode(source)
+        # The switches and knobs of a panel are themselves what each mode allows.
+        at_panel = own and source.link == PANEL and self.mode in (Mode.MANUAL, Mode.JOG)
+        if not at_panel and (state := at_mode(self.mode, own=own)):
+            held[state] = mode_words(self.mode, self.mode_by)
         if at_panel and self._holds_on(now_s):
             held[State.SILENCED] = "a stop came while the jog switch was held: release the switch first"
+        if self.held_by is not None and self.held_by != source and source.may_be_held_off:
+            held[State.HELD] = f"{self.held_by} holds the antenna until it is given back there"
         # A stop that comes over a link does not silence the person at the panel for longer.
         if self.mode is Mode.AUTO and (silence := self._senders.silence(source)):
             held[State.SILENCED] = silence

@@ -7,7 +7,6 @@ over orders, homing, parking and timed lists. Pure: no I/O, no clock, no thread.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 
 from hw.ports import Axis, Direction
 from rotator.control.aiming import Aiming
@@ -32,11 +31,14 @@ from rotator.control.sky.timed import TimedList
 from rotator.faults import Notice
 from rotator.orders import (
     BOTH,
+    PAGE,
+    TRACKER,
     Aim,
     Calibrate,
     ClearTimed,
     Confirm,
     Fly,
+    GiveBack,
     Home,
     Jog,
     Leave,
@@ -55,6 +57,7 @@ from rotator.orders import (
     Speed,
     Stop,
     Stream,
+    Take,
 )
 from rotator.status import AxisStatus, Status
 
@@ -73,7 +76,7 @@ class Controller:
                     axes[each.axis] = PositionedAxis(each, lease_s=settings.lease_s)
         self._axes, self._switched = axes, switched
         tolerances_deg = settings.azimuth.tolerance_deg, settings.elevation.tolerance_deg
-        self._authority = Authority(settings.mode, max(tolerances_deg))
+        self._authority = Authority(settings.mode, max(tolerances_deg), settings.latch)
         self._aiming = Aiming(settings.mount, axes, Pointing(settings.mount, *tolerances_deg, on_sky=settings.on_sky))
         self._homing = HomingQueue({name: axis for name, axis in switched.items() if axis.settings.homing is not None})
         self._fence = Fence(settings.mount, axes, period_s=settings.period_s, attended=settings.attended)
@@ -84,7 +87,8 @@ class Controller:
         self._remarks: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
         """What the panel has to say of each axis."""
         self._moved_s: float | None = None
-        """When an order last moved the antenna; None: none has since the start, a park or what a person released."""
+        """When an order last moved the antenna; None: none has since the start, a park, a stop, or a person's release.
+        What a stop or a fault has ended does not begin by itself: an idle antenna parks only after the next order."""
         self._stepped_s: float | None = None
         self.troubles: list[str] = []
         """Why orders were not carried out, for the log; the caller clears it."""
@@ -128,6 +132,13 @@ class Controller:
         self._homing.clear()
         self._halt(BOTH)
 
+    def page_lost(self) -> None:
+        """No order arrives from the page, its STOP neither: what a person on the page turns ends. All others go on."""
+        by = self._authority.controlled_by
+        if by is not None and by.link == PAGE and not self._authority.latched:
+            self._homing.clear()
+            self._halt(BOTH)
+
     def note_driven(self, now_s: float, driven: Mapping[Axis, Direction]) -> None:
         """After the cycle: the direction in which each axis's relays are really closed (OFF where it has none)."""
         for axis, control in self._axes.items():
@@ -147,11 +158,13 @@ class Controller:
             latched=self._authority.latched,
             storm=self._authority.storm,
             controlled_by=str(self._authority.controlled_by or ""),
+            held_by=str(self._authority.held_by or ""),
             timed_point=self._timed.point,
             timed_points=len(self._timed.points),
             simulated=self._settings.simulated,
             speed_level=self._speed_level,
             mode=self._authority.mode,
+            mode_by=self._authority.mode_by,
             mode_switch=self._settings.mode is not Mode.AUTO,
             flown=self._aiming.flown,
             notices=self._authority.ignored(now_s),
@@ -159,10 +172,9 @@ class Controller:
         )
 
     def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
-        status = self._axes[axis].status(now_s)
         more = self._remarks[axis] + self._aiming.notices(axis) + self._fence.notices(axis, now_s)
         starts = self._starts.of(axis) if axis in self._switched else None
-        return replace(status, notices=status.notices + more, starts=starts)
+        return self._axes[axis].status(now_s, starts=starts, more=more)
 
     def _note_lateness(self, now_s: float) -> None:
         """A motor ran for longer than a cycle unwatched: the guard has opened its relay, and a person should know."""
@@ -185,7 +197,7 @@ class Controller:
                 self._timed.clear()
             case Speed(level):
                 self._speed_level = level
-            case Park(storm=True) | Confirm() if deed and not self._authority.allows(
+            case Park(storm=True) | Confirm() | Calibrate() | Take() if deed and not self._authority.allows(
                 source, now_s, deed, homing=homing
             ):
                 pass
@@ -196,12 +208,10 @@ class Controller:
                 self._park(now_s)
             case Calibrate(axis, high_end):
                 self._calibrate(axis, now_s, high_end=high_end)
-            case SetMode(mode):
-                self._homing.clear()
-                self._halt(BOTH)
-                self._aiming.clear_nudges()
-                self._moved_s = None
-                self._authority.switch(source, mode)
+            case SetMode() | Take():
+                self._hand_over(source, order)
+            case GiveBack() | Jog(direction=Direction.OFF, held=True):
+                self._let_go(source, order)
             case Nudge(axis, offset_deg):
                 self._nudge(axis, offset_deg, now_s)
             case Confirm(axis, angle_deg):
@@ -222,6 +232,28 @@ class Controller:
                 self._fly_for_stream(order, source, now_s)
             case _ if deed and self._authority.may_move(source, now_s, aims_of(order), deed=deed, homing=homing):
                 self._move(order, source, now_s)
+
+    def _hand_over(self, source: Source, order: SetMode | Take) -> None:
+        """A person says who moves the antenna from now on. It stops, unless that person moves it already."""
+        goes_on = order == Take(stops=False) and self._authority.controlled_by in (source, Source(TRACKER))
+        if not goes_on:
+            self._homing.clear()
+            self._halt(BOTH)
+            self._moved_s = None
+        match order:
+            case SetMode(mode):
+                self._aiming.clear_nudges()
+                self._authority.switch(source, mode)
+            case Take():
+                self._authority.take(source, stopped=not goes_on)
+
+    def _let_go(self, source: Source, order: GiveBack | Jog) -> None:
+        """A person lets go of the antenna, or of the button of a jog."""
+        match order:
+            case GiveBack():
+                self._authority.give_back(source)
+            case Jog():
+                self._jogs.end(source)
 
     def _move(self, order: Order, source: Source, now_s: float) -> None:
         self._starts.ordered(now_s)
@@ -320,13 +352,13 @@ class Controller:
             self._park(now_s)
 
     def _wait_for_order(self) -> None:
-        """A person lets the box move again. What a stop or a fault has ended does not begin by itself: an idle antenna
-        parks only after the next order."""
+        """A person lets the box move again."""
         if self._authority.latched or any(control.fault for control in self._axes.values()):
             self._moved_s = None
 
     def _stop(self, source: Source, axes: tuple[Axis, ...], *, latch: bool, now_s: float) -> None:
         self._homing.clear()
+        self._moved_s = None
         self._halt(BOTH if self._authority.storm else axes)
         self._authority.stopped_axis(source, now_s)
         if len(axes) == len(self._axes):

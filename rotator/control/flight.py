@@ -60,6 +60,10 @@ class Flight:
             return self.following.silent(now_s)
         return now_s >= self._path.end_s and all(now_s >= _end_s(plan) for plan in self._plans.values())
 
+    def begin_goals_anew(self) -> None:
+        """Those of this moment are to be given once more."""
+        self._given.clear()
+
     def goals(self, now_s: float) -> dict[Axis, AimGoal]:
         """The goals that begin now."""
         found = {}

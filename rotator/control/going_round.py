@@ -38,6 +38,11 @@ class GoingRound:
         self._target: Place | None = None
         self._detour: Detour | None = None
         """The rest of the way to that target; None: straight on."""
+        self._stopped: set[Axis] = set()
+        """Axes that an order or a fault has stopped since the latest order: they stay, also where the other axis would
+        need the room."""
+        self._waits_deg: dict[Axis, float] = {}
+        """Where the other axis waits meanwhile."""
         self._noticed: dict[Axis, Notice] = {}
 
     def wish(self, axis: Axis) -> AimGoal | None:
@@ -70,10 +75,16 @@ class GoingRound:
         return place_deg, over
 
     def aim(self, axis: Axis, goal: AimGoal) -> None:
-        """Go there from now on."""
+        """Go there from now on. An order may move the other axis out of the way too."""
+        self._stopped.clear()
+        self._waits_deg.clear()
         self._axes[axis].aim(goal)
         if self.detours is not None:
             self._wishes[axis] = goal
+
+    def stop(self, axes: tuple[Axis, ...]) -> None:
+        """These axes stay where they are until the next order."""
+        self._stopped.update(axes)
 
     def forget_paths(self) -> None:
         """Keep the targets where they are now: their further path is not known any more."""
@@ -88,6 +99,8 @@ class GoingRound:
         """Give each axis the goal of this moment."""
         if self.detours is None:
             return
+        # A fault has stopped its axis. Its acknowledgement orders no motion of it.
+        self.stop(tuple(axis for axis, control in self._axes.items() if control.fault))
         wishes = {axis: wish for axis in Axis if (wish := self.wish(axis)) is not None}
         self._wishes = dict(wishes)
         self._noticed.clear()
@@ -106,11 +119,22 @@ class GoingRound:
             self._target = self._detour = None
             self._give(wishes)
             return
+        if not self._stopped <= wishes.keys():
+            self._wait(wishes, here)
+            return
         for axis in Axis:
             if axis not in wishes:
                 # It moves out of the way, and comes back.
                 wishes[axis] = self._wishes[axis] = AimGoal(here.of(axis).middle_deg, PLACE_TOLERANCE_DEG)
         self._go(wishes, self._way(here, target), target)
+
+    def _wait(self, wishes: Mapping[Axis, AimGoal], here: Box) -> None:
+        """The axis that would have to move out of the way was stopped: the other one stays where it is."""
+        self._target = self._detour = None
+        for axis, wish in wishes.items():
+            place_deg = self._waits_deg.setdefault(axis, here.of(axis).middle_deg)
+            self._set(axis, AimGoal(place_deg, max(wish.tolerance_deg, PLACE_TOLERANCE_DEG)))
+            self._noticed[axis] = Notice("a sector is in the way, and the other axis was stopped: waits", "FORBIDDEN")
 
     def _way(self, here: Box, target: Place) -> Detour:
         """The way on which the antenna is, where it still leads to the target; else a new one."""

@@ -1,8 +1,9 @@
 """Who jogs which axis, and for how long: a jog without a time ends with the connection that ordered it.
 
 An axis that is not commissioned has no limits that could stop it, and a program may press a thousand times. So the
-presses of a link make one turn of two seconds at most, and then the axis rests for 0.4 of that time, whatever comes. A
-person at the console, at the panel or in a calibration may press as it suits.
+presses of a link make one turn of two seconds at most, and then the axis rests for 0.4 of that time, whatever comes. So
+it is with the page, whose held button is pressed anew several times a second. A person at the console, at the
+panel or in a calibration may press as it suits. After three presses that did not move it a program presses no more.
 
 Knows both axes, the source of the last jog of each, and how long each has been driven. Knows no other order.
 """
@@ -14,7 +15,7 @@ from collections.abc import Mapping
 from hw.ports import Axis, Direction
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 from rotator.control.axis.port import ControlledAxis
-from rotator.orders import Jog, Source
+from rotator.orders import PAGE, Jog, Source
 
 REST_SHARE = 0.4
 """A turn of one second is followed by a rest of so many."""
@@ -31,13 +32,16 @@ class Jogs:
 
     def begin(self, jog: Jog, source: Source, now_s: float) -> None:
         axis, seconds = self._axes[jog.axis], jog.seconds
-        if jog.direction is not Direction.OFF and axis.missing and not source.is_person:
+        if jog.direction is not Direction.OFF and axis.pressed_in_vain and not source.is_person:
+            return
+        by_link = jog.held or source.link == PAGE or not source.is_person
+        if jog.direction is not Direction.OFF and axis.missing and by_link:
             turned_s = self._turned_s[jog.axis]
             left_s = UNCALIBRATED_JOG_S - turned_s if axis.driven or turned_s == 0.0 else 0.0
             if left_s <= 0.0:
                 return
             seconds = left_s if seconds is None else min(seconds, left_s)
-        axis.jog(jog.direction, seconds, now_s)
+        axis.jog(jog.direction, seconds, now_s, held=jog.held)
         self._by[jog.axis] = source
 
     def note_driven(self, now_s: float) -> None:
@@ -49,7 +53,7 @@ class Jogs:
             self._turned_s[name] = min(max(self._turned_s[name] + gone_s, 0.0), UNCALIBRATED_JOG_S)
 
     def end(self, source: Source) -> None:
-        """The connection of `source` has ended: halt what it still jogs. A jog with a time ends by itself."""
+        """`source` has let go, or its connection has ended: halt what it holds. A jog with a time ends by itself."""
         for axis, by in self._by.items():
-            if by == source and self._axes[axis].jogs_without_end:
+            if by == source and self._axes[axis].jog_is_held:
                 self._axes[axis].halt()

@@ -9,9 +9,13 @@ from collections.abc import Iterable
 from enum import Enum
 
 from rotator.orders import (
+    CONSOLE,
+    PANEL,
     Aim,
+    Calibrate,
     Confirm,
     Fly,
+    GiveBack,
     Home,
     Jog,
     LetGo,
@@ -22,8 +26,11 @@ from rotator.orders import (
     Release,
     RunTimed,
     SetMode,
+    Source,
     Stop,
+    Take,
 )
+from rotator.spoken import held_by
 from rotator.status import Status
 
 
@@ -36,27 +43,31 @@ class State(Enum):
     IDLE_PARK = "parks because it was idle"
     HOMING = "homes for another person"
     SILENCED = "the link is silenced (`S`, a fight)"
+    HELD = "held by a person on the page (programs)"
     STORM = "storm park"
     STOPPED = "STOP"
-    AT_PARK = "panel at PARK"
-    AT_MANUAL = "panel at MANUAL"
-    AT_JOG = "panel at JOG"
+    AT_PARK = "mode PARK"
+    AT_MANUAL = "mode MANUAL (others)"
+    AT_JOG = "mode JOG (others)"
+    OWN_JOG = "mode JOG (who set it)"
     FAULT = "a fault on an axis"
 
 
 class Deed(Enum):
     """An order, as the table's columns have it. The first four come over links, the others from persons."""
 
-    AIM = "aim, list"
+    AIM = "aim, list, `O`, `F`"
+    """A calibration too moves what every later order means."""
     JOG = "jog"
     PARK = "park"
     S = "`S`"
     STOP = "STOP"
-    RESUME = "resume"
+    RESUME = "resume, give back"
     STORM = "storm park"
     HOME = "home"
     CONFIRM = "confirm"
     MODE = "mode switch"
+    TAKE = "take"
     LET_GO = "let-go"
 
 
@@ -75,25 +86,38 @@ class Effect(Enum):
 
 _WORDS = {"a": Effect.ACTS, "b": Effect.BESIDE, "s": Effect.STOPS, "-": Effect.NONE}
 _ROWS = {
-    # In the order of Deed: aim jog park, S STOP resume, storm home confirm, mode let-go.
-    State.TRACKING: "aaa ssb aas ss",
-    State.JOGGING: "aaa ssb aas ss",
-    State.TIMED: "aaa ssb aas ss",
-    State.IDLE_PARK: "aaa ssb aas ss",
-    State.HOMING: "--- ssb a-- ss",
-    State.SILENCED: "--- ssb aas ss",
-    State.STORM: "--- ssb a-- ss",
-    State.STOPPED: "--- ssb --b bs",
-    State.AT_PARK: "--- ssb --b bs",
-    State.AT_MANUAL: "--- ssb --b ss",
-    State.AT_JOG: "--- ssb --b ss",
-    State.FAULT: "aaa ssb aas ss",
+    # In the order of Deed: aim jog park, S STOP resume, storm home confirm, mode take let-go.
+    State.TRACKING: "aaa ssb aas sss",
+    State.JOGGING: "aaa ssb aas sss",
+    State.TIMED: "aaa ssb aas sss",
+    State.IDLE_PARK: "aaa ssb aas sss",
+    State.HOMING: "--- ssb a-- sss",
+    State.SILENCED: "--- ssb aas sss",
+    State.HELD: "--- ssb aas sss",
+    State.STORM: "--- ssb a-- s-s",
+    State.STOPPED: "--- ssb --b bbs",
+    State.AT_PARK: "--- ssb --b bbs",
+    State.AT_MANUAL: "--- ssb --b sss",
+    State.AT_JOG: "--- ssb --b sss",
+    State.OWN_JOG: "-a- ssb --b sss",
+    State.FAULT: "aaa ssb aas sss",
 }
 TABLE: dict[State, dict[Deed, Effect]] = {
     state: {deed: _WORDS[cell] for deed, cell in zip(Deed, row.replace(" ", ""), strict=True)}
     for state, row in _ROWS.items()
 }
-AT_MODE = {Mode.PARK: State.AT_PARK, Mode.MANUAL: State.AT_MANUAL, Mode.JOG: State.AT_JOG}
+_OF_OTHERS = {Mode.PARK: State.AT_PARK, Mode.MANUAL: State.AT_MANUAL, Mode.JOG: State.AT_JOG}
+_OF_ONE = {Mode.PARK: State.AT_PARK, Mode.JOG: State.OWN_JOG}
+
+
+def at_mode(mode: Mode, *, own: bool) -> State | None:
+    """The state in which a mode puts somebody; None: it holds nothing back. `own`: who has set it."""
+    return (_OF_ONE if own else _OF_OTHERS).get(mode)
+
+
+def mode_words(mode: Mode, by: str) -> str:
+    """`by`: who has set the mode; empty: the panel, at the start."""
+    return f"the panel's switch is at {mode.name}" if by in ("", PANEL) else f"{by} has set the mode {mode.name}"
 
 
 def hindrance(states: Iterable[State], deed: Deed) -> State | None:
@@ -104,7 +128,7 @@ def hindrance(states: Iterable[State], deed: Deed) -> State | None:
 def deed_of(order: Order) -> Deed | None:
     """The table's column for an order; None: it neither moves nor stops an axis, nor releases it."""
     match order:
-        case Aim() | Fly() | LoadTimed() | RunTimed():
+        case Aim() | Fly() | LoadTimed() | RunTimed() | Calibrate():
             return Deed.AIM
         case Jog():
             return Deed.JOG
@@ -112,7 +136,7 @@ def deed_of(order: Order) -> Deed | None:
             return Deed.STORM if storm else Deed.PARK
         case Stop(_, latch):
             return Deed.STOP if latch else Deed.S
-        case Release():
+        case Release() | GiveBack():
             return Deed.RESUME
         case Home():
             return Deed.HOME
@@ -120,25 +144,40 @@ def deed_of(order: Order) -> Deed | None:
             return Deed.CONFIRM
         case SetMode():
             return Deed.MODE
+        case Take():
+            return Deed.TAKE
         case LetGo():
             return Deed.LET_GO
         case _:
             return None
 
 
-def holds(status: Status) -> dict[State, str]:
-    """The states in which the box is held, as a console sees them, with the words for its user."""
+def holds(status: Status, source: Source | None = None) -> dict[State, str]:
+    """The states in which the box is held, as a person sees them, with the words for them.
+
+    `source`: the person's, where another person's hold concerns it.
+    """
     held = {}
+    if source is not None and source.may_be_held_off and status.held_by not in ("", str(source)):
+        held[State.HELD] = f"{status.held_by} holds the antenna: take it over first"
     if status.latched:
         state = State.STORM if status.storm else State.STOPPED
-        held[state] = f"stopped by {status.latched}: nothing moves until resume"
-    if status.mode is not Mode.AUTO:
-        held[AT_MODE[status.mode]] = f"the panel's switch is at {status.mode.name}"
+        held[state] = held_by(status.latched, storm=status.storm)
+    # A person on the console has a connection for each command.
+    own = status.mode_by.partition("#")[0] == CONSOLE if source is None else str(source) == status.mode_by
+    if mode := at_mode(status.mode, own=own):
+        held[mode] = mode_words(status.mode, status.mode_by)
     return held
 
 
 def table() -> str:
-    """The table for docs/safety.md."""
-    rows = [["state", *(deed.value for deed in Deed)], ["---"] * (1 + len(Deed))]
-    rows += [[state.value, *(TABLE[state][deed].value for deed in Deed)] for state in State]
-    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+    """The table for docs/safety.md: a column for the states that allow the same, a row for the orders alike in all."""
+    columns: dict[tuple[str, ...], list[str]] = {}
+    for state in State:
+        columns.setdefault(tuple(TABLE[state][deed].value for deed in Deed), []).append(state.value)
+    rows: dict[tuple[str, ...], list[str]] = {}
+    for deed, *cells in zip(Deed, *columns, strict=True):
+        rows.setdefault(tuple(cells), []).append(deed.value)
+    head = " | ".join(["order", *map("; ".join, columns.values())])
+    lines = [" | ".join(["; ".join(deeds), *cells]) for cells, deeds in rows.items()]
+    return "\n".join([head, "|".join(["--"] * (1 + len(columns))), *lines])

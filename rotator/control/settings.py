@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from rotator.control.axis.settings import AxisSettings
 from rotator.control.sky.mount import Mount
 from rotator.orders import Mode
+from rotator.status import Latch
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,5 +25,7 @@ class Settings:
     """Whether the tolerance is on the sky; False: in degrees of each axis."""
     mode: Mode = Mode.AUTO
     """The mode until a front panel reports its switch. With a mode switch it is PARK: nothing moves before that."""
+    latch: Latch | None = None
+    """The stop that was latched when the program ended; None: none was."""
     attended: bool = False
     """A person stands by, as for a calibration: axes of which no angle is known yet are jogged near a sector too."""

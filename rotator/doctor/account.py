@@ -29,6 +29,8 @@ def groups(machine: Machine, config: Config) -> Iterator[Finding]:
         if unit is None:
             yield fine("root needs none")
         return
+    if unit is not None and machine.user == SERVICE_USER:
+        return  # it is the service itself, which has just been looked at
     own = _membership(machine, machine.user, needed)
     # Where the service runs the box, the user needs the groups for `rotator calibrate` only.
     yield own if own.ok or unit is None else warn(own.found, own.advice)

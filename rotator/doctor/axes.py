@@ -16,7 +16,14 @@ from rotator.config.forbidden import seen_again
 from rotator.config.load import ConfigError, load
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, warn, wrong
+from rotator.faults import Missing
 
+KEYS = {
+    Missing.CALIBRATION: ("calibration",),
+    Missing.LIMITS: ("min_deg", "max_deg"),
+    Missing.DIRECTION_CHECK: ("direction_checked",),
+}
+"""What a person writes who sets up an axis by hand."""
 NO_FILE = "Give --config an existing file that you may read; rotator config NAME prints one to start from."
 
 
@@ -55,11 +62,10 @@ def _set_up(config: Config, axis: Axis) -> Finding:
     name, table, angle = axis.value, config.axis(axis), config.angle(axis)
     lacks = missing(table, calibrated=own_points(config, axis) is not None)
     if lacks:
-        keys = [f"{name}.{key}" for key in ("min_deg", "max_deg", *(() if angle.in_degrees else ("calibration",)))]
+        keys = [f"{name}.{key}" for each in lacks for key in KEYS[each]]
         return wrong(
             f"{name} is not set up, and obeys short presses only: it lacks {', '.join(each.text for each in lacks)}",
-            f"Run rotator calibrate {name} --config FILE; or write {', '.join(keys)} and "
-            f"{name}.direction_checked yourself.",
+            f"Run rotator calibrate {name} --config FILE; or write {' and '.join(keys)} yourself.",
         )
     known = angle.by or "calibrated"
     return fine(f"{name}: {table.min_deg:g}° to {table.max_deg:g}°, {known}, direction checked")

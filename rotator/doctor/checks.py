@@ -20,6 +20,7 @@ from rotator.doctor import (
     boot,
     bus,
     counts,
+    elements,
     health,
     links,
     moteus,
@@ -34,12 +35,12 @@ from rotator.doctor.finding import Check, Finding, skipped, wrong
 from rotator.doctor.machine import Machine
 
 CONFIGURATION: Check[[Path | None]] = Check(
-    "configuration", "the file can be read, and all its keys and values are allowed", axes.configuration
+    "configuration", "each key and value of the file is allowed", axes.configuration
 )
 
 OF_THE_MACHINE: tuple[Check[[Machine]], ...] = (
     Check("python", "version 3.11 to 3.13", software.python),
-    Check("packages", "gpiod 2.1 or later (not the other package of that name), smbus2, pyserial", software.packages),
+    Check("packages", "gpiod 2.1 or later, smbus2, pyserial", software.packages),
     Check("kernel", "version 5.10 or later; the model of the Pi", software.kernel),
     Check("power", "under-voltage now, or since the start", health.power),
     Check("temperature", "processor below 80 °C", health.temperature),
@@ -55,22 +56,22 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
         lambda _machine, config: axes.axes(config),
     ),
     Check(
-        "sectors", "what stands in a forbidden sector is not met on another turn, or over the top",
+        "sectors", "what stands in a forbidden sector is fenced off on other turns and over the top too",
         lambda _machine, config: axes.sectors(config), concerns=axes.has_sectors,
     ),
     Check(
-        "counts", "the saved counts are valid; each axis is homed and has not lost its count",
+        "counts", "the saved counts are valid; each axis is homed",
         counts.counts, concerns=counts.keeps_counts,
     ),
     Check(
-        "GPIO chip", "the chip of the 40-pin header is there, and you may open it",
+        "GPIO chip", "the chip of the 40-pin header is there, and opens",
         wires.gpio_chip, on_chips=True, concerns=wires.has_lines,
     ),
     Check(
         "GPIO lines", "no other program holds a line of the box",
         wires.gpio_lines, on_chips=True, concerns=wires.has_lines,
     ),
-    Check("I2C bus", "it is there, and you may open it", bus.i2c_bus, on_chips=True, concerns=bus.has_chips),
+    Check("I2C bus", "it is there, and opens", bus.i2c_bus, on_chips=True, concerns=bus.has_chips),
     Check(
         "I2C devices", "every chip in the file answers; if not, which address does",
         bus.i2c_devices, on_chips=True, concerns=bus.has_chips,
@@ -84,7 +85,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
         sensors.sensors, on_chips=True, concerns=sensors.has_sensors,
     ),
     Check(
-        "PCA9685", "the chips of servos and panel are PCA9685, and the running box's have not been reset",
+        "PCA9685", "the chips of servos and panel answer, and were not reset",
         outputs.output_boards, on_chips=True, concerns=outputs.has_boards,
     ),
     Check(
@@ -107,11 +108,15 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
         "boot pins", "`gpio=` in config.txt: relays and enable lines are off while the Pi starts",
         boot.boot_pins, concerns=boot.has_lines,
     ),
-    Check("serial ports", "those of the links are there, you may open them, no console uses them", links.serial_ports),
+    Check("serial ports", "those of the links are there, open, and free of consoles", links.serial_ports),
     Check("pseudo-terminals", "those of the links can be created", links.pseudo_terminals),
     Check("TCP ports", "those of the links are free or the box's; which are open to the network", links.tcp_ports),
     Check("UDP ports", "the same for links that receive datagrams", links.udp_ports),
-    Check("groups", "you and the service's user are in those that the file needs", account.groups),
+    Check(
+        "elements", "the files can be read and are not old; fetching works",
+        elements.elements, concerns=elements.has_elements,
+    ),
+    Check("groups", "those that the file needs, for you and the service's user", account.groups),
     Check("state folder", "writable, and the card is not full", account.state_folder),
 )  # fmt: skip
 """A check is left out if the configuration has no such part."""

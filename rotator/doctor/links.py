@@ -17,7 +17,7 @@ from typing import Any
 from rotator.config.links import Link, address
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
-from rotator.doctor.machine import Machine
+from rotator.doctor.machine import Machine, shown
 
 LISTENING = {socket.SOCK_STREAM: ("tcp", "0A"), socket.SOCK_DGRAM: ("udp", "07")}
 """The table in /proc/net of each kind of socket, and the state of a socket that listens."""
@@ -49,6 +49,10 @@ def serial_port(machine: Machine, name: str) -> Finding:
         return wrong(
             f"{name}: the kernel's console is on it, and its messages would be orders",
             "sudo raspi-config, Interface, Serial Port: no login shell; then reboot.",
+        )
+    if machine.text("/proc/cmdline") is None:
+        return fine(
+            f"{name} is there and may be opened; sudo rotator doctor sees whether the kernel's console is on it"
         )
     return fine(f"{name} is there and may be opened")
 
@@ -114,7 +118,11 @@ def _port(machine: Machine, name: str, kind: socket.SocketKind, link: Link) -> F
             if owner is None:
                 return warn(f"{name} is taken, perhaps by the running box", "sudo rotator doctor names the program.")
             if not _is_ours(owner):
-                return wrong(f"{name} is taken by {' '.join(owner)}", "Stop that program, or take another port.")
+                return wrong(f"{name} is taken by {shown(owner)}", "Stop that program, or take another port.")
+            if machine.ask_box() is None:
+                return wrong(
+                    f"{name} is taken by a box with another configuration", "Stop that box, or take another port."
+                )
             state = "the running box"
         case [errno.EACCES, *_]:
             return wrong(f"{name}: only root may listen below 1024", "Take a port above 1023.")

@@ -5,12 +5,14 @@ Reads files and runs programs. Does not judge what it reads, and writes nothing.
 
 from __future__ import annotations
 
+import itertools
 import os
 import pwd
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -45,6 +47,8 @@ class Machine:
     chips: Chips
     ask_box: Callable[[], dict[str, Any] | str | None] = lambda: None
     """The status of the running box, as an object; or why it cannot be asked; None: no box runs."""
+    utc_s: Callable[[], float] = time.time
+    """Its clock."""
 
     def at(self, path: str | Path) -> Path:
         """A file of this machine; a relative path starts in the working folder, as the program's does."""
@@ -102,7 +106,8 @@ class Machine:
     @property
     def model(self) -> str:
         """The name of the board, such as `Raspberry Pi 4 Model B Rev 1.4`; empty on a PC."""
-        return self.text("/proc/device-tree/model") or ""
+        # The service does not see the first of the two.
+        return self.text("/proc/device-tree/model") or self.text("/sys/firmware/devicetree/base/model") or ""
 
     @property
     def is_pi(self) -> bool:
@@ -119,6 +124,12 @@ class Machine:
             return True
         place = nearest(self.at(folder))
         return place.is_dir() and os.access(place, os.W_OK | os.X_OK)
+
+
+def shown(command: Sequence[str]) -> str:
+    """A program's command line without its options, which may hold a password: the program, and what it runs."""
+    words = list(itertools.takewhile(lambda word: not word.startswith("-"), command))[:2]
+    return " ".join(words or command[:1])
 
 
 def nearest(path: Path) -> Path:

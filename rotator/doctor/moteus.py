@@ -14,7 +14,7 @@ from rotator.assembly.chips import Heard
 from rotator.config.model import Config
 from rotator.doctor.finding import Finding, fine, skipped, warn, wrong
 from rotator.doctor.links import serial_port
-from rotator.doctor.machine import Machine
+from rotator.doctor.machine import Machine, shown
 from rotator.doctor.wires import running
 
 LEAST_V = 10.0
@@ -71,7 +71,7 @@ def _port(machine: Machine, name: str) -> Finding:
         return port
     if any(PurePath(word).name == "rotator" for word in holder):
         return skipped(f"{name}: the box has it, or rotator calibrate, and talks to the controllers itself")
-    return wrong(f"{name} is held by {' '.join(holder)}", "End that program: tview and the box cannot share it.")
+    return wrong(f"{name} is held by {shown(holder)}", "End that program: tview and the box cannot share it.")
 
 
 def _interface(machine: Machine, name: str) -> Finding:

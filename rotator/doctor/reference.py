@@ -12,5 +12,5 @@ from rotator.doctor.finding import Check
 def checks_table() -> str:
     """One row for each check, in the order of the report."""
     checks: tuple[Check[...], ...] = (CONFIGURATION, *OF_THE_MACHINE, *OF_THE_STATION)
-    rows = [f"| {check.name} | {check.looks_at} |" for check in checks]
-    return "\n".join(["| check | looks at |", "| --- | --- |", *rows])
+    rows = [f"{check.name} | {check.looks_at}" for check in checks]
+    return "\n".join(["check | looks at", "--|--", *rows])

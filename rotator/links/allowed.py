@@ -10,6 +10,18 @@ from collections.abc import Sequence
 
 Network = ipaddress.IPv4Network | ipaddress.IPv6Network
 
+PRIVATE = (
+    "127.0.0.0/8",
+    "10.0.0.0/8",
+    "172.16.0.0/12",
+    "192.168.0.0/16",
+    "169.254.0.0/16",
+    "::1",
+    "fc00::/7",
+    "fe80::/10",
+)
+"""This computer, and the networks of homes and clubs."""
+
 
 class Allowed:
     """The networks whose machines may connect, such as "192.168.1.0/24", "fd00::/8" or one address.

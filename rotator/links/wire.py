@@ -52,8 +52,11 @@ class Wire:
     state: str = "closed"
     last_in: bytes = b""
     last_out: bytes = b""
+    count_in: int = 0
+    """Bytes that came so far: the same line once more is news too."""
 
     def came(self, data: bytes) -> None:
+        self.count_in += len(data)
         self.last_in = (self.last_in + data)[-KEPT_BYTES:]
 
     def went(self, data: bytes) -> None:

@@ -9,18 +9,24 @@ from __future__ import annotations
 import difflib
 import glob
 import re
-from collections.abc import Iterable, Sequence
+import stat
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from pathlib import Path
 
 from rotator.orbits import omm, tle
-from rotator.orbits.elements import Elements
+from rotator.orbits.elements import Elements, printable
+from rotator.orbits.moments import DAY_S
 
 SUFFIXES = (".tle", ".txt", ".json", ".csv")
 """What is read from a folder; a file named in full may have any name."""
 MOST_BYTES = 64_000_000
 """The whole public catalogue as JSON has 20 MB."""
+STILL_READ = "the files of elements are still being read: try again in a moment"
 _PARENTHESES = re.compile(r"\(([^)]*)\)")
+_AHEAD_S = 10 * DAY_S
+"""Elements are written for today, or for some days ahead."""
 _Stamp = tuple[int, int]
 
 
@@ -28,30 +34,57 @@ class Unknown(ValueError):  # noqa: N818 - a sentence about a name
     """No satellite, or more than one, has that name. The text tells which are near."""
 
 
+Found = list[Elements | str]
+"""The sets of a file; in place of one that is wrong a sentence."""
+Read = Callable[[Path], Found]
+"""Raises OSError, ValueError; RuntimeError where it reads in another process, and that fails."""
+
+
+def read_file(path: Path) -> Found:
+    """Raises OSError, ValueError."""
+    return list(parse(path.read_text(encoding="utf-8-sig")))
+
+
 @dataclass(frozen=True, slots=True)
 class _Kept:
-    """What was read from a file, and the file's size and time then."""
+    """What was read from a file, the file's time and size then, and its time when `sets` were read."""
 
     stamp: _Stamp
+    written_s: float
     sets: tuple[Elements, ...]
     faults: tuple[str, ...]
 
 
 class Catalogue:
-    """`places`: files, folders, or patterns such as `/var/lib/elements/*.json`."""
+    """`places`: files, folders, or patterns such as `/var/lib/elements/*.json`.
 
-    def __init__(self, places: Sequence[str]) -> None:
+    `to_come`: files and folders that may not be there yet, or be empty. `later`: nothing is read before the first
+    `refresh`.
+    """
+
+    def __init__(
+        self, places: Sequence[str], *, to_come: Sequence[Path] = (), read: Read = read_file, later: bool = False
+    ) -> None:
         self._places = tuple(places)
+        self._to_come = tuple(to_come)
+        self._read_file = read
+        self._has_looked = False
         self._kept: dict[Path, _Kept] = {}
         self._missing: tuple[str, ...] = ()
         self._sets: dict[int, Elements] = {}
         self._names: dict[str, set[int]] = {}
-        self.refresh()
+        if not later:
+            self.refresh()
 
     @property
     def faults(self) -> tuple[str, ...]:
         """A sentence for each file that is missing, and for each set that could not be used."""
         return (*self._missing, *(fault for kept in self._kept.values() for fault in kept.faults))
+
+    @property
+    def by_file(self) -> dict[Path, tuple[Elements, ...]]:
+        """What was read from each file, or stays of it."""
+        return {path: kept.sets for path, kept in self._kept.items()}
 
     @property
     def satellites(self) -> tuple[Elements, ...]:
@@ -60,18 +93,17 @@ class Catalogue:
 
     def refresh(self) -> bool:
         """Read what is new or has changed. Returns whether anything has."""
-        paths, missing = _files(self._places)
+        paths, missing = files(self._places, self._to_come)
         before = dict(self._kept), self._missing
+        self._has_looked = True
         self._missing = tuple(missing)
         self._kept = {path: self._read(path) for path in paths}
         if (self._kept, self._missing) == before:
             return False
         self._sets = {}
-        for kept in self._kept.values():
-            for each in kept.sets:
-                known = self._sets.get(each.catalogue_number)
-                if known is None or known.epoch_utc_s < each.epoch_utc_s:
-                    self._sets[each.catalogue_number] = each
+        every = [(each, _rank(each, kept.written_s)) for kept in self._kept.values() for each in kept.sets]
+        for each, _ in sorted(every, key=itemgetter(1), reverse=True):  # of equals the first
+            self._sets.setdefault(each.catalogue_number, each)
         self._names = {}
         for number, each in self._sets.items():
             for name in _spoken(each):
@@ -89,6 +121,8 @@ class Catalogue:
         if numbers:
             several = ", ".join(f"{self._sets[number].name} ({number})" for number in sorted(numbers)[:8])
             raise Unknown(f'"{name}" may be {several}: name one by its number')
+        if not self._has_looked:
+            raise Unknown(STILL_READ)
         shown = {each: self._sets[min(found)].name for each, found in self._names.items()}
         shown |= {plain(each): each for each in others}
         near = difflib.get_close_matches(plain(name), shown, n=3, cutoff=0.6)
@@ -101,27 +135,41 @@ class Catalogue:
 
     def _read(self, path: Path) -> _Kept:
         before = self._kept.get(path)
-        earlier = before.sets if before else ()
+        earlier, written_s = (before.sets, before.written_s) if before else ((), 0.0)
         try:
             about = path.stat()
             stamp = (about.st_mtime_ns, about.st_size)
             if before is not None and before.stamp == stamp:
                 return before
+            if not stat.S_ISREG(about.st_mode):
+                raise ValueError("it is no file")  # a pipe would keep its reader waiting
             if about.st_size > MOST_BYTES:
                 raise ValueError(f"{about.st_size} bytes are too many")
-            found = list(parse(path.read_text(encoding="utf-8-sig")))
+            found = self._read_file(path)
         except OSError as fault:
-            return _Kept((0, 0), earlier, (f"{path}: cannot be read ({fault.strerror})",))
-        except ValueError as fault:
+            return _Kept((0, 0), written_s, earlier, (f"{path}: cannot be read ({fault.strerror})",))
+        except (ValueError, RuntimeError) as fault:
+            if not isinstance(fault, (ValueError, RecursionError)):
+                stamp = 0, 0  # not the file's fault: the next time it may be read
             text = "no text" if isinstance(fault, UnicodeDecodeError) else str(fault)
-            return _Kept(stamp, earlier, (f"{path}: {text}" + _stays(earlier),))
+            return _Kept(stamp, written_s, earlier, (f"{path}: {printable(text)}" + _stays(earlier),))
         sets = tuple(each for each in found if isinstance(each, Elements))
-        wrong = tuple(f"{path}: {each}" for each in found if isinstance(each, str))
+        wrong = tuple(f"{path}: {printable(each)}" for each in found if isinstance(each, str))
         if not found:
             wrong = (f"{path}: holds no elements" + _stays(earlier),)
-        if (wrong or not sets) and earlier:  # perhaps it is only half written
-            return _Kept(stamp, earlier, wrong)
-        return _Kept(stamp, sets, wrong)
+        if wrong:  # perhaps it is only half written: what it does not have any more stays
+            has = {each.catalogue_number for each in sets}
+            sets += tuple(each for each in earlier if each.catalogue_number not in has)
+        return _Kept(stamp, about.st_mtime, sets, wrong)
+
+
+def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
+    """The set with the highest counts: the newest of those that are not far ahead of their file.
+
+    A wrong epoch in the year 9999 would win for ever. This computer's clock may not be set yet, and is not asked.
+    """
+    ahead = elements.epoch_utc_s > written_s + _AHEAD_S
+    return not ahead, -elements.epoch_utc_s if ahead else elements.epoch_utc_s
 
 
 def parse(text: str) -> Iterable[Elements | str]:
@@ -138,22 +186,36 @@ def parse(text: str) -> Iterable[Elements | str]:
     raise ValueError("neither TLE nor OMM (JSON or CSV)")
 
 
-def _files(places: Sequence[str]) -> tuple[list[Path], list[str]]:
-    """The files of these places, and a sentence for each place without one."""
+def files(places: Sequence[str], to_come: Sequence[Path] = ()) -> tuple[list[Path], list[str]]:
+    """The files that are there now, and a sentence for each place without one."""
     found: dict[Path, None] = {}
     missing = []
     for place in places:
         path = Path(place).expanduser()
-        if path.is_dir():
-            here = sorted(each for each in path.iterdir() if each.suffix.lower() in SUFFIXES and each.is_file())
-        elif path.exists():
-            here = [path]
-        else:
-            here = sorted(Path(each) for each in glob.glob(str(path)))
+        try:
+            is_folder = path.is_dir()
+            if is_folder:
+                here = _inside(path)
+            elif path.exists():
+                here = [path]
+            else:
+                here = sorted(Path(each) for each in glob.glob(str(path)))
+        except OSError as fault:
+            missing.append(f"{place}: cannot be read ({fault.strerror})")
+            continue
         found |= dict.fromkeys(here)
         if not here:
-            missing.append(f"{place}: no such file" if not path.is_dir() else f"{place}: no file of elements in it")
+            missing.append(f"{place}: no file of elements in it" if is_folder else f"{place}: no such file")
+    for path in to_come:
+        try:
+            found |= dict.fromkeys(_inside(path) if path.is_dir() else [path] if path.exists() else [])
+        except OSError as fault:
+            missing.append(f"{path}: cannot be read ({fault.strerror})")
     return list(found), missing
+
+
+def _inside(folder: Path) -> list[Path]:
+    return sorted(each for each in folder.iterdir() if each.suffix.lower() in SUFFIXES and each.is_file())
 
 
 def _spoken(elements: Elements) -> set[str]:

@@ -1,8 +1,8 @@
 """The sky over the station: where Sun, Moon, planets and stars stand, and which place among the stars a direction is.
 
 Knows the station's place, and asks the clock that it is given. Precession, nutation and sidereal time are
-astronomy-engine's. Does not know the rotor, or bytes. Angles are in degrees, without refraction: at elevation 5° a star
-seems 0.15° higher, at the horizon 0.5°.
+astronomy-engine's. Does not know the rotor, or bytes. Angles are in degrees. Targets are seen through air where the
+station allows for it; `Sky`, for programs that send places among the stars, leaves that to them.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import astronomy
 
 from rotator.orbits.earth import Site
 from rotator.orbits.moments import DAY_S, J2000_S
+from rotator.orbits.refraction import through_air
 from rotator.orbits.sight import Sight
 
 DEG_PER_H = 15.0
@@ -66,7 +67,7 @@ class Body:
     def __init__(self, name: str, site: Site) -> None:
         if name.casefold() not in BODIES:
             raise ValueError(f'"{name}" is no body of the sky; there are: {", ".join(BODIES)}')
-        self._body = BODIES[name.casefold()]
+        self._body, self._site = BODIES[name.casefold()], site
         self._observer = astronomy.Observer(site.latitude_deg, site.longitude_deg, site.altitude_m)
 
     @property
@@ -77,7 +78,7 @@ class Body:
         now = _time(utc_s)
         place = astronomy.Equator(self._body, now, self._observer, True, True)
         seen = astronomy.Horizon(now, self._observer, place.ra, place.dec, astronomy.Refraction.Airless)
-        return Sight(seen.azimuth % 360.0, seen.altitude, place.dist * astronomy.KM_PER_AU)
+        return through_air(Sight(seen.azimuth % 360.0, seen.altitude, place.dist * astronomy.KM_PER_AU), self._site)
 
     def late_s(self, _utc_s: float) -> float:
         """Known for centuries."""
@@ -88,12 +89,12 @@ class RadioSource:
     """One of `RADIO_SOURCES`. Its range is infinite."""
 
     def __init__(self, name: str, site: Site) -> None:
-        self.name = name
+        self.name, self._site = name, site
         self._observer = astronomy.Observer(site.latitude_deg, site.longitude_deg, site.altitude_m)
         self._star = RADIO_SOURCES[name]
 
     def sight(self, utc_s: float) -> Sight:
-        return Sight(*_direction(self._star, self._observer, _time(utc_s)), math.inf)
+        return through_air(Sight(*_direction(self._star, self._observer, _time(utc_s)), math.inf), self._site)
 
     def late_s(self, _utc_s: float) -> float:
         return 0.0

@@ -6,7 +6,7 @@ Knows the ellipsoid of WGS 84, and straight lines without refraction. Does not k
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from rotator.orbits.sight import Sight
 
@@ -27,6 +27,12 @@ class Site:
     latitude_deg: float
     longitude_deg: float
     altitude_m: float = 0.0
+    refraction: bool = field(default=False, kw_only=True)
+    """Targets of the sky are seen through its air."""
+
+    @property
+    def without_air(self) -> Site:
+        return replace(self, refraction=False)
 
 
 class Horizon:

@@ -13,6 +13,7 @@ from rotator.orbits.moments import DAY_S
 
 LEAST_REV_PER_DAY, MOST_REV_PER_DAY = 0.01, 18.0
 """Slower, and the Moon would take the satellite away; faster, and it would fly inside the atmosphere."""
+LONGEST_NAME = 40
 
 
 class NotAnOrbit(ValueError):  # noqa: N818 - a sentence about numbers
@@ -44,6 +45,9 @@ class Elements:
     """A sixth of the second derivative."""
 
     def __post_init__(self) -> None:
+        # A name may come from the network, and goes to terminals and displays.
+        name = printable(self.name).strip()[:LONGEST_NAME]
+        object.__setattr__(self, "name", name or str(self.catalogue_number))
         for field in fields(self):
             value = getattr(self, field.name)
             if isinstance(value, float) and not math.isfinite(value):
@@ -60,3 +64,8 @@ class Elements:
     def age_days(self, utc_s: float) -> float:
         """How far the epoch is away, in either direction."""
         return abs(utc_s - self.epoch_utc_s) / DAY_S
+
+
+def printable(text: str) -> str:
+    """Without the characters that a terminal would obey."""
+    return "".join(filter(str.isprintable, text))

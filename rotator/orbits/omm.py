@@ -1,4 +1,4 @@
-"""Orbit mean-elements messages: JSON and CSV ⇄ nothing but `Elements`, as CelesTrak and Space-Track write them.
+"""Orbit mean-elements messages: JSON and CSV ⇄ `Elements`, as CelesTrak and Space-Track write them.
 
 Knows the names of the fields and what must be in them. Does not know files.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import json
+import math
 from collections.abc import Iterator, Mapping
 from datetime import UTC, datetime
 from typing import Any
@@ -78,6 +79,17 @@ def read_csv(text: str) -> Iterator[Elements | str]:
             yield f"line {lines.line_num}{_of(line)}: {fault}"
 
 
+def message(elements: Elements) -> dict[str, object]:
+    """As `read_json` reads it."""
+    epoch = datetime.fromtimestamp(elements.epoch_utc_s, UTC).isoformat(timespec="microseconds")
+    return {
+        "OBJECT_NAME": elements.name,
+        "EPOCH": epoch.removesuffix("+00:00"),
+        **{key: getattr(elements, field) for key, field in (FIELDS | OPTIONAL).items()},
+        "NORAD_CAT_ID": elements.catalogue_number,
+    }
+
+
 def _elements(message: Mapping[str, Any]) -> Elements:
     for key, usual in (("CENTER_NAME", "EARTH"), ("REF_FRAME", "TEME"), ("MEAN_ELEMENT_THEORY", "SGP4")):
         value = str(message.get(key) or usual)
@@ -104,9 +116,12 @@ def _number(message: Mapping[str, Any], key: str) -> float:
     if value is None or value == "":
         raise ValueError(f"{key} is missing")
     try:
-        return float(value if not isinstance(value, bool) else "")
+        found = float(value if not isinstance(value, bool) else "")
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{key} is {str(value)[:24]!r}, no number") from None
+        found = math.nan
+    if not math.isfinite(found):
+        raise ValueError(f"{key} is {str(value)[:24]!r}, no number")
+    return found
 
 
 def _utc_s(text: str) -> float:

@@ -12,25 +12,25 @@ import math
 from collections import deque
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
+from rotator.orbits.chance import has_moved, has_told, line_chance, rise_chance
 from rotator.orbits.sight import NotThere, Sight, Target
 from rotator.orbits.stream_fit import (
-    BIAS_DEG,
     CLOCKS_S,
     UNSTEADY_S,
     Heard,
     SampledPath,
     clocks_that_explain,
     rounding_deg,
+    telling,
 )
 from rotator.orders import Aim, Calibrate, ClearTimed, Fly, Leave, Order, Release, Remark, Source, Speed, Stream
 
-ORDERS = 10
+ORDERS = 8
 """So many orders tell a satellite, where they leave no other reading."""
 KEPT = 30
 """A stream that comes upon a path later must agree with it for so many orders: any line crosses some path."""
-AGAIN_S = 5.0
+AGAIN_S = 2.0
 """Where so many orders have told none, the next are looked at so much later."""
 LONGEST_GAP_S = 20.0
 """Orders further apart do not belong together. Some programs send only when a whole degree has changed."""
@@ -41,24 +41,10 @@ FASTEST_DPS = 2.0
 SIEVE_EVERY_S = 10.0
 SIEVE_DEG = 2 * FASTEST_DPS * SIEVE_EVERY_S
 """A satellite further from the order than this is not meant before the next sieving."""
-TRAVEL_ROUNDINGS = 3.0
-LEAST_TRAVEL_DEG = 0.5
-"""So far must the orders have moved for their course and speed to be those of the satellite; less only as it rises:
-hardly anything else begins low in the sky there and then."""
-RISES_DEG = 5.0
 CHANCE = 1e-5
 """So seldom may a stream that follows no satellite fit as well."""
-SKY_SQUARE_DEG = 20_627.0
-"""Above the horizon."""
-RATES_SQUARE_DPS = math.pi
-"""What moves in the sky without following a satellite does so at up to 1°/s, in any direction."""
-
-
-CLOCKS_ASIDE_S = 10.0
-"""A path begins so long before now, for the orders of a clock that is behind."""
-AFTER_SET_S = 30.0
-"""Programs send for a while after the target has set."""
-LONGEST_PASS_S = 1800.0
+RISE_CHANCE = 1e-4
+"""So seldom may a stream that begins low and stands there begin where and when a known satellite rises."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,7 +125,9 @@ class _Listener:
         """From the stream's beginning on."""
         self._near: list[SampledPath] = []
         self._up = 0
-        """How many satellites may be meant, of all that are up."""
+        """How many satellites are up, and may be meant."""
+        self._known = 0
+        """How many there are."""
         self._sieved_s = -math.inf
         self._next_s = -math.inf
         """Before then no path is fitted again."""
@@ -186,7 +174,7 @@ class _Listener:
         sights = [(each, sight) for each in satellites if (sight := _up(each, order.utc_s)) is not None]
         near = [each for each, sight in sights if sight.apart_deg(order.direction) <= SIEVE_DEG]
         self._near = [known.get(each) or SampledPath(each) for each in near]
-        self._up = len(sights)
+        self._up, self._known = len(sights), len(satellites)
         for path in self._near:
             path.forget_before(self._orders[0].utc_s + CLOCKS_S[0] - 1)
 
@@ -197,10 +185,14 @@ class _Listener:
         if len(fits) != 1:
             return None
         path, clocks_s = fits[0]
-        if (
-            not (_has_moved(orders) and _has_told(path, orders, rounding))
-            or self._up * _chance(path, orders, rounding) > CHANCE
-        ):
+        told = telling(path, orders)
+        if len(told) < ORDERS:
+            return None
+        if not has_moved(told):
+            # In whole degrees a satellite may stand for 15 s after its rise: then only place and moment tell it.
+            if self._known * rise_chance(path, orders, clocks_s, rounding) > RISE_CHANCE:
+                return None
+        elif not has_told(path, told, rounding) or self._up * line_chance(path, told, rounding) > CHANCE:
             return None
         self._followed, self._clocks_s = path, clocks_s
         self.recognised = Recognised(
@@ -244,48 +236,3 @@ def _apart_deg(path: SampledPath, order: Heard, clock_s: float) -> float:
         return order.direction.apart_deg(path.sight(order.utc_s + clock_s))
     except NotThere:
         return math.inf
-
-
-def _has_moved(orders: Sequence[Heard]) -> bool:
-    """A target that stands is no satellite, wherever it stands."""
-    return any(before.direction != after.direction for before, after in pairwise(orders))
-
-
-def _has_told(path: SampledPath, orders: Sequence[Heard], rounding: float) -> bool:
-    """Whether the satellite has moved far enough in this time, or rises."""
-    first, last = path.at(orders[0].utc_s), path.sight(orders[-1].utc_s)
-    if first.elevation_deg < RISES_DEG and orders[0].elevation_deg <= RISES_DEG and first.elevation_dps > 0:
-        return True
-    return path.sight(orders[0].utc_s).apart_deg(last) >= max(TRAVEL_ROUNDINGS * rounding, LEAST_TRAVEL_DEG)
-
-
-def _chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> float:
-    """The probability that a line through the sky at random fits this satellite as well: in place, and in motion."""
-    first_s, last_s = orders[0].utc_s, orders[-1].utc_s
-    travelled_dps = path.sight(first_s).apart_deg(path.sight(last_s)) / (last_s - first_s)
-    wide_deg = rounding + 2 * BIAS_DEG
-    place = wide_deg * (wide_deg + (CLOCKS_S[-1] - CLOCKS_S[0]) * travelled_dps) / SKY_SQUARE_DEG
-    loose_dps = (rounding + 2 * UNSTEADY_S * travelled_dps) / (last_s - first_s)
-    return place * min(1.0, loose_dps**2 / RATES_SQUARE_DPS)
-
-
-@dataclass(frozen=True, slots=True)
-class Rest:
-    """Of a pass, from now on. Moments are UTC, in seconds since 1970."""
-
-    rows: tuple[tuple[float, float, float], ...]
-    """Each second: the moment, azimuth, elevation."""
-    sets_s: float
-
-
-def rest_of_pass(satellite: Target, utc_s: float) -> Rest:
-    """What is to be flown in place of a stream from this moment on. Raises NotThere."""
-    rows: list[tuple[float, float, float]] = []
-    last_up_s, at_s = utc_s, utc_s - CLOCKS_ASIDE_S
-    while at_s <= min(last_up_s + AFTER_SET_S, utc_s + LONGEST_PASS_S):
-        seen = satellite.sight(at_s)
-        rows.append((at_s, seen.azimuth_deg, seen.elevation_deg))
-        if seen.elevation_deg > 0:
-            last_up_s = max(last_up_s, at_s)
-        at_s += 1.0
-    return Rest(tuple(rows), last_up_s)

@@ -14,6 +14,7 @@ from sgp4.api import SGP4_ERRORS, WGS72, Satrec
 from rotator.orbits.earth import Horizon, Site
 from rotator.orbits.elements import Elements
 from rotator.orbits.moments import DAY_S, J2000_S
+from rotator.orbits.refraction import through_air
 from rotator.orbits.sight import NotThere, Sight
 
 _SGP4_EPOCH_UTC_S = -631_238_400.0
@@ -39,7 +40,7 @@ class Satellite:
 
     def __init__(self, elements: Elements, site: Site) -> None:
         self.elements = elements
-        self._horizon = Horizon(site)
+        self._site, self._horizon = site, Horizon(site)
         self._record = _record(elements)
         revolutions = elements.mean_motion_rev_per_day
         self._axis_km: float = (_EARTH_GM_KM3_S2 * (DAY_S / revolutions / math.tau) ** 2) ** (1 / 3)
@@ -61,7 +62,8 @@ class Satellite:
         turned = _earth_turned_rad(utc_s)
         x, y, z = place_km
         cos, sin = math.cos(turned), math.sin(turned)
-        return self._horizon.sight(((x * cos + y * sin) * 1000, (y * cos - x * sin) * 1000, z * 1000))
+        seen = self._horizon.sight(((x * cos + y * sin) * 1000, (y * cos - x * sin) * 1000, z * 1000))
+        return through_air(seen, self._site)
 
     def late_s(self, utc_s: float) -> float:
         days = self.elements.age_days(utc_s)

@@ -20,7 +20,7 @@ class NotThere(Exception):  # noqa: N818 - a sentence about a target
 
 @dataclass(frozen=True, slots=True)
 class Sight:
-    """Azimuth from 0 to below 360 from true north; elevation without air, below zero under the horizon."""
+    """Azimuth from 0 to below 360 from true north; elevation below zero under the horizon."""
 
     azimuth_deg: float
     elevation_deg: float

@@ -110,19 +110,24 @@ def rounding_deg(orders: Sequence[Heard]) -> float:
 
 def clocks_that_explain(path: SampledPath, orders: Sequence[Heard], rounding: float) -> tuple[float, ...]:
     """How far ahead the program's clock may be, so that its orders are this path to their rounding. Raises NotThere."""
-    risen = [each for each in orders if each.elevation_deg > 0 or _up(path, each)]
-    return tuple(clock_s for clock_s in CLOCKS_S if risen and _explains(path, risen, clock_s, rounding))
+    told = telling(path, orders)
+    told = told[-1:] + told[:-1]  # a clock that is wrong shows soonest between the first and the last
+    return tuple(clock_s for clock_s in CLOCKS_S if told and _explains(path, told, clock_s, rounding))
 
 
-def _up(path: SampledPath, order: Heard) -> bool:
-    return path.at(order.utc_s + CLOCKS_S[-1]).elevation_deg > RISING_DEG
+def telling(path: SampledPath, orders: Sequence[Heard]) -> list[Heard]:
+    """The orders that tell something of this satellite. Raises NotThere."""
+    latest_s = CLOCKS_S[-1]
+    return [
+        each for each in orders if each.elevation_deg > 0 or path.at(each.utc_s + latest_s).elevation_deg > RISING_DEG
+    ]
 
 
 def _explains(path: SampledPath, orders: Sequence[Heard], clock_s: float, rounding: float) -> bool:
     # Across: along the azimuth, on the sky. Each order allows a range for the bias; together they must leave some.
-    low_across = low_up = -math.inf
-    high_across = high_up = math.inf
     half, least_cos = rounding / 2, 1.0
+    low_across = low_up = -BIAS_DEG - half
+    high_across = high_up = BIAS_DEG
     for order in orders:
         seen = path.at(order.utc_s + clock_s)
         cos = math.cos(math.radians(seen.elevation_deg))

@@ -41,9 +41,9 @@ def find(words: str, site: Site, catalogue: Catalogue) -> Target:
     `sun`, `cas a`, `25544`, `so50`, `JN58td`, `JN58td long`, `180 45`; a comma is a decimal point, too.
     """
     words = " ".join(words.split())
-    there = _direction(words)
+    there = fixed(words)
     if there is not None:
-        return Fixed(words, there)
+        return there
     said = plain(words)
     if said in BODIES:
         return Body(said, site)
@@ -58,6 +58,13 @@ def find(words: str, site: Site, catalogue: Catalogue) -> Target:
         if station is None:
             raise
         return station
+
+
+def fixed(words: str) -> Fixed | None:
+    """`180 45`; None: the words are no direction. Raises Unknown for numbers that are none."""
+    words = " ".join(words.split())
+    there = _direction(words)
+    return None if there is None else Fixed(words, there)
 
 
 def _direction(words: str) -> Sight | None:

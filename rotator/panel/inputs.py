@@ -6,7 +6,10 @@ Knows contacts and readings over time; the time is an argument. Does not know or
 from __future__ import annotations
 
 import math
+from collections import deque
 from dataclasses import dataclass
+from itertools import pairwise
+from statistics import fmean, median
 
 from hw.ports import Axis, Direction
 from rotator.orders import Mode
@@ -18,6 +21,22 @@ STILL_S = 1.0
 """A mode switch or a knob counts after it has stood this long: on its way it passes through other positions."""
 COUNT = 1.0 / 255.0
 """One count of an eight-bit reading: a knob that changes by no more than this stands still."""
+SPARK_READINGS = 5
+"""The median of so many readings is where the knob is: two wrong ones among them, as of a spark, change nothing."""
+LAG_S = 0.1
+"""A turn shows in the median so much later."""
+LEAST_READINGS = 10
+"""A knob that was read less often in STILL_S is not known to stand."""
+NOISES = 4.0
+"""And neither does it turn by so many times what its readings scatter from one to the next."""
+SMALLEST = 0.8
+"""The scatter is the mean of this share of the steps, the smallest: the others may be sparks."""
+SPREADS = 1.5
+"""It rests elsewhere only by so many times the spread that its readings had at rest."""
+MIDDLE = 0.1
+"""The spread is that of the readings without this share of the lowest and of the highest."""
+SPREAD_KEPT = 0.99
+"""A spread that was seen is forgotten by so much from one reading to the next: half of it in three seconds."""
 _ROUNDING = 1e-9
 
 POSITIONS = (Mode.MANUAL, Mode.PARK, Mode.AUTO, Mode.JOG)
@@ -137,29 +156,66 @@ class Knob:
         """Why its reading is none; empty: it is in its window, or there is none at all."""
         self.share: float | None = None
         """How far it is turned, 0 to 1; None: it cannot be read, or is not fitted."""
-        self._moved_s = -math.inf
-        self._rest: float | None = None
+        self.rest: float | None = None
+        """Where it rested last, as a share of its turn; None: it has not been seen at rest."""
+        self._latest: deque[tuple[float, float]] = deque()
+        """The readings of STILL_S, each with its moment."""
+        self._turned_to = 0.0
+        """Where it was when it was last seen to turn, at `_turned_s`."""
+        self._turned_s = math.inf
+        self._spread = 0.0
+        """What its readings spread by at rest, lately."""
 
     def still(self, now_s: float) -> bool:
-        """Whether it has not been turned for STILL_S."""
-        return now_s - self._moved_s >= STILL_S - _ROUNDING
+        """Whether it has been read, and not been turned, for STILL_S."""
+        return now_s - self._turned_s >= STILL_S - LAG_S - _ROUNDING and len(self._latest) >= LEAST_READINGS
 
     def see(self, now_s: float, reading: float | None) -> bool:
         """Returns whether it is being turned. `reading` is a share of its supply. A knob that can be read again after a
         gap has not been turned."""
         self.trouble = self._wrong(reading)
         if reading is None or self.trouble:
-            self.share = self._rest = None
+            self.share = self.rest = None
+            self._latest.clear()
+            self._spread = 0.0
             return False
         zero = self._wiring.zero
         self.share = min(max((reading - zero) / (self.full_scale - zero), 0.0), 1.0)
-        if self._rest is None:
-            self._rest = self.share
-        if abs(self.share - self._rest) <= COUNT + _ROUNDING:
-            return False
-        self._rest, self._moved_s = self.share, now_s
-        return True
+        if not self._latest:
+            self._turned_to, self._turned_s = self.share, now_s
+        self._latest.append((now_s, self.share))
+        while now_s - self._latest[0][0] > STILL_S:
+            self._latest.popleft()
+        shares = [share for _, share in self._latest]
+        least = max(COUNT, NOISES * _scatter(shares)) + _ROUNDING
+        place = median(shares[-SPARK_READINGS:])
+        turns = abs(place - self._turned_to) > least
+        if turns:
+            self._turned_to, self._turned_s = place, now_s
+        elif self.still(now_s):
+            self._rests(shares, least)
+        return turns and self.rest is not None
+
+    def _rests(self, shares: list[float], least: float) -> None:
+        """What has only scattered, or sparked for long, is where it was: the place of its last rest stays."""
+        self._spread = max(self._spread * SPREAD_KEPT, _spread(shares))
+        place, least = median(shares), max(least, SPREADS * self._spread)
+        if self.rest is None or abs(place - self.rest) > least:
+            self.rest = place
 
     def _wrong(self, reading: float | None) -> str:
         low, high = self._wiring.lowest, self._wiring.highest
         return "" if reading is None or low <= reading <= high else f"reads {reading:.3f}, limit {low:g} to {high:g}"
+
+
+def _scatter(shares: list[float]) -> float:
+    """The mean step from one reading to the next, without the largest."""
+    steps = sorted(abs(after - before) for before, after in pairwise(shares))
+    return fmean(steps[: math.ceil(SMALLEST * len(steps))]) if steps else 0.0
+
+
+def _spread(shares: list[float]) -> float:
+    """How far apart the readings are, without the lowest and the highest."""
+    without = math.ceil(MIDDLE * len(shares))
+    middle = sorted(shares)[without : len(shares) - without]
+    return middle[-1] - middle[0]

@@ -91,8 +91,8 @@ class Panel:
         self._mode: Mode | None = None if settings.mode_switch else Mode.AUTO
         """The mode that was set last."""
         self._indices = dict.fromkeys(Axis, 0)
-        self._turned: set[Axis] = set()
-        """Knobs that were turned and whose angle has not been ordered yet."""
+        self._turned: dict[Axis, float | None] = {}
+        """Where each knob rested that has been turned since, and whose angle has not been ordered yet."""
         self._jogging: Contact | None = None
         self._jogged_s = 0.0
         self._nudged = False
@@ -200,16 +200,24 @@ class Panel:
     # --- the knobs
 
     def _knob_orders(self, now_s: float, turned: set[Axis], status: Status, *, free: bool) -> list[Order]:
-        """One order for the knobs that were turned, when all of them rest; the other axis keeps its target."""
+        """One order for the knobs that rest elsewhere than before, when all of them rest; the other axis keeps its
+        target.
+        """
         if not free or self._mode is not Mode.MANUAL:
-            self._turned = set()
+            self._turned = {}
             return []
-        self._turned = {axis for axis in self._turned | turned if self._knobs[axis].share is not None}
+        began = {axis: self._knobs[axis].rest for axis in turned} | self._turned
+        self._turned = {axis: rest for axis, rest in began.items() if self._knobs[axis].share is not None}
         if not self._turned or not all(self._knobs[axis].still(now_s) for axis in self._turned):
             return []
-        angles_deg = {axis: _angle_deg(status.axis(axis), self._knobs[axis].share or 0.0) for axis in self._turned}
-        self._turned = set()
-        return [Aim(angles_deg.get(Axis.AZIMUTH), angles_deg.get(Axis.ELEVATION))]
+        rests = {axis: self._knobs[axis].rest for axis in self._turned}
+        angles_deg = {
+            axis: _angle_deg(status.axis(axis), rest)
+            for axis, rest in rests.items()
+            if rest is not None and rest != self._turned[axis]
+        }
+        self._turned = {}
+        return [Aim(angles_deg.get(Axis.AZIMUTH), angles_deg.get(Axis.ELEVATION))] if angles_deg else []
 
     def _remarks(self) -> list[Order]:
         """A knob's broken wire, when it begins and when it ends."""

@@ -67,7 +67,10 @@ class PanelParts:
 
 
 class PanelThread:
-    """`post` takes an order, `keep` the knobs' full scales; `pulses` returns the axes whose index contact is closed."""
+    """`post` takes an order, `keep` the knobs' full scales; `pulses` returns the axes whose index contact is closed.
+
+    `failed` hears of the bug that ended a thread: without its panel a box must not go on.
+    """
 
     def __init__(
         self,
@@ -79,6 +82,7 @@ class PanelThread:
         *,
         keep: Callable[[Mapping[Axis, float]], None] = lambda full_scales: None,
         pulses: Callable[[], Iterable[Axis]] = lambda: (),
+        failed: Callable[[Exception], None] = lambda failure: None,
     ) -> None:
         self._panel = panel
         self._parts = parts
@@ -87,6 +91,9 @@ class PanelThread:
         self._clock = clock
         self._keep = keep
         self._pulses = pulses
+        self._failed = failed
+        self._to_keep: Mapping[Axis, float] | None = None
+        """New full scales of the knobs. A disk may be slow, and the stop button must not wait for it."""
         self._data = False
         self._readings: dict[str, tuple[float, float]] = {}
         """The last reading of each sensor, and its moment."""
@@ -124,6 +131,7 @@ class PanelThread:
         self.read(now_s)
         self.step(now_s)
         self.show(now_s)
+        self.save()
 
     # --- the thread that uses no bus
 
@@ -149,7 +157,7 @@ class PanelThread:
         for note in output.notes:
             log.warning("panel: %s", note)
         if output.full_scales is not None:
-            self._keep(output.full_scales)
+            self._to_keep = output.full_scales
 
     def _closed(self) -> dict[str, bool]:
         """Which switches are closed; empty: none is fitted, or they cannot be read."""
@@ -175,9 +183,10 @@ class PanelThread:
     # --- the thread on the bus
 
     def attend(self, now_s: float) -> None:
-        """Read the knobs and the jog switches, then set lamps and meters."""
+        """Read the knobs and the jog switches, set lamps and meters, and keep new full scales."""
         self.read(now_s)
         self.show(now_s)
+        self.save()
 
     def read(self, now_s: float) -> None:
         """Read every sensor. All are on one chip, so a failure of one counts for all."""
@@ -216,6 +225,11 @@ class PanelThread:
             return
         self._trouble(LAMPS, "")
 
+    def save(self) -> None:
+        full_scales, self._to_keep = self._to_keep, None
+        if full_scales is not None:
+            self._keep(full_scales)
+
     def dark(self) -> None:
         """Switch every lamp and meter off. If the chip does not answer, they stay as they are."""
         if self._parts.outputs is not None and self._started:
@@ -246,7 +260,7 @@ class PanelThread:
                 due_s = self._clock() + PERIOD_S
                 work(self._clock())
                 self._stopping.wait(due_s - self._clock())
-        except Exception:
+        except Exception as failure:
             if work == self.step:  # the stop button is no longer read, so it counts as pressed
                 self._post(Stop(latch=True))
-            raise
+            self._failed(failure)

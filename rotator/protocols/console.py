@@ -10,13 +10,28 @@ import re
 from dataclasses import dataclass
 from enum import Enum
 
-from hw.ports import Axis
+from hw.ports import Axis, Direction
 from rotator.control.admission import SENT_DEG
-from rotator.orders import Confirm, Home, Jog, LetGo, Order, Park, RelaysChecked, Release, Stop
+from rotator.orders import (
+    Confirm,
+    GiveBack,
+    Home,
+    Jog,
+    LetGo,
+    Mode,
+    Order,
+    Park,
+    RelaysChecked,
+    Release,
+    SetMode,
+    Stop,
+    Take,
+)
 from rotator.protocols.aiming import aim, degrees
 from rotator.protocols.panel_words import OPERANDS, TURNS, Hand, parse_hand
 
 LONGEST_JOG_S = 5.0
+PULSE_S = 0.2
 
 
 class Ask(Enum):
@@ -35,11 +50,44 @@ class Track:
 
 
 @dataclass(frozen=True, slots=True)
+class TableLine:
+    """One more line of a timed table; None: a new table begins."""
+
+    text: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class TrackTable:
+    """Track the table of the lines that were sent."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
 class ClockIsRight:
     """A person says that this computer's clock is right."""
 
 
-ConsoleCommand = Order | Ask | Hand | Track | ClockIsRight
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """What to do with the browsers that may move the antenna: "" begins to pair one; `list`, `token`, `revoke`."""
+
+    what: str = ""
+    which: str = ""
+    """The name of a new token, or the number of what to revoke."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pulse:
+    """Close one relay for a moment: a person sees which way it turns, and that no other relay closes."""
+
+    axis: Axis
+    direction: Direction
+
+
+PersonCommand = Order | Track | ClockIsRight | Pulse
+"""What a person may ask for on the page as well."""
+ConsoleCommand = PersonCommand | Ask | Hand | TableLine | TrackTable | Pair
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,16 +113,24 @@ VERBS = (
     Verb("let-go", "", "Motors without torque: an antenna out of balance turns; nothing moves until `resume`"),
     Verb("park", "", "Go to the park position, even while a program tracks, and stay there until `resume`"),
     Verb("jog", "cw|ccw|up|down SECONDS", f"Turn for this time, {LONGEST_JOG_S:g} s at most"),
+    Verb("pulse", "cw|ccw|up|down", f"Close this relay for {1000 * PULSE_S:g} ms, while the antenna stands"),
     Verb("point", "AZIMUTH ELEVATION", "Point there"),
     Verb("track", "[NAME|LOCATOR|AZIMUTH ELEVATION|plan|off]", "Track a satellite, Sun, Moon … from pass to pass"),
+    Verb("table", "[LINE]", "One more line of a timed table, the first is t,az,el; alone: forget the lines"),
+    Verb("track-table", "NAME", "Track the table of these lines: t in seconds from now, or in UTC"),
+    Verb("take", "", "Take the antenna: it stops, and programs do not move it until `give-back`"),
+    Verb("give-back", "", "Let programs move it again, after you or a person on the page have held it"),
+    Verb("mode", "auto|manual|jog|park", "Who moves it: programs, you alone, your jogs alone, nobody"),
     Verb("clock-is-right", "", "You have seen that this computer's clock is right: `track` needs it"),
     Verb("panel", OPERANDS, "Move a switch or a knob of the simulated front panel"),
+    Verb("pair", "[list|revoke NUMBER|token NAME]", "A code that lets a browser on the page move the antenna"),
     Verb("help", "", "This list"),
 )
 _BY_TEXT = {verb.text: verb for verb in VERBS}
 COMMANDS = ("where", "monitor", "doctor", "calibrate", "config", "rehearse", "sky", "run")
 """Commands of the program that a person takes for words of the console."""
 TURN_WORDS = {turn: word for word, turn in TURNS.items()}
+_WHOLE = re.compile(r"[0-9]{1,6}")
 _SECONDS = re.compile(r"[0-9]{1,3}(?:[.,][0-9]{1,3})?")
 
 
@@ -101,12 +157,34 @@ def parse(line: bytes) -> ConsoleCommand:
             return Park(storm=True)
         case ["jog", turn, seconds] if turn in TURNS:
             return Jog(*TURNS[turn], _seconds(seconds))
+        case ["pulse", turn] if turn in TURNS:
+            return Pulse(*TURNS[turn])
         case ["point", azimuth, elevation]:
             return aim(_degrees(Axis.AZIMUTH, azimuth), _degrees(Axis.ELEVATION, elevation))
         case ["track", *what]:
             return Track(" ".join(what))
+        case ["table"]:
+            return TableLine(None)
+        case ["table", *cells]:
+            return TableLine(" ".join(cells))
+        case ["track-table", name]:
+            return TrackTable(name)
         case ["clock-is-right"]:
             return ClockIsRight()
+        case ["take"]:
+            return Take()
+        case ["give-back"]:
+            return GiveBack()
+        case ["mode", "auto" | "manual" | "jog" | "park" as mode]:
+            return SetMode(Mode(mode))
+        case ["pair"]:
+            return Pair()
+        case ["pair", "list"]:
+            return Pair("list")
+        case ["pair", "revoke", number] if _WHOLE.fullmatch(number):
+            return Pair("revoke", number)
+        case ["pair", "token", *name] if name:
+            return Pair("token", " ".join(name))
         case ["panel", *rest]:
             return parse_hand(rest)
         case [verb, *_] if verb in _BY_TEXT:

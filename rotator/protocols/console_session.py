@@ -9,27 +9,23 @@ import json
 import math
 import re
 from collections.abc import Callable
-from dataclasses import replace
 
 from hw.ports import Axis
-from rotator.control.rights import Deed, deed_of, hindrance, holds
-from rotator.orders import Aim, Home, Jog, Mode, Order, Release
-from rotator.protocols.console import TURN_WORDS, VERBS, Ask, ClockIsRight, Track, parse
+from rotator.orders import Mode
+from rotator.protocols.console import TURN_WORDS, VERBS, Ask, Pair, TableLine, Track, TrackTable, parse
 from rotator.protocols.lines import LineReader
+from rotator.protocols.operating import Operating
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
-from rotator.protocols.session import Box, Tracking
+from rotator.protocols.session import Box, Pairing, Tracking
 from rotator.protocols.status_object import as_object
-from rotator.spoken import spoken
+from rotator.protocols.table_text import TableError, read_table
+from rotator.spoken import held, spoken
 from rotator.status import Flown, Status
 
 MAX_LINE = 200
+MOST_TABLE_LINES = 20_000
 OK, ERROR = "ok", "error: "
-FULL_TURN_DEG, ZENITH_DEG = 360.0, 90.0
-NO_PLACE = (
-    "the box does not know where it stands: write [station] with latitude_deg and longitude_deg, or locator, into its "
-    "file, and start it again"
-)
-
+NO_PAGE = "this box has no page: [page] of its file has switched it off"
 
 Hands = Callable[[Hand], str]
 
@@ -39,22 +35,25 @@ def no_hands(_hand: Hand) -> str:
 
 
 class ConsoleSession:
-    """One operator's connection. While a stop is latched, orders that move are refused with the reason."""
+    """One operator's connection."""
 
     idle_s = None
     closed = False
 
-    def __init__(self, box: Box, hands: Hands = no_hands, tracking: Tracking | None = None) -> None:
+    def __init__(
+        self, box: Box, hands: Hands = no_hands, tracking: Tracking | None = None, pairing: Pairing | None = None
+    ) -> None:
         """`hands` moves a part of the simulated panel, and returns why it cannot; empty: it has.
 
-        `tracking`: None where the box does not know where on the earth it stands.
+        `tracking`: None where the box does not know where on the earth it stands. `pairing`: None without a page.
         """
         self._box = box
         self._hands = hands
-        self._tracking = tracking
+        self._operating = Operating(box, tracking)
+        self._pairing = pairing
         self._lines = LineReader(MAX_LINE)
-        self._resumed = False
-        """A `resume` has been sent; the status may not show it yet."""
+        self._table: list[str] = []
+        """The lines of a timed table, as far as they have come."""
 
     def receive(self, data: bytes) -> list[bytes]:
         return [self._answer(line) for line in self._lines.feed(data) if line is None or line.strip(b" \t")]
@@ -75,78 +74,56 @@ class ConsoleSession:
             case Ask.STATUS_JSON:
                 return _reply(json.dumps(as_object(self._box.status()), ensure_ascii=False), OK)
             case Ask.HELP:
-                width = max(len(verb.usage) for verb in VERBS)
-                return _reply(*(f"{verb.usage:<{width}}  {verb.help}" for verb in VERBS), OK)
+                # Two rows for each: the longest word would push all explanations out of a narrow terminal.
+                return _reply(*(row for verb in VERBS for row in (verb.usage, f"  {verb.help}")), OK)
             case TurnMode() | TurnKnob() | ThrowJog() | StopButton():
                 refused = self._hands(command)
                 return _error(refused) if refused else _reply(OK)
             case Track(""):
-                return _reply(self._tracking.state if self._tracking else "off", OK)
-            case Track(words):
-                refused = self._track(words)
+                return _reply(self._operating.tracks, OK)
+            case Pair():
+                return self._pair(command)
+            case TableLine(text):
+                refused = self._note(text)
                 return _error(refused) if refused else _reply(OK)
-            case ClockIsRight():
-                if self._tracking is not None:
-                    self._tracking.clock_is_right()
-                return _reply(OK)
+            case TrackTable(name):
+                refused = self._track_table(name)
+                return _error(refused) if refused else _reply(OK)
             case _:
-                return self._obey(command)
+                refused = self._operating.do(command)
+                return _error(refused) if refused else _reply(OK)
 
-    def _obey(self, order: Order) -> bytes:
-        if reason := self._blocked(order) or _beyond(order, self._box.status()):
-            return _error(reason)
-        match order:
-            case Aim() | Jog() | Home():
-                pass
-            case _:
-                self._resumed = isinstance(order, Release)
-        refused = self._box.order(order)
-        return _error(refused.reason) if refused else _reply(OK)
+    def _pair(self, command: Pair) -> bytes:
+        if self._pairing is None:
+            return _error(NO_PAGE)
+        match command:
+            case Pair("", ""):
+                return _reply(self._pairing.begin(), OK)
+            case Pair("list"):
+                return _reply(*self._pairing.paired(), OK)
+            case Pair("token", name):
+                return _reply(self._pairing.token(name), OK)
+            case Pair(_, number):
+                refused = self._pairing.revoke(int(number))
+                return _error(refused) if refused else _reply(OK)
 
-    def _track(self, words: str) -> str:
-        """Returns why not; empty: it does."""
-        if self._tracking is None:
-            return NO_PLACE
-        if words == "off":
-            self._tracking.off()
-            return ""
-        return self._held(Deed.AIM) or self._tracking.track(words)
+    def _note(self, line: str | None) -> str:
+        """Returns why not; empty: it has the line."""
+        if line is None:
+            self._table = []
+        elif len(self._table) >= MOST_TABLE_LINES:
+            return f"a table has no more than {MOST_TABLE_LINES} lines"
+        else:
+            self._table.append(line)
+        return ""
 
-    def _blocked(self, order: Order) -> str:
-        """Why this order would have no effect; empty: it has one."""
-        deed = deed_of(order)
-        return self._held(deed) if deed else ""
-
-    def _held(self, deed: Deed) -> str:
-        """What holds the antenna back from this; empty: nothing does."""
-        status = self._box.status()
-        if not status.latched:
-            self._resumed = False
-        held = holds(replace(status, latched="") if self._resumed else status)
-        state = hindrance(held, deed)
-        return held[state] if state else ""
-
-
-def _beyond(order: Order, status: Status) -> str:
-    """Why the rotor has no such angle; empty: it has. A person who names one is not led to another one instead.
-
-    A program's order means a direction all the same: it sends what its satellite does.
-    """
-    match order:
-        case Aim(float() as azimuth_deg, float() as elevation_deg):
-            pass
-        case _:
-            return ""
-    azimuth, elevation = status.azimuth, status.elevation
-    if azimuth_deg > FULL_TURN_DEG and azimuth_deg > azimuth.max_deg:
-        return (
-            f"azimuth {azimuth_deg:g}° names a turn beyond the range of {azimuth.min_deg:g}° to {azimuth.max_deg:g}°; "
-            f"the same direction is {azimuth_deg % FULL_TURN_DEG:g}°"
-        )
-    below = elevation_deg < min(0.0, elevation.min_deg)
-    if below or elevation_deg > max(ZENITH_DEG, elevation.max_deg):
-        return f"elevation {elevation_deg:g}° is outside the range of {elevation.min_deg:g}° to {elevation.max_deg:g}°"
-    return ""
+    def _track_table(self, name: str) -> str:
+        lines, self._table = self._table, []
+        try:
+            table = read_table("\n".join(lines), name, "the table")
+        except TableError as mistake:
+            return str(mistake)
+        return self._operating.program(table)
 
 
 def report(status: Status) -> list[str]:
@@ -160,13 +137,16 @@ def report(status: Status) -> list[str]:
     if status.moving:
         lines.append("moving: " + " ".join(axis.value for axis in Axis if status.axis(axis).moving))
     lines.append(f"moved by: {status.controlled_by or 'nobody'}")
+    if status.held_by:
+        lines.append(f"held by: {status.held_by}; programs do not move it until give-back")
     if status.flown is not None:
         how = "recognised" if status.recognised else "tracks"
         lines.append(f"{how}: {tracked(status.flown, status.at_s)}")
     if status.mode is not Mode.AUTO:
         lines.append(f"panel: {status.mode.name}")
     if status.latched:
-        lines.append(f"stopped by: {status.latched}; nothing moves until resume")
+        what, until = held(storm=status.storm)
+        lines.append(f"{what}: {status.latched}; {until}")
     lines += [f"fault: {fault}" for fault in status.faults]
     lines += [f"missing: {axis.value} needs {what}" for axis in Axis if (what := status.axis(axis).uncalibrated)]
     lines += [f"note: {notice}" for notice in status.notices]

@@ -32,7 +32,7 @@ class Verb:
 
 
 VERBS = (
-    Verb("AP1", "Set the target: three digits, and RT-21's tenth. Go there at once where CR ends it"),
+    Verb("AP1", "Set the target; RT-21 adds a tenth"),
     Verb("AM1", "Go to the target"),
     Verb("AI1", "Read azimuth"),
     Verb("BI1", "Read azimuth with a decimal (RT-21)"),

@@ -38,8 +38,8 @@ _DEGREES = r"[+-]?(?:\d{1,3}(?:[.,]\d{0,6})?|[.,]\d{1,6})"
 _SPEED = r"\d{1,5}"
 
 VERBS = (
-    Verb("AZ", "Azimuth: go there; without a number: read it", Level.I, f"(?:{_DEGREES})?"),
-    Verb("EL", "Elevation: go there; without a number: read it", Level.I, f"(?:{_DEGREES})?"),
+    Verb("AZ", "Azimuth: go there; without number: read", Level.I, f"(?:{_DEGREES})?"),
+    Verb("EL", "Elevation: go there; without number: read", Level.I, f"(?:{_DEGREES})?"),
     Verb("SA", "Stop azimuth", Level.I),
     Verb("SE", "Stop elevation", Level.I),
     Verb("ML", "Turn counter-clockwise until stopped"),
@@ -47,12 +47,12 @@ VERBS = (
     Verb("MU", "Turn up until stopped"),
     Verb("MD", "Turn down until stopped"),
     Verb("VE", "Read the version"),
-    Verb("PARK", "Go to the park position (Hamlib's own command)"),
-    Verb("RESET", "Stop everything and acknowledge faults (Hamlib's own command)"),
-    Verb("VL", "Turn counter-clockwise at so many mdeg/s; 0: stop azimuth", Level.III, _SPEED),
-    Verb("VR", "Turn clockwise at so many mdeg/s; 0: stop azimuth", Level.III, _SPEED),
-    Verb("VU", "Turn up at so many mdeg/s; 0: stop elevation", Level.III, _SPEED),
-    Verb("VD", "Turn down at so many mdeg/s; 0: stop elevation", Level.III, _SPEED),
+    Verb("PARK", "Go to the park position (Hamlib's own)"),
+    Verb("RESET", "Stop everything (Hamlib's own)"),
+    Verb("VL", "Turn counter-clockwise, mdeg/s; 0: stop azimuth", Level.III, _SPEED),
+    Verb("VR", "Turn clockwise, mdeg/s; 0: stop azimuth", Level.III, _SPEED),
+    Verb("VU", "Turn up, mdeg/s; 0: stop elevation", Level.III, _SPEED),
+    Verb("VD", "Turn down, mdeg/s; 0: stop elevation", Level.III, _SPEED),
     Verb("GS", "Read the state, a sum: 1 idle, 2 moving, 4 has a target, 8 fault", Level.III),
     Verb("GE", "Read the faults, a sum: 1 sensor, 2 jam, 4 not calibrated, 8 motor or its control", Level.III),
 )

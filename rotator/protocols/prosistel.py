@@ -54,9 +54,9 @@ class Verb:
 
 VERBS = (
     Verb("?", "Read the angle; R: at rest, B: it turns"),
-    Verb("G", "Go there; leading zeros may be left out"),
-    Verb("G999", "Stop this axis; after a stop of the other axis: stop everything and acknowledge faults"),
-    Verb("S", "Send the position only when asked, which the box does always"),
+    Verb("G", "Go there"),
+    Verb("G999", "Stop this axis; both stopped: faults acknowledged"),
+    Verb("S", "Position only when asked: always so"),
 )
 _COMMAND = re.compile(r"([A-Z])(?:(G)(\d{1,4})|([?S]))")
 

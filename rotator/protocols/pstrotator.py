@@ -30,18 +30,18 @@ class Tag:
 
 
 TAGS = (
-    Tag("AZIMUTH", "Go there; without ELEVATION in the same datagram, elevation goes on as it was"),
-    Tag("ELEVATION", "Go there; without AZIMUTH in the same datagram, azimuth goes on as it was"),
-    Tag("STOP", "1: stop everything and acknowledge faults"),
+    Tag("AZIMUTH", "Azimuth: go there"),
+    Tag("ELEVATION", "Elevation: go there"),
+    Tag("STOP", "1: stop everything"),
     Tag("PARK", "1: go to the park position"),
     Tag("HOME", "1: the same"),
-    Tag("TRACK", "Azimuth and elevation: go there; 0 or 1: ignored, because the box does not track by itself"),
-    Tag("LLH", "Latitude, longitude, metres above the sea: point there; needs `[station]`"),
+    Tag("TRACK", "Azimuth and elevation: go there; 0 or 1: ignored"),
+    Tag("LLH", "Latitude, longitude, metres: point there; needs `[station]`"),
     Tag("AZ?", "Read azimuth"),
     Tag("EL?", "Read elevation"),
-    Tag("TGA?", "Read the azimuth of the target; without one, azimuth"),
-    Tag("TGE?", "Read the elevation of the target; without one, elevation"),
-    Tag("MODE?", "Read whether it tracks by itself: never"),
+    Tag("TGA?", "Read the target's azimuth, or azimuth"),
+    Tag("TGE?", "Read the target's elevation, or elevation"),
+    Tag("MODE?", "Read whether it tracks by itself: no"),
 )
 
 _OPEN, _CLOSE = "<PST>", "</PST>"

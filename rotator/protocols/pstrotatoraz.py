@@ -37,8 +37,8 @@ class Example:
 
 EXAMPLES = (
     Example("/PstRotatorAz.htm", "Read azimuth; `/` too"),
-    Example("/PstRotatorAz.htm?az=235", "Go there; elevation goes on as it was"),
-    Example("/PstRotatorAz.htm?cmd=stop", "Stop everything and acknowledge faults"),
+    Example("/PstRotatorAz.htm?az=235", "Azimuth: go there"),
+    Example("/PstRotatorAz.htm?cmd=stop", "Stop everything"),
 )
 
 

@@ -29,11 +29,11 @@ class Verb:
 
 
 VERBS = (
-    Verb("A", "Read azimuth; S: it stands, M: it moves"),
+    Verb("A", "Read azimuth; S: stands, M: moves"),
     Verb("E", "Read elevation"),
     Verb("A", "Azimuth: go there", "235.0"),
     Verb("E", "Elevation: go there", "25"),
-    Verb("S", "Stop everything and acknowledge faults"),
+    Verb("S", "Stop everything"),
 )
 _COMMAND = re.compile(r"([AE])(\d{1,3}(?:\.\d{0,6})?)?|(S)")
 _AXES = {"A": Axis.AZIMUTH, "E": Axis.ELEVATION}

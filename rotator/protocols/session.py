@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Protocol, runtime_checkable
 
+from rotator.control.sky.timed_table import TimedTable
 from rotator.orders import Order, Refusal
 from rotator.status import Status
 
@@ -27,6 +28,9 @@ class Tracking(Protocol):
     def track(self, words: str) -> str:
         """Begin to track. Returns why not; empty: it does."""
 
+    def program(self, table: TimedTable) -> str:
+        """Begin to track a timed table. Returns why not; empty: it does."""
+
     def off(self) -> None:
         """End it; the antenna stops."""
 
@@ -36,6 +40,22 @@ class Tracking(Protocol):
     @property
     def state(self) -> str:
         """`off`, `planning`, `tracking`, or `ended: ` and the reason."""
+
+
+class Pairing(Protocol):
+    """Who may use the page to move the antenna. Any thread may call it; no call waits for longer than a disk."""
+
+    def begin(self) -> str:
+        """A new code of six digits, for a browser that shall be paired."""
+
+    def paired(self) -> list[str]:
+        """A line for each browser and program that is paired: its number first."""
+
+    def token(self, name: str) -> str:
+        """A token for a program of this name, shown this once."""
+
+    def revoke(self, number: int) -> str:
+        """Pair this one no more. Returns why not; empty: done."""
 
 
 class Session(Protocol):

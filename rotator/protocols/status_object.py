@@ -41,14 +41,14 @@ FAULT_FIELDS: Sequence[Field[Fault]] = (
     Field("text", "text", "all of it in one sentence", str),
 )
 AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
-    Field("angle_deg", "number or null", "where it stands on the rotor's own scale; null: not known",
+    Field("angle_deg", "number or null", "where it stands on the rotor's own scale",
           lambda axis: _angle(axis.shown_deg)),
-    Field("angle_is_current", "true or false", "false: the sensor is out, and the angle is its last good one",
+    Field("angle_is_current", "true or false", "false: the angle is the sensor's last good one",
           lambda axis: axis.angle_deg is not None and axis.seen),
     Field("angle_source", "text", '"measured", "counted" or "modelled"', lambda axis: axis.source.value),
-    Field("target_deg", "number or null", "the angle that it turns to; null: it has nothing to do",
+    Field("target_deg", "number or null", "the angle that it turns to",
           lambda axis: _angle(axis.target_deg)),
-    Field("at_target", "true or false", "it stands, and is as near to its target as the tolerance asks",
+    Field("at_target", "true or false", "it stands, near enough to its target",
           lambda axis: axis.at_target),
     Field("moving", "true or false", "it turns, or still coasts", lambda axis: axis.moving),
     Field("drive", "number", "1: driven clockwise or up; -1: the other way; 0: off", lambda axis: int(axis.drive)),
@@ -56,6 +56,8 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
     Field("min_deg", "number", "the low end of its range", lambda axis: _angle(axis.min_deg)),
     Field("max_deg", "number", "the high end of its range", lambda axis: _angle(axis.max_deg)),
     Field("fault", "object or null", "the fault that holds it", lambda axis: _fault(axis.fault)),
+    Field("relays_in_doubt", "true or false", "`rotator relays-checked` has an effect",
+          lambda axis: axis.relays_in_doubt),
     Field("missing", "list of text", "what it needs before it may be aimed: calibration, homing …",
           lambda axis: [each.text for each in axis.missing]),
     Field("notes", "list of text", "what a person should know though it stops nothing",
@@ -83,18 +85,21 @@ FIELDS: Sequence[Field[Status]] = (
     Field("format", "number", f"{FORMAT}; another number only when a field is renamed or removed", lambda _: FORMAT),
     Field("azimuth", "object", "the axis, as below", lambda status: _axis(status.azimuth)),
     Field("elevation", "object", "the axis, as below", lambda status: _axis(status.elevation)),
-    Field("wanted_azimuth_deg", "number or null", "the direction last ordered, as ordered; null: none",
+    Field("wanted_azimuth_deg", "number or null", "the direction last ordered",
           lambda status: _angle(status.wanted_azimuth_deg)),
     Field("wanted_elevation_deg", "number or null", "the same for elevation",
           lambda status: _angle(status.wanted_elevation_deg)),
     Field("moving", "true or false", "an axis turns or coasts", lambda status: status.moving),
     Field("moved_by", "text or null", "whose orders move the antenna", lambda status: status.controlled_by or None),
-    Field("tracks", "object or null", "what the box tracks by itself, as below; null: nothing", _flown),
+    Field("held_by", "text or null", "who has taken the antenna from the programs, and not given it back",
+          lambda status: status.held_by or None),
+    Field("tracks", "object or null", "what the box tracks by itself, as below", _flown),
     Field("stopped_by", "text or null", "who stopped or storm-parked it; nothing else moves it until `rotator resume`",
           lambda status: status.latched or None),
     Field("storm_park", "true or false", "`stopped_by` is a storm park", lambda status: status.storm),
-    Field("panel_mode", "text", 'the panel\'s mode switch: "auto", "manual", "jog" or "park"',
+    Field("panel_mode", "text", 'the mode: "auto", "manual", "jog" or "park"',
           lambda status: status.mode.value),
+    Field("mode_by", "text or null", "who has set the mode", lambda status: status.mode_by or None),
     Field("supply_cut", "true or false", "a fault cuts the motors' supply", lambda status: status.cut),
     Field("notes", "list of text", "whose orders have no effect, and why", lambda status: list(status.notices)),
     Field("simulated", "true or false", "nothing real turns", lambda status: status.simulated),
@@ -109,13 +114,13 @@ def tables() -> str:
     """The fields, for the documentation."""
     return "\n\n".join(
         (
-            _table("field", FIELDS),
+            _list(FIELDS),
             f"Each of `{Axis.AZIMUTH.value}` and `{Axis.ELEVATION.value}`:",
-            _table("field", AXIS_FIELDS),
+            _list(AXIS_FIELDS),
             "A `fault`:",
-            _table("field", FAULT_FIELDS),
+            _list(FAULT_FIELDS),
             "`tracks`:",
-            _table("field", FLOWN_FIELDS),
+            _list(FLOWN_FIELDS),
         )
     )
 
@@ -133,6 +138,6 @@ def _angle(angle_deg: float | None) -> float | None:
     return None if angle_deg is None else round(angle_deg, DIGITS) + 0.0
 
 
-def _table(head: str, fields: Sequence[Field[Of]]) -> str:
-    rows = (f"| `{field.name}` | {field.kind} | {field.meaning} |" for field in fields)
-    return "\n".join((f"| {head} | type | meaning |", "| --- | --- | --- |", *rows))
+def _list(fields: Sequence[Field[Of]]) -> str:
+    rows = (f"- `{field.name}` ({field.kind}): {field.meaning}" for field in fields)
+    return "\n".join(rows)

@@ -17,12 +17,10 @@ from rotator.assembly.arduino import arduino_station
 from rotator.assembly.settings import build_controller, build_mount, build_offsets, planned_motors
 from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
-from rotator.assembly.tracking import build_satellites
+from rotator.assembly.tracking import TrackedBox, build_known_sky
 from rotator.config.model import Config
-from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
-from rotator.orbits.recognition import StreamWatch
 from rotator.orders import Order, Source
 from rotator.protocols.gs232 import Command, Dialect, encode
 from rotator.protocols.gs232_session import Gs232Session
@@ -37,34 +35,13 @@ from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
 from rotator.status import Status
 from rotator.tracking.next_flight import Now
+from rotator.views.trace import Sample, errors_deg, rms
 
 SAMPLE_S = 0.05
 KNOWN_S = 120.0
 """So long before its beginning the box knows a pass that it tracks by itself."""
 FIRST_LOOK_S = 1.0
 """After this the box has read its sensors."""
-SETTLING_S = 5.0
-"""Pointing errors in the first seconds of the pass do not count: the antenna has to start and catch up first."""
-
-
-@dataclass(frozen=True, slots=True)
-class Sample:
-    """One row of the trace. `t` is in seconds, angles are in degrees.
-
-    Target: the satellite's true direction. Antenna: the boom's direction. Drive: -1, 0 or 1.
-    """
-
-    t: float
-    target_az: float
-    target_el: float
-    antenna_az: float
-    antenna_el: float
-    az_drive: int
-    el_drive: int
-
-    @property
-    def error_deg(self) -> float:
-        return great_circle_deg(self.target_az, self.target_el, self.antenna_az, self.antenna_el)
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,8 +130,8 @@ class BoxPlant:
         self._overhearing: Overhearing | None = None
         if utc_s is not None:
             apart_s = utc_s - clock()
-            watch = StreamWatch(build_satellites(config))
-            self._overhearing = Overhearing(self._loop, watch, clock, lambda: clock() + apart_s, self._antenna)
+            box = TrackedBox(config, self._loop, self._mount)
+            self._overhearing = Overhearing(self._loop, build_known_sky(config), box, clock, lambda: clock() + apart_s)
 
     def inject(self, at_s: float, name: str) -> None:
         """Let the named fault begin at this moment of simulated time."""
@@ -331,12 +308,10 @@ def _judged(sample: Sample, true_deg: tuple[float, float] | None) -> Sample:
 
 
 def summarise(trace: list[Sample], relay_starts: int | None) -> Summary:
-    """The errors while the satellite is above the horizon, after SETTLING_S; the motors' time over the whole trace."""
-    errors = sorted(sample.error_deg for sample in trace if sample.t >= SETTLING_S and sample.target_el >= 0)
-    if not errors:
-        errors = [0.0]
+    """The errors that count; the motors' time over the whole trace."""
+    errors = errors_deg(trace) or [0.0]
     return Summary(
-        rms_deg=math.sqrt(sum(error * error for error in errors) / len(errors)),
+        rms_deg=rms(errors),
         p95_deg=errors[min(len(errors) - 1, math.ceil(0.95 * len(errors)) - 1)],
         max_deg=errors[-1],
         relay_starts=relay_starts,

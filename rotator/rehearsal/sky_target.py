@@ -11,39 +11,19 @@ from dataclasses import dataclass
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.assembly.tracking import TrackedBox
 from rotator.config.model import Config
-from rotator.control.sky.flight_plan import Antenna
+from rotator.config.station import NO_PLACE
 from rotator.control.sky.mount import Mount
 from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import passes
 from rotator.orbits.sight import NotThere
 from rotator.orbits.targets import find
-from rotator.orders import Fly
+from rotator.rehearsal.at_once import PlansAtOnce
 from rotator.rehearsal.passes import Pass, PassError
 from rotator.runtime.loop import ControlLoop
 from rotator.tracking.known_sky import KnownSky
-from rotator.tracking.next_flight import (
-    AHEAD_S,
-    NextFlight,
-    Now,
-    Wanted,
-    next_flight,
-    rest_flight,
-    target_path,
-)
+from rotator.tracking.next_flight import AHEAD_S, target_path
 from rotator.tracking.tracker import Tracker
-
-NO_PLACE = "the configuration names no place: write [station] with latitude_deg and longitude_deg, or locator"
-
-
-class _AtOnce:
-    """A plan takes no simulated time."""
-
-    def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
-        return next_flight(wanted, antenna, now)
-
-    def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
-        return rest_flight(wanted, antenna, now)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,12 +39,12 @@ class SkyTarget:
     def tracker(self, loop: ControlLoop, mount: Mount) -> Tracker:
         """The tracker of a box in simulated time."""
         sky = KnownSky(self.site, self.catalogue)
-        return Tracker(sky, _AtOnce(), TrackedBox(self.config, loop, mount), lambda: True)
+        return Tracker(sky, PlansAtOnce(), TrackedBox(self.config, loop, mount), lambda: True)
 
 
 def next_pass(config: Config, words: str, after_utc_s: float) -> tuple[Pass, SkyTarget]:
     """The target's first pass that ends after that moment, whole. Raises PassError."""
-    site, catalogue = build_site(config.station), build_catalogue(config.sky)
+    site, catalogue = build_site(config.station), build_catalogue(config)
     if site is None:
         raise PassError(NO_PLACE)
     try:

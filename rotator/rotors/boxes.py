@@ -6,9 +6,10 @@ boxes: `hw.drives.control_box` does.
 
 from __future__ import annotations
 
-from hw.drives.digipot import DigipotDrive
+from hw.drives.digipot import ASTRAY_DEG, DigipotDrive
 from hw.ports import AngleSensor, Axis
 from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.held_watch import turns_by_itself
 from rotator.control.axis.sensing import Condition, Window
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import Notice
@@ -16,6 +17,7 @@ from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.positioned import PositionedRotor
 
 ASSUMED = Notice("angle not certain until the rotor has had time for a full travel")
+UNFED = Notice("its control box has no supply while the other axis has a fault", "BOX OFF")
 NEAR_DEG = 10.0
 """No control box turns its rotor further from one reading to the next."""
 MOVED_READINGS = 20
@@ -23,7 +25,9 @@ MOVED_READINGS = 20
 
 
 class BoxRotor(PositionedRotor):
-    """Says of an axis that its angle is only assumed, from the start until the box must have arrived."""
+    """Says of an axis that its angle is only assumed, from the start until the box must have arrived; and that its box
+    turned otherwise than it was told, and so has lost its supply.
+    """
 
     def __init__(
         self,
@@ -36,7 +40,22 @@ class BoxRotor(PositionedRotor):
         self._boxes = drive
 
     def condition(self, axis: Axis) -> Condition:
-        return Condition(notice=None if self._boxes.position_known(axis) else ASSUMED, ends=self._ends(axis))
+        astray_deg, barred = self._boxes.astray_deg(axis), self._boxes.barred
+        measured = f"it turned {astray_deg:.1f}° otherwise than its control box was told"
+        assumed = None if self._boxes.position_known(axis) else ASSUMED
+        return Condition(
+            fault=turns_by_itself(axis, measured, f"{ASTRAY_DEG:g}°", master=True) if astray_deg else None,
+            latched=True,
+            notice=UNFED if barred and not astray_deg else assumed,
+            settling=barred,
+            ends=self._ends(axis),
+        )
+
+    def cut(self) -> bool:
+        return self._boxes.cut()
+
+    def restore(self) -> None:
+        self._boxes.restore()
 
 
 class FollowedBox:

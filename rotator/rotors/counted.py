@@ -102,7 +102,7 @@ class CountedAxis:
 
     def may_start(self) -> bool:
         """Whether the motor may be switched on now: its file is ready for a move."""
-        return self._counts_writer is None or self._counts_writer.may_start(self._axis)
+        return self._counts_writer is None or self._counts_writer.may_start(self._axis, self._clock())
 
     def place(self, angle_deg: float) -> None:
         """The axis stands at this angle of the rotor's own scale: at its end stop, or confirmed by a user.
@@ -125,7 +125,7 @@ class CountedAxis:
             return Fault(FaultKind.COUNT_NOT_KEPT, self._axis, f"it does not move: {write_failure}", passing=True)
         if self._counter.turning:
             measured = "its contact opens and closes as if its motor ran"
-            return unstoppable(FaultKind.TURNS_BY_ITSELF, self._axis, measured, "", master=self._master)
+            return unstoppable(Fault(FaultKind.TURNS_BY_ITSELF, self._axis, measured), master=self._master)
         if self._counter.quiet:
             return Fault(FaultKind.NO_PULSES, self._axis, "its motor ran for three periods, the contact did not change")
         return None
@@ -138,6 +138,7 @@ class CountedAxis:
                 self._counts_writer.lost(self._axis)
             self._reported_lost = True
             return
+        # Before it is looked at: a motor that starts meanwhile makes this angle an old one.
         now_s = self._clock()
         if self._counter.at_rest and now_s - self._reported_s >= KEEP_EVERY_S:
             self._reported_s = now_s

@@ -35,7 +35,8 @@ class RelayRotor(GuardedRotor):
                 raise AssertionError("relays take directions only")
 
     def condition(self, axis: Axis) -> Condition:
-        return replace(super().condition(axis), supplied=self.bank.supplied)
+        condition = super().condition(axis)
+        return condition if self.bank.supplied else replace(condition, supplied=False)
 
     def cut(self) -> bool:
         return self.bank.cut()

@@ -1,4 +1,4 @@
-"""Whether the event loop still runs: it serves every link and every console, so without it no stop arrives.
+"""Whether an event loop still runs: one serves links and consoles, another the page. Without it no stop arrives there.
 
 Knows moments. The event loop ticks in a task of its own; the control loop asks. Does not know what a stall ends.
 """

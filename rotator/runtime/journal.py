@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable
 from hw.ports import Axis
 from rotator.faults import Notice
 from rotator.runtime.log_limit import LogLimit
+from rotator.spoken import held_by
 from rotator.status import Status
 
 log = logging.getLogger(__name__)
@@ -52,8 +53,8 @@ class Journal:
         for notice in now.notices:
             if notice not in before.notices and (text := self._orders.admit(notice)):
                 log.warning("%s", text)
-        if now.latched != before.latched:
-            log.warning(f"stopped by {now.latched}: nothing moves until resume" if now.latched else "released")
+        if (now.latched, now.storm) != (before.latched, before.storm):
+            log.warning(held_by(now.latched, storm=now.storm) if now.latched else "released")
 
     def _notices(self, now: Status) -> None:
         for axis in Axis:

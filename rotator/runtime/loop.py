@@ -13,19 +13,19 @@ from collections.abc import Callable
 
 from hw.ports import Axis, Direction, HardwareError
 from rotator.control.controller import Controller
-from rotator.orders import Order, Source
+from rotator.orders import Order, Source, Stop
 from rotator.rotors.port import Rotor
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.inbox import Inbox
 from rotator.runtime.journal import Journal
 from rotator.runtime.sensor_thread import SensorThread
-from rotator.status import Status
+from rotator.status import Latch, Status
 
 log = logging.getLogger(__name__)
 
 LATE_PERIODS = 1.5
 """Without new readings for so many periods the loop acts all the same, and notices that the sensors are silent."""
-SUPPLY, HEARTBEAT, LINKS = "supply", "heartbeat", "the links"
+SUPPLY, HEARTBEAT, LINKS, PAGE_LOOP = "supply", "heartbeat", "the links", "the page"
 DRIVES = {axis: f"{axis.value} drive" for axis in Axis}
 MUST_OBEY = (SUPPLY, LINKS, *DRIVES.values())
 """While one of these fails a relay may be closed, or no stop arrives: then the loop gives no sign of life."""
@@ -47,11 +47,19 @@ class ControlLoop:
         *,
         after_good_step: Callable[[], None] = lambda: None,
         events: EventWatch | None = None,
+        page_events: EventWatch | None = None,
+        keep_latch: Callable[[Latch | None], object] = lambda _latch: None,
     ) -> None:
-        """`events`: the watch over the event loop that serves the links; None: there are no links."""
+        """`events`: the watch over the event loop that serves the links; None: there are no links.
+
+        `page_events`: the same for the page.
+
+        `keep_latch` is told of each latched stop and of each release, in the control thread. It must not wait.
+        """
         self._controller = controller
         self._after_good_step = after_good_step
-        self._events = events
+        self._events, self._page_events = events, page_events
+        self._keep_latch = keep_latch
         self._rotor = rotor
         self._clock = clock
         self._period_s = period_s
@@ -59,10 +67,12 @@ class ControlLoop:
         self._wake = threading.Event()
         self._inbox = Inbox(self._wake.set)
         self._sensors = SensorThread(rotor, clock, period_s, self._journal, self._wake.set)
-        self._listener: Callable[[Source, Order], None] = lambda _source, _order: None
+        self._listeners: list[Callable[[Source, Order], None]] = []
         self._stopping = False
+        self._failure: Exception | None = None
+        """The bug that ended another thread without which nothing may move."""
         self._late_s = 0.0
-        self._supply_cut = False
+        self._supply_cut = self._links_lost = False
         self.status: Status = controller.status(clock())
         """The latest status. Each step replaces it whole; a status never changes."""
 
@@ -72,12 +82,20 @@ class ControlLoop:
         An order that `can_wait` takes effect in the next cycle. It replaces an order of the same kind from the same
         source that waits as well, so a flood of orders costs little and the newest wins.
         """
-        self._inbox.post(source, order, can_wait=can_wait)
-        self._listener(source, order)
+        try:
+            # First those who plan: else one could order a flight between a stop that has acted and its hearing of it.
+            for listener in self._listeners:
+                listener(source, order)
+        finally:
+            self._inbox.post(source, order, can_wait=can_wait)
 
     def overhear(self, listener: Callable[[Source, Order], None]) -> None:
-        """From now on tell this listener of every order too, in the thread that posts it. It must not wait."""
-        self._listener = listener
+        """From now on tell this listener of every order too, before it acts, in the thread that posts it. It must not
+        wait.
+
+        Where no order arrives any more it hears of a stop, in the control thread.
+        """
+        self._listeners.append(listener)
 
     def cycle(self) -> None:
         """Read every sensor, then act: the whole loop in one thread, for simulated time."""
@@ -105,6 +123,8 @@ class ControlLoop:
                 self._journal.note(DRIVES[axis], str(fault))
         self._controller.note_driven(now_s, driven)
         self.status = self._controller.status(now_s, self._late_s)
+        if self.status.latch != before.latch:
+            self._keep_latch(self.status.latch)
         self._switch_supply()
         self._log(before)
         self._sign_of_life()
@@ -117,6 +137,8 @@ class ControlLoop:
                 asked_s = self._clock()
                 self._wake.wait(self._period_s * LATE_PERIODS)
                 self._wake.clear()
+                if self._failure is not None:
+                    raise self._failure
                 if self._stopping:
                     break
                 self._late_s = max(0.0, self._clock() - asked_s - self._period_s)
@@ -130,6 +152,11 @@ class ControlLoop:
                 self.stop()
                 self._sensors.join()
 
+    def fail(self, failure: Exception) -> None:
+        """Let `run` end with this failure of another thread. May be called from any thread."""
+        self._failure = failure
+        self._wake.set()
+
     def stop(self) -> None:
         """Let `run` end, from any thread. May be called twice."""
         self._stopping = True
@@ -137,11 +164,20 @@ class ControlLoop:
         self._wake.set()
 
     def _watch_links(self, now_s: float) -> None:
-        """While the event loop stands still no link can stop the antenna: end what links and consoles ordered."""
+        """While an event loop stands still, what it serves cannot stop the antenna: end what was ordered there."""
         stalled_s = self._events.stalled_s(now_s) if self._events else 0.0
         if stalled_s:
             self._controller.links_lost()
+            if not self._links_lost:
+                # A plan that is being computed for one of them has ended too.
+                for listener in self._listeners:
+                    listener(Source(LINKS), Stop())
+        self._links_lost = bool(stalled_s)
         self._journal.note(LINKS, "the event loop stands still: what they ordered has ended" if stalled_s else "")
+        page_stalled_s = self._page_events.stalled_s(now_s) if self._page_events else 0.0
+        if page_stalled_s:
+            self._controller.page_lost()
+        self._journal.note(PAGE_LOOP, "it stands still: what was turned there has ended" if page_stalled_s else "")
 
     def _run_errands(self) -> None:
         """Do the controller's single requests, such as passing the confirmed angle of an axis to its rotor."""

@@ -15,6 +15,8 @@ from rotator.config.places import runtime_folder
 
 ALIVE_EVERY = 4
 """Messages sent within the longest time that the service manager waits for one."""
+ANEW_S = 60.0
+"""So long may it take to end and to start anew."""
 
 
 class ServiceManager:
@@ -32,6 +34,16 @@ class ServiceManager:
 
     def ready(self) -> None:
         self._say("READY=1")
+
+    def pausing(self) -> None:
+        """The box ends and starts anew in this process: it is silent for longer than usual."""
+        if self._every_s:
+            self._say(f"WATCHDOG_USEC={ANEW_S * 1e6:.0f}")
+
+    def resumed(self) -> None:
+        """The box has started anew: the usual silence counts again."""
+        if self._every_s:
+            self._say(f"WATCHDOG_USEC={self._every_s * ALIVE_EVERY * 1e6:.0f}")
 
     def alive(self) -> None:
         """The box is well. May be called in every cycle: a message goes out only when one is due."""

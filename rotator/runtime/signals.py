@@ -29,7 +29,11 @@ class SignalThread:
 
     def __enter__(self) -> Self:
         signal.set_wakeup_fd(self._written.fileno(), warn_on_full_buffer=False)
-        self._before = {signum: signal.signal(signum, _noted) for signum in ENDINGS}
+        # Ignored by `nohup` or `trap`: a person wants the box to outlive the terminal.
+        outlives = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+        self._before = {
+            signum: signal.signal(signum, _noted) for signum in ENDINGS if not (outlives and signum is signal.SIGHUP)
+        }
         self._thread.start()
         return self
 

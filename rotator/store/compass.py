@@ -12,6 +12,8 @@ from rotator.store import json_file
 from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile
 
+FILE_NAME = "compass.json"
+"""Beside the state file: what the compass forgets without power."""
 FORM = Form("rotator compass")
 OFFSETS_COUNT = 22
 """Bytes, as the BNO055's registers hold them."""

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
+from rotator.store import json_file
 from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, number
 
@@ -28,6 +29,11 @@ FullScales = dict[Axis, float]
 def _parse(content: dict[str, Any]) -> FullScales:
     shares = {Axis(name): share for name, share in content["full_scales"].items()}
     return {axis: number(share, f"the {axis.value} knob's full scale", LEAST, MOST) for axis, share in shares.items()}
+
+
+def decode(text: str) -> FullScales:
+    """The full scales in the text of a file. Raises ValueError where the text is damaged or another file's."""
+    return json_file.decode(FORM, text, _parse)
 
 
 class KnobsFile:

@@ -14,6 +14,7 @@ from typing import Any
 
 from hw.ports import Axis
 from rotator.status import LearntMotor
+from rotator.store import json_file
 from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, damage, number
 
@@ -32,6 +33,15 @@ Motors = tuple[LearntMotor, LearntMotor]
 """The two directions of one motor: clockwise or up, then counter-clockwise or down."""
 MotorSettings = Mapping[str, object]
 """The settings of a motor in the configuration, `speed_dps` among them. Figures of other settings are not used."""
+
+
+def decode(text: str) -> dict[Axis, Motors]:
+    """The figures in the text of a file, with its own settings. Raises ValueError for damaged ones, or another file."""
+
+    def parse(content: dict[str, Any]) -> dict[Axis, Motors]:
+        return {axis: _motors(table, table["begun"]) for axis, table in _tables(content).items()}
+
+    return json_file.decode(FORM, text, parse)
 
 
 class LearntFile:

@@ -7,6 +7,7 @@ plan (`tracker`). What the plan holds is computed elsewhere.
 from __future__ import annotations
 
 import logging
+import threading
 from collections.abc import Callable
 from typing import Protocol
 
@@ -14,9 +15,9 @@ from rotator.control.rights import deed_of
 from rotator.control.sky.flight_plan import Antenna
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.orders import Mode, Order, Source
+from rotator.orders import GiveBack, Mode, Order, Source
 from rotator.status import Status
-from rotator.tracking.next_flight import Now
+from rotator.tracking.next_flight import NextFlight, Now
 from rotator.tracking.next_followed import Upcoming, WantedOften
 from rotator.tracking.tracker import TRACK, Box, Flown, Tracker, lost
 
@@ -26,6 +27,8 @@ REST_S = 600.0
 """For so long after the latest order of another sender the plan is not flown on."""
 AGAIN_S = 600.0
 """The plan is made anew so often: elements and clock may have changed."""
+NOT_YET_S = 5.0
+"""Where an angle or the elements are not known yet, it looks again so much later."""
 
 
 class FollowPlanner(Protocol):
@@ -34,28 +37,48 @@ class FollowPlanner(Protocol):
 
 
 class Follower:
-    """`heard` may be called from any thread, `step` from one only. `followed`: what the configuration asks for now."""
+    """`heard` may be called from any thread, `step` from one only. `followed`: what the configuration asks for now.
+
+    `begun_s`: when the program began, on the loop's clock. Who ordered last before that is not known, so the plan rests
+    first. None: no antenna has outlived an earlier run.
+    """
 
     def __init__(
-        self, tracker: Tracker, planner: FollowPlanner, box: Box, followed: Callable[[], tuple[WantedOften, ...]]
+        self,
+        tracker: Tracker,
+        planner: FollowPlanner,
+        box: Box,
+        followed: Callable[[], tuple[WantedOften, ...]],
+        begun_s: float | None = None,
     ) -> None:
         self._tracker = tracker
         self._planner = planner
         self._box = box
         self._followed = followed
-        self._rests_until_s = 0.0
+        self._rests_until_s = 0.0 if begun_s is None else begun_s + REST_S
         """On the loop's clock."""
         self._again_utc_s = 0.0
         """When to plan next."""
+        self._changed = False
         self._flown: Flown | None = None
+        self._lock = threading.Lock()
+        """Between the last look at who has ordered and the order of a flight, no other order is heard."""
 
     def heard(self, source: Source, order: Order) -> None:
-        """An order of any sender."""
+        """An order of any sender. A person who gives the antenna back lets the plan go on at once."""
         if source != TRACK and deed_of(order) is not None:
-            self._rests_until_s = self._box.status().at_s + REST_S
+            rest_s = 0.0 if isinstance(order, GiveBack) else REST_S
+            with self._lock:
+                self._rests_until_s = self._box.status().at_s + rest_s
+
+    def plan_again(self) -> None:
+        """From any thread: what is followed, or its priority, has changed. A pass that is flown is flown to its end."""
+        self._changed = True
 
     def step(self, now: Now) -> None:
         """Look once. It may compute for seconds."""
+        if self._changed:
+            self._changed, self._again_utc_s = False, now.utc_s
         status = self._box.status()
         if not self._may_fly(status, now):
             self._flown, self._again_utc_s = None, now.utc_s
@@ -76,15 +99,17 @@ class Follower:
             and self._tracker.clock_trusted()
             and now.loop_s >= self._rests_until_s
             and not status.latched
+            and not status.held_by
             and status.mode is Mode.AUTO
             and not status.faults
         )
 
     def _plan(self, now: Now) -> None:
-        self._again_utc_s = now.utc_s + AGAIN_S
         antenna, followed = self._box.antenna(), self._followed()
         if antenna is None or not followed:
+            self._again_utc_s = now.utc_s + NOT_YET_S
             return
+        self._again_utc_s = now.utc_s + AGAIN_S
         try:
             upcoming = self._planner.plan_followed(followed, antenna, now)
         except (Unknown, NotThere, RuntimeError) as reason:
@@ -93,9 +118,16 @@ class Follower:
         if upcoming is None:
             return
         self._again_utc_s = min(self._again_utc_s, upcoming.set_off_utc_s)
-        # The plan took a while: a stop or another sender may have come since.
-        status = self._box.status()
-        if upcoming.flight is not None and self._may_fly(status, now):
+        if upcoming.flight is not None and self._fly(upcoming.flight, now):
             log.info("the plan's next pass: %s", upcoming.flight.order.name)
-            self._flown = Flown(upcoming.flight, now, status.at_s)
-            self._box.order(upcoming.flight.order)
+
+    def _fly(self, flight: NextFlight, now: Now) -> bool:
+        """The plan took a while: a stop or another sender may have come since. Returns whether none has."""
+        with self._lock:
+            status = self._box.status()
+            if not self._may_fly(status, now):
+                return False
+            if not self._tracker.fly_planned(flight.order):
+                return False
+            self._flown = Flown(flight, now, status.at_s)
+            return True

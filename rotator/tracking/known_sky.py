@@ -8,48 +8,72 @@ from __future__ import annotations
 
 import copy
 from contextlib import suppress
+from pathlib import Path
 
-from rotator.orbits.catalogue import Catalogue
+from rotator.config.station import NO_PLACE
+from rotator.orbits.catalogue import Catalogue, Unknown
 from rotator.orbits.earth import Site
+from rotator.orbits.elements import Elements
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.orbits.targets import Fixed, find
+from rotator.orbits.targets import Fixed, find, fixed
+from rotator.orbits.twins import one_of_each
 from rotator.orders import Aim
 from rotator.tracking.next_flight import Wanted
 
 
 class KnownSky:
-    def __init__(self, site: Site, catalogue: Catalogue) -> None:
+    """`site` None: the file names no place; directions alone are known then."""
+
+    def __init__(self, site: Site | None, catalogue: Catalogue) -> None:
         self.site = site
         self._catalogue = catalogue
+        self._elements: tuple[Elements, ...] | None = None
 
     @property
     def faults(self) -> tuple[str, ...]:
         """What is wrong with the files of elements."""
         return self._catalogue.faults
 
+    @property
+    def elements(self) -> tuple[Elements, ...] | None:
+        """The newest set of each satellite: the same object until one is new. None: nothing has been read yet."""
+        return self._elements
+
+    @property
+    def by_file(self) -> dict[Path, tuple[Elements, ...]]:
+        """What was read from each file."""
+        return self._catalogue.by_file
+
     def refresh(self) -> bool:
         """Read the files that have changed. Returns whether one has."""
         fresh = copy.copy(self._catalogue)
         changed = fresh.refresh()
         self._catalogue = fresh
+        if changed or self._elements is None:
+            self._elements = fresh.satellites
         return changed
 
     def satellites(self) -> list[Satellite]:
-        """Those whose elements sgp4 takes, by name."""
+        """Those whose elements sgp4 takes, by name; one of those that fly as one; without air, as sent."""
+        if self.site is None:
+            return []
         found = []
         for elements in self._catalogue.satellites:
             with suppress(NotThere):
-                found.append(Satellite(elements, self.site))
-        return found
+                found.append(Satellite(elements, self.site.without_air))
+        return one_of_each(found)
 
     def find(self, words: str) -> Wanted | Aim:
         """A target that moves, or a fixed direction. Raises Unknown, NotThere."""
-        target = find(words, self.site, self._catalogue)
+        site = self.site
+        target = fixed(words) if site is None else find(words, site, self._catalogue)
         match target:
             case Fixed(_, where):
                 return Aim(where.azimuth_deg, max(0.0, where.elevation_deg))
+            case _ if site is None:
+                raise Unknown(NO_PLACE)
             case Satellite():
-                return Wanted(words, self.site, target.elements)
+                return Wanted(words, site, target.elements)
             case _:
-                return Wanted(words, self.site, None)
+                return Wanted(words, site, None)

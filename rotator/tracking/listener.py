@@ -14,7 +14,7 @@ from dataclasses import replace
 from rotator.orbits.recognition import Recognised, StreamWatch
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere
-from rotator.orders import Order, Source
+from rotator.orders import Aim, Order, Source
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.next_flight import Now, Wanted
 from rotator.tracking.tracker import Box, Planner
@@ -23,6 +23,10 @@ log = logging.getLogger(__name__)
 
 MOST_WAITING = 500
 """So many orders are kept until they are looked at; a flood pushes the oldest out."""
+
+AGAIN_S = 30.0
+"""A flight that has ended while its stream goes on is planned again so long after the plan before: a person had taken
+the antenna, and has given it back."""
 
 
 class StreamListener:
@@ -38,6 +42,9 @@ class StreamListener:
         self._clock_trusted = clock_trusted
         self._heard: deque[tuple[Source, Order, float]] = deque(maxlen=MOST_WAITING)
         self._watch = StreamWatch(sky.satellites())
+        self._planned: Recognised | None = None
+        """Whose pass was planned last, and when, on the loop's clock."""
+        self._planned_s = 0.0
 
     def hear(self, source: Source, order: Order) -> None:
         self._heard.append((source, order, self._utc()))
@@ -48,22 +55,32 @@ class StreamListener:
 
     def step(self, clock: Callable[[], Now]) -> None:
         """Look at what was heard. It may compute for seconds."""
-        found: Recognised | None = None
+        moved: set[Source] = set()
         while self._heard:
             source, order, utc_s = self._heard.popleft()
-            news = self._watch.hear(source, order, utc_s)
-            if isinstance(news, Recognised):
-                found = news
-            elif news is not None and found is not None and news.source == found.source:
-                found = None
-        if found is not None and self._clock_trusted():
-            self._fly(found, clock())
+            self._watch.hear(source, order, utc_s)
+            if isinstance(order, Aim):
+                moved.add(source)
+        for source in moved:
+            found = self._watch.followed(source)
+            if found is not None and self._clock_trusted():
+                self._keep_flown(found, clock())
+
+    def _keep_flown(self, found: Recognised, now: Now) -> None:
+        """Its orders go on, and move the antenna: have the pass flown, unless it is."""
+        status = self._box.status()
+        if status.recognised or status.controlled_by != str(found.source):
+            return
+        if found is self._planned and 0 <= now.loop_s - self._planned_s < AGAIN_S:
+            return
+        self._planned, self._planned_s = found, now.loop_s
+        self._fly(found, now)
 
     def _fly(self, found: Recognised, now: Now) -> None:
-        antenna = self._box.antenna()
-        if antenna is None or not isinstance(found.satellite, Satellite):
+        antenna, site = self._box.antenna(), self._sky.site
+        if antenna is None or site is None or not isinstance(found.satellite, Satellite):
             return
-        wanted = Wanted(found.satellite.name, self._sky.site, found.satellite.elements)
+        wanted = Wanted(found.satellite.name, site.without_air, found.satellite.elements)
         try:
             order = self._planner.plan_rest(wanted, antenna, now)
         except (NotThere, RuntimeError) as reason:

@@ -16,7 +16,7 @@ from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.elements import Elements
 from rotator.orbits.passes import Pass, passes
-from rotator.orbits.recognition import rest_of_pass
+from rotator.orbits.rest_of_pass import rest_of_pass
 from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import NotThere, Target, expected_error_deg
 from rotator.orbits.targets import find

@@ -15,8 +15,10 @@ _ERROR = 5
 """TIME_ERROR: the clock is not synchronised."""
 _TIMEDATECTL = ("timedatectl", "show", "--property=NTPSynchronized", "--value")
 PATIENCE_S = 10.0
-SET_AGAIN_S, UNSET_AGAIN_S = 600.0, 5.0
+SET_AGAIN_S, UNSET_AGAIN_S, LONG_UNSET_AGAIN_S = 600.0, 5.0, 30.0
 """How long an answer stands: a clock that is set seldom gets lost, and one that is not is waited for."""
+SOON_S = 120.0
+"""After this time without a network it may take hours."""
 
 
 class SystemClock:
@@ -26,12 +28,19 @@ class SystemClock:
         self.is_set = False
         """As of the latest look."""
         self._again_s = 0.0
+        self._unset_since_s: float | None = None
 
     def look(self, now_s: float) -> None:
         """Ask again, where the last answer is old. `now_s`: on any clock that only goes forward."""
         if now_s >= self._again_s:
             self.is_set = _by_kernel() if (told := _by_timedatectl()) is None else told
-            self._again_s = now_s + (SET_AGAIN_S if self.is_set else UNSET_AGAIN_S)
+            if self.is_set:
+                self._unset_since_s = None
+                self._again_s = now_s + SET_AGAIN_S
+                return
+            self._unset_since_s = now_s if self._unset_since_s is None else self._unset_since_s
+            soon = now_s - self._unset_since_s < SOON_S
+            self._again_s = now_s + (UNSET_AGAIN_S if soon else LONG_UNSET_AGAIN_S)
 
 
 def _by_timedatectl() -> bool | None:

@@ -1,4 +1,4 @@
-"""The thread of the tracker: looks twice a second, and reads changed files of elements now and then.
+"""The thread of the tracker: looks twice a second, and reads files of elements at its start and when they change.
 
 Knows time and threads. Does not know what is tracked.
 """
@@ -6,9 +6,14 @@ Knows time and threads. Does not know what is tracked.
 from __future__ import annotations
 
 import logging
+import math
 import threading
 import time
+from collections.abc import Sequence
 
+from rotator.orbits.elements import Elements
+from rotator.store.priorities import Priorities
+from rotator.tracking.file_reader import FileReader
 from rotator.tracking.follower import Follower
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
@@ -21,6 +26,8 @@ log = logging.getLogger(__name__)
 
 LOOK_S = 0.5
 REFRESH_S = 60.0
+AGAIN_S = 2.0
+"""After a mistake of the program the next look waits so long."""
 
 
 def _now() -> Now:
@@ -36,43 +43,85 @@ class TrackingThread:
         sky: KnownSky,
         *,
         planner: ProcessPlanner,
+        reader: FileReader,
         clock: SystemClock,
+        priorities: Priorities,
     ) -> None:
         self.tracker = tracker
+        self.sky = sky
+        self.priorities = priorities
         self._follower = follower
         self._listener = listener
-        self._sky = sky
         self._planner = planner
+        self._reader = reader
         self._clock = clock
         self._stopping = threading.Event()
+        self._new_files = False
+        self._refreshed_s = -math.inf
+        self._told: tuple[str, ...] = ()
+        """The faults of files of elements that the log has."""
+        self._failure = ""
+        """The latest mistake of the program."""
         self._thread = threading.Thread(target=self._run, name="tracking", daemon=True)
 
     def start(self) -> None:
         self._thread.start()
 
     def stop(self) -> None:
-        """Returns when the thread has ended; a plan that is under way is given up."""
+        """Returns when the thread has ended; a plan or a file that is under way is given up."""
         self._stopping.set()
         self._planner.close()
+        self._reader.close()
         if self._thread.is_alive():  # a box that could not start has not begun it
             self._thread.join()
 
-    def _run(self) -> None:
-        refreshed_s, faults = time.monotonic(), self._tell(())
-        while not self._stopping.wait(LOOK_S):
-            self._clock.look(time.monotonic())
-            if _now().loop_s - refreshed_s >= REFRESH_S:
-                refreshed_s = _now().loop_s
-                if self._sky.refresh():
-                    self._listener.know()
-                faults = self._tell(faults)
-            self._listener.step(_now)
-            self.tracker.step(_now())
-            self._follower.step(_now())
+    def clock_is_known(self) -> bool:
+        """From any thread: this computer's clock is right, by the system or by a person's word."""
+        return self._clock.is_set or self.tracker.clock_told
 
-    def _tell(self, before: tuple[str, ...]) -> tuple[str, ...]:
+    def known_elements(self) -> Sequence[Elements] | None:
+        """From any thread: as `KnownSky.elements`."""
+        return self.sky.elements
+
+    def plan_again(self) -> None:
+        """From any thread: the plan of many passes may be another one. A pass that is flown is flown to its end."""
+        self._follower.plan_again()
+
+    def read_again(self) -> None:
+        """From any thread: files of elements are new."""
+        self._new_files = True
+
+    def _run(self) -> None:
+        while not self._stopping.is_set():
+            try:
+                self._turn()
+            except Exception as failure:
+                self._failed(failure)
+
+    def _turn(self) -> None:
+        if self._new_files or _now().loop_s - self._refreshed_s >= REFRESH_S:
+            self._new_files = False
+            self._refreshed_s = _now().loop_s
+            if self.sky.refresh():
+                self._listener.know()
+            self._tell()
+        self._stopping.wait(LOOK_S)
+        self._clock.look(time.monotonic())
+        self._listener.step(_now)
+        self.tracker.step(_now())
+        self._follower.step(_now())
+
+    def _failed(self, failure: Exception) -> None:
+        """A mistake of the program ends what is tracked, and the thread goes on: a dead one would answer nothing."""
+        if repr(failure) != self._failure:
+            log.error("tracking: the program has a mistake; please report it", exc_info=failure)
+        self._failure = repr(failure)
+        self.tracker.fail(f"the program has a mistake ({self._failure}): see the log")
+        self._stopping.wait(AGAIN_S)
+
+    def _tell(self) -> None:
         """Each fault of a file of elements once."""
-        for fault in self._sky.faults:
-            if fault not in before:
+        for fault in self.sky.faults:
+            if fault not in self._told:
                 log.warning("[sky] elements: %s", fault)
-        return self._sky.faults
+        self._told = self.sky.faults

@@ -7,21 +7,24 @@ computed elsewhere, for that takes long. Moments are arguments.
 from __future__ import annotations
 
 import logging
+import math
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 from rotator.control.sky.flight_plan import Antenna
+from rotator.control.sky.timed_table import TimedTable
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere
-from rotator.orders import BOTH, Aim, Fly, LetGo, Order, Park, Release, SetMode, Source, Stop
+from rotator.orders import BOTH, TRACKER, Aim, Fly, LetGo, Order, Park, Release, SetMode, Source, Stop, Take
 from rotator.status import Status
 from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
+from rotator.tracking.program import CannotFly, Program
 
 log = logging.getLogger(__name__)
 
-TRACK = Source("track")
+TRACK = Source(TRACKER)
 PLAN = "plan"
 """In place of a target: the plan of many passes."""
 TAKES_EFFECT_S = 2.0
@@ -44,6 +47,9 @@ class Planner(Protocol):
     def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
         """What is left of a pass that is on. Raises NotThere, RuntimeError."""
 
+    def plan_program(self, program: Program, antenna: Antenna, now: Now) -> NextFlight:
+        """Raises CannotFly, RuntimeError."""
+
 
 class Finder(Protocol):
     def find(self, words: str) -> Wanted | Aim:
@@ -57,6 +63,9 @@ class Box(Protocol):
 
     def antenna(self) -> Antenna | None:
         """As it stands; None: its angles are not known."""
+
+    def refusal(self, order: Order) -> str:
+        """Why the rotor cannot obey this order; empty: it can."""
 
     def order(self, order: Order, source: Source = TRACK) -> None: ...
 
@@ -73,7 +82,7 @@ class Flown:
 class Tracker:
     """`track`, `off` and `clock_is_right` may be called from any thread, `step` from one only.
 
-    `clock_trusted`: whether the system says that its clock is set.
+    `clock_trusted`: whether its clock counts as right without a person's word.
     """
 
     def __init__(self, finder: Finder, planner: Planner, box: Box, clock_trusted: Callable[[], bool]) -> None:
@@ -81,11 +90,13 @@ class Tracker:
         self._planner = planner
         self._box = box
         self._clock_trusted = clock_trusted
-        self._clock_told = False
+        self.clock_told = False
         """A person has said that the clock is right."""
         self._lock = threading.Lock()
         self._words = ""
         """What a person asked for; empty: nothing is tracked."""
+        self._program: Program | None = None
+        """What the words stand for, where it is a table and no target."""
         self._asked = 0
         """How many requests there were: a plan for an earlier one is not flown."""
         self._flown: Flown | None = None
@@ -93,6 +104,8 @@ class Tracker:
         """Who has stopped the antenna, or has let it go on after a stop or a fault, since the request."""
         self._mover = ""
         """Who moved the antenna at the request."""
+        self._ordered_s = -math.inf
+        """When this room last ordered a motion, on the loop's clock: the status may not show it yet."""
         self._ended = ""
         """Why the latest tracking has ended by itself."""
         self._follows = True
@@ -106,8 +119,11 @@ class Tracker:
 
     def heard(self, source: Source, order: Order) -> None:
         """An order of any sender. What a stop has ended does not begin by itself, also where a plan is under way."""
+        status = self._box.status()
         match order:
-            case Stop() | SetMode() | LetGo() | Release() | Park(storm=True) if source != TRACK:
+            case Release() if not (status.latched or status.faults):
+                pass  # it has let nothing go on
+            case Stop() | SetMode() | LetGo() | Release() | Take(stops=True) | Park(storm=True) if source != TRACK:
                 with self._lock:
                     self._held_by = str(source)
 
@@ -128,36 +144,73 @@ class Tracker:
             return ""
         try:
             wanted = self._finder.find(words)
-        except (Unknown, NotThere) as reason:
-            return str(reason)
+        except (Unknown, NotThere) as fault:
+            return str(fault)
         if isinstance(wanted, Aim):
+            if refused := self._box.refusal(wanted):
+                return refused
             self._begin("", follows=self._follows)
-            self._box.order(wanted)
+            with self._lock:
+                self._order(wanted)
             return ""
         if not self.clock_trusted():
             return CLOCK_UNSURE
         self._begin(words, follows=self._follows)
         return ""
 
+    def program(self, table: TimedTable) -> str:
+        """Begin to track a timed table, once. Returns why not; empty: it does."""
+        if table.utc and not self.clock_trusted():
+            return CLOCK_UNSURE
+        self._begin(table.name, follows=self._follows, program=Program(table, self._box.status().at_s))
+        return ""
+
     def off(self) -> None:
         """End it. The antenna stops, where this room moves it."""
         self._begin("", follows=False)
-        if self._box.status().controlled_by == str(TRACK):
-            self._box.order(Stop(BOTH))
+        self._stop()
+
+    def fly_planned(self, flight: Fly) -> bool:
+        """Order a flight of the plan of many passes. Returns whether that plan still has the antenna."""
+        with self._lock:
+            if not self._follows or self._words:
+                return False
+            self._order(flight)
+            return True
+
+    def fail(self, reason: str) -> None:
+        """End what is tracked, because the program itself has failed. The antenna stops, where this room moves it."""
+        with self._lock:
+            words, asked = self._words, self._asked
+        if words:
+            self._end(asked, words, reason)
+        self._stop()
 
     def clock_is_right(self) -> None:
-        self._clock_told = True
+        self.clock_told = True
 
     def clock_trusted(self) -> bool:
         """By the system, or by a person's word."""
-        return self._clock_told or self._clock_trusted()
+        return self.clock_told or self._clock_trusted()
 
-    def _begin(self, words: str, *, follows: bool) -> None:
+    def _begin(self, words: str, *, follows: bool, program: Program | None = None) -> None:
         mover = self._box.status().controlled_by
         with self._lock:
             self._words, self._flown, self._ended, self._follows = words, None, "", follows
+            self._program = program
             self._held_by, self._mover = "", mover
             self._asked += 1
+
+    def _order(self, order: Order) -> None:
+        """The caller holds the lock: no request comes between its last look at them and this order."""
+        self._ordered_s = self._box.status().at_s
+        self._box.order(order)
+
+    def _stop(self) -> None:
+        """Stop the antenna, where this room moves it, or has just ordered that."""
+        status = self._box.status()
+        if status.controlled_by == str(TRACK) or status.at_s < self._ordered_s + TAKES_EFFECT_S:
+            self._box.order(Stop(BOTH))
 
     # --- from its thread
 
@@ -165,6 +218,7 @@ class Tracker:
         """Look once. It may compute for seconds."""
         with self._lock:
             words, asked, flown, held_by = self._words, self._asked, self._flown, self._held_by
+            program = self._program
         if not words:
             return
         if held_by:
@@ -172,19 +226,16 @@ class Tracker:
         elif flown is not None and (reason := lost(flown, self._box.status(), now)):
             self._end(asked, words, reason)
         elif flown is None or _is_over(flown, now):
-            self._fly(words, asked, now)
+            self._fly(words, program, asked, now)
 
-    def _fly(self, words: str, asked: int, now: Now) -> None:
+    def _fly(self, words: str, program: Program | None, asked: int, now: Now) -> None:
         antenna = self._box.antenna()
         if antenna is None:
             self._end(asked, words, "the antenna's angles are not known")
             return
         try:
-            wanted = self._finder.find(words)
-            if isinstance(wanted, Aim):  # the words mean a direction now: a file of elements has gone
-                raise Unknown(f'"{words}" is no moving target any more')
-            flight = self._planner.plan(wanted, antenna, now)
-        except (Unknown, NotThere, NeverRises, RuntimeError) as reason:
+            flight = self._planner.plan_program(program, antenna, now) if program else self._plan(words, antenna, now)
+        except (Unknown, NotThere, NeverRises, CannotFly, RuntimeError) as reason:
             self._end(asked, words, str(reason))
             return
         status = self._box.status()
@@ -192,12 +243,18 @@ class Tracker:
             # The plan took a while: another request, a stop or another sender may have come since.
             if asked != self._asked or self._held_by or status.latched:
                 return
-            taken = status.controlled_by not in (str(TRACK), self._mover)
+            taken = status.controlled_by not in ("", str(TRACK), self._mover)
             if not taken:
                 self._flown, self._mover = Flown(flight, now, status.at_s), str(TRACK)
-                self._box.order(flight.order)
+                self._order(flight.order)
         if taken:
             self._end(asked, words, f"{status.controlled_by} moves the antenna")
+
+    def _plan(self, words: str, antenna: Antenna, now: Now) -> NextFlight:
+        wanted = self._finder.find(words)
+        if isinstance(wanted, Aim):  # the words mean a direction now: a file of elements has gone
+            raise Unknown(f'"{words}" is no moving target any more')
+        return self._planner.plan(wanted, antenna, now)
 
     def _end(self, asked: int, words: str, reason: str) -> None:
         with self._lock:
@@ -220,7 +277,7 @@ def lost(flown: Flown, status: Status, now: Now) -> str:
     if status.at_s < flown.ordered_s + TAKES_EFFECT_S or now.utc_s >= flown.flight.end_utc_s - 1.0:
         return ""
     if status.latched:
-        return f"stopped by {status.latched}"
+        return f"{'storm park' if status.storm else 'stopped'} by {status.latched}"
     if status.controlled_by != str(TRACK):
         return f"{status.controlled_by} moves the antenna" if status.controlled_by else "the antenna was stopped"
     return "the antenna was stopped" if status.flown is None else ""

@@ -17,15 +17,20 @@ ALTERNATE_S = 2.0
 _SHORT = {Axis.AZIMUTH: "AZ", Axis.ELEVATION: "EL"}
 
 
-def rows(status: Status, now_s: float) -> tuple[str, str]:
+def rows(status: Status, now_s: float, code: str = "") -> tuple[str, str]:
     """`SAT A:235 E:025` over `ANT A:231 E:024`; SIM in place of ANT when the rotor is simulated.
 
     With a mode switch its letter follows: A, M, J or P. Where it is not at AUTO, a notice says so.
+
+    `code`: what pairs a browser now. It has the upper row, and only faults alternate with it.
     """
     name = "SIM" if status.simulated else "ANT"
     upper = f"SAT A:{_azimuth(status.wanted_azimuth_deg)} E:{_elevation(status.wanted_elevation_deg)}"
     lower = f"{name} A:{_azimuth(status.azimuth.points_deg)} E:{_elevation(status.elevation.points_deg)}"
     notices = _notices(status)
+    if code:
+        upper = f"PAIR CODE {code}"
+        notices = notices if status.faults else []
     turn = int(now_s / ALTERNATE_S)
     if notices and turn % 2:
         upper = notices[turn // 2 % len(notices)]
@@ -36,9 +41,9 @@ def rows(status: Status, now_s: float) -> tuple[str, str]:
 
 def _notices(status: Status) -> list[str]:
     notices = [fault.act_now for fault in status.faults if fault.act_now]
-    notices += [f"{_SHORT[fault.axis]} {fault.kind.lcd}" for fault in status.faults]
+    notices += [f"{_SHORT[fault.axis]} {fault.lcd}" for fault in status.faults]
     if status.latched:
-        notices.append("STOP: " + status.latched.upper())
+        notices.append(("STORM PARK: " if status.storm else "STOP: ") + status.latched.upper())
     if status.mode is not Mode.AUTO:
         notices.append(f"MODE {status.mode.name}")
     for axis in Axis:

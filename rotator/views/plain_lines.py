@@ -25,7 +25,7 @@ def line(status: Status) -> str:
     if status.mode_switch:
         parts.append(f"mode {status.mode.name}")
     if status.latched:
-        parts.append(f"STOPPED by {spoken(status.latched)}")
+        parts.append(f"{'STORM PARK' if status.storm else 'STOPPED'} by {spoken(status.latched)}")
     parts += [f"FAULT {fault}" for fault in status.faults]
     parts += [f"NOTE {notice}" for notice in notes(status)]
     return "  ".join(parts)

@@ -15,6 +15,7 @@ from rich.text import Text
 
 from hw.ports import Axis, Direction
 from rotator.control.sky.mount import Mount
+from rotator.spoken import spoken
 from rotator.status import Status
 from rotator.views import sky_plot
 from rotator.views.axis_rows import WIDE, Ranks, axis_rows, lamps
@@ -108,9 +109,12 @@ def picture(
             yield from _trouble(str(fault).removeprefix(fault.act_now).strip(), width)
         if to_go_on := release(status):
             yield from _trouble(to_go_on, width)
-        for note in (*status.notices, *lacks(status), *notes(status)):
+        noted = [spoken(note) for note in (*status.notices, *lacks(status), *notes(status))]
+        for note in noted:
             yield from wrapped(note, width, WARNS, _NOTE)
-        for age, line in _newest_last(log_rows):
+        # What stands there as a note needs no second line.
+        news = [line for line in log_rows if not line.endswith(tuple(noted))]
+        for age, line in _newest_last(news):
             yield from wrapped(line, width, "dim", _LOG + age)
         if around.typed:
             yield Row(Text(around.typed, style="bold reverse"), _KEYS)

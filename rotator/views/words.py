@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from hw.ports import Axis, Direction
-from rotator.orders import Mode
+from rotator.control.rights import mode_words
+from rotator.orders import PANEL, Mode
 from rotator.spoken import spoken
 from rotator.status import Flown, Status
 from rotator.views.sky_plot import off_deg
@@ -49,17 +50,16 @@ def headline(status: Status) -> tuple[str, str]:
         return loud, ALARMS
     if status.latched:
         return (
-            spoken(
-                f"STORM PARK by {status.latched.partition(':')[0]}" if status.storm else f"STOPPED by {status.latched}"
-            ),
+            spoken(f"STORM PARK by {status.latched}" if status.storm else f"STOPPED by {status.latched}"),
             ALARMS,
         )
     if faulted:
         return f"FAULT {' and '.join(faulted)}", ALARMS
     if homing:
         return f"HOMING {' and '.join(homing)}: turns to its end stop", WARNS
-    if status.mode is not Mode.AUTO:
-        return f"The panel's switch is at {status.mode.name}", WARNS
+    if status.mode is Mode.PARK or (status.mode is not Mode.AUTO and status.mode_by in ("", PANEL)):
+        words = mode_words(status.mode, status.mode_by)
+        return spoken(words[0].upper() + words[1:]), WARNS
     if lacking:
         return f"UNCALIBRATED {' and '.join(lacking)}", WARNS
     if status.moving:

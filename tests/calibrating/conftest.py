@@ -14,10 +14,11 @@ from tests.calibrating.rig import QUIET, Calibration, NorthCalibration
 
 @pytest.fixture
 def calibration() -> Callable[..., Calibration]:
-    """Begins a calibration of the azimuth (or the axis given) on a simulated rotor that stands at 200° and 60°."""
+    """Begins a calibration of the azimuth (or the axis given) on a simulated rotor that stands near its low stops: at
+    30° and 15°."""
 
     def start(text: str = "", axis: Axis = Axis.AZIMUTH, **rest: Any) -> Calibration:
-        return Calibration(parse(text + QUIET, "test"), axis, **rest)
+        return Calibration(parse(text + QUIET, "test"), axis, **{"start_deg": (30.0, 15.0)} | rest)
 
     return start
 

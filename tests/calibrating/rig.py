@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,13 @@ from hw.ports import Axis
 from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
 from rotator.calibrating.entries import from_line
-from rotator.calibrating.rig import AxisRig, NorthRig, SkyRig
+from rotator.calibrating.rig import AxisRig, NorthRig
+from rotator.calibrating.sky_rig import SkyRig
+from rotator.calibrating.strength import Strength
 from rotator.config.model import Config
 from rotator.control.sky.model_fit import SkyPoint
 from rotator.control.sky.pointing_model import PERFECT
-from rotator.orbits.sight import Sight
+from rotator.orbits.sight import Sight, Target
 from rotator.orbits.targets import Fixed
 
 PERIOD_S = 0.05
@@ -78,6 +81,12 @@ class Calibration:
         """An entry at this moment, as a key."""
         self.said += self.rig.step(from_line(line))
 
+    def with_the_next(self, line: str) -> None:
+        """An entry that comes together with the next status."""
+        self.clock.sleep(PERIOD_S)
+        self.rig.loop.cycle()
+        self.now(line)
+
     def drive(self, key: str, presses: int) -> str:
         return self.say(*[key] * presses)
 
@@ -119,18 +128,51 @@ class NorthCalibration(Calibration):
         super()._cycle()
 
 
+class Told:
+    """A receiver whose strength comes from a function."""
+
+    def __init__(self, latest: Callable[[], Strength | None]) -> None:
+        self.latest = latest
+
+    def start(self) -> None:
+        """It needs no thread."""
+
+    def stop(self) -> None:
+        """It has none."""
+
+
+Hears = Callable[[Callable[[], float], Callable[[], float]], Callable[[], Strength | None]]
+"""Makes a receiver of a clock, and of how far the boom points from the target."""
+
+
 class SkyCalibration(Calibration):
-    """At a target on the sky. `look` sets the target's direction: by it the operator steers, as by a signal."""
+    """At a target on the sky. `look` sets the target's direction: by it the operator steers, as by a signal.
+
+    `hears`: the receiver; None: there is none. `target`: in place of a fixed direction.
+    """
 
     rig: SkyRig
 
-    def __init__(self, config: Config, direction_deg: tuple[float, float], **rest: Any) -> None:
-        self._look = Fixed("the beacon", Sight(*direction_deg, 1.0))
+    def __init__(
+        self,
+        config: Config,
+        direction_deg: tuple[float, float],
+        *,
+        hears: Hears | None = None,
+        target: Target | None = None,
+        **rest: Any,
+    ) -> None:
+        self._hears = hears
+        self._look: Target = target or Fixed("the beacon", Sight(*direction_deg, 1.0))
         super().__init__(config, **rest)
 
     def _build_rig(self, config: Config) -> None:
-        self._boom = simulated_boom(config)
-        self.rig = SkyRig(config, self.station, self.clock, self, lambda: 1_780_000_000.0 + self.clock())
+        self.boom = simulated_boom(config)
+        receiver = Told(self._hears(self.clock, lambda: math.hypot(*self.off_deg()))) if self._hears else None
+        self.rig = SkyRig(config, self.station, self.clock, self, self._utc, receiver=receiver)
+
+    def _utc(self) -> float:
+        return 1_780_000_000.0 + self.clock()
 
     @property
     def name(self) -> str:
@@ -149,8 +191,8 @@ class SkyCalibration(Calibration):
 
     def off_deg(self) -> tuple[float, float]:
         """How far to the right of the boom, and above it, the target truly is."""
-        seen = self._look.sight(0.0)
-        there = self._boom(*self.world.antenna())
+        seen = self._look.sight(self._utc())
+        there = self.boom(*self.world.antenna())
         return SkyPoint(*there, seen.azimuth_deg, seen.elevation_deg).miss(PERFECT)
 
     def centre(self, within_deg: float = 0.3) -> None:
@@ -159,7 +201,7 @@ class SkyCalibration(Calibration):
             right, above = self.off_deg()
             if math.hypot(right, above) <= within_deg:
                 return
-            flat = max(0.2, math.cos(math.radians(self._look.where.elevation_deg)))
+            flat = max(0.2, math.cos(math.radians(self._look.sight(self._utc()).elevation_deg)))
             # A motor of 20°/s² speeds up and brakes: the way goes with the square of the time.
             if abs(right) >= abs(above):
                 self.say(f"{'r' if right > 0 else 'l'} {math.sqrt(abs(right) / flat / 20):.3f}")

@@ -24,6 +24,7 @@ from rotator.calibrating.entries import (
 from rotator.config.load import parse
 from rotator.control.axis.goals import UNCALIBRATED_JOG_S
 from tests.calibrating.rig import QUIET, Calibration
+from tests.search import examples
 
 ONE_NUMBER = re.compile(r"[+-]?[0-9]{1,4}([.,][0-9]{0,4})?")
 NEAR_NUMBERS = st.text("0123456789.,-+ eExX°'\t", min_size=1, max_size=10)
@@ -133,7 +134,7 @@ def at_the_angle() -> Calibration:
 
 
 @given(st.one_of(NEAR_NUMBERS, LINES))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=examples(60), deadline=None)
 @example("438,5,1")
 @example("438.5x")
 def test_a_question_for_an_angle_takes_nothing_else(at_the_angle: Calibration, text: str) -> None:

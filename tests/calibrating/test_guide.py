@@ -8,8 +8,8 @@ import pytest
 
 from hw.ports import Axis
 
-TO_LOW, TO_HIGH = 18, 40
-"""Presses from 200° to the stop at -2°, and from there to the one at 452°."""
+TO_LOW, TO_HIGH = 5, 40
+"""Presses from 30° to the stop at -2°, and from there to the one at 452°."""
 
 
 def directions(run: Any, plus: str = "r", minus: str = "l") -> None:
@@ -39,7 +39,7 @@ def test_elevation_has_its_own_keys(calibration: Any) -> None:
     run = calibration("[elevation]\nmax_deg = 90\n", Axis.ELEVATION)
     assert "u or the arrows up and down" in run.text
     directions(run, "u", "d")
-    run.drive("d", 16)
+    run.drive("d", 5)
     run.say("", "-2")
     run.drive("u", 24)
     run.say("", "92", "f", "0", "90", "y")
@@ -152,7 +152,7 @@ def test_a_held_key_is_one_turn(calibration: Any) -> None:
         run.wait(0.1)
     run.wait(3.0)
     assert run.world.relay_starts == 1
-    assert run.shaft_deg() == pytest.approx(200 + 6.7 * 6, abs=2.0)
+    assert run.shaft_deg() == pytest.approx(30 + 6.7 * 6, abs=2.0)
 
 
 @pytest.mark.parametrize("word", ["s", "stop"])

@@ -13,6 +13,7 @@ import select
 import signal
 import subprocess
 import sys
+import tempfile
 import termios
 import time
 from collections.abc import Callable, Iterator
@@ -20,9 +21,13 @@ from pathlib import Path
 
 import pytest
 
+from rotator.cli.main import main
+from rotator.status import Status
+from tests.boxes import FAST_ROTOR
+from tests.cli.scripted import ScriptedConsole
+
 PATIENCE_S = 60.0
 
-FAST_ROTOR = (Path(__file__).parents[1] / "fast_rotor.toml").read_text(encoding="utf-8")
 COMMAND = (sys.executable, "-m", "rotator")
 _TAKE_TERMINAL = (
     "import fcntl, os, sys, termios; fcntl.ioctl(0, termios.TIOCSCTTY, 0); os.execv(sys.argv[1], sys.argv[1:])"
@@ -121,6 +126,46 @@ def rotator(tmp_path: Path) -> Callable[..., subprocess.CompletedProcess[str]]:
     return run
 
 
+def calibrated(*words: str, lines: tuple[str, ...] = ()) -> tuple[str, int]:
+    """`rotator calibrate` without a terminal, with these lines for its input: what it says, and its exit code."""
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run(
+            [*COMMAND, "calibrate", *words],
+            cwd=folder,
+            input="".join(f"{line}\n" for line in lines),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=2 * PATIENCE_S,
+            check=False,
+        )
+    assert "Traceback" not in done.stdout
+    return done.stdout, done.returncode
+
+
+@pytest.fixture
+def rotator_here(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[..., subprocess.CompletedProcess[str]]:
+    """Run a command to its end in this process, for tests of what it does and not of how it starts."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words: object) -> subprocess.CompletedProcess[str]:
+        line = [str(word) for word in words]
+        heeded = {signum: signal.getsignal(signum) for signum in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+        try:
+            with pytest.raises(SystemExit) as ended:
+                main(line)
+        finally:
+            for signum, handler in heeded.items():
+                signal.signal(signum, handler)
+        code = ended.value.code
+        said = capsys.readouterr()
+        return subprocess.CompletedProcess(line, code if isinstance(code, int) else 0, said.out, said.err)
+
+    return run
+
+
 @pytest.fixture
 def start(tmp_path: Path) -> Iterator[Callable[..., Running]]:
     """Start a command, its output in pipes."""
@@ -196,6 +241,20 @@ def send(tmp_path: Path) -> Iterator[Callable[[bytes], None]]:
     yield write
     for line in lines:
         os.close(line)
+
+
+@pytest.fixture
+def scripted(tmp_path: Path) -> Iterator[Callable[..., ScriptedConsole]]:
+    """A box that says these statuses, one after the other, and the last one from then on."""
+    made: list[ScriptedConsole] = []
+
+    def make(*statuses: Status) -> ScriptedConsole:
+        made.append(ScriptedConsole(tmp_path / "run" / "console", list(statuses)))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:

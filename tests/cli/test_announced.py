@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from rotator.cli.announced import FOLDER, announced, boxes
+from rotator.cli.announced import FOLDER, STATE_OF_A_USER, Home, announced, boxes
 from rotator.cli.failed import CommandFailed
 from rotator.cli.reach import consoles, reach
 from rotator.config.places import console_path
@@ -104,6 +104,24 @@ def test_without_a_place_for_its_file_the_box_runs_all_the_same(home: Path) -> N
         assert boxes() == []
 
 
+def test_a_folder_that_has_been_deleted(tmp_path: Path) -> None:
+    """After `rm -r` and another `git clone` the shell still stands in the old folder."""
+    shell = 'mkdir gone && cd gone && rmdir ../gone && exec "$@"'
+    for words, told in (
+        (["stop"], "no box runs here"),
+        (["where"], "this folder has been deleted"),
+    ):
+        done = subprocess.run(
+            ["/bin/sh", "-c", shell, "sh", *COMMAND, *words],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=False,
+            env=os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])},
+        )
+        assert (done.returncode, told in done.stderr) == (1, True), done.stderr
+
+
 def test_a_stop_from_another_folder_and_a_second_start_in_the_same_one(
     start: Start, config: Path, tmp_path: Path
 ) -> None:
@@ -126,3 +144,51 @@ def test_a_stop_from_another_folder_and_a_second_start_in_the_same_one(
     box.until("STOPPED by a rotator command")
     assert box.stop() == 0
     assert boxes() == []
+
+
+def other_home(tmp_path: Path, owner: int) -> Path:
+    """The folder of another user's files, where a box that runs has left its own."""
+    folder = tmp_path / "operator" / STATE_OF_A_USER / FOLDER
+    folder.mkdir(parents=True)
+    (folder / "4711").write_text(f"{tmp_path}/monitor\n{tmp_path}/station\n\n")
+    os.chown(folder / "4711", owner, -1)
+    return folder
+
+
+@pytest.fixture
+def console_of_a_box(tmp_path: Path) -> Iterator[Path]:
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind(str(tmp_path / "console"))
+        yield tmp_path / "console"
+
+
+def test_root_finds_the_box_of_another_user(home: Path, tmp_path: Path, console_of_a_box: Path) -> None:
+    other_home(tmp_path, os.getuid())
+    (box,) = boxes(others=[Home(tmp_path / "operator", os.getuid())])
+    assert console_path(box.monitor) == console_of_a_box
+    assert box.named == f"the box in {tmp_path}/station"
+
+
+def test_a_user_cannot_lead_root_to_another_users_box(home: Path, tmp_path: Path, console_of_a_box: Path) -> None:
+    """Neither the file nor the socket is the property of the user in whose home they were found."""
+    somebody = os.getuid() + 4711
+    other_home(tmp_path, os.getuid())
+    assert boxes(others=[Home(tmp_path / "operator", somebody)]) == []
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root gives a file to another user")
+def test_a_file_alone_that_is_the_users_own_leads_nowhere(home: Path, tmp_path: Path, console_of_a_box: Path) -> None:
+    other_home(tmp_path, 4711)
+    assert boxes(others=[Home(tmp_path / "operator", 4711)]) == []
+    os.chown(console_of_a_box, 4711, -1)
+    assert len(boxes(others=[Home(tmp_path / "operator", 4711)])) == 1
+
+
+def test_a_pipe_or_a_link_in_another_users_folder_is_not_followed(
+    home: Path, tmp_path: Path, console_of_a_box: Path
+) -> None:
+    folder = other_home(tmp_path, os.getuid())
+    os.mkfifo(folder / "1")
+    (folder / "4711").rename(tmp_path / "note")
+    (folder / "2").symlink_to(tmp_path / "note")
+    assert boxes(others=[Home(tmp_path / "operator", os.getuid())]) == []

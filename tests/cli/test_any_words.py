@@ -11,7 +11,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from unittest.mock import patch
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -61,8 +60,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def answered(folder: Path, words: list[str]) -> int:
     """The exit code of a command. Any other exception than an exit fails the test."""
     os.chdir(folder)
-    with patch.object(sys, "argv", ["rotator", *words]), pytest.raises(SystemExit) as ended:
-        commands.main()
+    with pytest.raises(SystemExit) as ended:
+        commands.main(words)
     code = ended.value.code
     return code if isinstance(code, int) else 0
 

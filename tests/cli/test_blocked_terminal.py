@@ -15,16 +15,11 @@ from pathlib import Path
 import pytest
 
 from rotator.cli.output import LINES, Output
+from tests.boxes import free_port
 
 PATIENCE_S = 20.0
 FULL_POLLS = 400
 """Questions, one after the other, while the picture fills the terminal."""
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 class Client:

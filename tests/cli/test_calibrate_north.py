@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from rotator.config.load import load
+from tests.cli.conftest import calibrated
 
-LIMIT_S = 120.0
 STATION = """# A fast one, mounted askew.
 [azimuth]
 offset_deg = 17               # guessed
@@ -34,18 +32,7 @@ COMPASS = '\n[compass]\nkind = "bno055"\n'
 
 
 def north(path: Path, *lines: str, fault: str = "") -> tuple[str, int]:
-    extra = ["--fault", fault] if fault else []
-    process = subprocess.run(
-        [sys.executable, "-m", "rotator", "calibrate", "north", "--config", str(path), *extra],
-        input="".join(f"{line}\n" for line in lines),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=LIMIT_S,
-        check=False,
-    )
-    assert "Traceback" not in process.stdout
-    return process.stdout, process.returncode
+    return calibrated("north", "--config", str(path), *(["--fault", fault] if fault else []), lines=lines)
 
 
 @pytest.fixture

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from rotator.config.load import load
+from tests.cli.conftest import calibrated
 
-LIMIT_S = 120.0
 NOON = "2026-06-21T11:00:00Z"
 STATION = """# my mast
 [rotor]
@@ -28,17 +26,7 @@ bus_takes_time = false
 
 
 def sky(path: Path, *options: str, lines: tuple[str, ...] = ()) -> tuple[str, int]:
-    process = subprocess.run(
-        [sys.executable, "-m", "rotator", "calibrate", "sky", "--config", str(path), *options],
-        input="".join(f"{line}\n" for line in lines),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=LIMIT_S,
-        check=False,
-    )
-    assert "Traceback" not in process.stdout
-    return process.stdout, process.returncode
+    return calibrated("sky", "--config", str(path), *options, lines=lines)
 
 
 @pytest.fixture
@@ -70,6 +58,7 @@ def test_at_night_it_says_that_the_sun_is_down(station: Path) -> None:
     [
         (("--target", "moonn"), "moonn"),
         (("--at", "noon"), "is no date and time"),
+        (("--receiver", "shack:x"), '"shack:x" is no address of a receiver: write it as 127.0.0.1:4532'),
     ],
 )
 def test_what_it_refuses(station: Path, options: tuple[str, ...], said: str) -> None:

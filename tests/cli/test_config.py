@@ -29,6 +29,6 @@ def test_the_list() -> None:
     assert all(len(line.split()) > 3 for line in lines)
 
 
-@pytest.mark.parametrize("name", ["nonsense", "../load", "G5500", ""])
+@pytest.mark.parametrize("name", ["nonsense", "../load", "G5500x", ""])
 def test_a_name_there_is_not(name: str) -> None:
     assert isinstance(run(name).exception, ConfigError)

@@ -28,33 +28,33 @@ def test_lines_for_people(rotator: Rotator, config: Path) -> None:
     assert all(line == line.rstrip() and "\x1b" not in line for line in lines)
 
 
-def test_an_object_for_programs(rotator: Rotator, config: Path) -> None:
-    answer = rotator("doctor", "--config", config, "--json")
+def test_an_object_for_programs(rotator_here: Rotator, config: Path) -> None:
+    answer = rotator_here("doctor", "--config", config, "--json")
     said = json.loads(answer.stdout)
     assert list(said) == ["version", "rotator", "ok", "checks"]
     assert said["ok"] is (answer.returncode == 0)
     assert {check["name"] for check in said["checks"]} >= {"configuration", "python", "pots", "groups"}
 
 
-def test_without_a_file_it_looks_at_what_would_run(rotator: Rotator) -> None:
-    configuration = checks(rotator("doctor", "--json"))[0]
+def test_without_a_file_it_looks_at_what_would_run(rotator_here: Rotator) -> None:
+    configuration = checks(rotator_here("doctor", "--json"))[0]
     assert configuration["found"].startswith(("the shipped one", "/etc/rotator/rotator.toml"))
 
 
-def test_a_configuration_that_cannot_be_used(rotator: Rotator, tmp_path: Path) -> None:
+def test_a_configuration_that_cannot_be_used(rotator_here: Rotator, tmp_path: Path) -> None:
     path = tmp_path / "bad.toml"
     path.write_text('[rotor]\nhardware = "pie"\n')
-    answer = rotator("doctor", "--config", path, "--json")
+    answer = rotator_here("doctor", "--config", path, "--json")
     assert answer.returncode == 2
     assert "must be one of sim, pi" in checks(answer)[0]["found"]
     assert {check["name"]: check["ok"] for check in checks(answer)}["python"] is True
-    assert rotator("doctor", "--config", path).returncode == 2
+    assert rotator_here("doctor", "--config", path).returncode == 2
 
 
-def test_real_hardware_where_there_is_none(rotator: Rotator, tmp_path: Path) -> None:
+def test_real_hardware_where_there_is_none(rotator_here: Rotator, tmp_path: Path) -> None:
     path = tmp_path / "real.toml"
     path.write_text('[rotor]\nhardware = "pi"\n[relays]\nchip = "/dev/gpiochip250"\n[adc]\nbus = 250\n')
-    answer = rotator("doctor", "--config", path, "--json")
+    answer = rotator_here("doctor", "--config", path, "--json")
     ok = {check["name"]: check["ok"] for check in checks(answer)}
     assert answer.returncode == 1
     assert answer.stderr == ""
@@ -62,10 +62,10 @@ def test_real_hardware_where_there_is_none(rotator: Rotator, tmp_path: Path) -> 
     assert not any("check itself failed" in check["found"] for check in checks(answer))
 
 
-def test_a_fault_of_the_running_box_is_an_error(rotator: Rotator, start: Start, config: Path) -> None:
+def test_a_fault_of_the_running_box_is_an_error(rotator_here: Rotator, start: Start, config: Path) -> None:
     box = start("run", "--plain", "--config", config, "--fault", "azimuth-pot-open")
     box.until("FAULT azimuth")
-    answer = rotator("doctor", "--config", config, "--json")
+    answer = rotator_here("doctor", "--config", config, "--json")
     assert answer.returncode == 1
     (told,) = (check for check in checks(answer) if check["name"] == "running box")
     assert told["ok"] is False
@@ -73,7 +73,7 @@ def test_a_fault_of_the_running_box_is_an_error(rotator: Rotator, start: Start, 
     assert box.stop() == 0
 
 
-def test_the_running_box_is_told_from_another_program(rotator: Rotator, start: Start, config: Path) -> None:
+def test_the_running_box_is_told_from_another_program(rotator_here: Rotator, start: Start, config: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         taken = other.getsockname()[1]
         with socket.create_server(("127.0.0.1", 0)) as probe:
@@ -84,7 +84,9 @@ def test_the_running_box_is_told_from_another_program(rotator: Rotator, start: S
         box.until("elevation 0°\n")
         config.write_text(f'{config.read_text()}[[link]]\nprotocol = "rotctld"\ntcp = "127.0.0.1:{taken}"\n')
         ours, theirs = (
-            check for check in checks(rotator("doctor", "--config", config, "--json")) if check["name"] == "TCP ports"
+            check
+            for check in checks(rotator_here("doctor", "--config", config, "--json"))
+            if check["name"] == "TCP ports"
         )
         assert box.stop() == 0
     assert (ours["ok"], ours["found"]) == (True, f"127.0.0.1:{port}: the running box")

@@ -5,14 +5,17 @@ from __future__ import annotations
 import os
 import subprocess
 from collections.abc import Callable
+from itertools import product
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.cli.conftest import COMMAND
+from tests.search import some
 
 FULL = "rotator: the output cannot be written: No space left on device\n"
+WORDS = ("--help", "config", "rehearse", "sky where moon --config station.toml", "doctor --json")
 STATION = "[station]\nlatitude_deg = 48\nlongitude_deg = 11\n"
 
 
@@ -33,15 +36,11 @@ def into_a_full_disk(folder: Path, *words: str, buffered: bool = True) -> tuple[
     return done.returncode, done.stderr
 
 
-@pytest.mark.parametrize("buffered", [True, False], ids=["buffered", "unbuffered"])
-@pytest.mark.parametrize(
-    "words",
-    [["--help"], ["config"], ["rehearse"], ["sky", "where", "moon", "--config", "station.toml"], ["doctor", "--json"]],
-    ids=" ".join,
-)
-def test_without_a_box(tmp_path: Path, words: list[str], buffered: bool) -> None:
+@pytest.mark.search
+@pytest.mark.parametrize(("buffered", "words"), some(list(product([True, False], WORDS))), ids=str)
+def test_without_a_box(tmp_path: Path, words: str, buffered: bool) -> None:
     (tmp_path / "station.toml").write_text(STATION)
-    assert into_a_full_disk(tmp_path, *words, buffered=buffered) == (1, FULL)
+    assert into_a_full_disk(tmp_path, *words.split(), buffered=buffered) == (1, FULL)
 
 
 def test_beside_a_box(start: Callable[..., Any], config: Path, tmp_path: Path) -> None:

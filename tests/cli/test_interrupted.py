@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from itertools import product
+from pathlib import Path
 
 import pytest
+
+from tests.search import some
 
 PRESSES = """
 import sys
@@ -23,10 +27,15 @@ main()
 """A Ctrl-C that comes at the import of one module: the same moment each time."""
 
 
-@pytest.mark.parametrize("command", ["where", "run", "stop", "doctor", "calibrate"])
-@pytest.mark.parametrize("module", ["click", "pydantic", "rotator.config.load"])
-def test_no_traceback(command: str, module: str) -> None:
+@pytest.mark.search
+@pytest.mark.parametrize(
+    ("module", "command"),
+    some(list(product(["click", "pydantic", "rotator.config.load"], ["run", "where", "stop", "doctor", "calibrate"]))),
+)
+def test_no_traceback(command: str, module: str, tmp_path: Path) -> None:
     script = PRESSES.format(module=module, command=command)
-    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=False)
+    ended = subprocess.run(
+        [sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False
+    )
     assert "Traceback" not in ended.stderr
     assert ended.returncode != 0

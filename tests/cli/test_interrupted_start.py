@@ -15,16 +15,13 @@ from rotator.cli import main as commands
 Start = Callable[..., Any]
 
 
-def test_a_command_that_is_interrupted_says_nothing(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_command_that_is_interrupted_says_nothing(capsys: pytest.CaptureFixture[str]) -> None:
     @commands.cli.command(name="interrupted")
     def interrupted() -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("sys.argv", ["rotator", "interrupted"])
     with pytest.raises(KeyboardInterrupt):
-        commands.main()
+        commands.main(["interrupted"])
     del commands.cli.commands["interrupted"]
     out, errors = capsys.readouterr()
     assert out + errors.strip() == ""

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import sys
-
 import pytest
 
 from rotator.cli.main import main
 
 
-def errors(words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
-    monkeypatch.setattr(sys, "argv", ["rotator", *words])
+def errors(words: list[str], capsys: pytest.CaptureFixture[str]) -> tuple[int, str]:
     with pytest.raises(SystemExit) as ended:
-        main()
+        main(words)
     assert isinstance(ended.value.code, int)
     return ended.value.code, capsys.readouterr().err
 
@@ -29,16 +26,31 @@ def errors(words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.Cap
     ],
 )
 def test_the_first_line_says_what_and_the_last_where_to_read_on(
-    words: str, code: int, ends: tuple[str, str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    words: str, code: int, ends: tuple[str, str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    ended, text = errors(words.split(), monkeypatch, capsys)
+    ended, text = errors(words.split(), capsys)
     lines = text.splitlines()
     assert ended == code
     assert lines[0].startswith(ends[0])
     assert lines[-1].startswith(ends[1])
 
 
-def test_a_group_alone_shows_its_commands(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    _, text = errors(["sky"], monkeypatch, capsys)
+def test_a_group_alone_shows_its_commands(capsys: pytest.CaptureFixture[str]) -> None:
+    _, text = errors(["sky"], capsys)
     assert text.startswith("Usage: rotator sky")
     assert "passes" in text
+
+
+@pytest.mark.parametrize(
+    ("words", "first"),
+    [
+        ("help", "Usage: rotator [OPTIONS]"),
+        ("help jog", "Usage: rotator jog "),
+        ("help setup pins", "Usage: rotator setup pins "),
+    ],
+)
+def test_help_as_a_word(words: str, first: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(words.split())
+    assert ended.value.code in {0, None}
+    assert capsys.readouterr().out.startswith(first)

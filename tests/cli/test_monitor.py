@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from rotator.monitor.transcript import Piece, Way, parse
+from tests.boxes import free_port
 
 Start = Callable[..., Any]
 Rotator = Callable[..., Any]
@@ -19,9 +20,7 @@ Send = Callable[[bytes], None]
 @pytest.fixture
 def box(start: Start, config: Path) -> Any:
     """A running box with a second link, and its file."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+    port = free_port()
     with config.open("a") as file:
         file.write(f'[[link]]\nname = "shack"\nprotocol = "rotctld"\ntcp = "127.0.0.1:{port}"\n')
     running = start("run", "--config", config)

@@ -37,6 +37,7 @@ def test_it_says_where_to_connect(start: Start, config: Path) -> None:
     greeting = box.until(r"azimuth 0°  elevation 0°\n")
     assert re.fullmatch(
         r"rotator \d\S*: a SIMULATED rotor\n  gs232b      gs232  \([^)]*/dev/pts/\d+\)\n"
+        r"  page        http://127\.0\.0\.1:8232  \((listening|closed)\)\n"
         r"azimuth 0°  elevation 0°\n",
         greeting,
     )
@@ -86,19 +87,21 @@ def test_every_fault_of_the_file_at_once_and_nothing_touched(rotator: Rotator, c
 
 
 @pytest.mark.parametrize("content", [None, b"[rotor\n", b"\xff\xfe[rotor]\n"], ids=["missing", "no TOML", "no text"])
-def test_a_file_that_cannot_be_read(rotator: Rotator, tmp_path: Path, content: bytes | None) -> None:
+def test_a_file_that_cannot_be_read(rotator_here: Rotator, tmp_path: Path, content: bytes | None) -> None:
     path = tmp_path / "mine.toml"
     if content is not None:
         path.write_bytes(content)
-    done = rotator("run", "--config", path)
+    done = rotator_here("run", "--config", path)
     assert done.returncode == 2
     assert done.stderr.startswith(f"{path}: 1 mistake\n  ")
     assert "Traceback" not in done.stderr
 
 
-def test_a_real_station_s_bad_file_is_refused_before_its_hardware_is_looked_for(rotator: Rotator, config: Path) -> None:
+def test_a_real_station_s_bad_file_is_refused_before_its_hardware_is_looked_for(
+    rotator_here: Rotator, config: Path
+) -> None:
     config.write_text('[rotor]\nhardware = "pi"\n[relays]\nchip = "/dev/gpiochip99"\ndead_time_s = 0\n')
-    done = rotator("run", "--config", config)
+    done = rotator_here("run", "--config", config)
     assert done.returncode == 2
     assert "relays.dead_time_s = 0: must be greater than or equal to 0.05" in done.stderr
     assert "gpiochip" not in done.stderr
@@ -107,9 +110,9 @@ def test_a_real_station_s_bad_file_is_refused_before_its_hardware_is_looked_for(
 # --- what is missing is said in a sentence
 
 
-def test_missing_hardware(rotator: Rotator, config: Path) -> None:
+def test_missing_hardware(rotator_here: Rotator, config: Path) -> None:
     config.write_text('[rotor]\nhardware = "pi"\n[relays]\nchip = "/dev/gpiochip99"\n')
-    done = rotator("run", "--config", config)
+    done = rotator_here("run", "--config", config)
     assert done.returncode == 1
     assert done.stderr.startswith("rotator: GPIO")
     assert "/dev/gpiochip99" in done.stderr
@@ -117,9 +120,9 @@ def test_missing_hardware(rotator: Rotator, config: Path) -> None:
 
 
 @pytest.mark.skipif(bool(list(Path("/dev").glob("gpiochip*"))), reason="this machine has GPIO")
-def test_no_gpio_at_all(rotator: Rotator, config: Path) -> None:
+def test_no_gpio_at_all(rotator_here: Rotator, config: Path) -> None:
     config.write_text('[rotor]\nhardware = "pi"\n')
-    done = rotator("run", "--config", config)
+    done = rotator_here("run", "--config", config)
     assert (done.returncode, len(done.stderr.splitlines())) == (1, 1)
     assert "found none at all" in done.stderr
 

@@ -70,10 +70,20 @@ def test_it_looks_where_the_whole_program_looks(tmp_path: Path, text: str) -> No
 
 
 @pytest.mark.parametrize(
-    "arguments", [["--help"], ["now"], ["--config"], ["--config", "missing.toml"], ["--config", "a", "b"], ["-h"]]
+    "arguments",
+    [["--help"], ["now", "--help"], ["--config"], ["--config", "missing.toml"], ["--config", "a", "--yes"], ["-h"]],
 )
 def test_the_unusual_goes_the_long_way(arguments: list[str]) -> None:
     assert not stop.stop_at_once(arguments)
+
+
+@pytest.mark.parametrize("words", [["now"], ["azimuth", "please"], ["!"]])
+def test_a_stop_counts_whatever_words_follow_it(tmp_path: Path, words: list[str]) -> None:
+    config = tmp_path / "rotator.toml"
+    config.write_text(f'[monitor]\npath = "{tmp_path}/monitor"\n')
+    with console(tmp_path / "console", b"ok\n") as heard:
+        assert stop.stop_at_once(["--config", str(config), *words])
+    assert heard == [b"stop\n"]
 
 
 @pytest.mark.parametrize("text", ["[state", "state = 3", "[state]\npath = 3", "[monitor]\npath = []", "\x00"])

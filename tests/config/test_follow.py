@@ -4,21 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.config.load import ConfigError, parse
-
-
-def faults(text: str) -> list[str]:
-    try:
-        parse(text, "x")
-    except ConfigError as refused:
-        return [mistake.text for mistake in refused.mistakes]
-    return []
-
-
-def link(protocol: str, **keys: str) -> str:
-    return "\n".join(
-        ("[[link]]", f'protocol = "{protocol}"', *(f'{key} = "{value}"' for key, value in keys.items()), "")
-    )
+from rotator.config.load import parse
+from tests.config.texts import faults, link
 
 
 def test_it_has_a_place_and_a_pace() -> None:

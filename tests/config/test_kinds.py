@@ -10,7 +10,7 @@ from hw.ports import AngleSource, Axis
 from rotator.assembly.kinds import builder
 from rotator.assembly.station import off_lines as lines_that_stop
 from rotator.config.kinds import KINDS, KindName
-from rotator.config.load import parse
+from rotator.config.load import ConfigError, parse
 from rotator.config.model import Config
 from rotator.setup.pins import off_levels
 
@@ -29,6 +29,19 @@ def test_every_kind_is_in_both_tables() -> None:
 @pytest.mark.parametrize("name", KINDS)
 def test_the_configuration_makes_the_kind_that_it_names(name: KindName) -> None:
     assert type(of(name).kind) is KINDS[name]
+
+
+@pytest.mark.parametrize(
+    ("cam", "most_deg"),
+    [
+        ("play_deg = 1.2", "1"),
+        ("closed_deg = 4\nplay_deg = 1", "1"),
+        ("spacing_deg = 6\nclosed_deg = 3\nplay_deg = 10", "3"),
+    ],
+)
+def test_a_gear_with_more_play_than_a_closure_is_wide_cannot_be_homed_and_is_refused(cam: str, most_deg: str) -> None:
+    with pytest.raises(ConfigError, match=rf"elevation: play_deg \(.*\) must be below {most_deg},"):
+        of("relay-pulse", f"[pulses.elevation]\n{cam}\n")
 
 
 @pytest.mark.parametrize(

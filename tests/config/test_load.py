@@ -11,15 +11,15 @@ import pytest
 from rotator.config.links import FOLLOW, ProtocolName
 from rotator.config.load import ConfigError, load, parse, shipped
 from rotator.config.model import Config
+from tests.config.texts import faults
 
 LINK = '[[link]]\nprotocol = "gs232b"\npty = "run/gs232"\n'
 
 
-def faults(text: str) -> list[str]:
+def test_it_says_which_file_is_mistaken() -> None:
     with pytest.raises(ConfigError) as refused:
-        parse(text, "station.toml")
+        parse("[rotr]", "station.toml")
     assert refused.value.name == "station.toml"
-    return [mistake.text for mistake in refused.value.mistakes]
 
 
 # --- a good file
@@ -206,6 +206,13 @@ def test_not_there_but_one_like_it(tmp_path: Path) -> None:
     (tmp_path / "rotator.toml").write_text(LINK)
     with pytest.raises(ConfigError, match=r"did you mean .*/rotator\.toml\?"):
         load(tmp_path / "rotater.toml")
+
+
+def test_not_there_and_nothing_like_it(tmp_path: Path) -> None:
+    """The ending, which all have, makes no two names alike."""
+    (tmp_path / "spid.toml").write_text(LINK)
+    with pytest.raises(ConfigError, match=r"there is no such file: `rotator config --ask"):
+        load(tmp_path / "missing.toml")
 
 
 def test_a_folder(tmp_path: Path) -> None:

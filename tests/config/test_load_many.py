@@ -13,15 +13,9 @@ from hypothesis import strategies as st
 
 from rotator.config.load import ConfigError, parse
 from rotator.config.model import Config
+from tests.config.texts import faults
 
 LINK = '[[link]]\nprotocol = "gs232b"\npty = "run/gs232"\n'
-
-
-def faults(text: str) -> list[str]:
-    with pytest.raises(ConfigError) as refused:
-        parse(text, "station.toml")
-    assert refused.value.name == "station.toml"
-    return [mistake.text for mistake in refused.value.mistakes]
 
 
 # --- several at once

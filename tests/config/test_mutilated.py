@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from rotator.config.load import SIMULATED, ConfigError, parse, profiles, shipped
 from rotator.config.model import Config
+from tests.search import examples
 
 FILES = [shipped(name) for name in (SIMULATED, *profiles())]
 STRAY = st.sampled_from(
@@ -76,7 +77,7 @@ def mutilated(data: st.DataObject) -> str:
     return "\n".join(rows)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(data=st.data())
 def test_it_loads_as_it_reads_or_says_in_which_line_the_mistake_is(data: st.DataObject) -> None:
     text = mutilated(data)
@@ -98,7 +99,7 @@ def test_it_loads_as_it_reads_or_says_in_which_line_the_mistake_is(data: st.Data
     assert [mistake.place for mistake in mistakes] == sorted(mistake.place for mistake in mistakes)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=examples(100), deadline=None)
 @given(text=st.text(st.sampled_from("[]{}=\"'#,.-_ \n\tab01°\r\0\u00a0"), max_size=60))
 def test_any_characters_at_all(text: str) -> None:
     try:

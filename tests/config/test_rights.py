@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from rotator.config.load import ConfigError, parse
+from rotator.config.load import parse
 from rotator.config.model import Config
+from tests.config.texts import faults
 
 LINK = '[[link]]\nprotocol = "rotctld"\ntcp = "0.0.0.0:4533"\n'
-
-
-def faults(text: str) -> list[str]:
-    with pytest.raises(ConfigError) as refused:
-        parse(text, "x")
-    return [mistake.text for mistake in refused.value.mistakes]
 
 
 def test_left_out_everybody_may_everything() -> None:

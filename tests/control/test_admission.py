@@ -196,6 +196,16 @@ def test_only_an_axis_that_cannot_measure_takes_a_confirmed_angle() -> None:
     assert refusal(Confirm(Axis.AZIMUTH, 42.0), told, MOUNT) is None
 
 
+def test_the_angle_of_an_axis_that_turns_is_not_confirmed_but_that_of_the_other_is() -> None:
+    told = status()
+    axis = replace(told.azimuth, confirmable=True)
+    told = replace(told, azimuth=replace(axis, moving=True), elevation=replace(axis, moving=False))
+    refused = refusal(Confirm(Axis.AZIMUTH, 42.0), told, MOUNT)
+    assert refused is not None
+    assert "azimuth turns: stop it" in refused.reason
+    assert refusal(Confirm(Axis.ELEVATION, 42.0), told, MOUNT) is None
+
+
 def relays_checked(azimuth: AxisStatus) -> str:
     answer = refusal(RelaysChecked(Axis.AZIMUTH), replace(status(), azimuth=azimuth), MOUNT)
     return answer.reason if answer else ""

@@ -372,7 +372,7 @@ def test_at_manual_and_jog_the_panel_alone_moves_the_antenna(mode: Mode, panel_m
 
 def test_a_stop_ends_a_storm_park_and_what_it_latched_stays(authority: Authority) -> None:
     authority.begin_storm(CONSOLE)
-    assert (authority.latched, authority.storm) == ("console: storm park", True)
+    assert (authority.latched, authority.storm) == ("console", True)
     authority.stopped(PST, 1.0, latch=False)
     assert (authority.latched, authority.storm) == ("gs232b#1, in a storm park", False)
     authority.stopped_axis(GPREDICT, 1.0)

@@ -19,6 +19,7 @@ from rotator.orders import (
     ClearTimed,
     Confirm,
     Fly,
+    GiveBack,
     Home,
     Jog,
     Leave,
@@ -37,6 +38,7 @@ from rotator.orders import (
     Speed,
     Step,
     Stop,
+    Take,
 )
 from tests.search import examples
 
@@ -88,6 +90,8 @@ others = st.one_of(
     st.builds(Remark, axes, st.sampled_from(["", "its wire is broken"])),
     st.just(Leave()),
     st.builds(RelaysChecked, axes),
+    st.builds(Take),
+    st.builds(GiveBack),
 )
 healthy = st.floats(0.02, 0.98)
 raws = healthy | st.sampled_from([None, 0.0, 0.019, 0.02, 0.05, 0.95, 0.98, 1.0, math.nan, math.inf, -math.inf])

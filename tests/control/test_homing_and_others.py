@@ -69,7 +69,7 @@ def test_a_storm_park_ends_the_homing_and_all_that_wait(counted: Desk) -> None:
         counted.step()
         assert not counted.status.azimuth.homing
         assert not counted.status.elevation.homing
-    assert counted.status.latched == "console: storm park"
+    assert (counted.status.latched, counted.status.storm) == ("console", True)
     assert counted.angle_deg[AZ] == pytest.approx(0.0, abs=4.0)
     assert counted.angle_deg[EL] == pytest.approx(0.0, abs=4.0)
     counted.step(Release(), by=CONSOLE)

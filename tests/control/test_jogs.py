@@ -22,16 +22,16 @@ class TurningAxis:
 
     def __init__(self) -> None:
         self.begun: list[tuple[Direction, float | None, float]] = []
-        self.jogs_without_end = False
+        self.jog_is_held = False
         self.missing: tuple[Missing, ...] = ()
-        self.driven = False
+        self.driven = self.pressed_in_vain = False
 
-    def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
+    def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
         self.begun.append((direction, seconds, now_s))
-        self.jogs_without_end = seconds is None
+        self.jog_is_held = held or seconds is None
 
     def halt(self) -> None:
-        self.jogs_without_end = False
+        self.jog_is_held = False
         self.begun.clear()
 
 
@@ -85,7 +85,7 @@ def test_both_axes_of_one_connection_end(jogs: Jogs, axes: dict[Axis, TurningAxi
 
 def test_an_axis_that_does_something_else_by_now_goes_on(jogs: Jogs, axes: dict[Axis, TurningAxis]) -> None:
     jogs.begin(Jog(AZ, PLUS, None), LINK, 20.0)
-    axes[AZ].jogs_without_end = False  # it aims
+    axes[AZ].jog_is_held = False  # it aims
     jogs.end(LINK)
     assert axes[AZ].begun
 
@@ -106,8 +106,24 @@ def test_a_link_s_presses_on_an_axis_that_is_not_commissioned_make_one_turn_of_t
     jogs.note_driven(22.7)
     jogs.begin(Jog(AZ, PLUS, 1.0), LINK, 22.7)
     assert len(axes[AZ].begun) == 2, "it rests for 0.8 s first"
+    jogs.begin(Jog(AZ, PLUS, 1.0), Source("page", 1), 22.7)
+    assert len(axes[AZ].begun) == 2, "and so it is for the page, where a program may press"
     jogs.begin(Jog(AZ, PLUS, 1.0), Source("console"), 22.7)
     assert len(axes[AZ].begun) == 3, "a person may press"
     jogs.note_driven(22.9)
     jogs.begin(Jog(AZ, PLUS, 1.0), LINK, 22.9)
     assert len(axes[AZ].begun) == 4
+
+
+@pytest.mark.parametrize("person", ["console", "panel", "page", "calibrate"])
+def test_where_presses_moved_nothing_a_person_may_press_and_a_link_may_not(
+    jogs: Jogs, axes: dict[Axis, TurningAxis], person: str
+) -> None:
+    axes[AZ].missing, axes[AZ].pressed_in_vain = (Missing.CALIBRATION,), True
+    for source in (LINK, OTHER):
+        jogs.begin(Jog(AZ, PLUS), source, 20.0)
+    assert axes[AZ].begun == []
+    jogs.begin(Jog(AZ, PLUS), Source(person, 1), 20.0)
+    assert len(axes[AZ].begun) == 1
+    jogs.begin(Jog(AZ, Direction.OFF), LINK, 20.5)
+    assert axes[AZ].begun[-1][0] is Direction.OFF, "to let go is never refused"

@@ -15,6 +15,7 @@ from rotator.control.commands import Place
 from rotator.control.rights import TABLE, Deed, Effect, State
 from rotator.orders import (
     Aim,
+    Calibrate,
     Confirm,
     Home,
     Jog,
@@ -28,6 +29,7 @@ from rotator.orders import (
     SetMode,
     Source,
     Stop,
+    Take,
 )
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -70,6 +72,11 @@ def silenced(desk: Any) -> None:
     desk.run(1.0)
 
 
+def held(desk: Any) -> None:
+    desk.step(Take(), by=Source("page", 1))
+    desk.run(1.0)
+
+
 def storm(desk: Any) -> None:
     desk.step(Park(storm=True), by=CONSOLE)
 
@@ -85,6 +92,11 @@ def switched(mode: Mode) -> Callable[[Any], None]:
         desk.step(SetMode(mode), by=PANEL)
 
     return switch
+
+
+def own_jog(desk: Any) -> None:
+    desk.step(Aim(*FARTHER), by=OTHER)
+    desk.step(SetMode(Mode.JOG), by=PERSON)
 
 
 def fault(desk: Any) -> None:
@@ -104,11 +116,13 @@ SET_UP: dict[State, Callable[[Any], None]] = {
     State.IDLE_PARK: idle_park,
     State.HOMING: homing,
     State.SILENCED: silenced,
+    State.HELD: held,
     State.STORM: storm,
     State.STOPPED: stopped,
     State.AT_PARK: switched(Mode.PARK),
     State.AT_MANUAL: switched(Mode.MANUAL),
     State.AT_JOG: switched(Mode.JOG),
+    State.OWN_JOG: own_jog,
     State.FAULT: fault,
 }
 ORDERS: dict[Deed, tuple[Source, Order]] = {
@@ -122,6 +136,7 @@ ORDERS: dict[Deed, tuple[Source, Order]] = {
     Deed.HOME: (PERSON, Home(EL)),
     Deed.CONFIRM: (PERSON, Confirm(EL, 12.0)),
     Deed.MODE: (PANEL, SetMode(Mode.AUTO)),
+    Deed.TAKE: (PERSON, Take()),
     Deed.LET_GO: (PERSON, LetGo()),
 }
 
@@ -172,6 +187,8 @@ def did_its_own(desk: Any, deed: Deed, state: State) -> bool:
             return Place(EL, 12.0) in errands
         case Deed.MODE:
             return status.mode is Mode.AUTO
+        case Deed.TAKE:
+            return str(status.held_by) == str(PERSON)
         case Deed.LET_GO:
             return LetGo() in errands and bool(status.latched)
 
@@ -182,6 +199,8 @@ def test_each_cell(new_desk: Any, state: State, deed: Deed) -> None:
     effect = TABLE[state][deed]
     desk, twin = in_state(new_desk, state), in_state(new_desk, state)
     source, order = ORDERS[deed]
+    if state is State.OWN_JOG:
+        source = PERSON
     if state in (State.AT_PARK, State.AT_MANUAL, State.AT_JOG) and deed is Deed.MODE:
         assert desk.status.mode is not Mode.AUTO
     desk.step(order, by=source)
@@ -221,6 +240,36 @@ def test_every_state_and_order_has_its_cell() -> None:
     assert set(TABLE) == set(State) == set(SET_UP)
     assert set(ORDERS) == set(Deed)
     assert all(set(row) == set(Deed) for row in TABLE.values())
+
+
+# --- a calibration over a link: after it every angle means another place
+
+
+HOLDING = [State.SILENCED, State.HELD, State.STORM, State.STOPPED, State.AT_PARK, State.AT_MANUAL, State.AT_JOG]
+
+
+@pytest.mark.parametrize("state", HOLDING, ids=lambda state: state.name)
+def test_what_holds_the_antenna_back_from_a_link_holds_its_calibration_too(new_desk: Any, state: State) -> None:
+    desk = new_desk(at=(5.0, 35.0), park=PARKED)
+    desk.step()
+    SET_UP[state](desk)
+    desk.step(Stop(), by=OTHER)
+    desk.run(3.0)
+    before = desk.status.azimuth.calibration
+    desk.step(Calibrate(AZ, high_end=False), by=LINK)
+    assert desk.status.azimuth.calibration == before
+    assert any(str(LINK) in notice for notice in desk.status.notices), "and it is said"
+
+
+def test_after_resume_the_link_calibrates_again(new_desk: Any) -> None:
+    desk = new_desk(at=(5.0, 35.0))
+    desk.step(Stop(latch=True), by=CONSOLE)
+    desk.step(Calibrate(AZ, high_end=False), by=LINK)
+    assert desk.status.azimuth.angle_deg == pytest.approx(5.0)
+    desk.step(Release(), by=CONSOLE)
+    desk.step(Calibrate(AZ, high_end=False), by=LINK)
+    desk.step()
+    assert desk.status.azimuth.angle_deg == pytest.approx(0.0)
 
 
 # --- what the display says is true

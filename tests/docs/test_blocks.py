@@ -12,7 +12,6 @@ import select
 import shlex
 import shutil
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -27,6 +26,7 @@ from docs.blocks import LEFT_OUT, PROMPTS, Step, every_step, matches, steps
 from docs.words import ROOT
 from rotator.cli.main import cli
 from rotator.config.load import shipped
+from tests.boxes import free_port
 
 PATIENCE_S = 30.0
 PAGES = sorted({step.page for step in every_step() if step.prompt == "$"})
@@ -76,9 +76,7 @@ def endless(step: Step) -> bool:
 @pytest.fixture(scope="module")
 def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Bench]:
     folder = tmp_path_factory.mktemp("box")
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+    port = free_port()
     file = folder / "box.toml"
     file.write_text(shipped("simulated").replace("127.0.0.1:4533", f"127.0.0.1:{port}"), encoding="utf-8")
     environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}", "COLUMNS": "120"}

@@ -224,7 +224,7 @@ def test_stop_and_limits_are_drawn_as_their_tables_say(drawn: dict[str, tuple[Sh
 
 def test_the_header_is_the_one_in_the_table_of_the_wiring_page() -> None:
     page = (IMAGES.parent / "wiring.md").read_text(encoding="utf-8")
-    rows = re.findall(r"\| (\d+)(?: \(S\w+\))? \| (\d+) \|", page)
+    rows = re.findall(r"\| (\d+)(?: \(S\w+\))? \| (\d+)\b", page)
     assert len(rows) >= 13
     assert all(GPIO_PINS[int(gpio)] == int(pin) for gpio, pin in rows)
 

@@ -31,7 +31,11 @@ def told(pi: Pi, answer: Any) -> list[tuple[str, str]]:
         ("you may not use /run/rotator/console: use sudo", ("–", "you may not use /run/rotator/console: use sudo")),
         (HEALTHY, ("✓", "it runs, and no axis has a fault")),
         (replace(HEALTHY, azimuth=replace(HEALTHY.azimuth, fault=FAULT)), ("✗", str(FAULT))),
-        (replace(HEALTHY, latched="console#4"), ("!", "stopped by a rotator command: nothing moves")),
+        (replace(HEALTHY, latched="console#4"), ("!", "stopped by a rotator command: nothing moves until resume")),
+        (
+            replace(HEALTHY, latched="console#4", storm=True),
+            ("!", "storm park by a rotator command: nothing else moves it until resume"),
+        ),
         (replace(HEALTHY, mode=Mode.PARK), ("!", "the panel's switch is at PARK: programs move nothing")),
         (
             replace(HEALTHY, notices=("orders from x are ignored",)),

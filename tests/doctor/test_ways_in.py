@@ -103,7 +103,7 @@ def test_a_port_that_hamlib_has(pi: Pi, taken: int) -> None:
     pi.station(tcp(f"127.0.0.1:{taken}"))
     listens(pi, taken, ["rotctld", "-m", "1"])
     finding = pi.only("TCP ports")
-    assert (finding.ok, finding.found) == (False, f"127.0.0.1:{taken} is taken by rotctld -m 1")
+    assert (finding.ok, finding.found) == (False, f"127.0.0.1:{taken} is taken by rotctld")
     assert "another port" in finding.advice
 
 
@@ -117,7 +117,16 @@ def test_a_port_that_hamlib_has(pi: Pi, taken: int) -> None:
 def test_a_port_that_the_running_box_has(pi: Pi, taken: int, command: list[str]) -> None:
     pi.station(tcp(f"127.0.0.1:{taken}"))
     listens(pi, taken, command)
+    pi.change(ask_box=lambda: "you may not use /run/rotator/console")
     assert (pi.only("TCP ports").mark, pi.only("TCP ports").found) == ("✓", f"127.0.0.1:{taken}: the running box")
+
+
+def test_a_port_that_the_box_of_another_folder_has(pi: Pi, taken: int) -> None:
+    """No box runs with this configuration: its start would fail."""
+    pi.station(tcp(f"127.0.0.1:{taken}"))
+    listens(pi, taken, ["rotator", "run"])
+    found = f"127.0.0.1:{taken} is taken by a box with another configuration"
+    assert (pi.only("TCP ports").mark, pi.only("TCP ports").found) == ("✗", found)
 
 
 def test_a_port_taken_by_a_process_of_another_user(pi: Pi, taken: int) -> None:
@@ -191,6 +200,7 @@ def test_a_free_udp_port_though_the_tcp_port_is_taken(pi: Pi, taken: int) -> Non
 def test_a_udp_port_that_is_taken(pi: Pi, heard: int, command: list[str], mark: str, found: str) -> None:
     pi.station(udp(f"127.0.0.1:{heard}"))
     listens(pi, heard, command)
+    pi.change(ask_box=lambda: "you may not use /run/rotator/console")
     pi.write("/proc/net/udp", pi.machine.at("/proc/net/tcp").read_text().replace(" 0A ", " 07 "))
     pi.machine.at("/proc/net/tcp").unlink()
     assert (pi.only("UDP ports").mark, pi.only("UDP ports").found) == (mark, f"127.0.0.1:{heard}{found}")

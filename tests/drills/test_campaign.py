@@ -31,7 +31,7 @@ def test_a_campaign_tells_what_each_kind_was_put_through() -> None:
 
 
 def test_a_campaign_is_the_same_each_time() -> None:
-    first, second = (run(11, 0.005, "moteus") for _ in range(2))
+    first, second = (run(11, 0.002, "moteus") for _ in range(2))
     assert [each.drill for each in first[1]] == [each.drill for each in second[1]]
     assert first[0]["moteus"].hours == second[0]["moteus"].hours
 

@@ -382,3 +382,20 @@ def test_a_target_that_moves_across_the_end_is_followed_to_that_end_and_no_jump_
             mast.order("rotctld", "aim", azimuth_deg, 0.0)
             assert mast.run(1.0, coil=1) == []
         assert mast.run(3.0, coil=1) == found
+
+
+@pytest.mark.parametrize(("ran_on_s", "excused"), [(0.5, True), (1.0, False)])
+def test_what_holds_a_welded_axis_within_its_coast_cannot_be_told_from_a_coast(ran_on_s: float, excused: bool) -> None:
+    mast = Mast()
+    mast.case.misplaced = True
+    mast.azimuth.welded = True
+    mast.order("gs232b", "aim", 300.0, 0.0)
+    mast.run(2.0, coil=1)
+    mast.order("gs232b", "stop")
+    mast.run(ran_on_s, coil=0, power=1)
+    mast.azimuth.stop_high_deg = mast.azimuth.shaft_deg
+    mast.run(2.0, coil=0, power=1, dps=0.0)
+    mast.order("gs232b", "aim", 10.0, 0.0)
+    mast.run(STEP_S, coil=-1, power=1, dps=0.0)
+    mast.azimuth.shorted_s = 0.02
+    assert (judges.BOTH_FED in mast.run(STEP_S, coil=-1, power=0)) is not excused

@@ -45,8 +45,15 @@ def test_a_notice_is_a_word_and_so_is_a_line_in_the_log() -> None:
     for room in (for_notice, for_line):
         room.silence.begin("azimuth-every:18", 0.0)
     assert for_notice.listen(60.0, TOLD) == []
-    for_line.words.emit(logging.makeLogRecord({"msg": "bad readings"}))
+    for_line.words.emit(logging.makeLogRecord({"name": "rotator.runtime.journal", "msg": "bad readings"}))
     assert for_line.listen(60.0) == []
+
+
+def test_that_a_target_is_tracked_no_longer_tells_no_fault() -> None:
+    room = Room()
+    room.silence.begin("azimuth-every:18", 0.0)
+    room.words.emit(logging.makeLogRecord({"name": "rotator.tracking.tracker", "msg": "tracking has ended"}))
+    assert room.listen(60.0) == [SILENCE]
 
 
 def test_a_reading_that_is_bad_now_and_then_need_not_be_told() -> None:

@@ -10,6 +10,10 @@ from pathlib import Path
 import pytest
 
 from benchmarks.kinds import KINDS, PASS_NAMES, Flight, fly_all, markdown
+from rotator.cli.rehearse import simulated
+from rotator.config.load import parse, shipped
+from rotator.rehearsal.flight import fly, plant_maker
+from rotator.rehearsal.passes import find_pass
 
 PAGE = Path(__file__).parents[2] / "docs" / "pointing.md"
 MOTEUS_W, MOTEUS_P = "moteus (isel), `W` in whole degrees", "moteus (isel), `P %.2f`"
@@ -74,6 +78,14 @@ def test_motors_that_go_to_an_angle_fly_without_relays(
     summary = flown[kind, "mid-1-iss"].summary
     assert summary.relay_starts is None
     assert summary.p95_deg < p95_deg
+
+
+@pytest.mark.parametrize("name", ["f1efw", "g5500", "spid"])
+def test_the_shipped_file_of_a_rotor_with_pots_flies_a_pass(name: str) -> None:
+    _, summary = fly(find_pass("mid-1-iss"), plant_maker(simulated(parse(shipped(name), name))))
+    assert summary.relay_starts is not None
+    assert 0 < summary.relay_starts < 100
+    assert summary.rms_deg < 4.0
 
 
 @pytest.mark.parametrize("name", NOT_NORTH)

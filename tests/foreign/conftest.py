@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import select
 import signal
-import socket
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -14,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
-START_S = 20.0
+from tests.boxes import FAST_ROTOR, free_port
 
-FAST_ROTOR = (Path(__file__).parents[1] / "fast_rotor.toml").read_text(encoding="utf-8")
+START_S = 20.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,23 +31,12 @@ class RunningBox:
         return self.process.wait(timeout=START_S)
 
 
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
-
-
-@pytest.fixture
-def free_port() -> Callable[[], int]:
-    return _free_port
-
-
 @pytest.fixture
 def start_box(tmp_path: Path) -> Iterator[Callable[..., RunningBox]]:
     boxes: list[subprocess.Popen[str]] = []
 
     def start(dialect: str = "gs232b", extra: str = FAST_ROTOR, links: str = "") -> RunningBox:
-        pty, gs232_port, rotctld_port = tmp_path / "gs232", _free_port(), _free_port()
+        pty, gs232_port, rotctld_port = tmp_path / "gs232", free_port(), free_port()
         config = tmp_path / "rotator.toml"
         config.write_text(
             f'{extra}\n[state]\npath = "{tmp_path / "state.json"}"\n[[link]]\nprotocol = "{dialect}"\npty = "{pty}"\n'

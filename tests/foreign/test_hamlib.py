@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING
 import pytest
 import serial
 
+from tests.boxes import FAST_ROTOR
+
 if TYPE_CHECKING:
     from tests.foreign.conftest import RunningBox
 
 Start = Callable[..., "RunningBox"]
-FAST_ROTOR = Path(__file__).parents[1] / "fast_rotor.toml"
 TOLERANCE_DEG = 4.5
 """What the box promises, and half a degree for whole-degree replies."""
 DIALECTS = {
@@ -242,7 +243,7 @@ def test_a_telescope(
     start_box: Start, need_program: Callable[[str, str], str], rotctl: Callable[..., str], over: str
 ) -> None:
     """Model 1801 stops the antenna when it disconnects: one rotctl goes on, and rotctld tells when it has arrived."""
-    box = start_box(DIALECTS[1801], FAST_ROTOR.read_text(encoding="utf-8") + '[station]\nlocator = "JO62qm"\n')
+    box = start_box(DIALECTS[1801], FAST_ROTOR + '[station]\nlocator = "JO62qm"\n')
     command = [need_program("rotctl", "libhamlib-utils"), "-m", "1801", "-r", str(place(box, over)), "-"]
     rotctld = f"127.0.0.1:{box.rotctld_port}"
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as telescope:

@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.boxes import free_port
+
 if TYPE_CHECKING:
     from tests.foreign.conftest import RunningBox
 
@@ -83,7 +85,7 @@ DIFFERENT = {
 
 
 @pytest.fixture
-def genuine_port(need_program: Callable[[str, str], str], free_port: Callable[[], int]) -> Iterator[int]:
+def genuine_port(need_program: Callable[[str, str], str]) -> Iterator[int]:
     program, port = need_program("rotctld", "libhamlib-utils"), free_port()
     server = subprocess.Popen(
         [program, "-m", "1", "-T", "127.0.0.1", "-t", str(port)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL

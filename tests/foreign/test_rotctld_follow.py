@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.boxes import free_port
+
 if TYPE_CHECKING:
     from tests.foreign.conftest import RunningBox
 
@@ -66,7 +68,7 @@ def points_at(rotctl: Rotctl, port: int, azimuth_deg: float, elevation_deg: floa
 
 
 def test_the_antenna_goes_where_the_dummy_is_sent(
-    start_box: Start, rotctl: Rotctl, need_program: Callable[[str, str], str], free_port: Callable[[], int]
+    start_box: Start, rotctl: Rotctl, need_program: Callable[[str, str], str]
 ) -> None:
     program, source = need_program("rotctld", "libhamlib-utils"), free_port()
     box = start_box(links=f'[[link]]\nprotocol = "rotctld-follow"\nconnect = "127.0.0.1:{source}"\npoll_s = 0.05\n')

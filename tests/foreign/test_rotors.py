@@ -16,6 +16,7 @@ from pathlib import Path
 import pytest
 
 from rotator.config.load import shipped
+from tests.boxes import free_port
 
 START_S = 20.0
 PATIENCE_S = 60.0
@@ -34,7 +35,7 @@ class RunningRotor:
 
 
 @pytest.fixture
-def start(tmp_path: Path, free_port: Callable[[], int]) -> Iterator[Callable[[str], RunningRotor]]:
+def start(tmp_path: Path) -> Iterator[Callable[[str], RunningRotor]]:
     processes: list[subprocess.Popen[str]] = []
 
     def run(profile: str) -> RunningRotor:

@@ -15,6 +15,7 @@ from rotator.protocols import macdoppler, n1mm, wsjtx
 from rotator.protocols.macdoppler import SatelliteReport
 from rotator.protocols.n1mm import Go, Halt
 from rotator.protocols.wsjtx import BodyDirection
+from tests.boxes import free_udp_ports
 
 if TYPE_CHECKING:
     from tests.foreign.conftest import RunningBox
@@ -73,15 +74,7 @@ def hearing(port: int = 0) -> socket.socket:
 
 @pytest.fixture
 def udp_port() -> int:
-    """One whose neighbour is free too."""
-    while True:
-        with hearing() as one:
-            port = int(one.getsockname()[1])
-            try:
-                hearing(port + 1).close()
-            except (OSError, OverflowError):
-                continue
-            return port
+    return free_udp_ports()
 
 
 @pytest.fixture

@@ -16,10 +16,11 @@ from rotator.assembly.settings import build_learnt
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.save import save_table
-from rotator.status import LearntMotor, Trust
+from rotator.status import Latch, LearntMotor, Trust
 from rotator.store.compass import CompassFile
 from rotator.store.counts import CountsFile, Place, Standing
 from rotator.store.knobs import KnobsFile
+from rotator.store.latch import LatchFile
 from rotator.store.relays import RelaysFile
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -85,6 +86,11 @@ def test_a_count_is_believed(tmp_path: Path, caplog: pytest.LogCaptureFixture) -
 def test_a_relay_in_doubt_stays_in_doubt(caplog: pytest.LogCaptureFixture) -> None:
     known = RelaysFile(FIRST / "relays.json").load()
     assert known == {AZ: (Trust.OPEN, Trust.WELDED), EL: (Trust.OPEN, Trust.OPEN)}
+    assert not caplog.records
+
+
+def test_a_storm_park_of_then_still_holds_the_antenna(caplog: pytest.LogCaptureFixture) -> None:
+    assert LatchFile(FIRST / "latch.json").load() == Latch("console#3 before the restart", storm=True)
     assert not caplog.records
 
 

@@ -23,6 +23,7 @@ from rotator.store.counts import LOST, CountsFile
 from rotator.store.forms import Form
 from rotator.store.json_file import JsonFile, decode
 from rotator.store.knobs import KnobsFile
+from rotator.store.latch import DAMAGED, LatchFile
 from rotator.store.learnt import LearntFile
 from rotator.store.relays import UNKNOWN, RelaysFile
 
@@ -75,6 +76,15 @@ def test_every_relay_is_looked_at_before_one_closes(later: Path, caplog: pytest.
     file = RelaysFile(later)
     assert file.load() == {AZ: UNKNOWN, EL: UNKNOWN}
     file.save({AZ: (Trust.OPEN, Trust.WELDED), EL: ALL_OPEN}, ending=True)
+    assert later.read_bytes() == before
+    assert_told(caplog, later)
+
+
+def test_a_stop_may_be_latched_there_so_the_box_begins_stopped(later: Path, caplog: pytest.LogCaptureFixture) -> None:
+    before = write_later(later, "latch")
+    file = LatchFile(later)
+    assert file.load() == DAMAGED
+    assert not file.save(None)
     assert later.read_bytes() == before
     assert_told(caplog, later)
 

@@ -17,12 +17,13 @@ import pytest
 
 from rotator.app import App
 from rotator.config.load import parse
-from tests.foreign.conftest import free_port, start_box
+from tests.boxes import free_port
+from tests.foreign.conftest import start_box
 from tests.gpredict.sky import Satellite, Station
 from tests.gpredict.tap import Tap, tapped
 from tests.gpredict.window import Gpredict, gpredict, screen, until, write_files
 
-__all__ = ["free_port", "start_box"]
+__all__ = ["start_box"]
 
 HOME = Station(latitude_deg=50.0, longitude_deg=10.0)
 OFF = (0, 0)
@@ -93,7 +94,7 @@ class WatchedBox:
 
 
 @pytest.fixture
-def watched_box(tmp_path: Path, free_port: Callable[[], int]) -> Iterator[Callable[[str], WatchedBox]]:
+def watched_box(tmp_path: Path) -> Iterator[Callable[[str], WatchedBox]]:
     """A simulated station of the given rotor, running until the test's end; then every relay is off."""
     with ExitStack() as running:
 

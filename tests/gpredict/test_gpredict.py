@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rotator.control.senders import PAUSE_S
+from tests.boxes import FAST_ROTOR
 from tests.gpredict.conftest import HOME, OFF
 from tests.gpredict.sky import Satellite, Station, apart_deg
 from tests.gpredict.tap import Said
@@ -33,7 +34,6 @@ StartGpredict = Callable[..., "tuple[Gpredict, Tap]"]
 WatchBox = Callable[[str], "WatchedBox"]
 Ask = Callable[[bytes], bytes]
 
-FAST_ROTOR = (Path(__file__).parents[1] / "fast_rotor.toml").read_text(encoding="utf-8")
 SLOW_ROTOR = ""
 """The simulated Yaesu G-5500: 6°/s and 2.7°/s, so that a turn takes long enough to be stopped."""
 TOLERANCE_DEG = 4.0

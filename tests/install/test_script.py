@@ -62,6 +62,8 @@ def extras(config: Path, source: Path = PROJECT, profile: str = "simulated") -> 
         ('[rotor]\ntype = "digipot"\nhardware = "sim"\n[digipot]\nspi = "kernel"\n', ""),
         ('[rotor]\ntype = "digipot"\nhardware = "pi"\n', ""),
         ('[rotor]\ntype = "relay-pot"\nhardware = "pi"\n[adc]\nspi = "kernel"\n', "spidev"),
+        ('[rotor]\ntype = "relay-pot"\n[mqtt]\nbroker = "192.168.1.3:1883"\n', "paho"),
+        ('[rotor]\ntype = "relay-pot"\n[mqtt]\ntopic = "shack"\n', ""),
         ("rotor = 1\n", ""),
         ("this is no TOML", ""),
     ],
@@ -88,6 +90,7 @@ def test_it_puts_in_what_the_project_names() -> None:
     named = tomllib.loads((PROJECT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
     assert sourced('printf "%s\\n" "$MOTEUS" "${MOTEUS_NEEDS[@]}"').splitlines() == named["moteus"]
     assert sourced('echo "$SPIDEV"').splitlines() == named["spi"]
+    assert sourced('echo "$PAHO"').splitlines() == named["mqtt"]
 
 
 def test_moteus_comes_without_its_own_dependencies() -> None:

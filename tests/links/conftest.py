@@ -26,6 +26,7 @@ from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
+from tests.boxes import free_port
 
 PATIENCE_S = 30.0
 PERIOD_S = 0.05
@@ -154,6 +155,11 @@ class Log(logging.Handler):
             while self.count(words) < times:
                 self._more.clear()
                 await self._more.wait()
+
+
+@pytest.fixture
+def port() -> int:
+    return free_port()
 
 
 @pytest.fixture

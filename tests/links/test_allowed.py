@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import socket
 from collections.abc import Callable
 from typing import Any
 
@@ -37,13 +36,6 @@ PATIENCE_S = 30.0
 )
 def test_who_may(networks: list[str] | None, host: str, may: bool) -> None:
     assert Allowed(networks)(host) is may
-
-
-@pytest.fixture
-def port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 async def answer(port: int, from_host: str) -> bytes:

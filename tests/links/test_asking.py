@@ -5,7 +5,6 @@ antenna but a position that changes.
 from __future__ import annotations
 
 import asyncio
-import socket
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from typing import Any
@@ -73,13 +72,6 @@ async def listening(port: int, server: Server) -> AsyncIterator[Server]:
         listener.close()
         server.hang_up()
         await server.left()
-
-
-@pytest.fixture
-def port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 @pytest.fixture

@@ -24,6 +24,7 @@ from hypothesis import strategies as st
 
 from rotator.links.pty import PtyLink
 from rotator.links.wire import Wire
+from tests.search import examples
 
 Running = Callable[[PtyLink], Any]
 POSITION = b"AZ=235  EL=025\r\n"
@@ -277,7 +278,7 @@ async def heard(sessions: Sessions, written: bytes) -> None:
     await turns()
 
 
-@settings(max_examples=150)
+@settings(max_examples=examples(150))
 @given(steps)
 def test_any_programs_in_any_order(tmp_path_factory: pytest.TempPathFactory, script: list[tuple[str, int]]) -> None:
     """The box looks at moments of its own. Every byte is heard once and in order; and once it has seen the last program

@@ -16,6 +16,7 @@ from rotator.links.wire import LinkError, Wire
 from rotator.orders import Source
 from rotator.protocols.pstrotator import PstRotatorSession
 from rotator.runtime.client import Client
+from tests.boxes import free_udp_ports
 
 PATIENCE_S = 30.0
 Running = Callable[[UdpLink], Any]
@@ -57,16 +58,7 @@ class Program:
 
 @pytest.fixture
 def port() -> int:
-    """One whose neighbour is free too."""
-    while True:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one, socket.socket(type=socket.SOCK_DGRAM) as next_one:
-            one.bind(("127.0.0.1", 0))
-            port = int(one.getsockname()[1])
-            try:
-                next_one.bind(("127.0.0.1", port + 1))
-            except (OSError, OverflowError):
-                continue
-            return port
+    return free_udp_ports()
 
 
 class Sessions:

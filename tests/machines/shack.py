@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import select
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -25,6 +24,7 @@ import tomlkit
 from firmware_sim import world_file
 from firmware_sim.world_file import WorldState
 from rotator.config.load import shipped
+from tests.boxes import free_port
 
 START_S = 60.0
 """A busy machine takes long to load the program."""
@@ -33,12 +33,6 @@ PATIENCE_S = 150.0
 LOOK_S = 0.02
 STILL_DEG = 0.02
 """An antenna that turned less than this between two looks, half a second apart, stands."""
-
-
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
 
 
 def merge(into: Any, tables: Mapping[str, Any]) -> None:

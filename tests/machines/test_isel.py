@@ -14,8 +14,9 @@ import pytest
 
 pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps moteus")
 
+from tests.boxes import free_port
 from tests.machines.gpredict import Gpredict, dummy_rotor
-from tests.machines.shack import Shack, fly, free_port
+from tests.machines.shack import Shack, fly
 
 NEAR_DEG = 0.05
 """The rotctld's two decimals, and what a moteus leaves."""

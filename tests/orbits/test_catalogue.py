@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.orbits.catalogue import Catalogue, Unknown
+from rotator.orbits.catalogue import Catalogue, Found, Unknown, read_file
 from tests.orbits.skyfield_oracle import TLE
 from tests.orbits.test_omm import MESSAGE, as_csv
 from tests.orbits.test_tle import ISS, sums_up
@@ -75,6 +75,46 @@ def test_the_newest_set_of_a_satellite_counts(tmp_path: Path) -> None:
     assert found.epoch_utc_s == 1_740_873_600.0
 
 
+@pytest.mark.parametrize("years_ahead", ["9999", "2025"])
+def test_a_set_from_the_future_does_not_hide_a_sound_one(tmp_path: Path, years_ahead: str) -> None:
+    sound_s = 1_740_750_000
+    write(tmp_path / "own.json", json.dumps([MESSAGE]), sound_s)
+    wrong = MESSAGE | {"EPOCH": f"{years_ahead}-03-31T00:00:00"}
+    write(tmp_path / "sent.json", json.dumps([wrong]), sound_s)
+    (found,) = Catalogue([str(tmp_path)]).satellites
+    assert found.epoch_utc_s < sound_s
+    (alone,) = Catalogue([str(tmp_path / "sent.json")]).satellites
+    assert alone.epoch_utc_s > sound_s
+
+
+def test_a_file_whose_reader_failed_is_read_the_next_time(tmp_path: Path) -> None:
+    write(tmp_path / "one.json", json.dumps([MESSAGE]), 1000)
+    answers: list[Exception] = [RuntimeError("it takes longer than 120 s")]
+
+    def read(path: Path) -> Found:
+        if answers:
+            raise answers.pop()
+        return read_file(path)
+
+    catalogue = Catalogue([str(tmp_path / "one.json")], read=read)
+    assert catalogue.faults == (f"{tmp_path}/one.json: it takes longer than 120 s",)
+    assert catalogue.refresh()
+    assert catalogue.faults == ()
+    assert len(catalogue.satellites) == 1
+
+
+def test_what_a_file_says_cannot_command_a_terminal(tmp_path: Path) -> None:
+    escape = "\x1b[2J" + "x" * 300_000
+    good = MESSAGE | {"OBJECT_NAME": escape}
+    wrong = good | {"NORAD_CAT_ID": 5, "REF_FRAME": escape}
+    (tmp_path / "sent.json").write_text(json.dumps([good, wrong]), encoding="utf-8")
+    catalogue = Catalogue([str(tmp_path)])
+    assert catalogue.find("25544").name == "[2J" + "x" * 37
+    (fault,) = catalogue.faults
+    assert fault.isprintable()
+    assert len(fault) < 300
+
+
 def test_a_file_is_read_again_when_it_changes(tmp_path: Path) -> None:
     path = tmp_path / "elements.json"
     write(path, json.dumps([MESSAGE]), 1000)
@@ -92,8 +132,8 @@ def test_a_file_is_read_again_when_it_changes(tmp_path: Path) -> None:
         ("", "holds no elements"),
         ("hello", "neither TLE nor OMM"),
         (
-            json.dumps([MESSAGE | {"NORAD_CAT_ID": 5}, MESSAGE | {"MEAN_MOTION": 0}]),
-            "message 2 .ISS .ZARYA..: a mean motion of 0",
+            json.dumps([MESSAGE | {"MEAN_MOTION": 0}]),
+            "message 1 .ISS .ZARYA..: a mean motion of 0",
         ),
         (ISS.replace("9996", "9990"), "line 2: the checksum"),
     ],
@@ -109,6 +149,17 @@ def test_a_file_that_breaks_is_named_and_its_last_good_set_stays(tmp_path: Path,
     assert fault.startswith(f"{path}: ")
     with pytest.raises(AssertionError, match=told):
         raise AssertionError(fault)
+
+
+def test_of_a_file_that_is_wrong_in_part_the_rest_is_new_and_what_was_good_before_stays(tmp_path: Path) -> None:
+    path = tmp_path / "elements.json"
+    write(path, json.dumps([MESSAGE, MESSAGE | {"NORAD_CAT_ID": 5}]), 1000)
+    catalogue = Catalogue([str(tmp_path)])
+    write(path, json.dumps([MESSAGE | {"MEAN_MOTION": 0}, MESSAGE | NEWER | {"NORAD_CAT_ID": 5}]), 2000)
+    assert catalogue.refresh()
+    epochs_s = {each.catalogue_number: each.epoch_utc_s for each in catalogue.satellites}
+    assert epochs_s == {25544: pytest.approx(1_740_747_588.172), 5: 1_740_873_600.0}
+    assert len(catalogue.faults) == 1
 
 
 def test_what_is_good_of_a_new_file_counts_and_the_rest_is_named(tmp_path: Path) -> None:
@@ -135,6 +186,23 @@ def test_what_is_missing_or_no_text_is_named(tmp_path: Path) -> None:
         f"{places[2]}: no file of elements in it",
         f"{places[3]}: no text",
     )
+
+
+def test_a_pipe_keeps_no_reader_waiting(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe.tle")
+    assert Catalogue([str(tmp_path / "pipe.tle")]).faults == (f"{tmp_path}/pipe.tle: it is no file",)
+
+
+def test_what_is_read_later_is_said_to_be_read_still(tmp_path: Path) -> None:
+    to_come = tmp_path / "to_come.tle"
+    catalogue = Catalogue([], to_come=[to_come], later=True)
+    with pytest.raises(Unknown, match="are still being read"):
+        catalogue.find("iss")
+    catalogue.refresh()
+    assert catalogue.faults == ()
+    to_come.write_text(ISS, encoding="utf-8")
+    assert catalogue.refresh()
+    assert catalogue.find("iss").catalogue_number == 25544
 
 
 def test_a_file_that_goes_takes_its_satellites_along(tmp_path: Path) -> None:

@@ -1,35 +1,43 @@
-"""The console's words, both ways, and what a person at the box is told."""
+"""The console's words, both ways."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.faults import Missing
 from rotator.orders import (
     Aim,
     Confirm,
+    GiveBack,
     Home,
     Jog,
     LetGo,
     Mode,
     Order,
     Park,
-    Refusal,
     RelaysChecked,
     Release,
-    Source,
+    SetMode,
     Stop,
+    Take,
 )
-from rotator.protocols.console import VERBS, Ask, ClockIsRight, ConsoleCommand, Track, parse
-from rotator.protocols.console_session import MAX_LINE, NO_PLACE, ConsoleSession
-from rotator.protocols.gs232 import Dialect
-from rotator.protocols.gs232_session import Gs232Session
+from rotator.protocols.console import (
+    VERBS,
+    Ask,
+    ClockIsRight,
+    ConsoleCommand,
+    Pair,
+    Pulse,
+    TableLine,
+    Track,
+    TrackTable,
+    parse,
+)
+from rotator.protocols.console_session import MAX_LINE, ConsoleSession
 from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, TurnMode
 from rotator.protocols.session import Session
 from rotator.status import AxisStatus, Status
@@ -38,7 +46,6 @@ if TYPE_CHECKING:
     from tests.protocols.conftest import BenchBox
 
 Feed = Callable[[Session, bytes], list[bytes]]
-
 CANONICAL: list[tuple[bytes, ConsoleCommand]] = [
     (b"status", Ask.STATUS),
     (b"status json", Ask.STATUS_JSON),
@@ -51,15 +58,26 @@ CANONICAL: list[tuple[bytes, ConsoleCommand]] = [
     (b"relays-checked elevation", RelaysChecked(Axis.ELEVATION)),
     (b"let-go", LetGo()),
     (b"park", Park(storm=True)),
+    (b"pulse ccw", Pulse(Axis.AZIMUTH, Direction.MINUS)),
+    (b"mode jog", SetMode(Mode.JOG)),
     (b"jog cw 0.5", Jog(Axis.AZIMUTH, Direction.PLUS, 0.5)),
     (b"jog ccw 1", Jog(Axis.AZIMUTH, Direction.MINUS, 1.0)),
     (b"jog up 2", Jog(Axis.ELEVATION, Direction.PLUS, 2.0)),
     (b"jog down 5", Jog(Axis.ELEVATION, Direction.MINUS, 5.0)),
     (b"point 235 25.5", Aim(235.0, 25.5)),
+    (b"take", Take()),
+    (b"give-back", GiveBack()),
+    (b"pair", Pair()),
+    (b"pair list", Pair("list")),
+    (b"pair revoke 12", Pair("revoke", "12")),
+    (b"pair token my logger", Pair("token", "my logger")),
     (b"track iss", Track("iss")),
     (b"track jn58td long", Track("jn58td long")),
     (b"track off", Track("off")),
     (b"track", Track("")),
+    (b"table", TableLine(None)),
+    (b"table t,az,el", TableLine("t,az,el")),
+    (b"track-table pass", TrackTable("pass")),
     (b"clock-is-right", ClockIsRight()),
     (b"panel mode manual", TurnMode(Mode.MANUAL)),
     (b"panel knob elevation 0.25", TurnKnob(Axis.ELEVATION, 0.25)),
@@ -77,8 +95,10 @@ ALSO: list[tuple[bytes, ConsoleCommand]] = [
     (b"confirm azimuth -90", Confirm(Axis.AZIMUTH, -90.0)),
     (b"jog cw 1,5", Jog(Axis.AZIMUTH, Direction.PLUS, 1.5)),
 ]
-COMMANDS = "status, stop, resume, home, confirm, relays-checked, let-go, park, jog, point, track, "
-COMMANDS += "clock-is-right, panel, help"
+COMMANDS = (
+    "status, stop, resume, home, confirm, relays-checked, let-go, park, jog, pulse, point, track, table, "
+    "track-table, take, give-back, mode, clock-is-right, panel, pair, help"
+)
 MISTAKES = [
     (b"parc", f"there is no command 'parc'; did you mean park? There are: {COMMANDS}"),
     (b"letgo", f"there is no command 'letgo'; did you mean let-go? There are: {COMMANDS}"),
@@ -220,171 +240,12 @@ def test_the_horizon_is_a_direction_where_the_scale_begins_above_it(new_box: typ
 def test_help_is_the_table(box: BenchBox) -> None:
     *rows, ok = ConsoleSession(box).receive(b"help\n")[0].decode().splitlines()
     assert ok == "ok"
-    assert [row.split("  ")[0] for row in rows] == [verb.usage for verb in VERBS]
-
-
-# --- status
-
-
-def told(session: Session) -> list[str]:
-    (answer,) = session.receive(b"status\n")
-    *lines, ok = answer.decode().splitlines()
-    assert ok == "ok"
-    return lines
-
-
-def test_status_at_rest(box: BenchBox) -> None:
-    assert told(ConsoleSession(box)) == ["azimuth: 235.0° measured", "elevation: 25.0° measured", "moved by: nobody"]
-
-
-def test_status_on_the_way(box: BenchBox) -> None:
-    session = ConsoleSession(box)
-    session.receive(b"point 300 25\n")
-    box.wait(0.5)
-    assert told(session) == [
-        "azimuth: 235.0° measured, to 300.0°, turns cw",
-        "elevation: 25.0° measured, to 25.0°",
-        "wanted: 300.0° 25.0°",
-        "moving: azimuth",
-        "moved by: link#1",
-    ]
-
-
-def test_status_when_stopped_and_faulty(new_box: type[BenchBox]) -> None:
-    box = new_box(missing=(Missing.LIMITS,), blind=True)
-    session = ConsoleSession(box)
-    session.receive(b"stop\n")
-    assert told(session) == [
-        "azimuth: not known",
-        "elevation: not known",
-        "moved by: nobody",
-        "stopped by: link#1; nothing moves until resume",
-        *(f"fault: {fault}" for fault in box.status().faults),
-        "missing: azimuth needs limits",
-        "missing: elevation needs limits",
-    ]
-    assert len(box.status().faults) == 2
-
-
-# --- the stop that only a person takes back
-
-
-class AtTheBox:
-    """The box as the console's connection sees it; the bench's own `order` is a link's."""
-
-    def __init__(self, box: BenchBox) -> None:
-        self._box = box
-
-    def status(self) -> Status:
-        return self._box.status()
-
-    def order(self, order: Order) -> Refusal | None:
-        return self._box.order(order, Source("console", 1))
-
-
-def test_transcript_of_a_stop_at_the_box(box: BenchBox) -> None:
-    person, link = ConsoleSession(AtTheBox(box)), Gs232Session(box, Dialect.B)
-
-    def turns_within(seconds: float) -> bool:
-        box.turned.clear()
-        box.wait(seconds)
-        return bool(box.turned)
-
-    assert person.receive(b"stop\n") == [b"ok\n"]
-    assert link.receive(b"W300 025\r") == []  # admitted, as ever
-    assert link.receive(b"S\r") == []
-    assert link.receive(b"W300 025\r") == []
-    assert link.receive(b"C2\r") == [b"AZ=235  EL=025\r\n"]
-    assert not turns_within(20)
-    assert person.receive(b"point 300 25\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
-    assert person.receive(b"jog cw 1\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
-    assert person.receive(b"home azimuth\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
-    assert person.receive(b"park\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
-    assert not turns_within(20)
-    assert person.receive(b"resume\n") == [b"ok\n"]
-    assert not turns_within(20)
-    assert link.receive(b"W300 025\r") == []
-    assert turns_within(1)
-    assert "moved by: link#1" in told(person)
-
-
-def test_what_follows_resume_need_not_wait_for_the_status(new_box: type[BenchBox]) -> None:
-    box = new_box(at_once=False)
-    session = ConsoleSession(AtTheBox(box))
-    session.receive(b"stop\n")
-    box.wait(0.5)
-    assert session.receive(b"resume\npoint 100 20\n") == [b"ok\n", b"ok\n"]
-    box.wait(1)
-    assert box.turned == set(Axis)
-
-
-def test_a_later_stop_is_told_again(box: BenchBox) -> None:
-    session = ConsoleSession(AtTheBox(box))
-    assert session.receive(b"stop\nresume\npoint 300 25\nstop\n") == [b"ok\n"] * 4
-    assert session.receive(b"point 300 25\n") == [b"error: stopped by a rotator command: nothing moves until resume\n"]
-
-
-def test_a_storm_park_holds_like_a_stop(box: BenchBox) -> None:
-    session = ConsoleSession(AtTheBox(box))
-    assert session.receive(b"park\n") == [b"ok\n"]
-    why = b"error: stopped by a rotator command: storm park: nothing moves until resume\n"
-    assert session.receive(b"point 300 25\n") == [why]
-
-
-# --- docs/reference/console.md
+    assert rows[::2] == [verb.usage for verb in VERBS]
+    assert rows[1::2] == [f"  {verb.help}" for verb in VERBS]
 
 
 def test_the_page_holds_the_table() -> None:
     page = (Path(__file__).parents[2] / "docs" / "reference" / "console.md").read_text(encoding="utf-8")
     rows = page.split("<!-- console: begin -->\n")[1].split("<!-- console: end -->\n")[0].strip().splitlines()[2:]
     escaped = [verb.usage.replace("|", "\\|") for verb in VERBS]
-    assert rows == [f"| `{usage}` | {verb.help} |" for usage, verb in zip(escaped, VERBS, strict=True)]
-
-
-# --- the sky
-
-
-class Sky:
-    """What tracks: it knows the ISS alone."""
-
-    def __init__(self) -> None:
-        self.heard: list[str] = []
-        self.state = "off"
-
-    def track(self, words: str) -> str:
-        self.heard.append(words)
-        return "" if words == "iss" else f'"{words}" is not known'
-
-    def off(self) -> None:
-        self.heard.append("off")
-
-    def clock_is_right(self) -> None:
-        self.heard.append("the clock is right")
-
-
-def test_what_is_tracked_and_why_not(feed: Feed) -> None:
-    sky = Sky()
-    session = ConsoleSession(Notebook(), tracking=sky)
-    assert feed(session, b"track ISS\n") == [b"ok\n"]
-    assert feed(session, b"track xyz\n") == [b'error: "xyz" is not known\n']
-    assert feed(session, b"track\n") == [b"off\nok\n"]
-    assert feed(session, b"clock-is-right\ntrack off\n") == [b"ok\n", b"ok\n"]
-    assert sky.heard == ["iss", "xyz", "the clock is right", "off"]
-
-
-def test_without_a_place_nothing_is_tracked(feed: Feed) -> None:
-    session = ConsoleSession(Notebook())
-    assert feed(session, b"track iss\n") == [f"error: {NO_PLACE}\n".encode()]
-    assert feed(session, b"track\n") == [b"off\nok\n"]
-
-
-def test_while_a_stop_is_latched_nothing_is_tracked(feed: Feed) -> None:
-    class Stopped(Notebook):
-        def status(self) -> Status:
-            return replace(super().status(), latched="panel")
-
-    sky = Sky()
-    session = ConsoleSession(Stopped(), tracking=sky)
-    assert feed(session, b"track iss\n") == [b"error: stopped by panel: nothing moves until resume\n"]
-    assert feed(session, b"track off\n") == [b"ok\n"]
-    assert sky.heard == ["off"]
+    assert rows == [f"`{usage}` | {verb.help}" for usage, verb in zip(escaped, VERBS, strict=True)]

@@ -67,10 +67,10 @@ ROWS: list[tuple[bytes, list[bytes], list[Order]]] = [
 ]
 
 
-@pytest.mark.parametrize("end", [b"\n", b"\r", b"\r\n"])
 @pytest.mark.parametrize(("line", "replies", "orders"), ROWS)
-def test_each_line(new_box: type[BenchBox], line: bytes, replies: list[bytes], orders: list[Order], end: bytes) -> None:
-    for pieces in ([line, end], [line + end], [bytes([byte]) for byte in line + end]):
+def test_each_line(new_box: type[BenchBox], line: bytes, replies: list[bytes], orders: list[Order]) -> None:
+    whole = [line + end for end in (b"\n", b"\r", b"\r\n")]
+    for pieces in [[each] for each in whole] + [[bytes([byte]) for byte in each] for each in whole]:
         box = new_box(at=(235, 25))
         session = EasycommSession(box, Level.III)
         assert [reply for piece in pieces for reply in session.receive(piece)] == replies

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from rotator.protocols import gs232
 from rotator.protocols.gs232 import VERBS, Command, Dialect, NoOrder, NotACommand, encode, parse
+from tests.search import examples
 
 A_COMMANDS = [*"RLACMTN", "X1", "X2", "X3", "X4", *"SOFH", *"UDEB", "C2", "W", "O2", "F2", "H2"]
 B_COMMANDS = ["P45", "P36", "Z", "H3"]
@@ -253,7 +254,7 @@ def test_the_longest_lists(letter: str, most: int, step: str) -> None:
         parse(line + step.encode(), Dialect.A)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(st.integers(1, 999), st.lists(st.tuples(st.integers(0, 450), st.integers(0, 180)), max_size=20))
 def test_any_order_in_whole_degrees_survives_the_wire(interval_s: int, points: list[tuple[int, int]]) -> None:
     commands = [Command("W", azimuth, elevation) for azimuth, elevation in points]

@@ -81,13 +81,15 @@ def session(box: BenchBox) -> Gs232Session:
     return Gs232Session(box, Dialect.B)
 
 
-@pytest.mark.parametrize("end", ENDS)
 @pytest.mark.parametrize("row", ROWS)
-def test_each_command(box: BenchBox, session: Gs232Session, feed: Feed, row: Row, end: bytes) -> None:
-    assert feed(session, row.line) == [], "nothing happens before the line ends"
-    assert box.orders == []
-    assert feed(session, end) == row.replies
-    assert box.orders == row.orders
+def test_each_command(new_box: type[BenchBox], feed: Feed, row: Row) -> None:
+    for end in ENDS:
+        box = new_box(at=(235, 25))
+        session = Gs232Session(box, Dialect.B)
+        assert feed(session, row.line) == [], "nothing happens before the line ends"
+        assert box.orders == []
+        assert feed(session, end) == row.replies
+        assert box.orders == row.orders
 
 
 @pytest.mark.parametrize("end", ENDS)

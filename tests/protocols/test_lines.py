@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rotator.protocols.lines import LineReader
+from tests.search import examples
 
 LIMIT = 8
 
@@ -68,7 +69,7 @@ def test_flush_ends_the_line_where_it_is() -> None:
     assert reader.feed(b"p\n") == [b"p"]
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=examples(200), deadline=None)
 @given(st.lists(st.lists(st.sampled_from([b"\r", b"\n", b"W", b"2", b" "]), max_size=30).map(b"".join)))
 def test_pieces_make_no_difference_and_memory_is_bounded(pieces: list[bytes]) -> None:
     reader = LineReader(LIMIT)

@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.rehearsal.passes import FORM, SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
+from rotator.protocols.table_text import FORM
+from rotator.rehearsal.passes import SHIPPED, Pass, PassError, find_pass, read_pass, shipped_names
 
 PASSES = sorted(SHIPPED.glob("*.csv"))
 
@@ -45,8 +46,8 @@ def test_time_starts_at_the_first_row(path: Path) -> None:
 
 
 def test_a_negative_azimuth_is_the_direction_it_means(path: Path) -> None:
-    path.write_text("t,az,el\n0,-90,5\n1,360,6\n")
-    assert [row[1] for row in read_pass(path).rows] == [270.0, 0.0]
+    path.write_text("t,az,el\n0,-30,5\n1,360,6\n")
+    assert [row[1] for row in read_pass(path).rows] == [330.0, 0.0]
 
 
 @pytest.mark.parametrize("shipped", PASSES, ids=lambda path: path.stem)
@@ -105,6 +106,10 @@ def test_before_and_after_it_stays_at_its_ends() -> None:
 
 
 COLUMNS = ": the first line must name the columns t,az,el"
+APART = (
+    "on the sky from the row before, and which way between them is not told: write rows nearer to each other, "
+    "45° at most"
+)
 POINTS = "commas stand between values, and decimals have a point: 12.5,274.6,8.1"
 
 
@@ -119,6 +124,10 @@ POINTS = "commas stand between values, and decimals have a point: 12.5,274.6,8.1
         ("t,az,el\n", f": a pass needs two rows or more. {FORM}"),
         ("t,az,el\n0,10,5\n", f": a pass needs two rows or more. {FORM}"),
         ("t,az,el\n0,10,5\n0,11,6\n", ":3: t must rise from row to row: 0 comes after 0"),
+        (
+            "t,az,el\n5,10,20\n5.00000000000001,10,20\n60,20,30\n",
+            ":3: is less than 0.001 s after the row before: leave one of them out",
+        ),
         ("t,az,el\n1,10,5\n\n0,11,6\n", ":4: t must rise from row to row: 0 comes after 1"),
         ("t,az,el\n0,10,5\n1,east,6\n", ":3: az is 'east': t, az and el must be numbers"),
         ("t,az,el\n0,10,5\n1,11\n", f":3: has 2 values, and the first line names 3: {POINTS}"),
@@ -132,6 +141,8 @@ POINTS = "commas stand between values, and decimals have a point: 12.5,274.6,8.1
         ("t,az,el\n0,10,5\n1_0,11,6\n", ":3: t is '1_0': t, az and el must be numbers"),
         ("t,az,el\n0,10,5\n1,361,6\n", ":3: azimuth 361, elevation 6 is no direction"),
         ("t,az,el\n0,10,91\n1,11,6\n", ":2: azimuth 10, elevation 91 is no direction"),
+        ("t,az,el\n0,0,10\n600,180,10\n", f":3: is 160° {APART}"),
+        ("t,az,el\n0,0,0\n300,40,0\n600,180,0\n", f":4: is 140° {APART}"),
         ("t,az,el\n0,10,5\n1e6,11,6\n", ": lasts 278 h; t is in seconds, and a day is the most"),
     ],
 )

@@ -10,7 +10,6 @@ import json
 import os
 import shutil
 import signal
-import socket
 import subprocess
 import tempfile
 from collections.abc import Iterator
@@ -19,9 +18,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.boxes import free_port
 from tests.release.conftest import Archives, python_of
 
-PASS = "t,az,el\n0,200,0\n60,190,20\n120,160,45\n180,110,20\n240,100,0\n"
+PASS = "t,az,el\n0,200,0\n60,190,20\n90,180,33\n120,160,45\n150,130,35\n180,110,20\n240,100,0\n"
 MINORS = (11, 12, 13)
 
 
@@ -81,9 +81,7 @@ def is_reached_by_nobody(python: Path) -> bool:
 @pytest.fixture(scope="module")
 def station(place: Place) -> str:
     """The shipped file, with a free port in place of 4533, where another box may listen."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+    port = free_port()
     text = place.run("rotator", "config").replace(":4533", f":{port}")
     (place.folder / "rotator.toml").write_text(text)
     return str(place.folder / "rotator.toml")

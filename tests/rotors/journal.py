@@ -18,6 +18,8 @@ class Journal:
         self.assumed: set[Axis] = set()
         """The axes whose angle is not known yet."""
         self.wrong: dict[Axis, str] = {}
+        self.barred = False
+        self.turned_deg: dict[Axis, float] = {}
 
     def aim(self, axis: Axis, angle_deg: float, rate_dps: float, until_s: float) -> None:
         self.said.append(f"{axis.value} {angle_deg:g} at {rate_dps:g} until {until_s:g}")
@@ -53,6 +55,16 @@ class Journal:
 
     def faults(self) -> dict[Axis, str]:
         return self.wrong
+
+    def astray_deg(self, axis: Axis) -> float:
+        return self.turned_deg.get(axis, 0.0)
+
+    def cut(self) -> bool:
+        self.said.append("cut")
+        return True
+
+    def restore(self) -> None:
+        self.said.append("restore")
 
     def finish(self) -> None:
         self.said.append("finish")

@@ -75,14 +75,15 @@ def all_but(**defects: str) -> pytest.MarkDecorator:
 
 
 def configured(profile: str, **tables: Any) -> Config:
-    """A shipped configuration, simulated, with these tables' keys in place of its own.
+    """A shipped configuration, simulated, with these tables' keys in place of its own; None takes a key away.
 
     Without its front panel: `tests/scenario/test_front_panel.py` has that.
     """
     values = tomllib.loads(shipped(profile))
     values.pop("panel", None)
     for table, keys in (("rotor", {"hardware": "sim"}), *tables.items()):
-        values[table] = values.get(table, {}) | keys
+        own = values.get(table, {}) | keys
+        values[table] = {key: value for key, value in own.items() if value is not None}
     return simulated(parse(tomlkit.dumps(values), profile))
 
 

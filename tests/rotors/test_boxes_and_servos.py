@@ -14,7 +14,7 @@ from rotator.control.axis.sensing import Window
 from rotator.control.commands import Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import FaultKind
-from rotator.rotors.boxes import ASSUMED, BoxRotor, FollowedBox
+from rotator.rotors.boxes import ASSUMED, UNFED, BoxRotor, FollowedBox
 from rotator.rotors.servos import ServoRotor
 from tests.rotors.journal import Journal
 
@@ -47,6 +47,21 @@ def test_until_a_box_must_have_arrived_its_angle_is_assumed(box: BoxRotor, drive
     assert box.condition(AZ).notice is None
     drive.assumed = set()
     assert box.condition(EL).notice is None
+
+
+def test_a_box_that_turned_otherwise_than_told_is_a_fault_and_the_other_has_no_supply(
+    box: BoxRotor, drive: Journal
+) -> None:
+    drive.barred, drive.turned_deg = True, {AZ: 4.3}
+    fault, other = box.condition(AZ).fault, box.condition(EL)
+    assert fault is not None
+    assert (fault.name, fault.axis, fault.limit, fault.cut) == ("turning with no relay on", AZ, "4°", True)
+    assert "it turned 4.3° otherwise" in fault.measured
+    assert other.fault is None
+    assert (other.notice, other.settling) == (UNFED, True)
+    box.cut()
+    box.restore()
+    assert drive.said == ["cut", "restore"]
 
 
 def test_until_a_servo_has_had_time_for_its_jump_it_settles(servos: ServoRotor, drive: Journal) -> None:

@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from rotator.control.sky.angles import great_circle_deg
+from rotator.control.sky.turns import LONGEST_WAIT_S
 from rotator.protocols.dcu1 import Dcu1Session
 from rotator.protocols.easycomm import Level
 from rotator.protocols.easycomm_session import EasycommSession
@@ -132,12 +133,20 @@ def test_any_row_of_coordinates_ends_where_the_latest_of_each_say(
             None if which == "azimuth" else new_elevation_deg,
         )
         box.run(then_s)
+    # A target that wavers across the end of the range is followed right round only after a wait.
+    box.run(LONGEST_WAIT_S)
     box.until_it_stands()
     assert points_at(box, azimuth_deg, elevation_deg), f"{boom(box)}, not {(azimuth_deg, elevation_deg)}"
 
 
 @settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(flip=st.booleans(), first=directions, steps=steps)
+# On its way down, where the azimuth's tolerance was still that of high up.
+@example(
+    flip=False,
+    first=(0.0, 5.0),
+    steps=[("both", (61.0, 75.0), 12.0), ("both", (58.0, 5.0), 0.05), ("azimuth", (54.0, 5.0), 0.05)],
+)
 def test_a_rotor_of_450_degrees_obeys_single_coordinates_too(
     new_box: NewBox, flip: bool, first: tuple[float, float], steps: list[tuple[str, tuple[float, float], float]]
 ) -> None:
@@ -152,5 +161,6 @@ def test_a_rotor_of_450_degrees_obeys_single_coordinates_too(
             box, None if which == "elevation" else new_azimuth_deg, None if which == "azimuth" else new_elevation_deg
         )
         box.run(then_s)
+    box.run(LONGEST_WAIT_S)
     box.until_it_stands()
     assert points_at(box, azimuth_deg, elevation_deg), f"{boom(box)}, not {(azimuth_deg, elevation_deg)}"

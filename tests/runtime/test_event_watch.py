@@ -17,12 +17,13 @@ from rotator.app import App
 from rotator.assembly.settings import build_controller
 from rotator.assembly.station import Station
 from rotator.config.load import parse
-from rotator.orders import Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode, Source
+from rotator.orders import PAGE, Aim, Home, Jog, LoadTimed, Mode, Order, Park, RunTimed, SetMode, Source
 from rotator.runtime.event_watch import LONGEST_S, TICK_S, EventWatch
 from rotator.runtime.loop import ControlLoop
 
 PERIOD_S = 0.05
 LINK, PANEL, CONSOLE = Source("gs232b", 1), Source("panel"), Source("console", 1)
+BROWSER = Source(PAGE, 2)
 COAST_S = 1.5
 """The motor's coast, its relay's delay, and a cycle."""
 PATIENCE_S = 20.0
@@ -36,7 +37,8 @@ class Rig:
         config = parse(text, "test")
         self.station = Station(config, self.clock, self.clock.sleep, (100.0, 20.0), add_alarm=self.clock.add_alarm)
         self.events = EventWatch(self.clock)
-        self.ticking = True
+        self.page_events = EventWatch(self.clock)
+        self.ticking = self.page_ticking = True
         self.signs = 0
         self.loop = ControlLoop(
             build_controller(config),
@@ -45,8 +47,9 @@ class Rig:
             PERIOD_S,
             after_good_step=self._sign,
             events=self.events,
+            page_events=self.page_events,
         )
-        self._ticked_s = self.clock()
+        self._ticked_s = self._page_ticked_s = self.clock()
 
     def _sign(self) -> None:
         self.signs += 1
@@ -57,6 +60,9 @@ class Rig:
             if self.ticking and self.clock() >= self._ticked_s + TICK_S:
                 self._ticked_s = self.clock()
                 self.events.tick()
+            if self.page_ticking and self.clock() >= self._page_ticked_s + TICK_S:
+                self._page_ticked_s = self.clock()
+                self.page_events.tick()
             cycle_s = self.clock()
             self.loop.cycle()
             self.clock.sleep_until(cycle_s + PERIOD_S)
@@ -124,6 +130,43 @@ def test_the_panel_and_a_storm_park_go_on() -> None:
     storm.ticking = False
     storm.run(LONGEST_S + COAST_S)
     assert storm.turned_deg(1.0) > 1.0
+
+
+PAGE_ORDERS: list[Order] = [
+    Aim(300.0, 20.0),
+    Jog(Axis.AZIMUTH, Direction.PLUS),
+    Park(),
+]
+
+
+@pytest.mark.parametrize("order", PAGE_ORDERS, ids=lambda order: type(order).__name__)
+def test_what_was_ordered_on_a_page_that_stands_still_ends(order: Order) -> None:
+    """Its STOP would not arrive either."""
+    rig = Rig()
+    rig.order(BROWSER, order)
+    assert rig.turned_deg(1.0) > 1.0
+    rig.page_ticking = False
+    rig.run(LONGEST_S + COAST_S)
+    signs = rig.signs
+    assert rig.turned_deg(60.0) < 0.01
+    assert rig.signs > signs, "the box itself is well: nothing restarts it"
+    rig.page_ticking = True
+    assert rig.turned_deg(10.0) < 0.01, "the old order is not taken up again"
+    rig.order(BROWSER, Aim(300.0, 150.0))
+    assert rig.turned_deg(1.0) > 1.0
+
+
+@pytest.mark.parametrize(
+    ("source", "order"),
+    [(LINK, Aim(300.0, 20.0)), (CONSOLE, Jog(Axis.AZIMUTH, Direction.PLUS)), (BROWSER, Park(storm=True))],
+    ids=["a link", "the console", "a storm park of the page"],
+)
+def test_a_page_that_stands_still_ends_nothing_else(source: Source, order: Order) -> None:
+    rig = Rig()
+    rig.order(source, order)
+    rig.page_ticking = False
+    rig.run(LONGEST_S + COAST_S)
+    assert rig.turned_deg(1.0) > 1.0
 
 
 def test_a_box_without_links_is_not_watched() -> None:

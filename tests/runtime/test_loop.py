@@ -8,7 +8,7 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, cast
 
@@ -313,6 +313,36 @@ def test_a_bug_ends_the_loop_with_every_relay_off(rig: Rig, outcome: object, err
         loop.run()
     assert rig.world.relay_starts >= 1, "motors were running"
     assert rig.world.drives() == (0, 0)
+
+
+def test_so_does_a_bug_in_another_thread_that_a_person_relies_on(rig: Rig) -> None:
+    """The panel's: its stop button would be dead."""
+    sensors = rig.station.rotor.sensors
+    loop = rig.loop_with(
+        {AZ: sensors[AZ], EL: WhenTheyRun(sensors[EL], rig.world, lambda: loop.fail(KeyError("a bug")))}
+    )
+    rig.run(LOOK_S, loop)
+    loop.post(LINK, Aim(300.0, 90.0))
+    with pytest.raises(KeyError, match="a bug"):
+        loop.run()
+    assert rig.world.relay_starts >= 1, "motors were running"
+    assert rig.world.drives() == (0, 0)
+
+
+class WhenTheyRun:
+    """A sensor that goes well; something else happens as soon as the motors run."""
+
+    source = AngleSource.MEASURED
+
+    def __init__(self, sensor: AngleSensor, world: SimRelayPotRotor, happens: Callable[[], None]) -> None:
+        self._sensor = sensor
+        self._world = world
+        self._happens = happens
+
+    def read(self) -> float:
+        if self._world.drives() != (0, 0):
+            self._happens()
+        return self._sensor.read()
 
 
 class Unguarded:

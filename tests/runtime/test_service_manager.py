@@ -55,6 +55,26 @@ def test_ready_and_stopping(manager: Manager, clock: SimClock) -> None:
     assert manager.heard() == ["READY=1", "STOPPING=1"]
 
 
+def test_a_new_start_may_be_silent_for_longer(manager: Manager, clock: SimClock) -> None:
+    environment = {"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}
+    ending = ServiceManager(environment, clock)
+    ending.pausing()
+    ending.close()
+    begun = ServiceManager(environment, clock)
+    begun.ready()
+    begun.resumed()
+    begun.close()
+    assert manager.heard() == ["WATCHDOG_USEC=60000000", "READY=1", "WATCHDOG_USEC=5000000"]
+
+
+def test_without_a_watch_nothing_is_said_of_a_new_start(manager: Manager, clock: SimClock) -> None:
+    notifier = ServiceManager({"NOTIFY_SOCKET": str(manager.path)}, clock)
+    notifier.pausing()
+    notifier.resumed()
+    notifier.close()
+    assert manager.heard() == []
+
+
 def test_four_signs_of_life_in_the_time_allowed(manager: Manager, clock: SimClock) -> None:
     notifier = ServiceManager({"NOTIFY_SOCKET": str(manager.path), "WATCHDOG_USEC": "5000000"}, clock)
     for _ in range(100):  # five seconds of a control loop at 20 Hz

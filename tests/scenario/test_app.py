@@ -23,6 +23,7 @@ from rotator.links.wire import LinkError
 from rotator.runtime.display import DISPLAY_THREAD
 from rotator.runtime.engine import CONTROL_THREAD
 from rotator.runtime.sensor_thread import SENSORS_THREAD
+from tests.boxes import free_port
 
 PATIENCE_S = 60.0
 OFF = (0, 0)
@@ -102,9 +103,7 @@ async def connection(port: int) -> AsyncIterator[Line]:
 
 @pytest.fixture
 def port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    return free_port()
 
 
 @pytest.fixture

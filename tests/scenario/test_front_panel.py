@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
+from itertools import product
 from typing import Any
 
 import pytest
@@ -24,6 +25,7 @@ from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.runtime.client import Client
 from rotator.runtime.loop import ControlLoop
+from tests.search import some
 
 MANUAL, PARK, AUTO, JOG = range(4)
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -235,9 +237,11 @@ def test_for_a_second_at_the_start_every_lamp_is_lit_and_every_meter_is_at_its_e
     assert shack.hands.lit() != set(shack.hands.spec.lamps)
 
 
-@pytest.mark.parametrize("wire", ["wire", "supply", "ground"])
-@pytest.mark.parametrize("axis", ["azimuth", "elevation"])
-@pytest.mark.parametrize("turned", [0.05, 0.5, 0.98])
+@pytest.mark.search
+@pytest.mark.parametrize(
+    ("turned", "axis", "wire"),
+    some(list(product([0.05, 0.5, 0.98], ["azimuth", "elevation"], ["wire", "supply", "ground"]))),
+)
 def test_a_broken_wire_of_a_knob_moves_nothing_in_manual_and_is_told(axis: str, wire: str, turned: float) -> None:
     shack = Shack()
     shack.hands.turn_knob("azimuth", turned)

@@ -17,11 +17,12 @@ from pathlib import Path
 
 import pytest
 
+from tests.boxes import FAST_ROTOR, free_port
+
 PATIENCE_S = 120.0
 CLIENTS, QUESTIONS = 100, 50
 GROWTH_KIB = 20_000
 """A hundred connections and what waits for one deaf client; without bounds the flood below alone would be 200 MB."""
-FAST_ROTOR = (Path(__file__).parents[1] / "fast_rotor.toml").read_text(encoding="utf-8")
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,9 +65,7 @@ async def connected(port: int) -> AsyncIterator[Client]:
 
 @pytest.fixture
 def box(tmp_path: Path) -> Iterator[Box]:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        port = probe.getsockname()[1]
+    port = free_port()
     config, log = tmp_path / "rotator.toml", tmp_path / "log.txt"
     config.write_text(
         f'{FAST_ROTOR}\n[state]\npath = "{tmp_path}/state.json"\n[[link]]\nprotocol = "rotctld"\n'

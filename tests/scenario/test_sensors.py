@@ -105,12 +105,16 @@ def test_a_sensor_that_fails_stops_its_axis(fault: str, axis: Axis) -> None:
     assert box.world.drives() != (0, 0), "the other axis goes on"
 
 
+RELAY = "[digipot]\nenable = 16\n"
+"""In the supply of the control boxes: without it they turn at power-on, which is a fault where a pot sees it."""
+
+
 @pytest.mark.parametrize("kind", ["digipot", "relay-pulse", "servo"])
 def test_pots_on_a_rotor_that_brings_none(kind: str) -> None:
     limits = POTS + (f"[{kind}.azimuth]\nstart_deg = 40\n" if kind != "relay-pulse" else "")
     if kind == "servo":
         limits = limits.replace("max_deg = 350", "max_deg = 170")
-    box = Box(rotor(kind) + limits)
+    box = Box(rotor(kind) + limits + (RELAY if kind == "digipot" else ""))
     assert {box.loop.status.axis(axis).source for axis in Axis} == {AngleSource.MEASURED}
     box.aim(160.0, 70.0)
     assert box.world.antenna() == pytest.approx((160.0, 70.0), abs=3.0)
@@ -124,7 +128,7 @@ def test_pots_on_a_rotor_that_brings_none(kind: str) -> None:
 @pytest.mark.parametrize(("kind", "motor"), [("digipot", "motor-stalled"), ("servo", "servo-stalled")])
 @pytest.mark.parametrize("sensor", ["azimuth-pot-crackles:16", "azimuth-pot-spikes:16", "adc-noisy:60"])
 def test_bad_readings_do_not_hide_that_a_drive_stands(kind: str, motor: str, sensor: str) -> None:
-    text = POTS + f"[{kind}.azimuth]\nstart_deg = 40\n"
+    text = POTS + f"[{kind}.azimuth]\nstart_deg = 40\n" + (RELAY if kind == "digipot" else "")
     box = Box(rotor(kind) + (text.replace("max_deg = 350", "max_deg = 170") if kind == "servo" else text))
     box.aim(60.0, 20.0, seconds=8.0)
     box.world.inject(sensor)
@@ -136,7 +140,7 @@ def test_bad_readings_do_not_hide_that_a_drive_stands(kind: str, motor: str, sen
 
 def test_a_pot_corrects_the_model_of_a_control_box() -> None:
     # The model believes the file's 6°/s; cold grease lets the motor do two fifths of that.
-    box = Box(rotor("digipot") + POTS + "[digipot.azimuth]\nstart_deg = 40\n")
+    box = Box(rotor("digipot") + POTS + RELAY + "[digipot.azimuth]\nstart_deg = 40\n")
     box.world.inject("azimuth-motor-slow")
     box.aim(160.0, 20.0, seconds=8.0)
     assert box.loop.status.azimuth.angle_deg == pytest.approx(box.world.shafts()[0], abs=1.0)

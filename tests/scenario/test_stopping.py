@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import asyncio
 import os
-import socket
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -32,6 +31,7 @@ from rotator.runtime.display import DISPLAY_THREAD
 from rotator.runtime.engine import CONTROL_THREAD
 from rotator.runtime.sensor_thread import SENSORS_THREAD
 from rotator.store.counts import FILE_NAME
+from tests.boxes import free_port
 from tests.rotors.rig import KINDS, Kind, configured
 
 PATIENCE_S = 60.0
@@ -72,9 +72,7 @@ connect = "127.0.0.1:9"
 @pytest.fixture
 def config(tmp_path: Path) -> Config:
     """Relays, a display, a panel and every kind of link."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return parse(STATION.format(folder=tmp_path, port=probe.getsockname()[1]), "test")
+    return parse(STATION.format(folder=tmp_path, port=free_port()), "test")
 
 
 async def until(done: Callable[[], bool]) -> None:

@@ -21,6 +21,7 @@ from rotator.setup.machine import Machine
 from rotator.setup.new_file import for_the_service, new_file
 from rotator.setup.question import Question
 from rotator.setup.questions import PROGRAMS, ROTORS, place, questions
+from tests.search import examples
 
 MACHINE = Machine(False, ("/dev/serial/by-id/usb-FTDI_A1-if00",), (IPv4Interface("192.168.1.5/24"),), "shack")
 TYPED = {"azimuth": "450", "elevation": "180", "place": "48.85 2.35"}
@@ -42,7 +43,7 @@ def drawn(data: st.DataObject) -> dict[str, str]:
     return answers
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 @given(data=st.data())
 def test_every_combination_of_answers_is_a_file_that_loads_and_means_them(data: st.DataObject) -> None:
     answers = drawn(data)

@@ -64,27 +64,6 @@ def test_a_file_that_cannot_be_trusted(path: Path, text: str, caplog: pytest.Log
     assert "ignored, the panel's knobs count as uncalibrated" in caplog.text
 
 
-def test_what_is_there_is_not_written_again(path: Path) -> None:
-    KnobsFile(path).save(FULL_SCALES)
-    again = KnobsFile(path)
-    again.load()
-    path.unlink()
-    again.save(FULL_SCALES)
-    assert not path.exists()
-    again.save(FULL_SCALES | {AZ: 0.5})
-    assert KnobsFile(path).load() == {AZ: 0.5, EL: 0.9384}
-
-
-def test_where_it_cannot_be_written_it_is_logged_and_tried_again(path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    path.parent.write_text("")  # a file where its folder should be: not even root writes there
-    file = KnobsFile(path)
-    file.save(FULL_SCALES)
-    assert "cannot be kept" in caplog.text
-    path.parent.unlink()
-    file.save(FULL_SCALES)
-    assert KnobsFile(path).load() == FULL_SCALES
-
-
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
@@ -98,14 +77,6 @@ def test_the_log_has_the_reason(path: Path, text: str, reason: str, caplog: pyte
     path.write_text(text)
     KnobsFile(path).load()
     assert reason in caplog.text
-
-
-def test_what_was_just_written_is_not_written_again(path: Path) -> None:
-    file = KnobsFile(path)
-    file.save(FULL_SCALES)
-    path.unlink()
-    file.save(FULL_SCALES)
-    assert not path.exists()
 
 
 @pytest.mark.parametrize(("share", "possible"), [(0.0999, False), (0.1, True), (1.1, True), (1.1001, False)])

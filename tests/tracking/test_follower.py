@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import logging
+
 import pytest
 
-from rotator.orders import Aim, Release, Source, Stop
+from rotator.orders import Aim, GiveBack, Release, Source, Stop, Take
+from tests.search import some
 from tests.tracking.tracked_box import Box, pass_of
 
 FOLLOWS_ISS = """
 [[sky.follow]]
 name = "iss"
 """
-PC, PERSON = Source("gs232b", 1), Source("console", 1)
+PC, PERSON, PAGE = Source("gs232b", 1), Source("console", 1), Source("page", 1)
 
 
 @pytest.fixture
@@ -34,7 +37,21 @@ def test_it_sets_off_in_time_and_stands_waiting_15_s_before_the_rise(rise: Box) 
     assert rise.off_deg("iss") < 5.0
 
 
-@pytest.mark.parametrize(("source", "order"), [(PC, Aim(100.0, 10.0)), (PERSON, Stop(latch=True))])
+def test_after_a_start_it_rests_for_ten_minutes_for_a_link_may_have_stopped_the_antenna_before() -> None:
+    found = pass_of("iss")
+    assert found.aos_s is not None
+    box = Box(found.aos_s - 180.0, follow=FOLLOWS_ISS, restarted=True)
+    box.wait(590.0)
+    assert box.world.antenna() == (10.0, 0.0)
+    later = pass_of("iss", after_s=box.utc_s + 120.0)
+    assert later.aos_s is not None
+    box.set_clock(later.aos_s - box.utc_s - 120.0)
+    box.wait(110.0)
+    assert box.loop.status.controlled_by == "track"
+
+
+@pytest.mark.search
+@pytest.mark.parametrize(("source", "order"), some([(PERSON, Stop(latch=True)), (PC, Aim(100.0, 10.0))]))
 def test_who_takes_the_antenna_has_it_for_ten_minutes_and_the_next_pass_is_flown_again(
     rise: Box, source: Source, order: Aim | Stop
 ) -> None:
@@ -67,6 +84,25 @@ def test_a_stop_that_comes_while_it_plans_is_not_undone_by_the_plan(rise: Box) -
     assert rise.loop.status.controlled_by == ""
 
 
+def test_when_a_person_has_given_the_antenna_back_the_plan_goes_on_at_once(rise: Box) -> None:
+    rise.wait(170.0)
+    rise.loop.post(PAGE, Take())
+    rise.wait(20.0)
+    assert rise.loop.status.flown is None
+    rise.loop.post(PAGE, GiveBack())
+    rise.wait(5.0)
+    assert rise.loop.status.flown is not None
+    assert rise.loop.status.controlled_by == "track"
+
+
+def test_where_an_angle_is_not_known_at_its_first_look_it_looks_again_soon() -> None:
+    found = pass_of("iss")
+    assert found.aos_s is not None
+    late = Box(found.aos_s - 180.0, follow=FOLLOWS_ISS, read_after_s=5.0)
+    late.wait(170.0)
+    assert late.loop.status.flown is not None
+
+
 def test_off_ends_it_and_plan_begins_it_again(rise: Box) -> None:
     rise.wait(170.0)
     rise.tracker.off()
@@ -88,3 +124,34 @@ def test_while_the_clock_may_be_wrong_nothing_moves(rise: Box) -> None:
     rise.clock_trusted = False
     rise.wait(170.0)
     assert rise.loop.status.controlled_by == ""
+
+
+def test_a_stop_that_comes_right_before_the_flight_is_ordered_comes_after_it(rise: Box) -> None:
+    """What is slow at that moment is the log: while it writes, a program stops the antenna."""
+
+    class Stops(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            if "next pass" in record.getMessage():
+                rise.loop.post(PC, Stop())
+
+    follower, handler = logging.getLogger("rotator.tracking.follower"), Stops()
+    level = follower.level
+    follower.setLevel(logging.INFO)
+    follower.addHandler(handler)
+    try:
+        rise.wait(175.0)
+    finally:
+        follower.removeHandler(handler)
+        follower.setLevel(level)
+    assert rise.loop.status.flown is None
+    assert rise.loop.status.controlled_by == ""
+
+
+def test_a_new_order_of_the_targets_is_planned_at_once(rise: Box) -> None:
+    plans: list[float] = []
+    rise.planner.meanwhile = lambda: plans.append(rise.utc_s)
+    rise.wait(20.0)
+    assert plans == [], "a plan lasts for a while"
+    rise.follower.plan_again()
+    rise.wait(2.0)
+    assert len(plans) == 1

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from rotator.control.sky.mount import Mount
 from rotator.tracking.planned import Followed
 from rotator.tracking.schedule import schedule
+from tests.search import examples
 from tests.tracking.arcs import EPOCH_S, FULL, OVER, Arc, antenna, travel_s, worth
 
 GRID_S = 40.0
@@ -87,7 +88,7 @@ def best_of_all(choices: Sequence[list[Piece]], free_s: float, place: Place, nee
     return best
 
 
-@settings(max_examples=25, phases=[Phase.explicit, Phase.reuse, Phase.generate])
+@settings(max_examples=examples(25), phases=[Phase.explicit, Phase.reuse, Phase.generate])
 @given(followed=FOLLOWED, mount=st.sampled_from([FULL, OVER]), stands_deg=st.floats(0, 360))
 def test_no_other_plan_is_worth_much_more(followed: list[Followed], mount: Mount, stands_deg: float) -> None:
     plan = schedule(followed, antenna(mount, (stands_deg, 0.0)), EPOCH_S, EPOCH_S + 1200)

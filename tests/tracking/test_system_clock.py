@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from rotator.tracking.system_clock import SET_AGAIN_S, UNSET_AGAIN_S, SystemClock
+from rotator.tracking.system_clock import LONG_UNSET_AGAIN_S, SET_AGAIN_S, SOON_S, UNSET_AGAIN_S, SystemClock
 
 
 @pytest.fixture
@@ -43,6 +43,18 @@ def test_it_waits_for_a_clock_that_is_not_set_and_seldom_asks_for_one_that_is(to
     assert clock.is_set
     clock.look(100.0 + UNSET_AGAIN_S + SET_AGAIN_S)
     assert not clock.is_set
+
+
+def test_a_clock_that_is_not_set_for_long_is_asked_for_less_often(tool: Path) -> None:
+    clock = SystemClock()
+    tool.write_text("no\n")
+    clock.look(100.0)
+    clock.look(100.0 + SOON_S)
+    tool.write_text("yes\n")
+    clock.look(100.0 + SOON_S + LONG_UNSET_AGAIN_S - 0.1)
+    assert not clock.is_set
+    clock.look(100.0 + SOON_S + LONG_UNSET_AGAIN_S)
+    assert clock.is_set
 
 
 def test_without_the_tool_the_kernel_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

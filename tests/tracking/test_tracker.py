@@ -13,7 +13,7 @@ from hw.ports import Axis, Direction
 from rotator.orbits.catalogue import Catalogue
 from rotator.orbits.earth import Site
 from rotator.orbits.targets import find
-from rotator.orders import BOTH, Aim, Jog, Mode, Order, Release, SetMode, Source, Stop
+from rotator.orders import BOTH, Aim, GiveBack, Jog, Mode, Order, Release, SetMode, Source, Stop
 from rotator.tracking.tracker import CLOCK_UNSURE
 from tests.tracking.tracked_box import BERLIN, ELEMENTS, Box, pass_of
 
@@ -154,6 +154,29 @@ def test_after_a_fault_that_a_person_has_acknowledged_nothing_goes_on(rise: Box)
     assert not rise.loop.status.moving
 
 
+def test_resume_where_nothing_was_stopped_ends_no_tracking(rise: Box) -> None:
+    assert rise.tracker.track("iss") == ""
+    rise.wait(5.0)
+    rise.loop.post(PERSON, Release())
+    rise.wait(5.0)
+    assert rise.tracker.state == "tracking"
+    assert rise.loop.status.flown is not None
+
+
+def test_a_direction_that_the_rotor_cannot_reach_is_refused_and_the_flight_goes_on() -> None:
+    begin = pass_of("iss").aos_s
+    assert begin is not None
+    box = Box(begin - 180.0, follow="[azimuth]\nmax_deg = 250\n")
+    assert box.tracker.track("moon") == ""
+    box.wait(5.0)
+    flown = box.loop.status.flown
+    assert flown is not None
+    assert "300" in box.tracker.track("300 20")
+    box.wait(5.0)
+    assert box.tracker.state == "tracking"
+    assert box.loop.status.flown == flown
+
+
 def test_off_stops_the_antenna(rise: Box) -> None:
     assert rise.tracker.track("iss") == ""
     assert rise.wait(20.0, lambda: rise.loop.status.moving)
@@ -227,7 +250,31 @@ def test_its_satellite_is_named_and_flown_until_its_orders_depart(up: Box) -> No
     assert up.loop.status.flown is None
 
 
+def test_when_a_person_has_given_the_antenna_back_the_pass_is_flown_again(up: Box) -> None:
+    page = Source("page", 1)
+    sends(up, 14)
+    up.loop.post(page, Jog(Axis.AZIMUTH, Direction.PLUS, 1))
+    sends(up, 20)
+    assert up.loop.status.recognised == ""
+    up.loop.post(page, GiveBack())
+    sends(up, 20)
+    assert up.loop.status.recognised.startswith("ISS")
+    assert up.loop.status.controlled_by == str(PC)
+
+
+def test_a_program_that_has_fallen_silent_is_not_flown_for_again(up: Box) -> None:
+    sends(up, 14)
+    up.wait(25.0)
+    assert up.loop.status.recognised == ""
+    stood = up.world.antenna()
+    up.wait(60.0)
+    assert up.world.antenna() == pytest.approx(stood, abs=0.1)
+
+
 def test_while_the_clock_may_be_wrong_no_satellite_is_flown(up: Box) -> None:
     up.clock_trusted = False
     sends(up, 20)
     assert up.loop.status.recognised == ""
+    up.clock_trusted = True
+    sends(up, 3)
+    assert up.loop.status.recognised.startswith("ISS")

@@ -6,6 +6,7 @@ Plans are computed in the test's own process, at once.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 from firmware_sim.clock import SimClock
@@ -26,13 +27,15 @@ from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.listener import StreamListener
 from rotator.tracking.next_flight import NextFlight, Now, Wanted, next_flight, rest_flight
 from rotator.tracking.next_followed import Upcoming, WantedOften, next_followed
+from rotator.tracking.program import Program, program_flight
 from rotator.tracking.tracker import Tracker
 
 ELEMENTS = Path(__file__).parents[1] / "orbits" / "elements-2025.tle"
 BERLIN = Site(52.52, 13.4, 40.0)
 FEBRUARY_S = 1_739_000_000.0
 """8 February 2025, 07:33:20 UTC: some days after the elements' epochs."""
-PERIOD_S = 0.05
+PERIOD_S = 0.1
+"""Twice the usual one, for half the work: what is looked at here is who flies what and when, in seconds."""
 
 
 class InThisProcess:
@@ -47,6 +50,10 @@ class InThisProcess:
         self.plans.append((now, next_flight(wanted, antenna, now)))
         return self.plans[-1][1]
 
+    def plan_program(self, program: Program, antenna: Antenna, now: Now) -> NextFlight:
+        self.meanwhile()
+        return program_flight(program, antenna, now)
+
     def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
         return rest_flight(wanted, antenna, now)
 
@@ -55,9 +62,30 @@ class InThisProcess:
         return next_followed(followed, antenna, now)
 
 
+class SlowSensors(TrackedBox):
+    """Its angles are not known before this moment, on the loop's clock."""
+
+    read_s = 0.0
+
+    def antenna(self) -> Antenna | None:
+        return super().antenna() if self.status().at_s >= self.read_s else None
+
+
 class Box:
-    def __init__(self, begin_utc_s: float, site: Site = BERLIN, follow: str = "") -> None:
-        """`follow`: `[[sky.follow]]` of the configuration."""
+    def __init__(
+        self,
+        begin_utc_s: float,
+        site: Site = BERLIN,
+        follow: str = "",
+        *,
+        read_after_s: float = 0.0,
+        restarted: bool = False,
+        looks: bool = True,
+    ) -> None:
+        """`follow`: `[[sky.follow]]` of the configuration. `read_after_s`: until then no angle is known.
+
+        `restarted`: its antenna has outlived an earlier run. Not `looks`: its tracking thread has had no turn yet.
+        """
         config = parse(follow, "box")
         self.clock = SimClock()
         station = Station(config, self.clock, self.clock.sleep, (10.0, 0.0), add_alarm=self.clock.add_alarm)
@@ -67,19 +95,30 @@ class Box:
         self.loop = ControlLoop(build_controller(config), station.rotor, self.clock, PERIOD_S)
         self.planner = InThisProcess()
         self.clock_trusted = True
-        sky = KnownSky(site, Catalogue((str(ELEMENTS),)))
-        self.tracked = tracked = TrackedBox(config, self.loop, mount)
+        self.known = sky = KnownSky(site, Catalogue((str(ELEMENTS),)))
+        self.tracked = tracked = SlowSensors(config, self.loop, mount)
+        tracked.read_s = self.clock() + read_after_s
         self.tracker = Tracker(sky, self.planner, tracked, lambda: self.clock_trusted)
         self._listener = StreamListener(sky, self.planner, tracked, lambda: self.utc_s, self.tracker.clock_trusted)
-        self._follower = Follower(self.tracker, self.planner, tracked, lambda: wanted_often(config.sky, sky)[0])
+        begun_s = self.clock() if restarted else None
+        self.follower = Follower(self.tracker, self.planner, tracked, lambda: wanted_often(config.sky, sky)[0], begun_s)
+        self.before_heard: Callable[[Order], None] = lambda _order: None
+        self.after_heard: Callable[[Order], None] = lambda _order: None
+        """What another thread does before, or after, the box's own listeners hear of an order."""
+        self.loop.overhear(lambda _source, order: self.before_heard(order))
         self.loop.overhear(self._hear)
+        self.loop.overhear(lambda _source, order: self.after_heard(order))
         self._begin_utc_s = begin_utc_s
-        self.wait(1.0)
+        for _ in range(round(1.0 / PERIOD_S)):
+            self.clock.sleep(PERIOD_S)
+            self.loop.cycle()
+        if looks:
+            self.look()
 
     def _hear(self, source: Source, order: Order) -> None:
         self._listener.hear(source, order)
         self.tracker.heard(source, order)
-        self._follower.heard(source, order)
+        self.follower.heard(source, order)
 
     def _now(self) -> Now:
         return Now(self.utc_s, self.clock())
@@ -97,13 +136,17 @@ class Box:
         while self.clock() < end_s:
             if until():
                 return True
-            for _ in range(10):
+            for _ in range(5):
                 self.clock.sleep(PERIOD_S)
                 self.loop.cycle()
             self._listener.step(self._now)
-            self.tracker.step(self._now())
-            self._follower.step(self._now())
+            self.look()
         return until()
+
+    def look(self) -> None:
+        """The tracking thread has its turn."""
+        self.tracker.step(self._now())
+        self.follower.step(self._now())
 
     def off_deg(self, name: str) -> float:
         """Between the boom and the target, as the world has them."""
@@ -112,6 +155,7 @@ class Box:
         return great_circle_deg(*boom, sight.azimuth_deg, sight.elevation_deg)
 
 
+@cache
 def pass_of(name: str, least_deg: float = 20.0, after_s: float = FEBRUARY_S + 600.0) -> Pass:
     target = find(name, BERLIN, Catalogue((str(ELEMENTS),)))
     return next(passes(target, after_s, after_s + 2 * 86_400.0, least_deg))

@@ -49,6 +49,13 @@ def uppers(now: Status, seconds: int = 16) -> list[str]:
     return [rows(now, second + 0.5)[0].rstrip() for second in range(seconds)]
 
 
+def test_a_code_that_pairs_a_browser_leaves_room_for_a_fault() -> None:
+    assert {rows(status(mode=Mode.MANUAL), second, "123456")[0] for second in range(16)} == {"PAIR CODE 123456"}
+    failed = with_axis(AZ, fault=POT_OPEN)
+    seen = {rows(failed, second, "123456")[0].rstrip() for second in range(16)}
+    assert seen == {"PAIR CODE 123456", *uppers(failed)} - {rows(status(), 0.0)[0].rstrip()}
+
+
 # --- directions
 
 

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from rotator.control.sky.mount import Mount, Range, Sector
 from rotator.status import AxisStatus, Status
 from rotator.views.sky_plot import ANTENNA, BOTH, TARGET, Trail, direction, off_deg, plot
+from tests.search import examples
 
 COLUMNS, ROWS = 61, 31
 STATUS = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))
@@ -83,7 +84,7 @@ def test_the_trail_is_where_it_has_pointed_in_the_last_20_minutes() -> None:
     st.lists(st.floats(0.0, 359.0), max_size=3, unique=True),
     st.lists(st.tuples(st.floats(0.0, 400.0), st.floats(0.0, 120.0)), max_size=2),
 )
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=examples(40), deadline=None)
 def test_it_fills_its_cells_whatever_is_drawn(  # noqa: PLR0917 - hypothesis fills them in
     columns: int,
     rows: int,

@@ -20,7 +20,7 @@ from benchmarks.drills.planted.hunt import ROOT, CampaignError, Hunt, copied, hu
 from benchmarks.drills.planted.patch import Bug, Misfit, bugs, plant, take_back
 
 HOURS = 5.0
-COLUMNS = ("planted bug", "found after", "on", "by the judge of")
+COLUMNS = ("planted bug", "found after", "on")
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -86,7 +86,7 @@ def _play_scripts(chosen: list[Bug]) -> int:
 def _hunt_all(chosen: list[Bug], *, hours: float, seed: int, kind: str, as_json: bool) -> int:
     hunts: list[Hunt] = []
     if not as_json:
-        print(f"{_cells(COLUMNS)}\n{_cells(['---'] * len(COLUMNS))}", flush=True)
+        print(f"{_cells(COLUMNS)}\n{'|'.join(['--'] * len(COLUMNS))}", flush=True)
     with copied() as sound:
         for bug in chosen:
             hunts.append(hunt(bug, sound, hours=hours, seed=seed, kind=kind))
@@ -104,12 +104,12 @@ def _hunt_all(chosen: list[Bug], *, hours: float, seed: int, kind: str, as_json:
 
 def _row(each: Hunt) -> str:
     if each.find is None:
-        return _cells([each.bug.name, f"not in {each.hours:.1f} h", "", ""])
-    return _cells([each.bug.name, f"{each.find.after_h:.2f} h", each.find.kind, each.find.judge])
+        return _cells([each.bug.name, f"not in {each.hours:.1f} h", ""])
+    return _cells([each.bug.name, f"{each.find.after_h:.2f} h", each.find.kind])
 
 
 def _cells(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"
+    return " | ".join(cells).rstrip("| ")
 
 
 def _content(each: Hunt) -> dict[str, object]:

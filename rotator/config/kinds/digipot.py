@@ -22,31 +22,30 @@ from rotator.config.table import Gpio, PerAxis, Point, Table
 
 class DigipotAxisTable(Table):
     select: Gpio = 8
-    """The chip's CS; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
+    """The chip's CS, as in [adc]."""
     steps: list[Point] = Field(default=[(0.0, 0.0), (360.0, 256.0)], min_length=2)
     """Points [degrees, the chip's step there, 0 to 256]."""
     start_deg: float = Field(0.0, ge=-360, le=720)
     """The assumed angle at the start of the program, if no pot measures it."""
     dead_band_deg: float = Field(2.0, ge=0, le=20)
-    """The error at which the control box turns its motor. The wiper leads by it, less the coast."""
+    """The error at which the control box turns its motor."""
 
 
 class DigipotElevation(DigipotAxisTable):
     select: Gpio = 7
-    """The chip's CS; with the kernel's SPI, GPIO 8 is CE0 and 7 is CE1."""
+    """The chip's CS, as in [adc]."""
     steps: list[Point] = Field(default=[(0.0, 0.0), (90.0, 64.0)], min_length=2)
     """Points [degrees, the chip's step there, 0 to 256]."""
 
 
 class Digipot(PerAxis, Table):
     spi: Literal["lines", "kernel"] = "lines"
-    """On any GPIO lines, or on the Pi's SPI controller (dtparam=spi=on, Python package spidev)."""
+    """As in [adc]."""
     sck: Gpio = 11
-    """The clock."""
     si: Gpio = 10
-    """The data."""
+    """Clock and data."""
     enable: Gpio | None = None
-    """The relay of the control boxes' supply. Without it they turn to mid-range at power-on, where the chips start."""
+    """The relay of the control boxes' supply. Without it they turn to mid-range at power-on."""
     azimuth: DigipotAxisTable = DigipotAxisTable()
     """The azimuth box."""
     elevation: DigipotElevation = DigipotElevation()
@@ -57,13 +56,19 @@ class Digipot(PerAxis, Table):
 class DigipotKind(Kind):
     digipot: Digipot
 
-    own = Angle(AngleSource.MODELLED, by="modelled")
+    own = Angle(AngleSource.MODELLED, sensor="model", by="modelled")
     usual: ClassVar[Usual] = {
         "azimuth": {"max_deg": 360.0},
         "elevation": {"max_deg": 90.0, "speed_dps": 6.0},
         "sim.elevation": {"speed_dps": 6.0},
     }
     holds = "the control boxes go on to where their chips point; a relay in their supply would end that"
+
+    own_motor: ClassVar[bool] = True
+
+    @property
+    def switches_supply(self) -> bool:
+        return self.digipot.enable is not None
 
     def pins(self) -> list[tuple[int, str]]:
         return [(line.pin, line.key) for line in self.off_lines()]

@@ -66,6 +66,14 @@ class Kind:
     holds: ClassVar[str] = ""
     """What the motors do after the end of the program, for a kind without a line that stops them."""
 
+    own_motor: ClassVar[bool] = False
+    """While an axis is to hold, neither wind nor a hand can turn it: only its own motor, which the box does not see."""
+
+    @property
+    def switches_supply(self) -> bool:
+        """An output of the drive itself switches the motors' supply."""
+        return False
+
     def pins(self) -> list[tuple[int, str]]:
         """Every GPIO in use except those of SPI, with its key in the file."""
         return []

@@ -20,18 +20,16 @@ class MoteusAxisTable(Table):
     id: int = Field(1, ge=1, le=126)
     """The controller's CAN id."""
     rev_per_turn: float = 1.0
-    """Revolutions of the controller for 360° of the antenna; negative for the opposite direction."""
+    """Revolutions of the controller for 360° of the antenna; negative: the other way."""
     zero_rev: float = 0.0
     """The controller's position at 0° of the rotor's scale, in revolutions."""
     velocity_limit_dps: float = Field(30.0, gt=0, le=360)
-    """The speed limit, sent with every order."""
     accel_limit_dps2: float = Field(20.0, gt=0, le=1000)
-    """The acceleration limit, sent with every order."""
+    """The limits sent with every order."""
     max_torque_nm: float | None = Field(None, gt=0)
-    """The torque limit; left out, the controller's own setting."""
+    """The torque limit; left out, the controller's own."""
     geared: bool = True
-    """The only encoder sits before a gear: after power-on the controller does not know the antenna's angle, and the
-    axis does not move until you confirm it."""
+    """The only encoder sits before a gear: after power-on the axis does not move until you confirm its angle."""
 
     @model_validator(mode="after")
     def _turns(self) -> MoteusAxisTable:
@@ -67,7 +65,7 @@ class MoteusKind(Kind):
     moteus: Moteus
 
     confirmable = True
-    own = Angle(AngleSource.MEASURED, by="told by its controller")
+    own = Angle(AngleSource.MEASURED, sensor="encoder", by="told by its controller")
     usual: ClassVar[Usual] = {
         axis: {"speed_dps": 30.0} for axis in ("azimuth", "elevation", "sim.azimuth", "sim.elevation")
     }

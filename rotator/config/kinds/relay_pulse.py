@@ -39,7 +39,7 @@ class PulseAxisTable(Table):
     play_deg: float = Field(0.0, ge=0, le=10)
     """The play of the gear: after a reversal the contact changes this much later."""
     home_deg: float = Field(0.0, ge=-360, le=720)
-    """Where homing ends: the angle of the low end stop, or where the axis rests after its low limit switch opened."""
+    """Where homing ends: at the low end stop, or at rest after the low limit switch opened."""
 
     def edges_deg(self, near_deg: float) -> list[float]:
         """Angles at which the contact changes, a few on both sides of `near_deg`."""
@@ -53,6 +53,18 @@ class PulseAxisTable(Table):
             raise ValueError(f"closed_deg ({self.closed_deg:g}) must be below spacing_deg ({self.spacing_deg:g})")
         return self
 
+    @model_validator(mode="after")
+    def _tells_places_apart(self) -> PulseAxisTable:
+        """A shaft that came down stands anywhere in its play: with two closures in it, the contact names no place."""
+        narrowest_deg = min(self.closed_deg, self.spacing_deg - self.closed_deg)
+        if self.play_deg >= narrowest_deg > 0:
+            raise ValueError(
+                f"play_deg ({self.play_deg:g}) must be below {narrowest_deg:g}, the width of the cam's narrower part: "
+                "with more play the contact shows the same at two places, and the axis cannot be homed; measure "
+                "closed_deg, or take play out of the gear"
+            )
+        return self
+
 
 class PulseElevation(PulseAxisTable):
     contact: Gpio = 20
@@ -61,11 +73,11 @@ class PulseElevation(PulseAxisTable):
 
 class Pulses(PerAxis, Table):
     active: Literal["low", "high"] = "low"
-    """The level of a closed contact; low for an opto-isolator that pulls to ground."""
+    """A closed contact's level; low for an opto-isolator to ground."""
     pull: bool = True
-    """Use the Pi's own resistor to hold the line at the open level."""
+    """The Pi's own resistor holds the line at the open level."""
     debounce_s: float = Field(0.02, ge=0, le=0.3)
-    """A change of the contact counts after it has stayed for this time."""
+    """A change of the contact counts after this time."""
     azimuth: PulseAxisTable = PulseAxisTable()
     """The azimuth axis's cam."""
     elevation: PulseElevation = PulseElevation()
@@ -82,7 +94,7 @@ class RelayPulse(Kind):
     pulses: Pulses
 
     switched = True
-    own = Angle(AngleSource.COUNTED, by="counted")
+    own = Angle(AngleSource.COUNTED, sensor="contact", by="counted")
     usual: ClassVar[Usual] = {
         "azimuth": {"coast_s": 0.1},
         "elevation": {"speed_dps": 6.0, "coast_s": 0.1},

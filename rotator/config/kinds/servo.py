@@ -26,7 +26,7 @@ class ServoAxisTable(Table):
     pulses_us: list[Point] = Field(default=[(0.0, 500.0), (180.0, 2500.0)], min_length=2)
     """Points [degrees, pulse width in microseconds]; no pulse goes beyond their ends."""
     start_deg: float = Field(0.0, ge=-360, le=720)
-    """The angle of the first pulse. The servo runs there at full speed, so set it to where you leave the antenna."""
+    """The angle of the first pulse, at full speed: set it to where you leave the antenna."""
     slew_dps: float = Field(60.0, gt=0, le=720)
     """The speed of the ordered angle; not above the servo's own."""
 
@@ -38,15 +38,14 @@ class ServoElevation(ServoAxisTable):
 
 class Servo(PerAxis, Table):
     bus: I2CBus = 1
-    """1 is the bus on the header."""
     address: I2CAddress = 0x40
-    """The address of the PCA9685."""
+    """Bus and address of the PCA9685."""
     osc_hz: float = Field(25e6, ge=20e6, le=30e6)
-    """The measured frequency of its oscillator, 26 to 27 MHz on many boards. It scales every pulse."""
+    """The measured frequency of its oscillator, 26 to 27 MHz on many boards."""
     enable: Gpio | None = None
-    """The line to the board's OE input, with a pull-up: no pulse before the program starts them."""
+    """The board's OE input, with a pull-up: no pulse before the program starts them."""
     idle_off_s: float = Field(0.0, ge=0, le=86_400)
-    """The time without a move after which a servo gets no more pulses and is limp. 0: it always holds."""
+    """After this time without a move a servo gets no pulses and is limp. 0: it always holds."""
     azimuth: ServoAxisTable = ServoAxisTable()
     """The azimuth servo."""
     elevation: ServoElevation = ServoElevation()
@@ -57,7 +56,7 @@ class Servo(PerAxis, Table):
 class ServoKind(Kind):
     servo: Servo
 
-    own = Angle(AngleSource.MODELLED, by="modelled")
+    own = Angle(AngleSource.MODELLED, sensor="model", by="modelled")
     usual: ClassVar[Usual] = {
         "azimuth": {"max_deg": 180.0, "speed_dps": 60.0},
         "elevation": {"speed_dps": 60.0},

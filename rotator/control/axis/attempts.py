@@ -11,14 +11,14 @@ from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.met_stops import MetStops
 from rotator.control.axis.short_runs import STANDING, ShortRuns
 from rotator.control.sky.mount import Range
-from rotator.faults import Fault, FaultKind, Notice
+from rotator.faults import POT, Fault, FaultKind, Notice
 
 
 class Attempts:
     """Give it every change of the relays (`driven`) and every good reading (`see`), in order of time."""
 
-    def __init__(self, axis: Axis, limits: Range) -> None:
-        self._faults = FaultLatch()
+    def __init__(self, axis: Axis, limits: Range, sensor: str = POT) -> None:
+        self._faults = FaultLatch(sensor)
         self._short_runs = ShortRuns(axis)
         self._stops = MetStops(axis, limits)
         self._now_s = 0.0

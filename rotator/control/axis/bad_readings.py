@@ -10,7 +10,7 @@ from collections import deque
 from rotator.faults import Notice
 
 LOOKED_AT = 100
-"""So many of the latest readings count: five seconds."""
+"""So many of the latest readings count: five seconds at 20 Hz, two at 50 Hz."""
 NOTICED, NOTICED_NO_MORE = 4, 1
 TOO_MANY = 8
 HEALED_S = 1.0

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import replace
 
-from rotator.faults import Fault
+from rotator.faults import POT, Fault
 
 TRIES = 3
 TRIES_WITHIN_S = 600.0
@@ -19,7 +19,9 @@ TRIES_WITHIN_S = 600.0
 class FaultLatch:
     """Keeps the first fault until it is acknowledged; one that only cutting the supply ends replaces any other."""
 
-    def __init__(self) -> None:
+    def __init__(self, sensor: str = POT) -> None:
+        self._sensor = sensor
+        """What reads the angle, in a word: each fault names it."""
         self.fault: Fault | None = None
         self._cause: Fault | None = None
         """What acknowledging does not end, because it is there now."""
@@ -33,7 +35,7 @@ class FaultLatch:
         """
         self._cause = cause
         if self.fault and self.fault.passing:
-            self.fault = found
+            self.fault = self._named(found)
         return self.fail(found, now_s, tries=tries)
 
     def fail(self, fault: Fault | None, now_s: float, *, tries: int) -> bool:
@@ -47,7 +49,7 @@ class FaultLatch:
                 f"tried {TRIES} times in {TRIES_WITHIN_S / 60:g} minutes: only `resume` or that time acknowledges it"
             )
             fault = replace(fault, measured=f"{fault.measured}; {often}")
-        self.fault = fault
+        self.fault = self._named(fault)
         return True
 
     def needs_person(self, now_s: float) -> bool:
@@ -60,5 +62,9 @@ class FaultLatch:
             self._tries_s.clear()
         elif self.needs_person(now_s):
             return False
-        self.fault = self._cause
+        self.fault = self._named(self._cause)
         return True
+
+    def _named(self, fault: Fault | None) -> Fault | None:
+        """In the words of this axis's sensor."""
+        return fault if fault is None or fault.sensor == self._sensor else replace(fault, sensor=self._sensor)

@@ -25,6 +25,8 @@ class JogGoal:
     """None: until it is halted, or at its limit."""
     waits_s: float = LONGEST_WAIT_S
     """For so long more its time does not pass while its relay may not close yet."""
+    held: bool = False
+    """Its sender holds a button, and renews it."""
     end_deg: float | None = None
     """Where it comes to rest before a forbidden sector; None: no sector was near yet."""
 
@@ -47,10 +49,13 @@ def limit_reached(axis: Axis, direction: Direction) -> Fault:
     return Fault(FaultKind.LIMIT_SWITCH, axis, measured)
 
 
-def jog(direction: Direction, seconds: float | None, now_s: float, *, commissioned: bool) -> JogGoal | None:
+def jog(
+    direction: Direction, seconds: float | None, now_s: float, *, commissioned: bool, held: bool = False
+) -> JogGoal | None:
     """The goal of an order to jog; None: to stop. An axis that is not commissioned obeys short presses only."""
     if direction is Direction.OFF:
         return None
     if not commissioned:
         seconds = UNCALIBRATED_JOG_S if seconds is None else min(seconds, UNCALIBRATED_JOG_S)
-    return JogGoal(direction, None if seconds is None else now_s + seconds)
+    until_s = None if seconds is None else now_s + seconds
+    return JogGoal(direction, until_s, 0.0 if held else LONGEST_WAIT_S, held=held)

@@ -122,13 +122,18 @@ class Motion:
 
     def angle_at(self, now_s: float) -> float:
         """Where the axis is at this moment; 0 before the first reading."""
-        if self.angle_deg is None:
-            return 0.0
-        return self.angle_deg + (self._speed_dps + self._speed_at(now_s)) / 2 * (now_s - self._at_s)
+        return self._angle_at(now_s, self._speed_at(now_s))
 
     def rest_deg(self, now_s: float) -> float:
         """Where the axis would stand if the motor were switched off now; 0 before the first reading."""
-        return self.angle_at(now_s) + self._speed_at(now_s) * self._lag_s()
+        speed_dps = self._speed_at(now_s)
+        return self._angle_at(now_s, speed_dps) + speed_dps * self._lag_s()
+
+    def _angle_at(self, now_s: float, speed_dps: float) -> float:
+        """With the speed that it has then."""
+        if self.angle_deg is None:
+            return 0.0
+        return self.angle_deg + (self._speed_dps + speed_dps) / 2 * (now_s - self._at_s)
 
     def _lag_s(self) -> float:
         run = self._run or (self._landing.run if self._landing else None)

@@ -17,9 +17,11 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from dataclasses import replace
 
 from hw.ports import Direction
 from rotator.control.axis.observed_motion import RELAY_S, ObservedMotion
+from rotator.control.axis.run_on import RAN_ON_READINGS, RAN_ON_S, ended_suddenly, goes_on, went_far
 from rotator.control.axis.seen_run import END_WINDOWS_S, FED_SHARE, SLOWED_SHARE, STEADY_S, UNSEEN_S, EndedRun, SeenRun
 from rotator.control.axis.standing import HeldPlaces, Rest
 from rotator.control.axis.trend import Slope
@@ -29,11 +31,10 @@ PLUS, MINUS = Direction.PLUS, Direction.MINUS
 DOUBTS_AFTER_S = 0.5
 GAP_S = 0.5
 """No command to a relay holds for longer without being renewed."""
+LATE_S = 0.2
+"""When its latest reading is older, where an axis is has to be reckoned."""
 BLIND_S = 1.0
 """So long, in all, an axis may have been driven by short runs that it was not seen to follow."""
-RAN_ON_S, RAN_ON_SHARE = 0.45, 0.9
-"""After this time a coasting axis has gone less than this share of what a fed motor goes."""
-RAN_ON_READINGS = 5
 BEYOND_DEG = 0.5
 """So far beyond its limit an axis may come to rest: its stop is a degree beyond the limit at least."""
 MOVED_DEG = 0.5
@@ -60,6 +61,8 @@ class OpeningWatch:
         """It went on at its speed after its relay was switched off."""
         self._going = 0
         """How many readings in a row have shown that."""
+        self._held_up = False
+        """It went on until something held it."""
         self._run = SeenRun(seen)
         self._supplied_s: float | None = None
         """Since when the motor would have current if a relay were closed; None: it would not."""
@@ -97,11 +100,6 @@ class OpeningWatch:
         return self._run.measured_dps
 
     @property
-    def fed_dps(self) -> float:
-        """What a motor with current turns at least."""
-        return self._run.fed_dps
-
-    @property
     def place(self) -> str:
         """Where the axis stands, for a person."""
         return f" stands at {self._place_deg:.1f}°" if self._latest and self._placed else ""
@@ -136,7 +134,7 @@ class OpeningWatch:
             self._from_here = False
             self._rest_deg = self._rested_s = self._lagged_deg = None
             self._run.begin()
-            self.ran_on, self._going = False, 0
+            self.ran_on, self._held_up, self._going = False, False, 0
 
     def see(self, at_s: float, angle_deg: float, *, supplied: bool) -> None:
         """A good reading, on the line of the others."""
@@ -173,7 +171,11 @@ class OpeningWatch:
     def _end(self, now_s: float, direction: Direction, lasted_s: float) -> None:
         if self._run.line is None:
             self._blind_s += now_s - max(now_s - lasted_s, self._run.turned_s)
-        self._run.end(now_s, direction, lasted_s, self._place_deg if self._latest else 0.0)
+        place_deg = self._place_deg if self._latest else 0.0
+        if self._run.line is not None and now_s - self._seen_s > LATE_S:
+            # Without readings it has gone on with current until now.
+            place_deg += self._run.line.speed_dps * (now_s - self._seen_s)
+        self._run.end(now_s, direction, lasted_s, place_deg)
 
     # --- no relay is closed
 
@@ -187,20 +189,21 @@ class OpeningWatch:
             self._note_moved(self._rest_deg)
 
     def _note_slowing(self, at_s: float, ended: EndedRun, line: Slope) -> None:
-        slope = self._seen.trend.slope(ended.off_s + RELAY_S)
-        way = PLUS if line.speed_dps > 0 else MINUS
-        if slope is None or self.ran_on or self._trust[ended.direction] is Trust.OPEN:
+        if self.ran_on or self._trust[ended.direction] is Trust.OPEN:
             return
+        slope = self._seen.trend.slope(ended.off_s + RELAY_S)
+        if slope is None:
+            return
+        way = PLUS if line.speed_dps > 0 else MINUS
         least_dps = abs(line.speed_dps) - 2.0 * line.rough_dps
         slowed = slope.speed_dps * way + 3.0 * slope.rough_dps < SLOWED_SHARE * least_dps
         passed_s = at_s - ended.off_s
         gone_deg = (self._place_deg - ended.angle_deg) * way
-        if (slowed and self._free(way, self._place_deg)) or self._still_coasts(passed_s, gone_deg, line):
+        coasts = not went_far(self._seen, self._run, gone_deg)
+        if (slowed and coasts and self._free(way, self._place_deg)) or self._still_coasts(passed_s, gone_deg, line):
             self._trust[ended.direction] = Trust.OPEN
         elif passed_s >= RAN_ON_S and ended.lasted_s >= STEADY_S:
-            least_deg = RAN_ON_SHARE * abs(line.speed_dps) * passed_s
-            going = gone_deg - 2.5 * self._seen.trend.noise_deg > least_deg
-            self._going = self._going + 1 if going else 0
+            self._going = self._going + 1 if goes_on(self._seen, line, passed_s, gone_deg) else 0
             self.ran_on = self._going >= RAN_ON_READINGS
 
     def _still_coasts(self, passed_s: float, gone_deg: float, line: Slope) -> bool:
@@ -219,7 +222,7 @@ class OpeningWatch:
         return gone_deg - self._lagged_deg > sure_deg
 
     def _stands(self, at_s: float) -> bool:
-        trend, fed_dps = self._seen.trend, self.fed_dps
+        trend, fed_dps = self._seen.trend, self._run.fed_dps
         window_s = min(max(SHORTEST_WINDOW_S, trend.window_s(fed_dps / 6.0)), LONGEST_WINDOW_S)
         assert self._supplied_s is not None
         from_s = max(self._supplied_s, self._run.ended.off_s if self._run.ended else -math.inf, trend.since_s)
@@ -232,9 +235,13 @@ class OpeningWatch:
         self.looked = True
         if self._rested_s is None:
             self._rested_s = at_s
+            self._held_up = self._held_up or ended_suddenly(self._seen, self._run, self._place_deg)
             while len(self._resting) > 3:
                 self._resting.popleft()  # it was coasting
         rest = Rest(sum(self._resting) / len(self._resting), len(self._resting))
+        creeps_deg = rest.mean_deg - self._rest_deg if self._rest_deg is not None else 0.0
+        self._held.creep(creeps_deg)
+        self._from = self._from and replace(self._from, mean_deg=self._from.mean_deg + creeps_deg)
         self._rest_deg = rest.mean_deg
         if self._from is None or self._from_here:
             self._from, self._from_here = rest, True
@@ -256,11 +263,12 @@ class OpeningWatch:
                 self._trust[way] = Trust.OPEN
             elif self._trust[way] is Trust.UNSEEN and at_s - self._rested_s >= self._doubts_after_s:
                 self._trust[way] = Trust.DOUBTED
+                self._held.note(way, self._rest_deg)
 
     def _followed(self, ended: EndedRun) -> bool:
         """Whether the axis turned when its latest run ended; after a short run, whether it may have."""
         if ended.line is not None:
-            return True
+            return not self._held_up
         if ended.off_s - ended.lasted_s <= self._run.turned_s < ended.off_s - self._run.unseen_s:
             return False  # in this run it turned at first, and something held it
         return self._blind_s <= max(BLIND_S, 1.5 * self._run.unseen_s)

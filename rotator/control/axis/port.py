@@ -13,7 +13,7 @@ from rotator.control.axis.sensing import Reading
 from rotator.control.commands import Command, Decision, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.pointing import AimGoal
-from rotator.faults import Fault, Missing
+from rotator.faults import Fault, Missing, Notice
 from rotator.status import AxisStatus
 
 
@@ -35,8 +35,8 @@ class ControlledAxis(Protocol):
         """Whether the axis has a goal: it aims, jogs or homes."""
 
     @property
-    def jogs_without_end(self) -> bool:
-        """Whether the axis turns until it is stopped, or at its limit: a jog without a time."""
+    def jog_is_held(self) -> bool:
+        """Whether the axis turns only for as long as its sender is there: a jog without a time, or a held one."""
 
     @property
     def driven(self) -> bool:
@@ -45,6 +45,10 @@ class ControlledAxis(Protocol):
     @property
     def missing(self) -> tuple[Missing, ...]:
         """What the axis lacks before it may be aimed; empty: nothing."""
+
+    @property
+    def pressed_in_vain(self) -> bool:
+        """Whether presses did not move it often enough, where it has no calibration that could show why."""
 
     @property
     def confirmable(self) -> bool:
@@ -59,8 +63,8 @@ class ControlledAxis(Protocol):
     def aim(self, goal: AimGoal) -> None:
         """Point there from now on."""
 
-    def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
-        """Turn that way for `seconds`, or until halted (None). OFF halts."""
+    def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
+        """Turn that way for `seconds`, or until halted (None). OFF halts. `held`: no wait prolongs the time."""
 
     def halt(self) -> None:
         """Stop and have no goal."""
@@ -106,5 +110,6 @@ class ControlledAxis(Protocol):
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """After the cycle: the direction in which its relays are really closed (OFF where there are none)."""
 
-    def status(self, now_s: float) -> AxisStatus:
-        """The axis as others see it."""
+    def status(self, now_s: float, *, starts: int | None = None, more: tuple[Notice, ...] = ()) -> AxisStatus:
+        """The axis as others see it. What only the controller knows of it: `starts` of its motor in this pass, and
+        `more` notices."""

@@ -12,6 +12,7 @@ from dataclasses import replace
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.goals import JogGoal, jog, limit_reached
+from rotator.control.axis.held_watch import HeldWatch
 from rotator.control.axis.pace import Pace
 from rotator.control.axis.reach import UNSEEN_S, lost
 from rotator.control.axis.sensing import Condition, Reading, Sensing
@@ -23,7 +24,7 @@ from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.sectors import UNKNOWN
-from rotator.faults import Fault, Missing
+from rotator.faults import Fault, FaultKind, Missing, Notice
 from rotator.status import AxisStatus
 
 RATE_OVER_S = 0.25
@@ -38,13 +39,14 @@ class PositionedAxis:
     def __init__(self, settings: PositionedSettings, *, lease_s: float) -> None:
         self.settings = settings
         self._goal: AimGoal | JogGoal | None = None
-        self._faults = FaultLatch()
+        self._faults = FaultLatch(settings.sensor)
         self._condition = Condition()
         self._lease_s = lease_s
         # A model jumps where it is corrected, and it does not scatter.
         fastest_dps = settings.speed_dps if settings.source is AngleSource.MEASURED else math.inf
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
-        self._stray = StrayWatch(settings.axis, settings.speed_dps, settings.accel_dps2)
+        self._stray = StrayWatch(settings.axis, settings.speed_dps, settings.accel_dps2, near_deg=settings.near_deg)
+        self._held = HeldWatch(settings.axis, settings.speed_dps, master=settings.master)
         self._seen_s = 0.0
         """The moment of the present cycle."""
         self._readings = Trend()
@@ -69,8 +71,8 @@ class PositionedAxis:
         return self._goal is not None
 
     @property
-    def jogs_without_end(self) -> bool:
-        return isinstance(self._goal, JogGoal) and self._goal.until_s is None
+    def jog_is_held(self) -> bool:
+        return isinstance(self._goal, JogGoal) and (self._goal.held or self._goal.until_s is None)
 
     @property
     def fault(self) -> Fault | None:
@@ -80,6 +82,10 @@ class PositionedAxis:
     def driven(self) -> bool:
         """Whether the drive was last sent elsewhere than where the axis is."""
         return self._steered is not None and not self._arrived(self._steered[0])
+
+    @property
+    def pressed_in_vain(self) -> bool:
+        return False  # without a calibration there is nowhere to send it
 
     @property
     def confirmable(self) -> bool:
@@ -95,8 +101,8 @@ class PositionedAxis:
     def missing(self) -> tuple[Missing, ...]:
         return self.settings.missing
 
-    def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
-        self._goal = jog(direction, seconds, now_s, commissioned=not self.settings.missing)
+    def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
+        self._goal = jog(direction, seconds, now_s, commissioned=not self.settings.missing, held=held)
 
     def halt(self) -> None:
         self._goal = None
@@ -115,8 +121,17 @@ class PositionedAxis:
         # The rotor's own report says more than what can be seen of it from here.
         reported = reading.condition.fault
         cause = unbelievable if reading.condition.latched else reported or unbelievable
-        found = reported or unbelievable or self._straying(now_s)
-        self._faults.note(found, now_s, cause=cause, tries=int(self.driven))
+        found = reported or unbelievable or self._turning(now_s) or self._straying(now_s)
+        # A move that was too short to show anything counts with the one that shows it.
+        vain = self._stray.tries if found is not None and found.kind is FaultKind.NOT_FOLLOWING else 0
+        if self._faults.note(found, now_s, cause=cause, tries=int(self.driven) + vain):
+            self._stray.struck()
+
+    def _turning(self, now_s: float) -> Fault | None:
+        """What is wrong while it is to hold. A model would show nothing, and wind turns an axis that is let go."""
+        if not self.settings.own_motor or self.settings.source is not AngleSource.MEASURED:
+            return None
+        return self._held.see(now_s, self._readings, self._sensing.angle_deg, holds=self._steered is None)
 
     def _straying(self, now_s: float) -> Fault | None:
         steered = self._steered[0] if self._steered else None
@@ -127,7 +142,8 @@ class PositionedAxis:
         self._faults.fail(fault, self._seen_s, tries=int(self.driven))
 
     def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
-        self._stray.clear()
+        if self.fault is not None:
+            self._stray.clear()
         return self._faults.acknowledge(now_s, by_person=by_person)
 
     def decide(self, now_s: float) -> Decision:
@@ -179,7 +195,7 @@ class PositionedAxis:
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """There are no relays to be noted."""
 
-    def status(self, now_s: float) -> AxisStatus:
+    def status(self, now_s: float, *, starts: int | None = None, more: tuple[Notice, ...] = ()) -> AxisStatus:
         limits = self.settings.limits
         return AxisStatus(
             min_deg=limits.min_deg,
@@ -192,11 +208,12 @@ class PositionedAxis:
             tolerance_deg=self.aiming.tolerance_deg if self.aiming else None,
             drive=self._direction(),
             moving=self.moving(now_s),
+            starts=starts,
             missing=self.settings.missing,
             confirmable=self.confirmable,
             fault=self.fault,
             noise_deg=self._readings.noise_deg,
-            notices=tuple(each for each in (self._condition.notice, self._sensing.notice) if each),
+            notices=(*(each for each in (self._condition.notice, self._sensing.notice) if each), *more),
         )
 
     def _wish(self, now_s: float) -> Steer | Hold:
@@ -224,7 +241,7 @@ class PositionedAxis:
                 return HOLD
             case JogGoal(end_deg=float() as end_deg):
                 return self._jog_to(end_deg, until_s)
-            case JogGoal(direction, _):
+            case JogGoal(direction):
                 return self._jog(self._sensing.angle_deg, now_s, direction, until_s)
 
     def _jog(self, angle_deg: float, now_s: float, direction: Direction, until_s: float) -> Steer | Hold:

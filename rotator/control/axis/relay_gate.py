@@ -14,7 +14,7 @@ from hw.ports import Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.reach import Runs
-from rotator.control.axis.relay_trust import WAYS, doubts
+from rotator.control.axis.relay_trust import WAYS, doubts, unstoppable
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition
 from rotator.control.axis.settings import SwitchedSettings
@@ -99,18 +99,15 @@ class RelayGate:
         return Feed(now_s + self._lease_s) if self._settings.master else Run(Direction.OFF, now_s)
 
     def blind(self, fault: Fault | None, runs: Runs, now_s: float) -> Fault | None:
-        """A sensor's fault, as it is; where it hides whether the motor has stopped, the master is to stop it."""
-        if fault is None or not self._settings.master or runs.last is Direction.OFF:
+        """A sensor's fault, as it is; where it hides whether the motor has stopped, the supply is to stop it."""
+        if fault is None or runs.last is Direction.OFF:
             return fault
         trust = self.trusts[0 if runs.last > 0 else 1]
         if trust is Trust.OPEN or runs.direction is not Direction.OFF or runs.off_s(now_s) < SETTLED_AFTER_S:
             return fault
         way = WAYS[self._settings.axis, runs.last]
-        return replace(
-            fault,
-            measured=f"{fault.measured}, and it may still run {way}; the box has switched the motors' supply off",
-            cut=True,
-        )
+        unseen = replace(fault, measured=f"{fault.measured}, and it may still run {way}")
+        return unstoppable(unseen, master=self._settings.master)
 
     def notices(self, now_s: float) -> tuple[Notice, ...]:
         waits = (WAITS,) if now_s - self._waits_s >= WAITS_TOLD_AFTER_S else ()

@@ -5,6 +5,8 @@ Knows how far a relay is trusted, and whether a master is wired. `opening_watch`
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from hw.ports import Axis, Direction
 from rotator.faults import Fault, FaultKind, Notice
 from rotator.status import Trust, Trusts
@@ -18,12 +20,15 @@ WAYS = {
 }
 
 
-def unstoppable(kind: FaultKind, axis: Axis, measured: str, limit: str, *, master: bool) -> Fault:
-    """A fault that no relay of this axis ends: only the supply does. `master`: an output switches the supply."""
+def unstoppable(fault: Fault, *, master: bool) -> Fault:
+    """That fault, of an axis that no relay of its own is sure to stop: only the supply is.
+
+    `master`: an output switches the supply.
+    """
     if master:
-        return Fault(kind, axis, f"{measured}; the box has switched the motors' supply off", limit, cut=True)
-    measured += "; switch the motors' supply off by hand NOW, the box has no relay for that"
-    return Fault(kind, axis, measured, limit, cut=True, act_now=CUT_BY_HAND)
+        return replace(fault, measured=f"{fault.measured}; the box has switched the motors' supply off", cut=True)
+    measured = f"{fault.measured}; switch the motors' supply off by hand NOW, the box has no relay for that"
+    return replace(fault, measured=measured, cut=True, act_now=CUT_BY_HAND)
 
 
 def accusation(axis: Axis, direction: Direction, trust: Trust, place: str, *, master: bool) -> Fault | None:
@@ -34,7 +39,7 @@ def accusation(axis: Axis, direction: Direction, trust: Trust, place: str, *, ma
     way = WAYS[axis, direction]
     match trust:
         case Trust.WELDED:
-            return unstoppable(FaultKind.RELAY_WELDED, axis, f"the relay {way} was found closed", "", master=master)
+            return unstoppable(Fault(FaultKind.RELAY_WELDED, axis, f"the relay {way} was found closed"), master=master)
         case Trust.DOUBTED:
             measured = f"the relay {way} is off, and it{place or ' stands'}, where a motor with current would stand too"
             # The motor may have current and be held by its stop: with a master it is spared that.

@@ -17,7 +17,7 @@ from rotator.control.axis.sparks import Place, Sparks
 from rotator.faults import Fault, FaultKind, Notice
 
 BAD_FOR_S = 0.09
-"""Bad readings are a fault after this time (the third one in a row at 20 Hz)."""
+"""Bad readings are a fault after this time (the third one in a row at 20 Hz, the sixth at 50 Hz)."""
 COUNTED_IN_A_ROW = 2
 """More bad readings in a row are one gap, which is a fault of its own or over before it matters."""
 RIDDEN_S = 0.16

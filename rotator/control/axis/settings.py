@@ -45,6 +45,8 @@ class SwitchedSettings:
     """What an earlier run of the program knew of its two relays."""
     look: bool = False
     """The axis is to be seen standing before its first relay closes."""
+    sensor: str = "pot"
+    """What reads the angle, in a word for the messages of faults."""
     attended: bool = False
     """A person watches the antenna, and drives it to its stops on purpose: a relay in doubt forbids nothing then."""
 
@@ -66,6 +68,12 @@ class PositionedSettings:
     """How hard the motor brakes; None: it stops at once."""
     confirmable: bool = False
     """A person may say at which angle the axis stands."""
+    own_motor: bool = False
+    """While it is to hold, neither wind nor a hand can turn it: only its own motor."""
+    master: bool = False
+    """Whether an output switches its motor's supply."""
+    sensor: str = "pot"
+    """What reads the angle, in a word for the messages of faults."""
 
 
 AxisSettings = SwitchedSettings | PositionedSettings

@@ -50,6 +50,10 @@ class HeldPlaces:
         kept = self._held_deg.items()
         self._held_deg = {way: held_deg for way, held_deg in kept if (place_deg - held_deg) * way <= HOLDS_DEG}
 
+    def creep(self, by_deg: float) -> None:
+        """Where it stands reads differently now: a sensor that drifts, for a motor does not turn so slowly."""
+        self._held_deg = {way: held_deg + by_deg for way, held_deg in self._held_deg.items()}
+
     def left(self, place_deg: float, by_deg: float) -> None:
         """It stands there, and has left each place that is further away."""
         kept = self._held_deg.items()

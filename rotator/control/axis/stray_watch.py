@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Iterable
 
 from hw.ports import Axis
+from rotator.control.axis.vain_moves import LeftBehind, VainMoves
 from rotator.control.commands import Steer
 from rotator.faults import Fault, FaultKind
 
@@ -20,6 +21,8 @@ STRAY_S = 1.7
 TURNED_BACK_S = 0.4
 """An axis that has to turn back first is seen to come nearer so long after it stood: a moteus at 20°/s² from 30°/s
 takes 1.5 s and this."""
+ARRIVED_S = 0.5
+"""Where a target stays near for so long, it is not left behind."""
 MEAN_OF = 5
 """The axis is at the mean of so many readings: one alone scatters by more than a slow motor turns."""
 COMING_DEG, COMING_NOISES = 0.5, 2.7
@@ -29,12 +32,17 @@ SLOW_SHARE = 0.25
 
 
 class StrayWatch:
-    """`speed_dps`: of the motor; `accel_dps2`: how hard it brakes, None: it stops at once."""
+    """`speed_dps`: of the motor; `accel_dps2`: how hard it brakes, None: it stops at once.
 
-    def __init__(self, axis: Axis, speed_dps: float, accel_dps2: float | None = None) -> None:
+    `near_deg`: so far beside its place it may rest.
+    """
+
+    def __init__(self, axis: Axis, speed_dps: float, accel_dps2: float | None = None, *, near_deg: float = 0.0) -> None:
         self._axis = axis
         self._speed_dps = speed_dps
         self._stray_s = max(STRAY_S, speed_dps / accel_dps2 + TURNED_BACK_S) if accel_dps2 else STRAY_S
+        self._apart_deg = max(STRAY_DEG, 2.0 * near_deg)
+        """A target that has moved so far has left its dead band, wherever in it the axis was."""
         self._latest_deg: deque[float] = deque(maxlen=MEAN_OF)
         self._sent_for_s = 0.0
         """For how long, in all, it was sent somewhere."""
@@ -46,6 +54,19 @@ class StrayWatch:
         """How far, in all, it has come nearer to where it was sent."""
         self._kept: deque[tuple[float, float]] = deque()
         """Both of these of late, since it was not where it was sent."""
+        self._vain = VainMoves()
+        self._left = LeftBehind()
+        self._away_s = 0.0
+        """When it was last on the way to its place, on the same clock."""
+
+    @property
+    def tries(self) -> int:
+        """How often it was sent elsewhere in vain before the present move."""
+        return self._vain.count
+
+    def struck(self) -> None:
+        """A fault has stopped the axis: its tries are counted."""
+        self._vain.struck()
 
     def clear(self) -> None:
         """The fault is acknowledged."""
@@ -61,14 +82,17 @@ class StrayWatch:
         if angle_deg is not None:
             self._latest_deg.append(angle_deg)
         if steered is None or angle_deg is None:
+            self._vain.hold()
             self._sent_s = self._place_deg = None
             return None
+        begins = self._sent_s is None
         self._sent_for_s += now_s - (now_s if self._sent_s is None else self._sent_s)
         self._sent_s = now_s
         ahead_deg = steered.angle_deg - angle_deg
         near = abs(ahead_deg) < STRAY_DEG
         runs_on = abs(steered.rate_dps) > SLOW_SHARE * self._speed_dps
-        if (near and not runs_on) or settling:
+        arrived = (near and not runs_on) or settling
+        if arrived:
             self._kept.clear()
         place_deg = sum(self._latest_deg) / len(self._latest_deg)
         towards = steered.rate_dps if near and runs_on else ahead_deg
@@ -77,10 +101,20 @@ class StrayWatch:
         self._place_deg = place_deg
         self._kept.append((self._sent_for_s, self._nearer_deg))
         coming_deg = max(COMING_DEG, COMING_NOISES * noise_deg)
+        self._vain.see(self._sent_for_s, self._nearer_deg, coming_deg, begins=begins and not near and not settling)
+        self._away_s = self._away_s if arrived else self._sent_for_s
+        if begins or settling or self._sent_for_s - self._away_s > ARRIVED_S:
+            self._left.begin()
         patience_s = max(self._stray_s, coming_deg / (SLOW_SHARE * self._speed_dps))
         since_s = self._sent_for_s - patience_s
         while len(self._kept) > 1 and self._kept[1][0] <= since_s:
             self._kept.popleft()
+        left_s = self._left.seconds(
+            self._sent_for_s, steered.angle_deg, place_deg, moved_deg=coming_deg, apart_deg=self._apart_deg
+        )
+        if left_s >= patience_s:
+            measured = f"it stays at {angle_deg:.1f}°, and its target has moved by more than {self._apart_deg:.1f}°"
+            return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{coming_deg:.1f}° in {patience_s:.2g} s")
         comes = _rise_deg(self._kept) >= coming_deg
         if near or comes or self._kept[0][0] > since_s:
             return None

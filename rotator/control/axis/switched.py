@@ -22,6 +22,7 @@ from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
+from rotator.control.axis.vain_presses import IN_VAIN, VainPresses
 from rotator.control.axis.weld_watch import TURNS
 from rotator.control.commands import Command, Decision, Feed, Run, Steer
 from rotator.control.sky.mount import Range
@@ -46,7 +47,8 @@ class SwitchedAxis:
     def __init__(self, settings: SwitchedSettings, *, lease_s: float, period_s: float) -> None:
         self.settings = settings
         self._goal: AimGoal | JogGoal | HomeGoal | None = None
-        self._attempts = Attempts(settings.axis, settings.limits)
+        self._attempts = Attempts(settings.axis, settings.limits, settings.sensor)
+        self._vain = VainPresses()
         self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
         self._condition: Condition | None = None
         # A count does not scatter, and it is corrected by as much as a pulse at once. In a calibration the sensor's
@@ -82,8 +84,8 @@ class SwitchedAxis:
         return self._goal is not None
 
     @property
-    def jogs_without_end(self) -> bool:
-        return isinstance(self._goal, JogGoal) and self._goal.until_s is None
+    def jog_is_held(self) -> bool:
+        return isinstance(self._goal, JogGoal) and (self._goal.held or self._goal.until_s is None)
 
     @property
     def homing(self) -> bool:
@@ -96,6 +98,10 @@ class SwitchedAxis:
     @property
     def driven(self) -> bool:
         return self._runs.direction is not Direction.OFF
+
+    @property
+    def pressed_in_vain(self) -> bool:
+        return self._sensing.calibration is None and self._vain.enough
 
     @property
     def confirmable(self) -> bool:
@@ -113,8 +119,8 @@ class SwitchedAxis:
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
 
-    def jog(self, direction: Direction, seconds: float | None, now_s: float) -> None:
-        self._goal = jog(direction, seconds, now_s, commissioned=not self.missing)
+    def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
+        self._goal = jog(direction, seconds, now_s, commissioned=not self.missing, held=held)
 
     def home(self) -> None:
         """Find the end stop. Raises ValueError where the axis does not count."""
@@ -136,6 +142,7 @@ class SwitchedAxis:
             if self._sensing.calibration is None:
                 # Without a calibration there is no angle, but a relay that does not open is seen all the same.
                 self._astray = self._gate.see(at_s, angle_deg, reading.condition)
+                self._vain.see(at_s, angle_deg, self._gate.noise_deg)
                 continue
             self._law.see(at_s, angle_deg)
             found = self._gate.see(at_s, angle_deg, reading.condition)
@@ -166,6 +173,8 @@ class SwitchedAxis:
             self._law.forget_run()
 
     def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
+        if by_person:
+            self._vain.forget()
         acknowledged = self._attempts.acknowledge(now_s, by_person=by_person)
         if acknowledged:
             self._gate.acknowledge()
@@ -310,8 +319,9 @@ class SwitchedAxis:
         self._attempts.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
         self._endurance.note(now_s, running=driven is not Direction.OFF)
         self._runs.note(now_s, driven)
+        self._vain.driven(now_s, driven)
 
-    def status(self, now_s: float) -> AxisStatus:
+    def status(self, now_s: float, *, starts: int | None = None, more: tuple[Notice, ...] = ()) -> AxisStatus:
         calibration = self._sensing.calibration
         return AxisStatus(
             min_deg=self.settings.limits.min_deg,
@@ -324,12 +334,13 @@ class SwitchedAxis:
             tolerance_deg=self.aiming.tolerance_deg if self.aiming else None,
             drive=self._runs.direction,
             moving=self.moving(now_s),
+            starts=starts,
             missing=self.missing,
             lost=self._condition.lost if self._condition else "",
             confirmable=self.confirmable,
             fault=self.fault,
             homing=self.homing,
-            notices=self._notices(now_s),
+            notices=self._notices(now_s) + more,
             noise_deg=self._gate.noise_deg,
             calibration=calibration.points if calibration else None,
             learnt=self._learnt(),
@@ -340,7 +351,8 @@ class SwitchedAxis:
     def _notices(self, now_s: float) -> tuple[Notice, ...]:
         reported = self._condition.notice if self._condition else None
         blind = BLIND if self.settings.window.blind else None
-        single = (reported, self._sensing.notice, self._endurance.notice, blind)
+        vain = IN_VAIN if self.pressed_in_vain else None
+        single = (reported, self._sensing.notice, self._endurance.notice, vain, blind)
         found = (notice for notice in single if notice is not None)
         told = self.fault is not None and self.fault.kind in WHY_IT_TURNS
         gate = (notice for notice in self._gate.notices(now_s) if not (told and notice == TURNS))

@@ -93,6 +93,11 @@ class Trend:
         spread = sum_tt - sum_t * sum_t / count
         return Slope((sum_tx - sum_t * sum_x / count) / spread, self.noise_deg / math.sqrt(spread))
 
+    def place_deg(self, at_s: float, half_s: float) -> float | None:
+        """The mean of the readings around that moment; None: there are none."""
+        near = [angle_deg for seen_s, angle_deg in self._kept if abs(seen_s - at_s) <= half_s]
+        return sum(near) / len(near) if near else None
+
     def window_s(self, rough_dps: float) -> float:
         """How long the line must be for a standard error of `rough_dps`."""
         gap_s = LEAST_GAP_S

@@ -139,4 +139,4 @@ class WeldWatch:
         return self._closed(kind, measured, f"{limit_dps:.2g}°/s for {TURNING.least_s:g} s")
 
     def _closed(self, kind: FaultKind, measured: str, limit: str) -> Fault:
-        return unstoppable(kind, self._seen.axis, measured, limit, master=self._master)
+        return unstoppable(Fault(kind, self._seen.axis, measured, limit), master=self._master)

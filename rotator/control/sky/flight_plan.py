@@ -62,7 +62,7 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
         mount, path.directions(begin_s, STEP_S), antenna.stands_deg, begin_s - now_s, speeds, begin_on=begin_on
     )
     directions = path.directions(begin_s, PLAN_STEP_S)
-    azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs)
+    azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs, stepped=azimuth.switched)
     up = [1.0 if elevation_deg > 0 else DOWN_WEIGHT for _, elevation_deg in directions]
     flat = [
         max(LEAST_WEIGHT, math.cos(math.radians(direction[1]))) ** 2 * weight
@@ -92,14 +92,12 @@ def _steps(trail: Trail, motor: PlannedMotor, now_s: float) -> tuple[Step, ...]:
 
 
 def _axis_angles(
-    mount: Mount, directions: Sequence[tuple[float, float]], legs: Sequence[Leg]
+    mount: Mount, directions: Sequence[tuple[float, float]], legs: Sequence[Leg], *, stepped: bool
 ) -> tuple[list[float], list[float]]:
     """Within the limits, every `PLAN_STEP_S`, on the way that is in force at each moment."""
-    per_look = round(STEP_S / PLAN_STEP_S)
+    begins = [_begin(leg, stepped=stepped) for leg in legs]
     azimuths_deg, elevations_deg = [], []
-    for index, leg in enumerate(legs):
-        begin = leg.look * per_look
-        end = legs[index + 1].look * per_look if index + 1 < len(legs) else len(directions)
+    for leg, begin, end in zip(legs, begins, [*begins[1:], len(directions)], strict=True):
         way = leg.flown.way
         azimuth_deg = way.azimuth_deg
         for moment, direction in enumerate(directions[:end]):
@@ -110,3 +108,11 @@ def _axis_angles(
             azimuths_deg.append(kept_deg)
             elevations_deg.append(mount.clear_deg(kept_deg, elevation_deg))
     return azimuths_deg, elevations_deg
+
+
+def _begin(leg: Leg, *, stepped: bool) -> int:
+    """The moment at which the angles change to this way. A step is made around the moment of its jump: half of the turn
+    is before it."""
+    if not leg.look:
+        return 0
+    return round((leg.look + (leg.arrival - leg.look) / 2 * stepped) * STEP_S / PLAN_STEP_S)

@@ -23,6 +23,9 @@ class Nudges:
     def clear(self) -> None:
         self._deg = dict.fromkeys(Axis, 0.0)
 
+    def of(self, axis: Axis) -> float:
+        return self._deg[axis]
+
     def applied(self, asked: Aim) -> Aim:
         """The order, shifted. An azimuth up to 360° stays on the circle; a larger one names the turn of the overlap."""
         azimuth_deg, elevation_deg = asked.azimuth_deg, asked.elevation_deg

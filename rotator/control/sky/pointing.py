@@ -7,6 +7,7 @@ Knows nothing of the sender, of faults, or of how an axis reaches its goal.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from rotator.control.sky.angles import ZENITH_DEG
@@ -37,6 +38,11 @@ class AimGoal:
     target_deg: float
     tolerance_deg: float
     path: Path | None = None
+
+    def mapped(self, to_deg: Callable[[float], float]) -> AimGoal:
+        """The same, each of its angles elsewhere."""
+        path = None if self.path is None else replace(self.path, angles_deg=[*map(to_deg, self.path.angles_deg)])
+        return replace(self, target_deg=to_deg(self.target_deg), path=path)
 
     def standing(self) -> AimGoal:
         """The same target without its path."""
@@ -110,7 +116,9 @@ class Pointing:
             self._track.clear()
             self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped=False))
             nearest_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
-            return AimGoal(nearest_deg, self._standing_tolerance_deg(elevation_deg)), None
+            # The antenna may still be on its way down from an order before.
+            heights_deg = (elevation_deg,) if kept_deg is None else (elevation_deg, kept_deg)
+            return AimGoal(nearest_deg, min(map(self._standing_tolerance_deg, heights_deg))), None
         if aim.place:
             self._track.clear()
         self._track.note(now_s, aim.azimuth_deg, aim.elevation_deg)

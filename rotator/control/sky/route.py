@@ -64,6 +64,16 @@ def best_way(mount: Mount, directions: Sequence[Direction], present: Way, speeds
     return change[2] if change is not None and change[1] == 0 else present
 
 
+def share_lost(off_deg: float) -> float:
+    """The share of each second that is lost with this error."""
+    return min(1.0, off_deg / LOST_DEG) ** 2
+
+
+def is_seen(mount: Mount, azimuth_deg: float, elevation_deg: float) -> bool:
+    """Whether the target is above the horizon, and above trees and roofs: behind them nothing is lost."""
+    return elevation_deg >= mount.horizon_deg(azimuth_deg)
+
+
 class Flown:
     """A way flown to the end: where the axes are, and the seconds lost up to each look."""
 
@@ -82,10 +92,18 @@ class Flown:
             )
             if mount.sectors:
                 off_deg += mount.inside_deg(kept_az_deg, kept_el_deg)
-            losses_s.append(min(1.0, off_deg / LOST_DEG) ** 2 * STEP_S)
+            losses_s.append(share_lost(off_deg) * STEP_S if is_seen(mount, direction_deg, elevation_deg) else 0.0)
             self.azimuths_deg.append(kept_az_deg)
             self.elevations_deg.append(kept_el_deg)
         self.lost_s = list(accumulate(losses_s))
+
+    def place(self, look: int) -> tuple[float, float]:
+        """Where the axes are."""
+        return self.azimuths_deg[look], self.elevations_deg[look]
+
+    def holds(self, look: int) -> bool:
+        """Whether the target is within reach on this way then, or nothing is lost without it."""
+        return look == len(self.azimuths_deg) or self.loss_s(look) < 0.99 * STEP_S
 
     def loss_s(self, look: int) -> float:
         """What is lost from this look to the next."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from rotator import __version__
 from rotator.orders import Order, Refusal
-from rotator.protocols import gs232, rotctld
+from rotator.protocols import gs232, rotctld, rotctld_earth
 from rotator.protocols.gs232 import Dialect
 from rotator.protocols.gs232_session import Gs232Session
 from rotator.protocols.rotctld_session import RotctldSession
@@ -33,15 +33,6 @@ _ROTCTLD_EXAMPLES = {
     "set_conf": "max_az 540",
     "get_conf": "max_az",
     "send_cmd": "C2",
-    "lonlat2loc": "-70.5 42.3 6",
-    "loc2lonlat": "FN42rh",
-    "dms2dec": "70 30 36 1",
-    "dec2dms": "-70.51",
-    "dmmm2dec": "70 30.6 1",
-    "dec2dmmm": "-70.51",
-    "qrb": "-70.5 42.3 10.2 50.1",
-    "a_sp2a_lp": "30",
-    "d_sp2d_lp": "1000",
     "pause": "5",
 }
 
@@ -67,9 +58,13 @@ def gs232_table() -> str:
 
 
 def rotctld_table() -> str:
-    """Every rotctld command that the box knows: an example, its long name, and the answer to the example."""
+    """Every rotctld command that the box knows: an example, its long name, and the answer to the example.
+
+    Those that only calculate share the last row.
+    """
     rows: list[tuple[str, ...]] = [("example", "long form", "what it does", "answer")]
-    for verb in rotctld.VERBS:
+    calculate = [verb for verb in rotctld.VERBS if verb.name in rotctld_earth.NAMES]
+    for verb in (each for each in rotctld.VERBS if each not in calculate):
         request = rotctld.Request(verb.name, tuple(_ROTCTLD_EXAMPLES.get(verb.name, "").split()))
         session = RotctldSession(Example())
         answer = b"".join(session.receive(rotctld.encode(request)))
@@ -78,7 +73,10 @@ def rotctld_table() -> str:
         if verb.letter.isascii():
             example = verb.letter + example[1:]
         rows.append((f"`{example}`", f"`\\{verb.name}`", verb.help, answer_text))
-    return table(rows)
+    names = (" ".join(parts) for parts in zip(*((each.letter, f"\\{each.name}") for each in calculate), strict=True))
+    return table(
+        [*rows, (*(f"`{each}`" for each in names), "Locators, degrees and distances, as Hamlib calculates them")]
+    )
 
 
 def _gs232_answer(dialect: Dialect, example: str) -> str:
@@ -91,7 +89,7 @@ def _gs232_answer(dialect: Dialect, example: str) -> str:
 def shown(answer: bytes) -> str:
     """An answer as the page shows it: escaped text, a number of lines where it is long."""
     if not answer:
-        return "nothing"
+        return ""
     if len(answer) > LONGEST_SHOWN:
         return f"{len(answer.splitlines())} lines"
     # The page must not change with each release.
@@ -100,6 +98,6 @@ def shown(answer: bytes) -> str:
 
 
 def table(rows: list[tuple[str, ...]]) -> str:
-    """A Markdown table; the first row is its head."""
-    ruled = [rows[0], tuple("---" for _ in rows[0]), *rows[1:]]
-    return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in row) + " |\n" for row in ruled)
+    """A Markdown table; the first row is its head. A row ends with its last cell that has a text."""
+    head, *lines = (" | ".join(cell.replace("|", r"\|") for cell in row).rstrip("| ") for row in rows)
+    return "\n".join([head, "|".join("--" for _ in rows[0]), *lines, ""])

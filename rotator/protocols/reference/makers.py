@@ -105,6 +105,6 @@ def _example(command: Command, model: Model) -> Frame:
 def _hex(octets: bytes) -> str:
     """A frame in hex, one group for each field."""
     if not octets:
-        return "nothing"
+        return ""
     digits = iter(octets.hex().upper())
     return f"`{' '.join(''.join(islice(digits, 2 * size)) for size in _FIELDS[len(octets)])}`"

@@ -185,8 +185,7 @@ PROGRAMS = (
         "Stellarium",
         ("stellarium",),
         "TCP `0.0.0.0:10001`, and [`[station]`](keys.md#station)",
-        "Telescope Control plug-in: external software or a remote computer, the Pi's address, port 10001, J2000: "
-        "[more](../protocols.md#stellarium-and-other-telescope-programs)",
+        "[its section](../protocols.md#stellarium-and-other-telescope-programs)",
         (bytes.fromhex("1400 0000 0040075fda650600 00000040 72efff3f"),),
         "its source",
     ),
@@ -237,9 +236,9 @@ PROGRAMS = (
 
 
 def programs_table() -> str:
-    rows = ["| program | link | set in the program | how we know |", "| --- | --- | --- | --- |"]
+    rows = ["program | link | set in the program | how we know", "--|--|--|--"]
     for program in PROGRAMS:
         protocols = ", ".join(f"`{protocol}`" for protocol in program.protocols)
         link = f"{protocols}; {program.where}" if program.where else protocols
-        rows.append(f"| {program.name} | {link} | {program.settings} | {program.known} |")
+        rows.append(f"{program.name} | {link} | {program.settings} | {program.known}")
     return "\n".join(rows) + "\n"

@@ -129,3 +129,12 @@ def test_what_passes_by_itself_is_no_try() -> None:
         latch.note(SILENT, 10.0 * count, cause=SILENT, tries=1)
         latch.note(None, 10.0 * count + 1.0, cause=None, tries=0)
     assert tried(latch, 100.0)
+
+
+def test_a_fault_names_the_sensor_of_its_axis_also_when_it_comes_back() -> None:
+    latch = FaultLatch("encoder")
+    jumps = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "by 40°")
+    latch.note(jumps, 1.0, cause=jumps, tries=0)
+    assert "azimuth: encoder jumps: by 40°" in str(latch.fault)
+    latch.acknowledge(2.0, by_person=True)
+    assert "azimuth: encoder jumps: by 40°" in str(latch.fault)

@@ -15,6 +15,7 @@ from hw.sensors.cam import Cam
 from rotator.control.axis.homing import Homing, HomingSettings
 from rotator.control.axis.sensing import Condition
 from tests.hw.sensors.pulse_rig import AZ, CAM, CYCLE_S, PulseRig
+from tests.search import examples
 
 PERIOD_S, TRAVEL_S, COAST_S = 5.0 / 6.0, 60.0, 0.5
 
@@ -78,7 +79,7 @@ def cams(draw: st.DrawFn) -> Cam:
     )
 
 
-@settings(max_examples=50, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=examples(50), suppress_health_check=[HealthCheck.too_slow])
 @example(
     cam=dataclasses.replace(CAM, closed_deg=0.6, closes_at_deg=4.625, play_deg=0.3),
     start_deg=0.0,

@@ -12,6 +12,7 @@ from rotator.control.axis.motion_watch import MotionWatch, late
 from rotator.control.axis.relay_trust import CUT_BY_HAND
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
+from tests.search import examples
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05
@@ -89,10 +90,11 @@ def test_a_motor_said_to_be_faster_or_slower_than_it_is_may_run(speed_dps: float
         assert bench.end_run() is None
 
 
+@pytest.mark.search
 @NOISES_DEG
-def test_a_day_of_standing_is_quiet(noise_deg: float) -> None:
+def test_hours_of_standing_are_quiet(noise_deg: float) -> None:
     bench = Bench(2.7, noise_deg)
-    assert bench.pass_by(3600.0) is None
+    assert bench.pass_by(float(examples(3600))) is None
     assert bench.watch.notices == ()
 
 

@@ -43,6 +43,21 @@ def test_after_a_run_in_mid_travel_the_opposite_relay_may_close_within_a_second(
 
 
 @BOTH_WAYS
+@pytest.mark.parametrize("hangs_s", [0.3, 0.6, 1.5])
+def test_where_its_sensor_hung_it_went_on_with_current_until_the_relay_opened(way: Direction, hangs_s: float) -> None:
+    rotor = WatchedMotor(speed_dps=30.0, believed_dps=30.0)
+    rotor.look(2.0)
+    rotor.relays(way)
+    rotor.look(2.0)
+    rotor.hang(hangs_s)
+    rotor.relays(OFF)
+    rotor.hang(0.8)
+    assert rotor.look(3.0) is None
+    assert rotor.watch.trusts == ALL_OPEN
+    assert not rotor.watch.forbids(against(way))
+
+
+@BOTH_WAYS
 def test_an_axis_that_coasts_for_long_need_not_come_to_rest_first(way: Direction) -> None:
     rotor = WatchedMotor(lag_s=1.0, noise_deg=0.03)
     rotor.look(2.0)
@@ -141,6 +156,57 @@ def held(way: Direction) -> WatchedMotor:
     rotor.motor.stalled = False
     assert of(rotor.watch.trusts, way) is DOUBTED
     return rotor
+
+
+def ran_into(way: Direction, after_s: float, **motor: float) -> WatchedMotor:
+    """Its relay has welded, and something holds it so long after it was switched off."""
+    rotor = WatchedMotor(**motor)  # type: ignore[arg-type]
+    rotor.look(2.0)
+    rotor.motor.welded = int(way)
+    rotor.run(way, 3.0)
+    room_deg = after_s * rotor.motor.spec.speed_dps
+    if way > 0:
+        rotor.motor.stop_high_deg = rotor.at_deg + room_deg
+    else:
+        rotor.motor.stop_low_deg = rotor.at_deg - room_deg
+    return rotor
+
+
+@BOTH_WAYS
+@pytest.mark.parametrize("after_s", [0.6, 0.8])
+@pytest.mark.parametrize("speed_dps", [2.7, 4.0, 6.0])
+def test_what_runs_on_and_stops_dead_in_mid_travel_has_not_coasted(
+    way: Direction, after_s: float, speed_dps: float
+) -> None:
+    """A branch, or a stop that is nearer than the sensor says."""
+    rotor = ran_into(way, after_s, speed_dps=speed_dps, believed_dps=6.0)
+    rotor.look(5.0)
+    assert of(rotor.watch.trusts, way) in (DOUBTED, WELDED)
+    assert rotor.watch.accuse(against(way)) is not None
+
+
+@BOTH_WAYS
+@pytest.mark.parametrize("lag_s", [0.3, 0.5])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_long_coast_is_no_sudden_end(way: Direction, lag_s: float, seed: int) -> None:
+    rotor = WatchedMotor(lag_s=lag_s, seed=seed)
+    rotor.look(2.0)
+    rotor.run(way, 3.0)
+    rotor.look(5.0)
+    assert rotor.watch.trusts == ALL_OPEN
+
+
+@BOTH_WAYS
+def test_a_sensor_that_drifts_while_the_axis_is_held_ends_no_doubt(way: Direction) -> None:
+    rotor = ran_into(way, 0.7)
+    rotor.look(5.0)
+    rotor.drift_dps = -0.1 * way
+    rotor.look(40.0)
+    for _ in range(3):
+        rotor.run(way, 0.2)
+        rotor.look(5.0)
+    assert of(rotor.watch.trusts, way) in (DOUBTED, WELDED)
+    assert rotor.motor.shorted_s == 0.0
 
 
 @BOTH_WAYS

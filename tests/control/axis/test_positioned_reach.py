@@ -189,9 +189,9 @@ def test_halted_it_holds(motor: Motor) -> None:
 
 @pytest.mark.parametrize(("seconds", "endless"), [(None, True), (2.0, False)])
 def test_only_a_jog_without_a_time_is_one_without_end(motor: Motor, seconds: float | None, endless: bool) -> None:
-    assert not motor.axis.jogs_without_end
+    assert not motor.axis.jog_is_held
     motor.axis.jog(PLUS, seconds, motor.now_s)
-    assert motor.axis.jogs_without_end is endless
+    assert motor.axis.jog_is_held is endless
 
 
 @BOTH_WAYS

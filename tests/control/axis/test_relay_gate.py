@@ -121,9 +121,9 @@ def test_when_the_readings_mean_other_places_what_is_known_of_the_relays_stays(s
 # --- a sensor that cannot be believed
 
 
-def ran(way: Direction, off_after_s: float) -> tuple[RelayGate, Runs, float]:
+def ran(way: Direction, off_after_s: float, *, master: bool = True) -> tuple[RelayGate, Runs, float]:
     """A run whose relay opened so long ago, and has not been seen to."""
-    a_gate, runs = gate(master=True), Runs()
+    a_gate, runs = gate(master=master), Runs()
     now_s = stood(a_gate, 10.0, 2.0)
     a_gate.driven(now_s, way)
     runs.note(now_s, way)
@@ -135,32 +135,33 @@ def ran(way: Direction, off_after_s: float) -> tuple[RelayGate, Runs, float]:
 
 
 @pytest.mark.parametrize(("way", "name"), [(PLUS, "clockwise"), (MINUS, "counter-clockwise")])
-def test_a_sensor_that_hides_whether_the_motor_has_stopped_has_the_master_opened(way: Direction, name: str) -> None:
-    a_gate, runs, now_s = ran(way, 1.1)
+@pytest.mark.parametrize(
+    ("master", "act_now", "who"), [(True, "", "the box has"), (False, "CUT MOTOR POWER!", "by hand NOW")]
+)
+def test_a_sensor_that_hides_whether_the_motor_has_stopped_asks_for_its_supply_to_go(
+    way: Direction, name: str, master: bool, act_now: str, who: str
+) -> None:
+    """The wire of the pot breaks, and the relay may have welded: with a master the box cuts, without one a person."""
+    a_gate, runs, now_s = ran(way, 1.1, master=master)
     fault = a_gate.blind(SILENT, runs, now_s)
     assert fault is not None
-    assert fault.cut
+    assert (fault.kind, fault.cut, fault.act_now) == (SILENT.kind, True, act_now)
     assert fault.measured.startswith("no answer, ")
     assert f" {name};" in fault.measured
+    assert who in fault.measured
 
 
-def test_but_not_while_it_may_still_coast_or_is_driven_or_was_seen_to_stop() -> None:
-    a_gate, runs, now_s = ran(PLUS, 0.9)
+@pytest.mark.parametrize("master", [True, False])
+def test_but_not_while_it_may_still_coast_or_is_driven_or_was_seen_to_stop(master: bool) -> None:
+    a_gate, runs, now_s = ran(PLUS, 0.9, master=master)
     assert a_gate.blind(SILENT, runs, now_s) is SILENT
     assert a_gate.blind(None, runs, now_s + 5.0) is None
     stood(a_gate, now_s, 3.0)
     assert a_gate.blind(SILENT, runs, now_s + 5.0) is SILENT
-    a_gate, runs, now_s = ran(PLUS, 5.0)
+    a_gate, runs, now_s = ran(PLUS, 5.0, master=master)
     runs.note(now_s, PLUS)
     assert a_gate.blind(SILENT, runs, now_s + 2.0) is SILENT
-    assert gate(master=True).blind(SILENT, Runs(), 100.0) is SILENT, "it has not been driven"
-
-
-def test_without_a_master_there_is_nothing_to_open() -> None:
-    a_gate, runs = gate(trusts=(UNSEEN, OPEN)), Runs()
-    runs.note(10.0, PLUS)
-    runs.note(11.0, OFF)
-    assert a_gate.blind(SILENT, runs, 20.0) is SILENT
+    assert gate(master=master).blind(SILENT, Runs(), 100.0) is SILENT, "it has not been driven"
 
 
 # --- looking for its stop

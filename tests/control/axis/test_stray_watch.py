@@ -162,3 +162,36 @@ def test_sent_the_other_way_at_full_speed_it_has_the_time_to_turn_back(way: int)
     for _ in range(60):
         dps = max(-30.0, min(30.0, dps - way * 20.0 * STEP_S))
         assert sent.go(STEP_S, way * -20.0, dps) is None
+
+
+@pytest.mark.parametrize("noise_deg", [0.0, 0.1, 0.4])
+def test_a_target_that_goes_to_and_fro_around_a_stuck_axis_leaves_it_behind(noise_deg: float) -> None:
+    """It is never far from its place for long, and yet it does not follow."""
+    sent, told = Sent(noise_deg=noise_deg), None
+    for turn in range(12):
+        low_deg, rate_dps = (86.0, 8.0) if turn % 2 == 0 else (94.0, -8.0)
+        told = told or sent.go(1.0, low_deg, rate_dps=rate_dps)
+    assert told is not None
+    assert told[1].name == "axis does not follow"
+
+
+@pytest.mark.parametrize("beside_deg", [-4.0, 0.0, 4.0])
+def test_an_axis_that_follows_beside_its_place_is_not_left_behind(beside_deg: float) -> None:
+    """Its own pot and the sensor of the box may differ by some degrees."""
+    sent = Sent(at_deg=90.0 + beside_deg, noise_deg=0.1)
+    for turn in range(12):
+        start_deg, rate_dps = (90.0, 8.0) if turn % 2 == 0 else (98.0, -8.0)
+        assert sent.go(1.0, start_deg, rate_dps, rate_dps=rate_dps) is None
+
+
+def test_moves_in_vain_count_until_it_comes_nearer() -> None:
+    sent = Sent(speed_dps=6.0, noise_deg=0.1)
+    for tries in (1, 2):
+        assert sent.go(0.6, 130.0) is None
+        assert sent.go(1.0, None) is None
+        assert sent.watch.tries == tries
+    assert sent.go(0.2, 130.0) is None
+    assert sent.go(1.0, None) is None
+    assert sent.watch.tries == 2, "too short for a motor to start"
+    assert sent.go(0.6, 130.0, 6.0) is None
+    assert sent.watch.tries == 0

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any
 
 import pytest
 
 from hw.ports import Axis, Direction
 from rotator.faults import Missing
-from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, RunTimed, Source, Stop
+from rotator.orders import Aim, Calibrate, Jog, LoadTimed, Order, Park, Release, RunTimed, Source, Stop
+from tests.search import some
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
@@ -70,8 +72,12 @@ def test_the_other_way_is_obeyed_as_soon_as_the_relay_is_seen_to_open(fresh: Any
     assert fresh.run(1.0) == {(AZ, MINUS)}
 
 
-@pytest.mark.parametrize("every", [0.05, 0.3, 1.0, 1.9, 2.5, 3.1])
-@pytest.mark.parametrize("ways", [(PLUS,), (PLUS, MINUS), (PLUS, PLUS, MINUS)], ids=str)
+@pytest.mark.search
+@pytest.mark.parametrize(
+    ("ways", "every"),
+    some(list(product([(PLUS,), (PLUS, MINUS), (PLUS, PLUS, MINUS)], [0.05, 0.3, 1.0, 1.9, 2.5, 3.1]))),
+    ids=str,
+)
 def test_a_link_that_presses_for_a_minute_turns_it_two_seconds_at_a_time(
     fresh: Any, every: float, ways: tuple[Direction, ...]
 ) -> None:
@@ -110,6 +116,46 @@ def test_one_fresh_axis_keeps_the_other_from_nothing(new_desk: Any) -> None:
     desk = new_desk(missing={EL: (Missing.DIRECTION_CHECK,)})
     desk.step()
     assert desk.step(Aim(235, 60)) == {AZ: PLUS, EL: OFF}
+
+
+# --- at its stop
+
+
+def pressed(desk: Any, minutes: float, every_s: float = 1.0, by: Source | None = None) -> float:
+    """Seconds of current in azimuth's motor while it is pressed."""
+    on = 0
+    for step in range(round(minutes * 1200)):
+        orders = [Jog(AZ, PLUS)] if step % round(every_s / 0.05) == 0 else []
+        on += desk.step(*orders, by=by or desk.LINK)[AZ] is not OFF
+    return on * 0.05
+
+
+@pytest.mark.parametrize("every_s", [0.1, 0.5, 1.0, 2.5, 7.0])
+def test_a_program_that_presses_an_axis_which_does_not_move_is_obeyed_three_times(fresh: Any, every_s: float) -> None:
+    fresh.instead[AZ] = 0.97
+    assert pressed(fresh, 5.0, every_s) <= 3 * 2.05 + 2.05
+    assert [notice.lcd for notice in fresh.status.azimuth.notices] == ["NOT TURNING"]
+    assert fresh.status.azimuth.fault is None
+
+
+def test_then_it_takes_a_person_who_turns_it_or_says_resume(fresh: Any) -> None:
+    fresh.instead[AZ] = 0.97
+    pressed(fresh, 1.0)
+    fresh.run(600.0)
+    assert pressed(fresh, 0.1) == 0.0, "time alone is no reason"
+    assert pressed(fresh, 0.1, by=Source("console")) > 1.0
+    fresh.step(Stop())
+    fresh.run(15.0)
+    assert pressed(fresh, 0.1) == 0.0, "neither is a stop"
+    fresh.step(Release(), by=Source("console"))
+    assert pressed(fresh, 1.0) > 1.0
+    assert [notice.lcd for notice in fresh.status.azimuth.notices] == ["NOT TURNING"]
+    fresh.instead.clear()
+    fresh.place(AZ, 300.0)
+    assert fresh.step(Jog(AZ, MINUS), by=Source("console"))[AZ] is MINUS
+    fresh.run(15.0)
+    assert fresh.status.azimuth.notices == ()
+    assert pressed(fresh, 0.1) > 1.0
 
 
 # --- calibrating at the two ends

@@ -9,11 +9,13 @@ import pytest
 
 from hw.ports import Direction
 from tests.control.axis.weld_world import WeldWorld
+from tests.search import some
 
-SEEDS = range(12)
+SEEDS = some(range(12))
 EITHER = pytest.mark.parametrize("calibrated", [True, False], ids=["calibrated", "not-calibrated"])
 
 
+@pytest.mark.search
 @EITHER
 @pytest.mark.parametrize("seed", SEEDS)
 def test_both_directions_never_have_current_at_once(seed: int, calibrated: bool) -> None:
@@ -22,6 +24,7 @@ def test_both_directions_never_have_current_at_once(seed: int, calibrated: bool)
     assert world.motor.shorted_s == 0.0
 
 
+@pytest.mark.search
 @EITHER
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_healthy_relay_is_never_suspected(seed: int, calibrated: bool) -> None:

@@ -51,6 +51,8 @@ class WatchedMotor:
         self.now_s = 1000.0
         self.fault: Fault | None = None
         """The latest fault that the watch has told."""
+        self.off_deg = self.drift_dps = 0.0
+        """How far the sensor is off, and how fast that grows."""
         self._noise_deg = noise_deg
         self._chance = random.Random(seed)
 
@@ -64,10 +66,16 @@ class WatchedMotor:
         for _ in range(round(seconds / STEP_S)):
             self.now_s += STEP_S
             self.motor.advance(self.now_s)
-            read_deg = self.at_deg + self._chance.gauss(0.0, self._noise_deg)
+            self.off_deg += self.drift_dps * STEP_S
+            read_deg = self.at_deg + self.off_deg + self._chance.gauss(0.0, self._noise_deg)
             found = self.watch.see(self.now_s, read_deg, Condition(supplied=self.motor.supply))
             told, self.fault = told or found, found or self.fault
         return told
+
+    def hang(self, seconds: float) -> None:
+        """Time passes without a reading: the bus of the sensor hangs."""
+        self.now_s += seconds
+        self.motor.advance(self.now_s)
 
     def relays(self, way: Direction) -> None:
         self.motor.coils(plus=way is PLUS, minus=way is MINUS, now_s=self.now_s)

@@ -12,6 +12,7 @@ from rotator.control.sky.flight_plan import Antenna, PlannedMotor, plan_flight
 from rotator.control.sky.known_path import KnownPath
 from rotator.control.sky.mount import Mount
 from tests.control.sky.test_ways import EVERY, FULL, OVER, SATELLITES, SINGLE, path_of
+from tests.search import some
 
 AZIMUTH, ELEVATION = PlannedMotor(6.0, 0.17, 4.0), PlannedMotor(2.7, 0.17, 4.0)
 MOTEUS = PlannedMotor(30.0, 0.0, 0.2, switched=False)
@@ -36,7 +37,8 @@ def test_every_place_is_within_the_range_and_every_moment_in_order(
         assert all(limits.holds(step.place_deg) for step in plan.steps)
 
 
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.search
+@pytest.mark.parametrize("name", some(EVERY))
 def test_one_move_before_the_rise_and_none_until_it(name: str) -> None:
     path = path_of(name)
     order = plan_flight(name, path, Antenna(FULL, AZIMUTH, ELEVATION, (0.0, 0.0)), path.begin_s - 120).order

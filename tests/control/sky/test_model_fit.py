@@ -13,6 +13,7 @@ from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.equations import solved
 from rotator.control.sky.model_fit import ALL, OFFSETS, TILT, NoFit, SkyPoint, fitted, rms_deg
 from rotator.control.sky.pointing_model import PERFECT, PointingModel
+from tests.search import some
 
 NOISE_DEG = 0.07
 """How well a person centres the Sun, to the right and above: 0.1° in all."""
@@ -41,7 +42,8 @@ def over_the_sky_deg(model: PointingModel, truth: PointingModel) -> float:
     return math.sqrt(sum(squares) / len(squares))
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.search
+@pytest.mark.parametrize("seed", some(range(20)))
 def test_six_errors_of_up_to_five_degrees_come_back_from_twelve_noisy_points(seed: int) -> None:
     draw = random.Random(seed)
     truth = PointingModel(*(draw.uniform(-5, 5) for _ in ALL))

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Mode, Nudge, Park, Release, SetMode, Source, Stop
+from rotator.orders import Aim, AxisPlan, Fly, Jog, Mode, Nudge, Park, Release, SetMode, Source, Step, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 OFF = Direction.OFF
@@ -53,6 +54,34 @@ def test_not_beyond_the_limits(desk: Any) -> None:
     desk.step(Nudge(EL, -30.0), by=PANEL)
     desk.step(Aim(235.0, 20.0), by=LINK)
     assert desk.status.elevation.target_deg == 0.0
+
+
+KNOWN = Fly(
+    "ISS",
+    tuple((900.0 + second, 100.0, 30.0) for second in range(400)),
+    AxisPlan(900.0, (100.0,) * 800, (Step(900.0, 100.0),)),
+    AxisPlan(900.0, (30.0,) * 800, (Step(900.0, 30.0),)),
+)
+OVER = replace(
+    KNOWN, azimuth=replace(KNOWN.azimuth, angles_deg=(280.0,) * 800, steps=(Step(900.0, 280.0),)),
+    elevation=replace(KNOWN.elevation, angles_deg=(150.0,) * 800, steps=(Step(900.0, 150.0),)),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("flown", "goes"), [(KNOWN, (105.0, 32.0)), (OVER, (285.0, 148.0))], ids=["level", "over"])
+def test_a_pass_that_is_flown_as_planned_is_shifted_too(desk: Any, flown: Fly, goes: tuple[float, float]) -> None:
+    desk.step(flown, by=LINK)
+    straight = targets(desk)
+    desk.step(Nudge(AZ, 5.0), Nudge(EL, 2.0), by=PANEL)
+    assert targets(desk) == goes
+    desk.step(Nudge(AZ, 0.0), Nudge(EL, 0.0), by=PANEL)
+    assert targets(desk) == straight
+
+
+def test_a_pass_that_begins_with_a_nudge_is_shifted_from_its_beginning(desk: Any) -> None:
+    desk.step(Nudge(EL, -40.0), by=PANEL)
+    desk.step(KNOWN, by=LINK)
+    assert targets(desk) == (100.0, 0.0)
 
 
 def test_the_display_tells_what_is_meant(desk: Any) -> None:

@@ -14,6 +14,7 @@ from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.pointing import Pointing
 from rotator.control.sky.route import Speeds
 from rotator.orders import Aim
+from tests.search import examples
 
 SPEEDS = Speeds(6.0, 2.7)
 
@@ -153,7 +154,7 @@ def swings(target: Wavers) -> int:
     return count
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=examples(15), deadline=None)
 @given(
     st.builds(
         Wavers,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -68,6 +70,54 @@ def test_where_it_must_be_unwound_that_takes_one_turn_and_is_told(name: str) -> 
     assert 30 < route.lost_s < 62
 
 
+SPEEDS = st.builds(Speeds, st.floats(0.5, 60), st.floats(0.5, 60))
+RANGES = st.tuples(st.floats(-180, 360), st.floats(10, 540)).map(lambda ends: Range(ends[0], ends[0] + ends[1]))
+MOUNTS = st.builds(
+    lambda azimuth, high_deg, flip: Mount(azimuth, Range(0, high_deg), flip=flip),
+    RANGES,
+    st.sampled_from([90.0, 180.0]),
+    st.booleans(),
+)
+WANDERING = st.lists(
+    st.tuples(st.sampled_from([0.0, 90.0, 180.0, 270.0, 359.0]) | st.floats(0, 359), st.floats(-10, 90)),
+    min_size=2,
+    max_size=40,
+)
+
+
+@given(mount=MOUNTS, directions=WANDERING, speeds=SPEEDS, from_deg=st.tuples(st.floats(0, 360), st.floats(0, 90)))
+def test_a_route_comes_to_an_end_wherever_the_target_goes(
+    mount: Mount, directions: list[tuple[float, float]], speeds: Speeds, from_deg: tuple[float, float]
+) -> None:
+    """Also where two ways wait at the same limit, and a change between them takes no time."""
+    route = best_route(mount, directions, from_deg, 10.0, speeds)
+    arrivals = [0, *(leg.arrival for leg in route.legs[1:])]
+    assert all(before <= leg.look < leg.arrival for before, leg in zip(arrivals, route.legs[1:], strict=False))
+    assert 0 <= route.lost_s <= STEP_S * (len(directions) + 1e-6)
+
+
+def test_it_unwinds_while_the_target_is_behind_trees() -> None:
+    """From 300° through north to 60°, a minute of it behind a wood at 350° to 10°: there the turn costs nothing."""
+    wood = Mount(Range(0, 360), Range(0, 90), horizon=((0.0, 40.0), (12.0, 0.0), (348.0, 0.0), (350.0, 40.0)))
+    path = KnownPath(tuple((10.0 * step, (300 + step * 2.0) % 360, 20.0) for step in range(61)))
+    seen, hidden = routed(SINGLE, path), routed(wood, path)
+    assert hidden.lost_s < seen.lost_s / 4
+    assert 0 < STEP_S * (hidden.legs[1].look - 45) < 60
+
+
+def test_it_unwinds_around_the_culmination_of_a_pass_that_crosses_north_high_up() -> None:
+    """From the west to the east by 82° in the north: there a turn right round leads the antenna 16° away at most."""
+    rows = []
+    for step in range(121):
+        along, tilt = math.radians(1.5 * step), math.radians(82.0)
+        east, north, up = -math.cos(along), math.sin(along) * math.cos(tilt), math.sin(along) * math.sin(tilt)
+        rows.append((5.0 * step, math.degrees(math.atan2(east, north)) % 360, math.degrees(math.asin(min(1.0, up)))))
+    route = routed(SINGLE, KnownPath(tuple(rows)))
+    (_, turn) = route.legs
+    assert turn.look < 60 < turn.arrival
+    assert route.lost_s < 40
+
+
 def test_a_pass_that_ends_just_beyond_north_is_not_unwound() -> None:
     """The last 20 s are lost by a few degrees: less than a turn would cost."""
     path = KnownPath(tuple((10.0 * step, (300 + step * 1.0) % 360, 20.0) for step in range(66)))
@@ -113,6 +163,8 @@ def test_no_way_loses_more_than_staying_on_the_one_it_begins_with(
             abs(flown.azimuths_deg[0] - from_deg[0]) / G5500.azimuth_dps,
             abs(flown.elevations_deg[0] - from_deg[1]) / G5500.elevation_dps,
         )
-        assert route.lost_s <= flown.lost_s[-1] + reached_s + 2 * EVEN_S
+        # It arrives at a look.
+        arrived_s = STEP_S * math.ceil(reached_s / STEP_S)
+        assert route.lost_s <= flown.lost_s[-1] + arrived_s + 2 * EVEN_S
         looks = [leg.look for leg in route.legs]
         assert looks == sorted(set(looks))

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from tests.foreign.conftest import FAST_ROTOR
+from tests.boxes import FAST_ROTOR
 from tests.machines.shack import Shack
 
 

@@ -124,15 +124,15 @@ def test_signs_outside_ascii_come_from_rom_a00(bench: Bench) -> None:
 
 
 @pytest.mark.parametrize("register_select", [False, True], ids=["instruction", "data"])
-@pytest.mark.parametrize("stray", range(16))
-def test_half_a_byte_behind_a_reset_brings_it_back(bench: Bench, stray: int, register_select: bool) -> None:
+def test_half_a_byte_behind_a_reset_brings_it_back(bench: Bench, register_select: bool) -> None:
     bench.display.reset()
     bench.display.show(ROWS)
-    bench.port.send(register_select, [stray])  # a spark on E: from here on every byte is shifted by half
-    bench.display.reset()
-    bench.display.show(ROWS)
-    assert bench.glass.text() == ROWS
-    assert bench.glass.violations == 0
+    for stray in range(16):
+        bench.port.send(register_select, [stray])  # a spark on E: from here on every byte is shifted by half
+        bench.display.reset()
+        bench.display.show(ROWS)
+        assert bench.glass.text() == ROWS, f"after {stray:04b}"
+        assert bench.glass.violations == 0, f"after {stray:04b}"
 
 
 def test_without_a_reset_half_a_byte_behind_is_garbage(bench: Bench) -> None:

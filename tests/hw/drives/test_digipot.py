@@ -245,11 +245,29 @@ def test_a_measured_box_that_does_not_hear_its_chip_loses_its_supply_after_4_deg
     assert bench.antenna(AZ) == pytest.approx(40.0, abs=6.0)
 
 
-def test_it_gets_no_supply_from_an_aim_before_it_was_held() -> None:
+def test_then_neither_an_aim_nor_a_stop_of_either_box_gives_it_supply_again_before_it_is_restored() -> None:
     bench = Bench()
     bench.rotor.inject("azimuth-select-broken")
     watched(bench, 10.0, aim_deg=20.0)
+    assert bench.drive.astray_deg(AZ) == pytest.approx(4.5, abs=0.5)
+    assert bench.drive.astray_deg(EL) == 0.0
+    watched(bench, 1.0)
+    bench.follow(EL, 80.0, 5.0)
+    watched(bench, 5.0, aim_deg=20.0)
     assert bench.antenna(AZ) == pytest.approx(40.0, abs=6.0)
+    assert bench.antenna(EL) == pytest.approx(30.0, abs=BAND_DEG)
+    bench.rotor.clear("azimuth-select-broken")
+    bench.drive.restore()
+    assert bench.drive.astray_deg(AZ) == 0.0
+    bench.follow(EL, 80.0, 12.0)
+    assert bench.antenna(EL) == pytest.approx(80.0, abs=BAND_DEG)
+
+
+def test_a_cut_without_a_relay_is_none() -> None:
+    bench = Bench(relay=False)
+    assert not bench.drive.cut()
+    bench.follow(AZ, 100.0, 20.0)
+    assert bench.antenna(AZ) == pytest.approx(100.0, abs=BAND_DEG)
 
 
 def test_a_measured_box_whose_chip_forgot_turns_back_before_the_next_refresh() -> None:

@@ -28,7 +28,7 @@ def measure() -> Callable[[str, float], None]:
 
     def note(way: str, took_s: float) -> None:
         MEASURED.append((way, f"{took_s:.2f} s"))
-        assert f"| {way} |" in PAGE.read_text(encoding="utf-8"), f"docs/safety.md has no row for: {way}"
+        assert f"\n{way} | " in PAGE.read_text(encoding="utf-8"), f"docs/safety.md has no row for: {way}"
 
     return note
 
@@ -46,4 +46,4 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     if MEASURED:
         terminalreporter.section("from the blow to the last relay off (for docs/safety.md)")
         for way, took in MEASURED:
-            terminalreporter.line(f"| {way} | {took} |")
+            terminalreporter.line(f"{way} | {took}")

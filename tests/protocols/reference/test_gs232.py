@@ -22,16 +22,16 @@ def test_page_holds_the_table(name: str, table: str) -> None:
 
 def test_every_command_has_its_row() -> None:
     assert [row.split("`")[1] for row in gs232_table().splitlines()[2:]] == [verb.text for verb in gs232.VERBS]
-    assert len(rotctld_table().splitlines()) == 2 + len(rotctld.VERBS)
+    assert [verb.name for verb in rotctld.VERBS if f"\\{verb.name}" not in rotctld_table()] == []
 
 
 @pytest.mark.parametrize(
     "row",
     [
-        r"| `C2` | Read azimuth and elevation | A: `+0235+0025\r\n`, B: `AZ=235  EL=025\r\n` |",
-        r"| `P45` | Azimuth 0 to 450 degrees | A: `?>\r\n`, B: `Mode 450 degree\r\n` |",
-        r"| `N` | Read point number and number of points | `+0001+0003\r\n` |",
-        "| `M` | Maaa: go to azimuth; Msss aaa aaa ...: timed list | nothing |",
+        r"`C2` | Read azimuth and elevation | A: `+0235+0025\r\n`, B: `AZ=235  EL=025\r\n`",
+        r"`P45` | Azimuth 0 to 450 degrees | A: `?>\r\n`, B: `Mode 450 degree\r\n`",
+        r"`N` | Read point number and number of points | `+0001+0003\r\n`",
+        "`M` | Maaa: go to azimuth; Msss aaa aaa ...: timed list\n",
     ],
 )
 def test_gs232_row(row: str) -> None:
@@ -41,10 +41,10 @@ def test_gs232_row(row: str) -> None:
 @pytest.mark.parametrize(
     "row",
     [
-        r"| `p` | `\get_pos` | Read azimuth, then elevation | `235.00\n25.00\n` |",
-        r"| `P 235 25` | `\set_pos` | Go there: azimuth, elevation | `RPRT 0\n` |",
-        r"| `\get_conf max_az` | `\get_conf` | Read one value of the list of `3`; `?`: all | `max_az=450.000000\n` |",
-        r"| `Q` | `\quit` | Close the connection | the connection ends |",
+        r"`p` | `\get_pos` | Read azimuth, then elevation | `235.00\n25.00\n`",
+        r"`P 235 25` | `\set_pos` | Go there: azimuth, elevation | `RPRT 0\n`",
+        r"`\get_conf max_az` | `\get_conf` | Read one value of `3`; `?`: all | `max_az=450.000000\n`",
+        r"`Q` | `\quit` | Close the connection | the connection ends",
     ],
 )
 def test_rotctld_row(row: str) -> None:

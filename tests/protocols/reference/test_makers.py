@@ -35,31 +35,31 @@ def test_every_command_has_its_row() -> None:
     assert len(rc2800_table().splitlines()) == 2 + len(rc2800.VERBS)
     assert len(prosistel_table().splitlines()) == 2 + len(prosistel.VERBS)
     cells = [row.split(" | ") for row in spid_table().splitlines()[2:]]
-    shown = sorted((row[0].strip("| `"), model) for row in cells for model in row[2].split(", "))
+    shown = sorted((row[0].strip("`"), model) for row in cells for model in row[2].split(", "))
     assert shown == sorted((f"{row.command:02X}", model.value) for row in spid.ROWS for model in row.models)
 
 
 @pytest.mark.parametrize(
     ("name", "row"),
     [
-        ("easycomm", r"| `AZ` | I | Azimuth: go there; without a number: read it | `AZ235.0\n` |"),
-        ("easycomm", r"| `VE` | II | Read the version | `VEVERSION\n` |"),
-        ("spid", "| `2F` | Go there | Rot1Prog | `57 35393530 00 00000000 00 2F 20` | nothing |"),
+        ("easycomm", r"`AZ` | I | Azimuth: go there; without number: read | `AZ235.0\n`"),
+        ("easycomm", r"`VE` | II | Read the version | `VEVERSION\n`"),
+        ("spid", "`2F` | Go there | Rot1Prog | `57 35393530 00 00000000 00 2F 20`\n"),
         (
             "spid",
-            "| `1F` | Read the position | Rot2Prog | `57 00000000 00 00000000 00 1F 20` "
-            "| `57 05090500 02 03080500 02 20` |",
+            "`1F` | Read the position | Rot2Prog | `57 00000000 00 00000000 00 1F 20` "
+            "| `57 05090500 02 03080500 02 20`\n",
         ),
         (
             "spid",
-            "| `0F` | Stop everything | Rot1Prog, Rot2Prog, MD-01 | `57 00000000 00 00000000 00 0F 20` | as `1F` |",
+            "`0F` | Stop everything | Rot1Prog, Rot2Prog, MD-01 | `57 00000000 00 00000000 00 0F 20` | as `1F`\n",
         ),
-        ("dcu1", "| `AI1;` | Read azimuth | `;235` |"),
-        ("rc2800", r"| `A235.0` | Azimuth: go there | `A P= 235.0 S=9 S\r` |"),
+        ("dcu1", "`AI1;` | Read azimuth | `;235`\n"),
+        ("rc2800", r"`A235.0` | Azimuth: go there | `A P= 235.0 S=9 S\r`"),
         (
             "prosistel",
-            r"| `\x02AG235\r` | `\x02AG2350\r` | Go there; leading zeros may be left out "
-            r"| `\x02A,G,R\r` | `\x02A,G,R\r` |",
+            r"`\x02AG235\r` | `\x02AG2350\r` | Go there "
+            r"| `\x02A,G,R\r` | `\x02A,G,R\r`",
         ),
     ],
 )

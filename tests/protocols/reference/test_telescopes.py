@@ -29,9 +29,9 @@ def test_every_command_has_its_row() -> None:
 @pytest.mark.parametrize(
     "row",
     [
-        "| `:GZ#` | Read azimuth | `235\\xdf00#` |",
-        "| `:MS#` | Go to the target and follow the sky | `0` |",
-        "| `:MA#` | Go to azimuth and elevation, and stay there | `0` |",
+        "`:GZ#` | Read azimuth | `235\\xdf00#`\n",
+        "`:MS#` | Go to the target and follow the sky | `0`\n",
+        "`:MA#` | Go to azimuth and elevation | `0`\n",
     ],
 )
 def test_row(row: str) -> None:

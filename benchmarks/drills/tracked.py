@@ -1,0 +1,103 @@
+"""Which flights of the box's own may be in force: what a person tracks, `[[sky.follow]]`, a recognised stream.
+
+Knows what ends them by the rules of docs/safety.md and docs/tracking.md: any stop, whether a plan is flown or still
+computed; another sender that takes the antenna; `track off`. Where a flight leads is not judged, only whether there may
+be one. Does not know passes.
+"""
+
+from __future__ import annotations
+
+import math
+
+from benchmarks.drills.goals import AxisOrders, Goal, Ranges
+from benchmarks.drills.script import LINKS, Event
+
+TRACK, FOLLOW = "track", "follow"
+RESTS_S = 600.0 - 1.0
+"""So long after a stop the plan of many passes is not flown."""
+QUIET_S = 10.5
+"""A link that has been quiet for so long is silenced by none."""
+TAKES_S = 1.0
+"""An order that came so soon after `track` may have come before the antenna was its own."""
+
+
+class Tracked:
+    """`axes`: the orders in force, where these flights are entered too. An axis that `lacks` its set-up flies none."""
+
+    def __init__(
+        self, axes: dict[str, AxisOrders], ranges: dict[str, Ranges], *, follows: bool, lacking: str = ""
+    ) -> None:
+        self._axes = {name: orders for name, orders in axes.items() if name != lacking}
+        self._ranges = ranges
+        self._follows_at_start = self._follows = follows
+        self._asked_s: float | None = None
+        """When a person asked to track; None: that has ended."""
+        self._before: set[str] = set()
+        """Whose orders were in force then: they may go on sending until the plan is there."""
+        self._rests_until_s = -math.inf
+        self._heard_s: dict[str, float] = {}
+        self.recognised: set[str] = set()
+        """Programs whose streams may be flown as planned."""
+
+    def begin_anew(self) -> None:
+        """The program ends, and begins with what its configuration follows."""
+        self._asked_s, self._follows, self._rests_until_s = None, self._follows_at_start, -math.inf
+        self._heard_s.clear()
+        self.recognised.clear()
+
+    def stopped(self, now_s: float, asked_before_s: float = math.inf) -> None:
+        """A stop, a release, the mode switch: no flight that was asked for before begins by itself afterwards."""
+        if self._asked_s is not None and self._asked_s < asked_before_s:
+            self._asked_s = None
+        self._rests_until_s = now_s + RESTS_S
+        self.recognised.clear()
+
+    def note(self, event: Event, *, takes: bool) -> None:
+        """`takes`: nothing known holds back an order of a link."""
+        match event.what:
+            case "track" if event.text(0) == "off":
+                self._end(event.at_s)
+                self._follows = False
+            case "track" if event.text(0) == "plan":
+                self._follows = True
+            case "track":
+                self._asked_s = event.at_s
+                self._before = {sender for orders in self._axes.values() for sender in orders.goals}
+            case "recognised":
+                self._recognise(event)
+            case "stop-axis" | "resume" | "storm":
+                self.stopped(event.at_s)
+            case "aim" if takes and self._is_new(event):
+                self._end(event.at_s)
+                self._rests_until_s = event.at_s + RESTS_S
+        if event.who in LINKS:
+            self._heard_s[event.who] = event.at_s
+
+    def keep(self, now_s: float) -> None:
+        """The flights that go on, or may begin, are in force."""
+        for orders in self._axes.values():
+            if self._asked_s is not None:
+                orders.goals.setdefault(TRACK, Goal(said_s=now_s))
+            if self._follows and now_s >= self._rests_until_s:
+                orders.goals.setdefault(FOLLOW, Goal(said_s=now_s))
+
+    def _end(self, now_s: float) -> None:
+        self._asked_s = None
+        for orders in self._axes.values():
+            flights = [orders.goals.pop(sender, None) for sender in (TRACK, FOLLOW)]
+            if any(flights):
+                orders.ended_s = now_s
+
+    def _recognise(self, event: Event) -> None:
+        self.recognised.add(event.who)
+        for orders in self._axes.values():
+            if event.who in orders.goals:
+                orders.goals[event.who] = Goal(said_s=event.at_s)
+
+    def _is_new(self, event: Event) -> bool:
+        """Whether this aim certainly takes the antenna: of a link that was quiet and did not move it, within range."""
+        quiet = event.at_s - self._heard_s.get(event.who, -math.inf) > QUIET_S
+        late = self._asked_s is None or event.at_s > self._asked_s + TAKES_S
+        spans = self._ranges["azimuth"], self._ranges["elevation"]
+        within = all(span.low_deg + 1.0 < event.number(place) < span.high_deg - 1.0 for place, span in enumerate(spans))
+        return event.who in LINKS and quiet and late and within and event.who not in self._before

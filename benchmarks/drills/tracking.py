@@ -1,0 +1,145 @@
+"""What tracks the sky in the box of a drill: the real tracker and follower, in a thread that runs only in its turn.
+
+Knows that a plan takes a while, in which the world goes on, and that it may fail. So that a drill is the same each
+time, the thread and the drill never run at once. Does not know what an order does.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TypeVar
+
+from benchmarks.drills.arcs import SITE, Arcs
+from rotator.assembly.tracking import TrackedBox
+from rotator.config.model import Config
+from rotator.control.sky.flight_plan import Antenna
+from rotator.control.sky.mount import Mount
+from rotator.orders import Fly, Order, Source, Stream
+from rotator.runtime.loop import ControlLoop
+from rotator.tracking.follower import Follower
+from rotator.tracking.next_flight import NextFlight, Now, Wanted
+from rotator.tracking.next_followed import Upcoming, WantedOften
+from rotator.tracking.program import Program, program_flight
+from rotator.tracking.thread import LOOK_S
+from rotator.tracking.tracker import Tracker
+
+PLAN_S = 1.0
+RECOGNISED = Stream(rounding_deg=1.0, ahead_s=(-2.0, 2.0))
+Result = TypeVar("Result")
+
+
+class Ended(BaseException):
+    """The program ends, and its tracking thread with it."""
+
+
+class LatePlanner:
+    """Plans at once and answers `takes_s` later. `wait` lets the world go on meanwhile."""
+
+    def __init__(self, wait: Callable[[float], None]) -> None:
+        self._arcs = Arcs()
+        self._wait = wait
+        self.takes_s = PLAN_S
+        self.fails = False
+
+    def plan(self, wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
+        """Raises RuntimeError, as the two below."""
+        return self._late(self._arcs.plan(wanted, antenna, now))
+
+    def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
+        return self._late(self._arcs.plan_rest(wanted, antenna, now))
+
+    def plan_followed(self, followed: tuple[WantedOften, ...], antenna: Antenna, now: Now) -> Upcoming | None:
+        return self._late(self._arcs.plan_followed(followed, antenna, now))
+
+    def plan_program(self, program: Program, antenna: Antenna, now: Now) -> NextFlight:
+        return self._late(program_flight(program, antenna, now))
+
+    def _late(self, result: Result) -> Result:
+        self._wait(self.takes_s)
+        if self.fails:
+            raise RuntimeError("the plan could not be made (as drilled)")
+        return result
+
+
+class DrilledTracking:
+    """`turn` whenever the world has gone on, `end` before the box is thrown away. `begun_s`: of the drill."""
+
+    def __init__(
+        self, config: Config, loop: ControlLoop, mount: Mount, clock: Callable[[], float], begun_s: float
+    ) -> None:
+        self._clock = clock
+        self.ahead_s = -begun_s
+        """What is added to the clock to have UTC, which counts from the beginning of the drill."""
+        self.planner = LatePlanner(self._wait)
+        self._box = TrackedBox(config, loop, mount)
+        self.tracker = Tracker(Arcs(), self.planner, self._box, lambda: True)
+        followed = tuple(WantedOften(Wanted(each.name, SITE, None), 1.0, 0.0) for each in config.sky.follow)
+        self._follower = Follower(self.tracker, self.planner, self._box, lambda: followed)
+        loop.overhear(self._hear)
+        self._recognised: deque[tuple[Source, str]] = deque()
+        self._due_s = clock()
+        self._ending = False
+        self._failure: BaseException | None = None
+        self._mine, self._back = threading.Semaphore(0), threading.Semaphore(0)
+        self._thread = threading.Thread(target=self._run, name="tracking", daemon=True)
+        self._thread.start()
+
+    def recognise(self, source: Source, words: str) -> None:
+        """What this source sends has been recognised: its flight is planned, and comes late too."""
+        self._recognised.append((source, words))
+
+    def turn(self) -> None:
+        """Let the thread run until it waits again. Raises what it has raised."""
+        if self._clock() < self._due_s or not self._thread.is_alive():
+            return
+        self._mine.release()
+        self._back.acquire()
+        if self._failure is not None and not isinstance(self._failure, Ended):
+            raise self._failure
+
+    def end(self) -> None:
+        """The process of the plans ends first: none that is under way is flown."""
+        self._ending, self._due_s = True, self._clock()
+        self.turn()
+        self._thread.join()
+
+    def _hear(self, source: Source, order: Order) -> None:
+        self.tracker.heard(source, order)
+        self._follower.heard(source, order)
+
+    # --- in the thread
+
+    def _run(self) -> None:
+        self._mine.acquire()
+        try:
+            while not self._ending:
+                self._wait(LOOK_S)
+                if self._recognised:
+                    self._fly_recognised(*self._recognised.popleft())
+                self.tracker.step(self._now())
+                self._follower.step(self._now())
+        except BaseException as failure:
+            self._failure = failure
+        self._back.release()
+
+    def _fly_recognised(self, source: Source, words: str) -> None:
+        if (antenna := self._box.antenna()) is not None:
+            try:
+                order = self.planner.plan_rest(Wanted(words, SITE, None), antenna, self._now())
+            except RuntimeError:
+                return
+            self._box.order(replace(order, stream=RECOGNISED), source)
+
+    def _now(self) -> Now:
+        return Now(self._clock() + self.ahead_s, self._clock())
+
+    def _wait(self, seconds: float) -> None:
+        """The world goes on for so long."""
+        self._due_s = self._clock() + seconds
+        self._back.release()
+        self._mine.acquire()
+        if self._ending:
+            raise Ended

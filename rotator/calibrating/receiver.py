@@ -1,0 +1,109 @@
+"""Asks a receiver for its signal strength about ten times a second, over the TCP socket of Hamlib's rigctld.
+
+Knows the socket, and has a thread of its own, because a receiver may take seconds to answer. Decides nothing.
+"""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections.abc import Callable
+from typing import Protocol
+
+from rotator.calibrating.strength import ASKS_VFO, PORT, NoStrength, Strength, question, strength_db, wants_vfo
+
+ASK_EVERY_S = 0.1
+AGAIN_S = 1.0
+"""After a failure."""
+PATIENCE_S = 3.0
+JOIN_S = 4.0
+MAX_LINE = 256
+
+
+class Receiver(Protocol):
+    def latest(self) -> Strength | None:
+        """What it told last; None: nothing yet."""
+
+    def start(self) -> None: ...
+
+    def stop(self) -> None: ...
+
+
+class BadAddress(ValueError):  # noqa: N818 - a sentence for a person
+    """What is no address of a receiver."""
+
+
+def address(text: str) -> tuple[str, int]:
+    """`127.0.0.1:4532`, `shack`, `[::1]:4532`, `::1`. Raises BadAddress."""
+    host, colon, port = text.rpartition(":")
+    # Colons without brackets belong to an address of IPv6.
+    if not colon or text.endswith("]") or (":" in host and not host.endswith("]")):
+        host, port = text, str(PORT)
+    host = host.strip("[]")
+    if not host or not port.isdecimal() or not 0 < int(port) < 65536:
+        raise BadAddress(f'"{text}" is no address of a receiver: write it as 127.0.0.1:{PORT}')
+    return host, int(port)
+
+
+class RigctldReceiver:
+    """`latest` may be called from any thread."""
+
+    def __init__(
+        self, place: tuple[str, int], clock: Callable[[], float], close: Callable[[], None] = lambda: None
+    ) -> None:
+        """`close`: called when it is stopped."""
+        self._close = close
+        self._place = place
+        self._clock = clock
+        self._latest: Strength | None = None
+        self._stopping = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="receiver", daemon=True)
+
+    def latest(self) -> Strength | None:
+        return self._latest
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def stop(self) -> None:
+        self._stopping.set()
+        if self._thread.is_alive():
+            self._thread.join(timeout=JOIN_S)
+        self._close()
+
+    def _run(self) -> None:
+        while not self._stopping.is_set():
+            try:
+                with socket.create_connection(self._place, PATIENCE_S) as line:
+                    self._listen(line)
+            except (OSError, NoStrength) as fault:
+                reason = getattr(fault, "strerror", None) or str(fault)
+                self._latest = Strength(self._clock(), problem=f"the receiver at {self._shown}: {reason}")
+            self._stopping.wait(AGAIN_S)
+
+    def _listen(self, line: socket.socket) -> None:
+        """Ask again and again. Raises OSError, NoStrength."""
+        line.settimeout(PATIENCE_S)
+        asks = question(names_vfo=wants_vfo(_answer(line, ASKS_VFO)))
+        while not self._stopping.is_set():
+            told_db = strength_db(_answer(line, asks))
+            self._latest = Strength(self._clock(), told_db)
+            self._stopping.wait(ASK_EVERY_S)
+
+    @property
+    def _shown(self) -> str:
+        return f"{self._place[0]}:{self._place[1]}"
+
+
+def _answer(line: socket.socket, asks: bytes) -> str:
+    """One line. Raises OSError."""
+    line.sendall(asks)
+    heard = b""
+    while not heard.endswith(b"\n"):
+        piece = line.recv(MAX_LINE)
+        if not piece:
+            raise OSError("it has closed the connection")
+        heard += piece
+        if len(heard) > MAX_LINE:
+            raise NoStrength("it says too much: is that a rigctld?")
+    return heard.decode("latin-1")

@@ -1,0 +1,137 @@
+"""A change of the configuration file before it is written: the new text, what differs, and what the loader says of it.
+
+Knows the file, and that two people may change it at the same time: each names the text that it started from. Does not
+know who asks, nor what happens to the box afterwards.
+"""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+import tomllib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rotator.config import migrations, toml_text
+from rotator.config.load import ConfigError, Mistake, parse
+from rotator.config.model import Config
+from rotator.config.statements import Place, places
+from rotator.config.writing import WRITING, replace
+
+LONGEST = 256 * 1024
+"""A longer file is none that the page shows."""
+
+
+class OverwritesError(Exception):
+    """The file has another text than the one that the change started from."""
+
+    def __init__(self) -> None:
+        super().__init__("the file has been changed meanwhile, by another browser or at the box: load it anew")
+
+
+@dataclass(frozen=True, slots=True)
+class FormMistake:
+    """A mistake of a text, for a form. `places`: the keys or tables that it is about; empty: the whole file."""
+
+    text: str
+    places: tuple[Place, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What a file says now. `config`: None where it has a mistake."""
+
+    text: str
+    values: dict[str, Any]
+    config: Config | None
+
+    @property
+    def digest(self) -> str:
+        return digest(self.text)
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    before: str
+    after: str
+    mistakes: tuple[FormMistake, ...]
+
+    @property
+    def diff(self) -> list[str]:
+        """The lines that change, with two around them. Empty: nothing changes."""
+        rows = difflib.unified_diff(self.before.splitlines(), self.after.splitlines(), n=2, lineterm="")
+        return [row for row in rows if not row.startswith(("---", "+++"))]
+
+
+def digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def settings(path: Path) -> Settings:
+    """Raises OSError, and ConfigError for what is no TOML."""
+    text = _text(path)
+    try:
+        values = migrations.values(text)
+    except (tomllib.TOMLDecodeError, RecursionError, migrations.FormatError):
+        parse(text, str(path))
+        raise
+    try:
+        return Settings(text, values, parse(text, str(path)))
+    except ConfigError:
+        return Settings(text, values, None)
+
+
+def propose(path: Path, begun: str, make: Callable[[str], str]) -> Proposal:
+    """The file with the text that `make` makes of its own. `begun`: the digest of the text that the change starts from.
+
+    Raises what `make` raises, OverwritesError, OSError, and ConfigError for a file that is no TOML.
+    """
+    before = _text(path)
+    if digest(before) != begun:
+        raise OverwritesError
+    try:
+        after = make(before)
+    except (tomllib.TOMLDecodeError, RecursionError, migrations.FormatError):
+        parse(before, str(path))
+        raise
+    return Proposal(before, after, _form_mistakes(after))
+
+
+def write(path: Path, proposal: Proposal) -> None:
+    """Write it, the old text beside it as `.bak`. Raises OverwritesError, OSError, and ConfigError for one with
+    mistakes."""
+    with WRITING:
+        if _text(path) != proposal.before:
+            raise OverwritesError
+        parse(proposal.after, str(path))
+        replace(path, proposal.before, proposal.after)
+
+
+def _text(path: Path) -> str:
+    try:
+        text = toml_text.read(path)
+    except toml_text.NoTextError as none:
+        raise ConfigError(str(path), [none.mistake]) from none
+    if len(text) > LONGEST:
+        raise ConfigError(str(path), [Mistake(f"is longer than {LONGEST // 1024} KiB: an editor can change it")])
+    return text
+
+
+def _form_mistakes(text: str) -> tuple[FormMistake, ...]:
+    try:
+        parse(text, "the file")
+    except ConfigError as fault:
+        lines = places(text)
+        return tuple(FormMistake(mistake.text, _about(mistake, lines)) for mistake in fault.mistakes)
+    return ()
+
+
+def _about(mistake: Mistake, lines: Any) -> tuple[Place, ...]:
+    """The longest place in each of its lines: a key rather than its table."""
+    found = []
+    for line in mistake.lines:
+        there = [place for place, at in lines.items() if line in at]
+        found += [max(there, key=len)] if there else []
+    return tuple(dict.fromkeys(found))

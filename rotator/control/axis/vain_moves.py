@@ -1,0 +1,73 @@
+"""What an axis that goes to an angle by itself did not follow: moves one after the other, and a target that moves on.
+
+Knows where it was sent, for how long, and how far it came nearer meanwhile. A move that ends before the axis can be
+said not to follow counts with the fault that comes later. Finds no fault, and stops nothing.
+"""
+
+from __future__ import annotations
+
+import math
+
+LEAST_TRY_S = 0.4
+"""Sent elsewhere for less, a motor may not have started yet."""
+
+
+class VainMoves:
+    """Tell it of each look at an axis that is sent somewhere (`see`), and when its drive holds (`hold`)."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        """Since the axis was last seen to come nearer, or a fault counted them; without the present one."""
+        self._since_s: float | None = None
+        """When the present move began; None: the axis is where it is sent, it comes nearer, or the move is counted."""
+        self._lasts_s = 0.0
+        self._least_deg = 0.0
+
+    def see(self, sent_s: float, nearer_deg: float, coming_deg: float, *, begins: bool) -> None:
+        """`sent_s`: for how long, in all, it was sent somewhere. `nearer_deg`: how far, in all, it came nearer to that.
+
+        `begins`: the drive held before, and the axis is sent elsewhere.
+        """
+        if begins:
+            self._since_s, self._least_deg = sent_s, nearer_deg
+        if self._since_s is None:
+            return
+        self._lasts_s = sent_s - self._since_s
+        self._least_deg = min(self._least_deg, nearer_deg)
+        if nearer_deg - self._least_deg >= coming_deg:
+            self.count, self._since_s = 0, None
+
+    def hold(self) -> None:
+        if self._since_s is not None and self._lasts_s >= LEAST_TRY_S:
+            self.count += 1
+        self._since_s = None
+
+    def struck(self) -> None:
+        """A fault has stopped the axis, and has counted these moves and the present one."""
+        self.count, self._since_s = 0, None
+
+
+class LeftBehind:
+    """Where the target was while the axis stood: however far beside its place it stands, it has to follow."""
+
+    def __init__(self) -> None:
+        self.begin()
+
+    def begin(self) -> None:
+        """It is sent anew."""
+        self._stands_deg = math.inf
+        self._low_deg, self._high_deg = math.inf, -math.inf
+        self._since_s: float | None = None
+
+    def seconds(
+        self, sent_s: float, target_deg: float, place_deg: float, *, moved_deg: float, apart_deg: float
+    ) -> float:
+        """For how long the target has been `apart_deg` from where it was before, and the axis has not moved."""
+        if abs(place_deg - self._stands_deg) >= moved_deg:
+            self.begin()
+            self._stands_deg = place_deg
+        self._low_deg, self._high_deg = min(self._low_deg, target_deg), max(self._high_deg, target_deg)
+        if self._high_deg - self._low_deg < apart_deg:
+            return 0.0
+        self._since_s = sent_s if self._since_s is None else self._since_s
+        return sent_s - self._since_s

@@ -1,0 +1,82 @@
+"""Presses that do not turn an axis without a calibration, by its raw readings: it may stand at its stop.
+
+Knows the readings, in degrees of the sensor's span, and how long the relays were on. Such an axis has no angle and no
+limits; all that can be told is whether a press has moved it. Stops nothing: who presses decides.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+
+from hw.ports import Direction
+from rotator.control.axis.sparks import Place
+from rotator.faults import Notice
+
+ENOUGH, ENOUGH_S = 3, 1.0
+"""So many presses in a row, and so long in all, that did not move it."""
+SMOOTHED = 5
+"""The mean of so many readings is where it is."""
+MOVED_DEG, MOVED_NOISES = 0.3, 4.0
+"""It has moved when it is further from where it stood than both."""
+SETTLES_S = 0.6
+"""Relay, coast and the mean of the readings take so long after a press."""
+IN_VAIN = Notice("presses did not move it: no program turns it before a person has, or says resume", "NOT TURNING")
+
+
+class VainPresses:
+    """Give it every change of the relays (`driven`) and every good reading (`see`), in order of time."""
+
+    def __init__(self) -> None:
+        self._latest: deque[Place] = deque(maxlen=SMOOTHED)
+        self.forget()
+
+    def forget(self) -> None:
+        """A person has looked."""
+        self._count, self._pressed_s = 0, 0.0
+        self._stands_deg: float | None = None
+        """Where it stood when the first of these presses began."""
+        self._since_s: float | None = None
+        """When the present press began; None: no relay is on."""
+        self._ended_s: float | None = None
+        """When the last press ended; None: it has been counted."""
+        self._moved = False
+        """The present press has moved it."""
+
+    @property
+    def enough(self) -> bool:
+        """Whether a program has pressed it in vain often enough."""
+        return self._count >= ENOUGH and self._pressed_s >= ENOUGH_S
+
+    def driven(self, now_s: float, direction: Direction) -> None:
+        if direction is Direction.OFF:
+            if self._since_s is not None and not self._moved:
+                self._pressed_s += now_s - self._since_s
+                self._ended_s = now_s
+            self._since_s, self._moved = None, False
+        elif self._since_s is None:
+            self._counted()
+            self._since_s = now_s
+            if self._stands_deg is None:
+                self._stands_deg = self._place_deg
+
+    def see(self, at_s: float, place_deg: float, noise_deg: float) -> None:
+        """A good reading. `noise_deg`: the scatter of the readings, rms."""
+        self._latest.append((at_s, place_deg))
+        if self._stands_deg is None or self._place_deg is None:
+            return
+        if abs(self._place_deg - self._stands_deg) >= max(MOVED_DEG, MOVED_NOISES * noise_deg):
+            self._count, self._pressed_s, self._stands_deg, self._ended_s = 0, 0.0, self._place_deg, None
+            self._moved = self._since_s is not None
+        elif self._ended_s is not None and at_s - self._ended_s >= SETTLES_S:
+            self._counted()
+
+    def _counted(self) -> None:
+        """The last press is over, and has not moved it."""
+        self._count += self._ended_s is not None
+        self._ended_s = None
+
+    @property
+    def _place_deg(self) -> float | None:
+        if len(self._latest) < SMOOTHED:
+            return None
+        return sum(place_deg for _, place_deg in self._latest) / SMOOTHED

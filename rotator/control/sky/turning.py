@@ -1,0 +1,66 @@
+"""A turn from one way to another while the target moves on: when the antenna arrives, and how far it is off until then.
+
+Knows the target's path, the mount and the motors' speeds. Does not know which turn is worth it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rotator.control.sky.angles import great_circle_deg
+from rotator.control.sky.mount import Mount
+from rotator.control.sky.route import STEP_S, Direction, Flown, Speeds, is_seen
+
+Place = tuple[float, float]
+"""Azimuth and elevation on the axes' own scales."""
+
+
+class Turning:
+    """Directions are `STEP_S` apart."""
+
+    def __init__(self, mount: Mount, directions: Sequence[Direction], speeds: Speeds) -> None:
+        self._directions = directions
+        self._speeds = speeds
+        self._seen = [is_seen(mount, *direction) for direction in directions]
+
+    def arrival(self, from_deg: Place, to: Flown, earliest: int, *, left: int) -> int:
+        """At which look the antenna is on that way, if it has left at `left`; the way moves on meanwhile. Not before
+        `earliest`; the last look of all where it does not get there."""
+        last = len(self._directions)
+        for look in range(earliest, last):
+            if self.travel_s(from_deg, to.place(look)) <= (look - left) * STEP_S:
+                return look
+        return last
+
+    def change(self, before: Flown, to: Flown, look: int) -> int:
+        """At which look it has changed from one way to the other: always a later one, so that changes come to an end
+        where both ways wait at the same limit."""
+        return self.arrival(before.place(look), to, look + 1, left=look)
+
+    def errors_deg(self, from_deg: Place, to: Flown, look: int, arrival: int) -> list[float]:
+        """How far it is off, look by look from where it leaves until it arrives; none where nothing is seen."""
+        there, errors_deg = to.place(min(arrival, len(self._directions) - 1)), []
+        for number in range(look, arrival):
+            if self._seen[number]:
+                azimuth_deg, elevation_deg = self._directions[number]
+                place = self.after(from_deg, there, (number - look + 0.5) * STEP_S)
+                errors_deg.append(great_circle_deg(*place, azimuth_deg, max(0.0, elevation_deg)))
+        return errors_deg
+
+    def travel_s(self, from_deg: Place, to_deg: Place) -> float:
+        """Both motors turn at once."""
+        return max(
+            abs(to_deg[0] - from_deg[0]) / self._speeds.azimuth_dps,
+            abs(to_deg[1] - from_deg[1]) / self._speeds.elevation_dps,
+        )
+
+    def after(self, from_deg: Place, to_deg: Place, seconds: float) -> Place:
+        """Where both axes are after this time."""
+        return (
+            _turned_deg(from_deg[0], to_deg[0], self._speeds.azimuth_dps * seconds),
+            _turned_deg(from_deg[1], to_deg[1], self._speeds.elevation_dps * seconds),
+        )
+
+
+def _turned_deg(from_deg: float, to_deg: float, by_deg: float) -> float:
+    return from_deg + max(-by_deg, min(by_deg, to_deg - from_deg))

@@ -1,0 +1,146 @@
+"""Fetches the elements that the configuration names addresses of, each when it is due, and keeps what came of it.
+
+Knows the record of earlier questions, which is written before a question is asked: a box that dies in the middle, or
+cannot write, does not ask twice. Does not know threads. Moments are arguments.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from rotator.fetching.download import Answer, Question
+from rotator.fetching.manners import EVERY_S, LEAST_S, REFUSED_S, Moment, concerned, concerns_host, left_s, wait_s
+from rotator.store.fetches import Asked, FetchesFile, file_of
+
+log = logging.getLogger(__name__)
+
+UNANSWERED = "the box ended before the answer came"
+DAMAGED = "the record of earlier fetches was damaged"
+FORGOTTEN_S = 7 * REFUSED_S
+"""The record of an address that is no longer in the configuration is kept for so long."""
+
+
+class Fetcher:
+    """`ask`: as in `download`. `clock_trusted`: whether this computer's clock is right."""
+
+    def __init__(
+        self,
+        addresses: Sequence[str],
+        folder: Path,
+        store: FetchesFile,
+        ask: Callable[[Question], Answer],
+        clock_trusted: Callable[[], bool],
+    ) -> None:
+        self._addresses = tuple(addresses)
+        self._folder = folder
+        self._store = store
+        self._ask = ask
+        self._clock_trusted = clock_trusted
+        self._begun: Moment | None = None
+        self._told = False
+        self._fetches: dict[str, Asked] = {}
+        self._asked_awake_s: dict[str, float] = {}
+        """The addresses that were asked in this run, and when."""
+
+    def step(self, now: Moment) -> bool:
+        """Ask one address, if one is due. It may take minutes. Returns whether a file is new. Raises nothing."""
+        if not self._clock_trusted():
+            self._tell_once("elements are fetched as soon as this computer's clock is set")
+            return False
+        if self._begun is None:
+            self._begin(now)
+        due = (address for address in self._addresses if self._left_s(address, now) <= 0)
+        address = next(due, None)
+        return address is not None and self._fetch(address, now)
+
+    def _tell_once(self, text: str) -> None:
+        if not self._told:
+            log.info("%s", text)
+        self._told = True
+
+    def _begin(self, now: Moment) -> None:
+        self._begun = now
+        with self._store.alone():
+            kept = self._store.load()
+            damaged = {each: Asked(each, now.utc_s, LEAST_S, DAMAGED) for each in self._addresses}
+            self._fetches = {
+                address: each.not_after(now.utc_s)
+                for address, each in (damaged if kept is None else kept).items()
+                if address in self._addresses or abs(now.utc_s - each.asked_utc_s) < FORGOTTEN_S
+            }
+            # Else a box that runs for an hour at a time would find the same fault for ever.
+            if self._fetches != kept:
+                self._store.save(self._fetches)
+
+    def _left_s(self, address: str, now: Moment) -> float:
+        assert self._begun is not None
+        waits = [
+            left_s(each, self._begun, now, self._asked_awake_s.get(each.address))
+            for each in concerned(address, self._fetches.values())
+        ]
+        return max(waits, default=0.0)
+
+    def _fetch(self, address: str, now: Moment) -> bool:
+        path = file_of(address, self._folder)
+        before = self._fetches.get(address) or Asked(address, now.utc_s, LEAST_S)
+        if not path.exists():  # a person has removed it: what it held does not count
+            before = replace(before, sets=0, shrunk=0, etag="", modified="")
+        asked = replace(before, asked_utc_s=now.utc_s, wait_s=LEAST_S, trouble=UNANSWERED, whole_host=False)
+        with self._store.alone():
+            self._learn(now)
+            if self._left_s(address, now) > 0:  # another box has asked
+                return False
+            self._asked_awake_s[address] = now.awake_s
+            if not self._keep(asked):
+                return False
+        try:
+            answer = self._ask(
+                Question(address, path, now.utc_s, before.etag, before.modified, before.sets, before.shrunk)
+            )
+        except Exception as failure:  # of any kind: the box goes on, and asks again
+            answer = Answer(0, str(failure) or type(failure).__name__)
+        after = _after(asked, answer)
+        with self._store.alone():
+            self._learn(now)
+            self._keep(after)
+        if after.trouble:
+            log.warning("%s: %s; not asked again for %.0f h", address, after.trouble, after.wait_s / 3600)
+        else:
+            log.info("%s: elements of %d satellites", address, answer.sets)
+        return not answer.trouble
+
+    def _learn(self, now: Moment) -> None:
+        """What another box has asked meanwhile that keeps its files in the same folder."""
+        for address, each in (self._store.load() or {}).items():
+            mine = self._fetches.get(address)
+            if mine is None or (each != mine and each.asked_utc_s >= mine.asked_utc_s):
+                self._fetches[address] = each
+                self._asked_awake_s[address] = now.awake_s
+
+    def _keep(self, asked: Asked) -> bool:
+        self._fetches[asked.address] = asked
+        return self._store.save(self._fetches)
+
+
+def _after(asked: Asked, answer: Answer) -> Asked:
+    if answer.trouble:
+        return replace(
+            asked,
+            wait_s=wait_s(answer.status),
+            trouble=answer.trouble,
+            whole_host=concerns_host(answer.status),
+            shrunk=answer.sets,
+        )
+    return replace(
+        asked,
+        wait_s=EVERY_S,
+        trouble="",
+        good_utc_s=asked.asked_utc_s,
+        sets=answer.sets,
+        shrunk=0,
+        etag=answer.etag,
+        modified=answer.modified,
+    )

@@ -1,0 +1,60 @@
+"""What a message on a topic makes the box do: the methods of the page, for what stands behind a broker.
+
+Knows rights, and that a message which the broker has kept is no order. Does not know how a message comes.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from rotator.protocols.methods import METHODS, WrongValuesError
+from rotator.protocols.operating import Operating
+
+LONGEST = 4096
+_METHODS = {method.name: method for method in METHODS}
+_MAY_STOP = '[mqtt] may = "{}": messages {}'
+_WORDS = {"look": "do nothing", "stop": "only stop"}
+
+
+class Desk:
+    """`may`: as in [mqtt]."""
+
+    def __init__(self, operating: Operating, may: str) -> None:
+        self._operating = operating
+        self._may = may
+
+    def do(self, name: str, payload: bytes, *, kept: bool) -> dict[str, Any]:
+        """Do it, and answer. `kept`: the broker has kept the message from before: an old wish is no order."""
+        refused = self._refused(name, payload, kept=kept)
+        answer: dict[str, Any] = {"method": name[:40], "ok": not refused}
+        return answer | {"error": refused} if refused else answer
+
+    def _refused(self, name: str, payload: bytes, *, kept: bool) -> str:
+        method = _METHODS.get(name)
+        if method is None:
+            return f"there is no method {name[:40]!a}: {', '.join(_METHODS)}"
+        if kept:
+            return "the broker has kept this message: send it without retain"
+        if self._may != "move" and not (method.free and self._may == "stop"):
+            return _MAY_STOP.format(self._may, _WORDS[self._may])
+        try:
+            # A stop counts whatever the message says.
+            return self._operating.do(method.command({} if method.free else _values(payload)))
+        except WrongValuesError as reason:
+            return str(reason)
+
+
+def _values(payload: bytes) -> dict[str, object]:
+    """The message's JSON object. Home Assistant's buttons send the word PRESS. Raises WrongValuesError."""
+    if len(payload) > LONGEST:
+        raise WrongValuesError(f"no message has more than {LONGEST} bytes")
+    if payload.strip() in (b"", b"PRESS"):
+        return {}
+    try:
+        values = json.loads(payload)
+    except (ValueError, RecursionError):
+        raise WrongValuesError("the message must be a JSON object") from None
+    if not isinstance(values, dict):
+        raise WrongValuesError("the message must be a JSON object")
+    return values

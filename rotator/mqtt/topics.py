@@ -1,0 +1,90 @@
+"""The topics of the box and the messages on them; what Home Assistant is told of it.
+
+Knows names and values. Knows no broker, and does not know what a method does.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from rotator import __version__
+
+ONLINE, OFFLINE = "online", "offline"
+PREFIX = "homeassistant"
+"""Where Home Assistant looks."""
+_ANGLE = {"unit_of_measurement": "°", "state_class": "measurement", "suggested_display_precision": 1}
+_SENSORS: dict[str, dict[str, Any]] = {
+    "azimuth": {"name": "Azimuth", "value_template": "{{ value_json.azimuth.angle_deg }}", "icon": "mdi:compass"},
+    "elevation": {
+        "name": "Elevation", "value_template": "{{ value_json.elevation.angle_deg }}", "icon": "mdi:angle-acute",
+    },
+}  # fmt: skip
+_EITHER = "{{{{ 'ON' if value_json.azimuth.{0} or value_json.elevation.{0} else 'OFF' }}}}"
+_BINARY: dict[str, dict[str, Any]] = {
+    "moving": {"name": "Moving", "value_template": _EITHER.format("moving"), "device_class": "moving"},
+    "fault": {"name": "Fault", "value_template": _EITHER.format("fault"), "device_class": "problem"},
+    "stopped": {"name": "Stopped", "value_template": "{{ 'ON' if value_json.stopped_by else 'OFF' }}"},
+}
+_BUTTONS = {
+    "stop": ("Stop", "mdi:stop-circle", ("stop", "move")),
+    "resume": ("Let it move again", "mdi:play-circle", ("move",)),
+    "park": ("Park", "mdi:parking", ("move",)),
+}
+"""By method: its name, its picture, and with which rights it is there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Topics:
+    """`base`: the first words of all of them."""
+
+    base: str
+
+    @property
+    def status(self) -> str:
+        return f"{self.base}/status"
+
+    @property
+    def availability(self) -> str:
+        return f"{self.base}/availability"
+
+    @property
+    def answer(self) -> str:
+        return f"{self.base}/answer"
+
+    @property
+    def orders(self) -> str:
+        """What the box listens to: a method's name is the last word."""
+        return f"{self.base}/do/+"
+
+    def method(self, topic: str) -> str:
+        """The name of the method that a message on this topic asks for."""
+        return topic.removeprefix(f"{self.base}/do/")
+
+    def order(self, method: str) -> str:
+        return f"{self.base}/do/{method}"
+
+
+def discovery(topics: Topics, may: str) -> Iterator[tuple[str, str]]:
+    """Topics and messages by which Home Assistant finds the antenna. `may`: as in [mqtt]."""
+    box = re.sub(r"[^A-Za-z0-9_-]", "_", topics.base)
+    device = {"identifiers": [box], "name": "Antenna rotator", "model": "gs232-rotator", "sw_version": __version__}
+    common = {"availability_topic": topics.availability, "device": device, "origin": {"name": "gs232-rotator"}}
+
+    def entity(kind: str, name: str, said: dict[str, Any]) -> tuple[str, str]:
+        whole = {**said, "unique_id": f"{box}_{name}", "object_id": f"{box}_{name}", **common}
+        return f"{PREFIX}/{kind}/{box}/{name}/config", json.dumps(whole, ensure_ascii=False)
+
+    for name, said in _SENSORS.items():
+        yield entity("sensor", name, {**said, **_ANGLE, "state_topic": topics.status})
+    for name, said in _BINARY.items():
+        yield entity("binary_sensor", name, {**said, "state_topic": topics.status})
+    for method, (name, icon, rights) in _BUTTONS.items():
+        if may in rights:
+            yield entity("button", method, {"name": name, "icon": icon, "command_topic": topics.order(method)})
+        else:
+            # What it had before, with more rights, is gone.
+            yield f"{PREFIX}/button/{box}/{method}/config", ""

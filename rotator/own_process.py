@@ -1,0 +1,110 @@
+"""Computes in a process of its own: long work in this one would keep the control loop from the interpreter.
+
+Knows how to start that process, how to wait for its answer, and how to end it. Knows nothing of what is computed.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import resource
+import signal
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnProcess
+from typing import Any, TypeVar
+
+POLITE = 10
+"""Its niceness: what turns the motors comes first."""
+END_S = 2.0
+MOST_BYTES = 500_000_000
+"""Of address space. The whole public catalogue takes 100 MB; what needs more must not take the box its memory."""
+Result = TypeVar("Result")
+
+
+class OwnProcess:
+    """The process starts with the first job, and ends with `close`. `compute` belongs to one thread.
+
+    `longest_s`: a job that takes longer is given up. `once`: the process ends after each job, for jobs that are seldom.
+    """
+
+    def __init__(self, longest_s: float, *, once: bool = False) -> None:
+        self._longest_s = longest_s
+        self._once = once
+        self._process: SpawnProcess | None = None
+        self._pipe: Connection | None = None
+        self._closed = False
+        self._lock = threading.Lock()
+        """A process starts, ends and is closed one after the other, whichever thread does it."""
+
+    def compute(self, job: Callable[..., Result], *given: Any) -> Result:
+        """Raises what the job raises; RuntimeError where the process fails; ValueError where it lacks memory."""
+        try:
+            pipe = self._pipe or self._start()
+            pipe.send((job, given))
+            if not pipe.poll(self._longest_s):
+                raise TimeoutError(f"it takes longer than {self._longest_s:g} s")
+            done, answer = pipe.recv()
+        except (OSError, EOFError) as failure:
+            self._end()
+            why = "the box ends" if self._closed else str(failure) or "its process has ended"
+            raise RuntimeError(why) from None
+        if self._once:
+            self._end()
+        if not done:
+            raise answer
+        result: Result = answer
+        return result
+
+    def close(self) -> None:
+        """From any thread. A job that is under way fails, and none is taken any more."""
+        with self._lock:
+            self._closed = True
+            if self._process is not None:
+                self._process.terminate()
+                self._process.join(END_S)
+
+    def _start(self) -> Connection:
+        """Raises OSError."""
+        # Spawned: a copy of this process would hold its relay lines and sockets.
+        spawn = multiprocessing.get_context("spawn")
+        with self._lock:
+            if self._closed:
+                raise OSError("the box ends")
+            ours, theirs = spawn.Pipe()
+            process = spawn.Process(target=_work, args=(theirs,), daemon=True)
+            process.start()
+            theirs.close()
+            self._process, self._pipe = process, ours
+            return ours
+
+    def _end(self) -> None:
+        with self._lock:
+            pipe, process, self._pipe, self._process = self._pipe, self._process, None, None
+            if process is not None:
+                process.terminate()
+                process.join(END_S)
+            if pipe is not None:
+                pipe.close()
+
+
+def _work(pipe: Connection) -> None:
+    """In the new process. The box ends it; Ctrl-C at the terminal is for the box."""
+    with suppress(OSError):  # a service may be kept from it
+        os.nice(POLITE)
+    with suppress(OSError, ValueError):  # a lower limit may stand already
+        resource.setrlimit(resource.RLIMIT_AS, (MOST_BYTES, MOST_BYTES))
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    with suppress(EOFError, OSError):  # the box has ended
+        while True:
+            job, given = pipe.recv()
+            try:
+                answer = True, job(*given)
+            except MemoryError:
+                answer = False, ValueError("it needs too much memory")
+            except Exception as failure:
+                answer = False, failure
+            pipe.send(answer)

@@ -1,0 +1,156 @@
+"""What a person's command makes the box do, and why it does not: the same for the console and for the page.
+
+Knows orders, the states in which they have no effect, and what tracks targets. Does not know how a command came, nor
+how the answer is written.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from hw.ports import Axis
+from rotator.config.station import NO_PLACE
+from rotator.control.rights import Deed, State, deed_of, hindrance, holds, mode_words
+from rotator.control.sky.timed_table import TimedTable
+from rotator.orders import Aim, Home, Jog, Mode, Order, RelaysChecked, Release, SetMode, Source, Stop, Take
+from rotator.protocols.console import PULSE_S, ClockIsRight, PersonCommand, Pulse, Track
+from rotator.protocols.session import Box, Tracking
+from rotator.status import Status
+
+SHOWN_S = 0.3
+"""So long after an order the status may not show it yet."""
+FULL_TURN_DEG, ZENITH_DEG = 360.0, 90.0
+
+
+class Operating:
+    """One person's connection. While a stop is latched, orders that move are refused with the reason."""
+
+    def __init__(self, box: Box, tracking: Tracking | None = None, source: Source | None = None) -> None:
+        """`tracking`: None where the box does not know where on the earth it stands.
+
+        `source`: whose orders have no effect while another person holds the antenna; None: nothing holds this one off.
+        """
+        self._box = box
+        self._tracking = tracking
+        self._source = source
+        self._resumed_s = -math.inf
+        """When a `resume` was sent, on the clock of the status."""
+
+    @property
+    def tracks(self) -> str:
+        """What goes on: `off`, `planning`, `tracking`, or `ended: ` and the reason."""
+        return self._tracking.state if self._tracking else "off"
+
+    def do(self, command: PersonCommand) -> str:
+        """Do it. Returns why not; empty: it is done, or has begun."""
+        match command:
+            case Track(words):
+                return self._track(words)
+            case ClockIsRight():
+                if self._tracking is not None:
+                    self._tracking.clock_is_right()
+                return ""
+            case Pulse(axis, direction):
+                return self._unfit(axis) or self._obey(Jog(axis, direction, PULSE_S))
+            case _:
+                return self._obey(command)
+
+    def _unfit(self, axis: Axis) -> str:
+        """Why no relay of this axis is closed for a trial; empty: nothing else moves, and this person holds it all."""
+        status = self._box.status()
+        if status.axis(axis).starts is None:
+            return "this rotor has no relays: turn it by the buttons instead"
+        if self._source is not None and status.held_by != str(self._source):
+            return "take the antenna first: then no program closes a relay meanwhile"
+        if status.moving:
+            return "the antenna moves: wait until it stands"
+        fault = status.faults[0] if status.faults else None
+        return f"first mend this, and let it go on: {fault}" if fault else ""
+
+    def _obey(self, order: Order) -> str:
+        if isinstance(order, SetMode) and self._box.status().mode_switch:
+            return "the box has a mode switch of its own: turn it there"
+        if reason := self._blocked(order) or _beyond(order, self._box.status()):
+            return reason
+        match order:
+            case Aim() | Jog() | Home():
+                pass
+            case _:
+                self._resumed_s = self._box.status().at_s if isinstance(order, Release) else -math.inf
+        refused = self._box.order(order)
+        return refused.reason if refused else ""
+
+    def _track(self, words: str) -> str:
+        if self._tracking is None:
+            return NO_PLACE
+        if words == "off":
+            if reason := self._of_another():
+                return reason
+            self._tracking.off()
+            return ""
+        return self._tracking_held() or self._tracking.track(words) or self._hold()
+
+    def program(self, table: TimedTable) -> str:
+        """Track a timed table. Returns why not; empty: it does."""
+        if self._tracking is None:
+            return NO_PLACE
+        return self._tracking_held() or self._tracking.program(table) or self._hold()
+
+    def _tracking_held(self) -> str:
+        """In every mode but AUTO the box itself moves nothing, also for the person who has set it."""
+        status = self._box.status()
+        if status.mode is not Mode.AUTO:
+            return mode_words(status.mode, status.mode_by)
+        return self._held(Deed.AIM)
+
+    def _hold(self) -> str:
+        """What this person tracks is theirs, as what they move is: no stream on a link snatches it."""
+        if self._source is not None and self._source.holds and self._box.status().held_by != str(self._source):
+            self._box.order(Take(stops=False))
+        return ""
+
+    def _of_another(self) -> str:
+        """Who else holds the antenna, where that concerns this person; empty: it does not."""
+        return holds(self._box.status(), self._source).get(State.HELD, "")
+
+    def _blocked(self, order: Order) -> str:
+        """Why this order would have no effect; empty: it has one."""
+        match order:
+            case Stop() | Take() | Release() | RelaysChecked():
+                pass
+            case _ if reason := self._of_another():
+                return reason
+        deed = deed_of(order)
+        return self._held(deed) if deed else ""
+
+    def _held(self, deed: Deed) -> str:
+        """What holds the antenna back from this; empty: nothing does."""
+        status = self._box.status()
+        # What is latched later was latched by somebody else, or by a key.
+        resumed = status.at_s <= self._resumed_s + SHOWN_S
+        held = holds(replace(status, latched="") if resumed else status, self._source)
+        state = hindrance(held, deed)
+        return held[state] if state else ""
+
+
+def _beyond(order: Order, status: Status) -> str:
+    """Why the rotor has no such angle; empty: it has. A person who names one is not led to another one instead.
+
+    A program's order means a direction all the same: it sends what its satellite does.
+    """
+    match order:
+        case Aim(float() as azimuth_deg, float() as elevation_deg):
+            pass
+        case _:
+            return ""
+    azimuth, elevation = status.azimuth, status.elevation
+    if azimuth_deg > FULL_TURN_DEG and azimuth_deg > azimuth.max_deg:
+        return (
+            f"azimuth {azimuth_deg:g}° names a turn beyond the range of {azimuth.min_deg:g}° to {azimuth.max_deg:g}°; "
+            f"the same direction is {azimuth_deg % FULL_TURN_DEG:g}°"
+        )
+    below = elevation_deg < min(0.0, elevation.min_deg)
+    if below or elevation_deg > max(ZENITH_DEG, elevation.max_deg):
+        return f"elevation {elevation_deg:g}° is outside the range of {elevation.min_deg:g}° to {elevation.max_deg:g}°"
+    return ""

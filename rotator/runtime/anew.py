@@ -1,0 +1,66 @@
+"""A wish that the box ends and starts anew with its file, and what holds the antenna meanwhile.
+
+Knows the latched stop and the person's hold that go on. Does not know the file: `rotator.cli.anew` starts
+the box again, and puts the last good file back where it cannot.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+from hw.ports import Axis
+from rotator.orders import Source
+from rotator.status import Latch, Status
+
+
+class Anew:
+    """One for a whole run of the command. Asked from any thread; the command hears it by `on_asked`."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._asked = False
+        self.on_asked: Callable[[], None] = lambda: None
+        self.holder: Source | None = None
+        """The person who held the antenna: a new start lets no other program in."""
+        self.latch: Latch | None = None
+        """The stop that was latched."""
+        self.sets_up: Axis | None = None
+        """The axis that is to be calibrated after this start; None: the box runs as ever."""
+        self.refused = ""
+        """Why the file of the latest start could not be used: the one before it is back."""
+        self.said: tuple[str, ...] = ()
+        """What the calibration that ended with the latest start has said."""
+        self.again = False
+        """The box has been started anew, by the page: it must come back with its page."""
+
+    @property
+    def asked(self) -> bool:
+        return self._asked
+
+    def ask(self, status: Status, sets_up: Axis | None = None) -> None:
+        """End, and start anew. The antenna stops: as at every end of the box the relays open first."""
+        with self._lock:
+            if self._asked:
+                return
+            self._asked = True
+            self.holder = _source(status.held_by) if status.held_by else None
+            self.latch, self.sets_up = status.latch, sets_up
+        self.on_asked()
+
+    def forget(self) -> None:
+        """A signal ends the box for good."""
+        with self._lock:
+            self._asked = False
+
+    def take(self) -> bool:
+        """Whether it was asked for. After that it may be asked for again."""
+        with self._lock:
+            asked, self._asked = self._asked, False
+            self.again = self.again or asked
+            return asked
+
+
+def _source(name: str) -> Source:
+    link, _, connection = name.partition("#")
+    return Source(link, int(connection) if connection.isdecimal() else 0)

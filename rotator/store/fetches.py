@@ -1,0 +1,123 @@
+"""The file that says when elements were last fetched from where, and with what result.
+
+Knows the file's form. Does not know how often a server may be asked.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import os
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+from rotator.store.forms import Form
+from rotator.store.json_file import JsonFile, number
+
+FORM = Form("rotator fetches")
+FILE_NAME = "fetches.json"
+FOLDER = "fetched"
+"""The folder beside this file with the elements themselves."""
+MOST = 1_000_000_000
+LONGEST_TEXT = 200
+"""What a server says is cut, so that the file stays far below the size at which it counts as damaged."""
+LATEST_S = 4_102_444_800.0
+"""The year 2100."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """An address, and how it went when it was asked last. Moments are UTC, in seconds since 1970."""
+
+    address: str
+    asked_utc_s: float
+    wait_s: float
+    """It is asked again after this time at the earliest."""
+    trouble: str = ""
+    """Why nothing new has come; empty: all is well."""
+    whole_host: bool = False
+    """The wait is for every address of this server."""
+    good_utc_s: float | None = None
+    """When its elements were good, and the newest there are."""
+    sets: int = 0
+    """So many elements it had then."""
+    shrunk: int = 0
+    """So many the latest answer had, which was not taken because they were too few; 0: it was taken."""
+    etag: str = ""
+    modified: str = ""
+
+    def __post_init__(self) -> None:
+        """Of a server's texts what may go to a terminal, and not too much of it."""
+        for name in ("trouble", "etag", "modified"):
+            shown = "".join(filter(str.isprintable, getattr(self, name)))
+            object.__setattr__(self, name, shown[:LONGEST_TEXT])
+
+    def not_after(self, now_utc_s: float) -> Asked:
+        """With no moment of the future: the clock was wrong then."""
+        good_utc_s = None if self.good_utc_s is None else min(self.good_utc_s, now_utc_s)
+        return replace(self, asked_utc_s=min(self.asked_utc_s, now_utc_s), good_utc_s=good_utc_s)
+
+
+Fetches = Mapping[str, Asked]
+"""By address."""
+
+
+def file_of(address: str, folder: Path) -> Path:
+    """Where the elements of this address are kept."""
+    return folder / f"{urlsplit(address).hostname}-{hashlib.sha256(address.encode()).hexdigest()[:8]}.txt"
+
+
+class FetchesFile:
+    """Failures go to the log, and nothing is raised."""
+
+    def __init__(self, path: Path) -> None:
+        self._file = JsonFile(path, FORM, "the moment of a fetch")
+
+    @contextmanager
+    def alone(self) -> Iterator[None]:
+        """Two boxes may have one folder: what is loaded and saved within belongs together. For a moment only."""
+        try:
+            folder = os.open(self._file.path.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        except OSError:  # there is none yet, or it cannot be read; `save` tells
+            yield
+            return
+        try:
+            with suppress(OSError):  # a file system without locks
+                fcntl.flock(folder, fcntl.LOCK_EX)
+            yield
+        finally:
+            os.close(folder)
+
+    def load(self) -> Fetches | None:
+        """None: the file is damaged, or a later version's."""
+        nothing: Fetches = {}
+        return self._file.load(_fetches, absent=nothing, damaged=None, consequence="nothing is fetched for a while")
+
+    def save(self, fetches: Fetches) -> bool:
+        """False: it could not be written."""
+        return self._file.save({"asked": [asdict(each) for each in fetches.values()]})
+
+
+def _fetches(content: dict[str, Any]) -> Fetches | None:
+    return {each.address: each for each in map(_asked, content["asked"])}
+
+
+def _asked(row: Mapping[str, Any]) -> Asked:
+    """Raises ValueError, KeyError, TypeError for what is no such row."""
+    good_utc_s = row["good_utc_s"]
+    return Asked(
+        address=str(row["address"]),
+        asked_utc_s=number(row["asked_utc_s"], "asked_utc_s", 0, LATEST_S),
+        wait_s=number(row["wait_s"], "wait_s", 0, MOST),
+        trouble=str(row["trouble"]),
+        whole_host=bool(row["whole_host"]),
+        good_utc_s=None if good_utc_s is None else number(good_utc_s, "good_utc_s", 0, LATEST_S),
+        sets=int(number(row["sets"], "sets", 0, MOST)),
+        shrunk=int(number(row["shrunk"], "shrunk", 0, MOST)),
+        etag=str(row["etag"]),
+        modified=str(row["modified"]),
+    )

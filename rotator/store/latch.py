@@ -1,0 +1,73 @@
+"""The file that keeps a latched stop or a storm park: after a restart of the program or the Pi it still holds.
+
+Knows the file's form, and that a damaged file means a stop: the box cannot know that there was none. Written only when
+a stop begins or ends, for each write wears the card. Does not know who may stop or release the antenna.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+from pathlib import Path
+from typing import Any
+
+from rotator.status import Latch
+from rotator.store.forms import Form
+from rotator.store.json_file import JsonFile
+
+FILE_NAME = "latch.json"
+"""Beside the state file."""
+FORM = Form("rotator latch")
+BEFORE = " before the restart"
+LONGEST_NAME = 200
+DAMAGED = Latch(f"the damaged file {FILE_NAME}")
+"""The box says this of itself when it cannot read its file."""
+
+
+class Kept(Enum):
+    """What the file says."""
+
+    NOTHING = "no stop"
+    STOP = "a stop"
+    STORM = "a storm park"
+    UNKNOWN = "not readable, or not written"
+
+
+class LatchFile:
+    """Call `load` first, then `save` after each change. Failures go to the log, and nothing is raised."""
+
+    def __init__(self, path: Path) -> None:
+        self._file = JsonFile(path, FORM, "a latched stop")
+        self._kept = Kept.NOTHING
+
+    def load(self) -> Latch | None:
+        """What the last run of the program left, in words for the new one; None: it left no stop."""
+        latch = self._file.load(
+            _parse, absent=None, damaged=DAMAGED, consequence="it may have kept a stop: nothing moves until resume"
+        )
+        self._kept = Kept.UNKNOWN if latch is DAMAGED else _kind(latch)
+        if latch is None or latch is DAMAGED:
+            return latch
+        return Latch(latch.by.removesuffix(BEFORE) + BEFORE, storm=latch.storm)
+
+    def save(self, latch: Latch | None) -> bool:
+        """Write it, unless the file says so already: a repeated stop is the same stop. False: the write failed."""
+        if self._kept is _kind(latch):
+            return True
+        done = self._file.save({"by": latch.by if latch else "", "storm": latch is not None and latch.storm})
+        self._kept = _kind(latch) if done else Kept.UNKNOWN
+        return done
+
+
+def _kind(latch: Latch | None) -> Kept:
+    if latch is None:
+        return Kept.NOTHING
+    return Kept.STORM if latch.storm else Kept.STOP
+
+
+def _parse(content: dict[str, Any]) -> Latch | None:
+    by, storm = content["by"], content["storm"]
+    if not isinstance(by, str) or len(by) > LONGEST_NAME or not by.isprintable():
+        raise ValueError("by is no name of a sender")
+    if not isinstance(storm, bool) or (storm and not by):
+        raise ValueError("storm is not true or false, or names no sender")
+    return Latch(by, storm=storm) if by else None

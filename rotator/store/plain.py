@@ -1,0 +1,36 @@
+"""Reads a file that a person has named, whole: an ordinary file of a sensible size.
+
+A pipe without a writer, or a device that never ends, would be waited for for ever. Knows file types and sizes. Does not
+know what is in the file.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+MOST_BYTES = 4_000_000
+"""A configuration has some thousand bytes, a pass a hundred thousand."""
+
+
+class NoPlainFileError(OSError):
+    """There is something with this name, but no file that can be read whole. `strerror` says what, for the user."""
+
+    def __init__(self, path: Path, what: str) -> None:
+        super().__init__(0, what, str(path))
+
+
+def read_plain(path: Path, most_bytes: int = MOST_BYTES) -> bytes:
+    """Raises OSError; of that NoPlainFileError where it is a pipe, a device or too large."""
+    # O_NONBLOCK: a pipe without a writer is opened at once.
+    with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC), "rb") as file:
+        mode = os.fstat(file.fileno()).st_mode
+        if stat.S_ISDIR(mode):
+            raise IsADirectoryError(0, "is a folder", str(path))
+        if not stat.S_ISREG(mode):
+            raise NoPlainFileError(path, "is a device or a pipe, no file: save what it should hold in a file")
+        data = file.read(most_bytes + 1)
+    if len(data) > most_bytes:
+        raise NoPlainFileError(path, f"has more than {most_bytes // 1_000_000} MB: another file must be meant")
+    return data

@@ -1,0 +1,68 @@
+"""The file of the priorities that a person has changed on the page: the configuration itself stays as it was written.
+
+Knows that a change holds only while the configuration says what it said then: a person who writes a new priority into
+the file is obeyed. Does not know what a priority is good for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from rotator.store import json_file
+from rotator.store.forms import Form
+from rotator.store.json_file import JsonFile, number
+
+FORM = Form("rotator priorities")
+FILE_NAME = "priorities.json"
+MOST, LONGEST_NAME = 100, 80
+MOST_PRIORITY = 1000.0
+
+
+@dataclass(frozen=True, slots=True)
+class Changed:
+    """`written`: what the configuration said when it was changed."""
+
+    priority: float
+    written: float
+
+
+def decode(text: str) -> Mapping[str, Changed]:
+    """The changes in the text of a file. Raises ValueError where the text is damaged or another file's."""
+    return json_file.decode(FORM, text, _changes)
+
+
+class Priorities:
+    """May be used from any thread: a change replaces the whole. Failures to write go to the log."""
+
+    def __init__(self, path: Path) -> None:
+        self._file = JsonFile(path, FORM, "the order of the plan")
+        nothing: Mapping[str, Changed] = {}
+        told = "the plan has the priorities of the configuration"
+        self._changed = self._file.load(_changes, absent=nothing, damaged=nothing, consequence=told)
+
+    def of(self, name: str, written: float) -> float:
+        """The priority in force of a target, as the configuration names it and what it says."""
+        changed = self._changed.get(name)
+        return changed.priority if changed is not None and changed.written == written else written
+
+    def change(self, priorities: Mapping[str, float], written: Mapping[str, float]) -> bool:
+        """From now on these are in force. False: they could not be written, and end with the program."""
+        self._changed = {
+            name: Changed(priority, written[name]) for name, priority in priorities.items() if priority != written[name]
+        }
+        return self._file.save({"changed": {name: asdict(each) for name, each in self._changed.items()}})
+
+
+def _changes(content: dict[str, Any]) -> Mapping[str, Changed]:
+    rows = content["changed"].items()
+    return {str(name)[:LONGEST_NAME]: _change(row) for name, row in list(rows)[:MOST]}
+
+
+def _change(row: Mapping[str, Any]) -> Changed:
+    priority, written = (number(row[key], key, 0.0, MOST_PRIORITY) for key in ("priority", "written"))
+    if priority <= 0:
+        raise ValueError("a priority is above 0")
+    return Changed(priority, written)

@@ -1,0 +1,33 @@
+"""Reads files of elements for the running box: a large one in a process of its own.
+
+Parsing ten megabytes keeps the interpreter busy for seconds, and the control loop has none other. Knows sizes alone;
+`rotator.orbits` knows the forms.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from rotator.orbits.catalogue import Found, read_file
+from rotator.own_process import OwnProcess
+
+LARGE_BYTES = 200_000
+"""Some hundred satellites: a smaller file is read in some milliseconds, and a process takes half a second to begin."""
+LONGEST_S = 120.0
+
+
+class FileReader:
+    """`read` belongs to one thread, `close` to any."""
+
+    def __init__(self) -> None:
+        self._process = OwnProcess(LONGEST_S, once=True)
+
+    def read(self, path: Path) -> Found:
+        """Raises OSError, ValueError; RuntimeError where the process fails."""
+        if path.stat().st_size <= LARGE_BYTES:
+            return read_file(path)
+        return self._process.compute(read_file, path)
+
+    def close(self) -> None:
+        """A file that is being read is given up."""
+        self._process.close()

@@ -1,0 +1,51 @@
+"""A flight along a timed table that a person has handed in (program track).
+
+Knows from when its moments count. It computes for up to some seconds, so `planner` gives it a process of its own.
+Knows no clock and no thread.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from rotator.control.sky.flight_plan import Antenna, plan_flight
+from rotator.control.sky.known_path import KnownPath, Row
+from rotator.control.sky.timed_table import TimedTable, hindrance, smooth
+from rotator.tracking.next_flight import AHEAD_S, LONGEST_S, NextFlight, Now
+
+
+class CannotFly(Exception):  # noqa: N818 - a sentence about a table
+    """The antenna cannot follow it, or it is over. The text tells."""
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """`from_loop_s`: the moment from which a table counts that is not in UTC, on the control loop's clock."""
+
+    table: TimedTable
+    from_loop_s: float
+
+
+def program_flight(program: Program, antenna: Antenna, now: Now) -> NextFlight:
+    """What is left of it, or a piece of that; checked whole before its beginning. Raises CannotFly."""
+    table = program.table
+    later_s = -now.apart_s if table.utc else program.from_loop_s
+    begin_s, end_s = (at_s + later_s for at_s, _, _ in (table.rows[0], table.rows[-1]))
+    if end_s <= now.loop_s:
+        raise CannotFly(f"{table.name} is over")
+    if begin_s > now.loop_s + AHEAD_S:
+        raise CannotFly(f"{table.name} begins in {(begin_s - now.loop_s) / 86_400:.0f} days, which is not waited for")
+    points = smooth(table.rows)
+    if fault := hindrance(table, points, antenna.mount):
+        raise CannotFly(f"{table.name}, {fault}")
+    begin_s = max(begin_s, now.loop_s)
+    piece_s = min(end_s, begin_s + LONGEST_S)
+    path = _between([(at_s + later_s, az_deg, el_deg) for at_s, az_deg, el_deg in points], begin_s, piece_s)
+    order = replace(plan_flight(table.name, path, antenna, now.loop_s).order, sets_s=end_s)
+    return NextFlight(begin_s + now.apart_s, piece_s + now.apart_s, order)
+
+
+def _between(rows: list[Row], begin_s: float, end_s: float) -> KnownPath:
+    whole = KnownPath(tuple(rows))
+    inside = [row for row in rows if begin_s < row[0] < end_s]
+    return KnownPath(((begin_s, *whole.direction(begin_s)), *inside, (end_s, *whole.direction(end_s))))

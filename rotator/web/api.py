@@ -1,0 +1,177 @@
+"""The page's requests: its files, what is read, and the orders. Other groups of routes join it.
+
+Knows HTTP. The orders themselves are in `rotator.protocols.methods`, what they do in `operating`: the console has the
+same. Who may ask for what is in `entrance`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Coroutine, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from aiohttp import web
+
+from rotator.orders import Jog, Source, Stop
+from rotator.protocols.methods import METHODS, Method
+from rotator.protocols.operating import Operating
+from rotator.protocols.session import Box, Tracking
+from rotator.protocols.status_object import as_object
+from rotator.status import Status
+from rotator.store.paired import Paired
+from rotator.web import assets, openapi
+from rotator.web.connections import Connections, machine
+from rotator.web.doors import Doors
+from rotator.web.entrance import Entrance, add_headers, error, source_of, values_of
+from rotator.web.holding import Holding
+from rotator.web.live import LONGEST_SIGN, Live
+from rotator.web.logs import LogLines
+from rotator.web.pairing import Pairings
+from rotator.web.pairing_api import PairingApi, hello
+from rotator.web.route import MOST_BODY, Handler, Route, get
+from rotator.web.scene import Scene, Station, box
+
+Group = Callable[[Entrance], Sequence[Route]]
+"""Routes that know who asks."""
+
+
+@dataclass(frozen=True, slots=True)
+class Behind:
+    """What stands behind the page. `client` gives the box as a source sees it. `reading_open`: to those not paired."""
+
+    status: Callable[[], Status]
+    client: Callable[[Source], Box]
+    tracking: Tracking | None
+    station: Station
+    scene: Scene
+    lines: LogLines
+    pairings: Pairings
+    doors: Doors
+    reading_open: bool
+    utc: Callable[[], float]
+    """Seconds since 1970."""
+    groups: Sequence[Group] = ()
+    """More routes."""
+    works: Sequence[Callable[[], Coroutine[Any, Any, None]]] = ()
+    """What goes on as long as the page does."""
+    closes: Sequence[Callable[[], Coroutine[Any, Any, None]]] = ()
+    """What the end of the page ends."""
+
+
+class Api:
+    def __init__(self, behind: Behind, live: Live, connections: Connections) -> None:
+        self._behind = behind
+        self._live = live
+        self._entrance = Entrance(behind.doors, behind.pairings, connections, reading_open=behind.reading_open)
+        self._assets = assets.load()
+        self._operating: dict[int, Operating] = {}
+        """By the number of a paired browser; 0: all that are not paired, who may only stop."""
+
+    def application(self) -> web.Application:
+        routes = [
+            *self._reads(),
+            *PairingApi(self._entrance, self._behind.pairings, self._behind.utc).routes(),
+            *(Route("POST", f"/api/{each.name}", self._order(each), openapi.order(each)) for each in METHODS),
+            *(route for group in self._behind.groups for route in group(self._entrance)),
+        ]
+        description = openapi.description(routes)
+
+        async def describe(_request: web.Request) -> web.StreamResponse:
+            return web.json_response(description)
+
+        self._entrance.most_body = {route.path: route.most_body for route in routes}
+        app = web.Application(middlewares=[self._entrance.guarded], client_max_size=MOST_BODY)
+        app.on_response_prepare.append(add_headers)
+        for route in (*routes, Route("GET", "/api/openapi.json", describe), Route("GET", "/{path:.*}", self._asset)):
+            app.router.add_route(route.method, route.path, route.serve)
+        return app
+
+    # --- what is read
+
+    def _reads(self) -> Sequence[Route]:
+        behind = self._behind
+        status = {"$ref": "#/components/schemas/status"}
+        return (
+            get("/api/status", self._read(lambda: as_object(behind.status())), openapi.STATUS, status),
+            get("/api/box", self._read(lambda: box(behind.station, behind.status())), openapi.BOX),
+            get("/api/past", self._read(behind.scene.past), "The last ten minutes, a row each second"),
+            get("/api/path", self._read(behind.scene.path), "The pass that is flown or waited for, as directions"),
+            get("/api/log", self._log, "The latest lines of the log", paired=True),
+            get("/api/live", self._serve_live, "A WebSocket: ten pictures of the box a second"),
+        )
+
+    def _read(self, make: Callable[[], Mapping[str, object]]) -> Handler:
+        async def answer(request: web.Request) -> web.StreamResponse:
+            self._entrance.may_read(request)
+            return web.json_response(make())
+
+        return answer
+
+    async def _log(self, request: web.Request) -> web.StreamResponse:
+        # It names people's browsers and their machines.
+        self._entrance.must_be_paired(request)
+        return web.json_response({"lines": self._behind.lines.told()})
+
+    async def _serve_live(self, request: web.Request) -> web.StreamResponse:
+        self._entrance.may_read(request)
+        socket = web.WebSocketResponse(max_msg_size=LONGEST_SIGN, compress=False, heartbeat=10.0, timeout=1.0)
+        await socket.prepare(request)
+        self._entrance.lasts(request)
+        who = self._entrance.who(request)
+        holding = None if who is None else Holding(self._live.pictures, self._jogging(request))
+        await self._live.serve(
+            socket,
+            hello(who),
+            holding,
+            lambda: self._entrance.reading_open or self._entrance.who(request) is not None,
+            stop=lambda: self._as(self._entrance.who(request)).do(Stop(latch=True)),
+            host=machine(request.remote or ""),
+        )
+        return socket
+
+    def _jogging(self, request: web.Request) -> Callable[[Jog], str]:
+        def order(jog: Jog) -> str:
+            # At each sign anew: it may have been revoked since.
+            who = self._entrance.who(request)
+            return self._as(who).do(jog) if who else "this browser is paired no more"
+
+        return order
+
+    async def _asset(self, request: web.Request) -> web.StreamResponse:
+        asset = self._assets.get(request.path)
+        if asset is None:
+            raise web.HTTPNotFound(reason=f"there is no {request.path[:60]!a}")
+        headers = {
+            "ETag": asset.tag,
+            "Cache-Control": "no-cache",
+            "Content-Type": asset.kind,
+            "Vary": "Accept-Encoding",
+        }
+        if asset.tag in request.headers.get("If-None-Match", ""):
+            answer = web.Response(status=304, headers=headers)
+        elif "gzip" in request.headers.get("Accept-Encoding", ""):
+            answer = web.Response(body=asset.packed, headers={**headers, "Content-Encoding": "gzip"})
+        else:
+            answer = web.Response(body=asset.plain, headers=headers)
+        if request.path == "/":
+            self._entrance.renew_cookie(request, answer)
+        return answer
+
+    # --- orders
+
+    def _order(self, method: Method) -> Handler:
+        async def answer(request: web.Request) -> web.StreamResponse:
+            who = self._entrance.who(request) if method.free else self._entrance.must_be_paired(request)
+            # A stop counts whatever its body says.
+            command = method.command({} if method.free else await values_of(request))
+            refused = self._as(who).do(command)
+            return error(409, self._behind.scene.said(refused)) if refused else web.json_response({"ok": True})
+
+        return answer
+
+    def _as(self, who: Paired | None) -> Operating:
+        number = who.number if who else 0
+        if number not in self._operating:
+            source = source_of(who)
+            self._operating[number] = Operating(self._behind.client(source), self._behind.tracking, source)
+        return self._operating[number]

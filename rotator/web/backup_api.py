@@ -1,0 +1,101 @@
+"""The routes of the backup: the file to keep, a look at one before it is restored, and the restoring.
+
+Knows HTTP. What a backup holds, and how it is put in place at the next start, is in `rotator.backup`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import difflib
+import logging
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from aiohttp import web
+
+from rotator.backup import CHECKS, CONFIGURATION, MOST_BYTES, Backup, BackupError, check, pack, stage
+from rotator.config import toml_text
+from rotator.config.model import Config
+from rotator.web.box_file import BoxFile
+from rotator.web.entrance import Entrance, RefusedError, bytes_of, error
+from rotator.web.help_api import download
+from rotator.web.route import PAIRED, REFUSED, Handler, Route, get
+
+log = logging.getLogger(__name__)
+
+MOST_ROWS = 400
+"""Of the difference: a page shows no more."""
+
+
+class BackupApi:
+    """`config`: with which the box runs. `utc` gives seconds since 1970."""
+
+    def __init__(self, entrance: Entrance, file: BoxFile, config: Config, utc: Callable[[], float]) -> None:
+        self._entrance = entrance
+        self._file = file
+        self._config = config
+        self._utc = utc
+
+    def routes(self) -> Sequence[Route]:
+        return (
+            get("/api/backup", self._save, "A zip with the configuration and what the box has learnt", paired=True),
+            self._takes_zip("/api/restore/check", self._look, "What a backup would change; nothing is written"),
+            self._takes_zip(
+                "/api/restore", self._restore, "Restore a backup: the box starts anew with it. `?stop=true` if it moves"
+            ),
+        )
+
+    @staticmethod
+    def _takes_zip(path: str, serve: Handler, summary: str) -> Route:
+        body = {"required": True, "content": {"application/zip": {"schema": {"type": "string", "format": "binary"}}}}
+        answers = {"200": {"description": "done"}, "4XX": REFUSED}
+        described = {"summary": summary, **PAIRED, "responses": answers, "requestBody": body}
+        return Route("POST", path, serve, described, most_body=MOST_BYTES)
+
+    async def _save(self, request: web.Request) -> web.StreamResponse:
+        self._entrance.must_be_paired(request)
+        path = self._file.path
+        try:
+            packed = await asyncio.to_thread(pack, path, self._config, self._utc())
+        except OSError as fault:
+            raise RefusedError(f"{path} cannot be read: {fault.strerror or fault}") from None
+        return download(packed, "rotator-backup.zip")
+
+    async def _look(self, request: web.Request) -> web.StreamResponse:
+        self._entrance.must_be_paired(request)
+        path, data = self._file.path, await bytes_of(request, MOST_BYTES)
+        try:
+            return web.json_response(await asyncio.to_thread(_shown, path, data))
+        except BackupError as reason:
+            return error(422, str(reason))
+
+    async def _restore(self, request: web.Request) -> web.StreamResponse:
+        who = self._entrance.must_be_paired(request)
+        path, data = self._file.path, await bytes_of(request, MOST_BYTES)
+        self._file.may_stop(stops=request.query.get("stop") == "true")
+        try:
+            await asyncio.to_thread(stage, path, data)
+        except BackupError as reason:
+            return error(422, str(reason))
+        except OSError as fault:
+            raise RefusedError(f"{path.parent} cannot be written to: {fault.strerror or fault}") from None
+        log.warning("page: %s restores a backup: the box starts anew with it", who.name)
+        return web.json_response(self._file.begin_anew())
+
+
+def _shown(path: Path, data: bytes) -> dict[str, Any]:
+    """What a person wants to know of a backup before it is restored. Raises BackupError."""
+    backup: Backup = check(data)
+    try:
+        now = toml_text.read(path)
+    except (OSError, toml_text.NoTextError):
+        now = ""
+    rows = difflib.unified_diff(now.splitlines(), backup.text.splitlines(), "now", "backup", n=2, lineterm="")
+    return {
+        "made": backup.made,
+        "program": backup.program,
+        "rotor": f"{backup.config.rotor.type}, {backup.config.rotor.hardware}",
+        "files": [CONFIGURATION, *(name for name in CHECKS if name in backup.parts)],
+        "diff": [row for row in rows if not row.startswith(("---", "+++"))][:MOST_ROWS],
+    }

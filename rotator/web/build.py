@@ -1,0 +1,155 @@
+"""The page of the box: from the configuration, with the control loop and the links that stand behind it.
+
+The page's part of the composition root. Knows where the names of paired browsers are kept. Does not know what the page
+shows.
+"""
+
+from __future__ import annotations
+
+import logging
+import socket
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rotator.assembly.fetching import fetches_file
+from rotator.assembly.sky import build_site, uploaded_folder
+from rotator.config.links import address
+from rotator.config.model import Config
+from rotator.control.sky.mount import Mount
+from rotator.links.wire import Wire
+from rotator.monitor.tap import Tap
+from rotator.orders import PAGE, GiveBack, Order, Source, Take
+from rotator.runtime.anew import Anew
+from rotator.runtime.client import Client
+from rotator.runtime.event_watch import EventWatch
+from rotator.runtime.loop import ControlLoop
+from rotator.store.flown import FlownPasses
+from rotator.store.paired import FILE_NAME, Paired, PairedFile
+from rotator.store.uploads import Uploads
+from rotator.tracking.thread import TrackingThread
+from rotator.web.doors import Doors
+from rotator.web.logs import LogLines
+from rotator.web.pairing import Pairings
+from rotator.web.passes import Passes, command
+from rotator.web.recorder import Recorder
+from rotator.web.scene import Scene, Station
+from rotator.web.thread import PageThread
+from rotator.web.wires import WireLog
+
+if TYPE_CHECKING:
+    from rotator.calibrating.on_page import PageCalibration
+    from rotator.web.api import Behind
+
+log = logging.getLogger(__name__)
+
+
+def build_pairings(config: Config, clock_trusted: Callable[[], bool]) -> Pairings | None:
+    """None where the file wants no page."""
+    if not config.page.enabled:
+        return None
+    file = PairedFile(Path(config.state.path).with_name(FILE_NAME))
+    return Pairings(file, time.monotonic, time.time, clock_trusted)
+
+
+def build_page(
+    config: Config,
+    loop: ControlLoop,
+    mount: Mount,
+    pairings: Pairings,
+    *,
+    lcd: Callable[[], Sequence[str]],
+    wires: Sequence[Wire],
+    tap: Tap,
+    tracking: TrackingThread,
+    anew: Anew,
+    calibration: PageCalibration | None = None,
+    path: Path | None = None,
+    clock: Callable[[], float] = time.monotonic,
+    events: EventWatch | None = None,
+) -> PageThread:
+    """Not started yet. `lcd`: the rows of the display, a code covered. `path`: the configuration's file.
+
+    `anew`: by which the box starts anew with it. `calibration`: the one that runs; None: the box runs as ever.
+    `events`: the control loop's watch over the page's event loop.
+    """
+    host, port = address(config.page.listen)
+    lines, wire_log = LogLines(), WireLog(tap)
+    scene = Scene(lambda: loop.status, lcd, wires, pairings.named, lambda: tracking.tracker.state)
+    recorder = Recorder()
+
+    def hear(_source: Source, order: Order) -> None:
+        scene.note_order(order)
+        recorder.note_order(order)
+
+    loop.overhear(hear)
+
+    def give_back_for(gone: Paired) -> None:
+        source = Source(PAGE, gone.number)
+        if str(source) in (loop.status.held_by, loop.status.mode_by):
+            log.warning("page: %s has held the antenna: it stops, and programs may move it again", gone.name)
+            loop.post(source, Take())
+            loop.post(source, GiveBack())
+
+    pairings.on_gone = give_back_for
+
+    def behind() -> Behind:
+        # They take a while to load, and this is called in the page's thread.
+        from rotator.web.api import Behind  # noqa: PLC0415
+        from rotator.web.box_file import BoxFile  # noqa: PLC0415
+        from rotator.web.elements import ElementFiles  # noqa: PLC0415
+        from rotator.web.flown import FlownPictures  # noqa: PLC0415
+        from rotator.web.help_build import help_groups  # noqa: PLC0415
+        from rotator.web.plan import Plan  # noqa: PLC0415
+        from rotator.web.setting_up import SettingUpApi  # noqa: PLC0415
+        from rotator.web.settings import SettingsApi  # noqa: PLC0415
+
+        file = BoxFile(path, anew, lambda: loop.status)
+        site = build_site(config.station)
+        place = (site.latitude_deg, site.longitude_deg) if site else None
+        tolerances_deg = config.azimuth.tolerance_deg, config.elevation.tolerance_deg
+        passes = Passes(command(path) if path and site else None, time.monotonic)
+
+        def plan_again() -> None:
+            passes.forget()
+            tracking.plan_again()
+
+        def read_again() -> None:
+            passes.forget()
+            tracking.read_again()
+
+        plan = Plan(config.sky.follow, tracking.sky, tracking.priorities, passes, changed=plan_again, utc=time.time)
+        uploads, fetches = Uploads(uploaded_folder(config)), fetches_file(config)
+        elements = ElementFiles(tracking.sky, uploads, fetches, config.sky.fetch, changed=read_again, utc=time.time)
+        kept = FlownPasses(Path(config.state.path).parent)
+        flown = FlownPictures(kept, recorder, mount, lambda: loop.status, time.time)
+        return Behind(
+            status=lambda: loop.status,
+            client=lambda source: Client(loop, mount, source),
+            tracking=tracking.tracker,
+            station=Station(
+                mount,
+                config.station.beam_deg,
+                tolerances_deg,
+                place,
+            ),
+            scene=scene,
+            lines=lines,
+            pairings=pairings,
+            doors=Doors([socket.gethostname(), "rotator", host, *config.page.names], config.page.allow),
+            reading_open=config.page.reading == "open",
+            utc=time.time,
+            groups=(
+                plan.routes,
+                elements.routes,
+                flown.routes,
+                lambda entrance: SettingsApi(entrance, file).routes(),
+                lambda entrance: SettingUpApi(entrance, file, calibration).routes(),
+                *help_groups(config, file, place, pairings=pairings, lines=lines, wires=wire_log),
+            ),
+            works=(flown.run,),
+            closes=(passes.close, elements.close),
+        )
+
+    return PageThread(host, port, behind, (lines, wire_log), clock, events=events or EventWatch(clock))

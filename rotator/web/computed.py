@@ -1,0 +1,109 @@
+"""What a process of its own computes for the page, as JSON: kept for a while, and computed once for all who ask.
+
+It takes seconds of a small Pi's core, which neither the control nor a STOP shall notice. Knows commands and their
+answers. Does not know what is computed.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import sys
+from collections.abc import Callable, Sequence
+from typing import Any
+
+ERROR_KEPT_S, TAKES_S = 10.0, 120.0
+LEAST_PRIORITY = ("nice", "-n", "19")
+
+
+def of_the_program(*words: str) -> tuple[str, ...]:
+    """A command of this program, behind all other work."""
+    return (*LEAST_PRIORITY, sys.executable, "-m", "rotator", *words)
+
+
+class Computed:
+    """`words`: the command. `named`: what it prints, in the words of an error. `shaped`: the answer, from its JSON.
+
+    `good`: the exit codes of a command that has printed it. `clock` gives seconds.
+    """
+
+    def __init__(
+        self,
+        words: Sequence[str],
+        clock: Callable[[], float],
+        *,
+        named: str,
+        kept_s: float,
+        shaped: Callable[[Any], dict[str, Any]],
+        good: Sequence[int] = (0,),
+    ) -> None:
+        self._words = words
+        self._clock = clock
+        self._named = named
+        self._kept_s = kept_s
+        self._shaped = shaped
+        self._good = good
+        self._computing: asyncio.Task[None] | None = None
+        self._told: dict[str, Any] = {}
+        self._until_s = 0.0
+
+    def told(self) -> dict[str, Any] | None:
+        """The answer; or `error`, why there is none. None: ask again, for it is computed now."""
+        if self._clock() < self._until_s:
+            return self._told
+        if self._computing is None or self._computing.done():
+            self._computing = asyncio.create_task(self._compute(), name=f"page: {self._named}")
+        return None
+
+    def latest(self) -> dict[str, Any] | None:
+        """What was computed last, though it may be old: the new is computed then. None: nothing yet."""
+        return self.told() or self._told or None
+
+    async def close(self) -> None:
+        """The process that computes it ends."""
+        computing = self._computing
+        self.forget()
+        if computing is not None:
+            await asyncio.gather(computing, return_exceptions=True)
+
+    def forget(self) -> None:
+        """It is computed anew when it is asked for: what it comes from has changed."""
+        self._until_s = 0.0
+        if self._computing is not None:
+            self._computing.cancel()
+            self._computing = None
+
+    async def newest(self) -> dict[str, Any]:
+        """As `told`, once it is there."""
+        while (told := self.told()) is None:
+            assert self._computing is not None, "what is not there is computed"
+            await asyncio.wait([self._computing])
+        return told
+
+    async def _compute(self) -> None:
+        try:
+            self._told = await self._answer()
+        except OSError as fault:
+            self._told = {"error": f"{self._named} cannot be computed: {fault}"}
+        self._until_s = self._clock() + (ERROR_KEPT_S if "error" in self._told else self._kept_s)
+
+    async def _answer(self) -> dict[str, Any]:
+        pipe = asyncio.subprocess.PIPE
+        process = await asyncio.create_subprocess_exec(
+            *self._words, stdin=asyncio.subprocess.DEVNULL, stdout=pipe, stderr=pipe
+        )
+        try:
+            async with asyncio.timeout(TAKES_S):
+                out, err = await process.communicate()
+            if process.returncode in self._good:
+                return self._shaped(json.loads(out))
+        except TimeoutError:
+            return {"error": f"{self._named} are not computed within {TAKES_S:g} s"}
+        except ValueError as fault:
+            return {"error": f"{self._named} cannot be read: {fault}"}
+        finally:
+            if process.returncode is None:
+                process.kill()
+                await process.wait()
+        lines = err.decode("utf-8", "replace").strip().splitlines()
+        return {"error": (lines or [f"{self._named} cannot be computed"])[-1].removeprefix("rotator: ")}

@@ -1,0 +1,149 @@
+"""The connections of the page: how many at a time, and which one goes when it hangs or when a new one needs its place.
+
+Knows transports and moments. A connection that asks nothing, or takes no answer, ends; so a flood of half-open ones
+keeps nobody from STOP. Does not know what is asked: `begin` and `end` tell when.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import ipaddress
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import cast
+
+MOST = 128
+SILENT_S = 8.0
+"""So long a connection may ask nothing, at its beginning too."""
+ANSWER_S = 20.0
+"""So long an answer may take, with the time that the reader needs for it."""
+LOOK_S = 1.0
+YOUNG_S = 1.0
+"""A connection of this age is spared where another one can go: its request is under way."""
+UNREAD_BYTES = 32_768
+
+
+@dataclass(slots=True, eq=False)
+class _Open:
+    transport: asyncio.Transport
+    host: str
+    opened_s: float
+    since_s: float
+    asks: bool = False
+    live: bool = False
+    """It shows the antenna live, and lasts as long as it likes."""
+
+
+def machine(address: str) -> str:
+    """What counts as one machine: of IPv6, the network of 64 bits in which it chooses its addresses freely."""
+    try:
+        ip = ipaddress.ip_address(address.partition("%")[0])
+    except ValueError:
+        return address
+    if ip.version == 4:
+        return str(ip)
+    return str(ip.ipv4_mapped or ipaddress.ip_network((int(ip) >> 64 << 64, 64)))
+
+
+class Connections:
+    """`lets_in`: whether a machine with this address may connect. `clock` gives seconds."""
+
+    def __init__(self, lets_in: Callable[[str], bool], clock: Callable[[], float]) -> None:
+        self._lets_in = lets_in
+        self._clock = clock
+        self._open: dict[asyncio.BaseTransport, _Open] = {}
+
+    def __len__(self) -> int:
+        return len(self._open)
+
+    async def watch(self) -> None:
+        """End what hangs, until cancelled."""
+        while True:
+            await asyncio.sleep(LOOK_S)
+            self.look()
+
+    def look(self) -> None:
+        now_s = self._clock()
+        for one in list(self._open.values()):
+            if not one.live and now_s - one.since_s > (ANSWER_S if one.asks else SILENT_S):
+                self._drop(one)
+
+    def admit(self, transport: asyncio.Transport) -> bool:
+        """A new connection. Where all places are taken, another one goes: of the machine that has most, the oldest."""
+        peer = transport.get_extra_info("peername")
+        host = str(peer[0]) if peer else ""
+        if not self._lets_in(host):
+            return False
+        if len(self._open) >= MOST:
+            most, _ = Counter(one.host for one in self._open.values()).most_common(1)[0]
+            theirs = [one for one in self._open.values() if one.host == most]
+            young_s = self._clock() - YOUNG_S
+            self._drop(min(theirs, key=lambda one: (one.live, one.opened_s > young_s, one.asks, one.since_s)))
+        transport.set_write_buffer_limits(high=UNREAD_BYTES)
+        now_s = self._clock()
+        self._open[transport] = _Open(transport, machine(host), now_s, now_s)
+        return True
+
+    def begin(self, transport: asyncio.BaseTransport | None) -> None:
+        """A request has come."""
+        self._note(transport, asks=True)
+
+    def end(self, transport: asyncio.BaseTransport | None) -> None:
+        """Its answer is under way."""
+        self._note(transport, asks=False)
+
+    def live(self, transport: asyncio.BaseTransport | None) -> None:
+        """It has become a WebSocket, which has its own rules."""
+        if transport is not None and (one := self._open.get(transport)) is not None:
+            one.live = True
+
+    def forget(self, transport: asyncio.BaseTransport) -> None:
+        self._open.pop(transport, None)
+
+    def drop_all(self) -> None:
+        for one in list(self._open.values()):
+            self._drop(one)
+
+    def _note(self, transport: asyncio.BaseTransport | None, *, asks: bool) -> None:
+        if transport is not None and (one := self._open.get(transport)) is not None:
+            one.asks, one.since_s = asks, self._clock()
+
+    def _drop(self, one: _Open) -> None:
+        self._open.pop(one.transport, None)
+        one.transport.abort()
+
+
+class Connection(asyncio.Protocol):
+    """Stands before the protocol of the HTTP library, and passes everything on once it is admitted."""
+
+    def __init__(self, connections: Connections, inner: asyncio.Protocol) -> None:
+        self._connections = connections
+        self._inner = inner
+        self._transport: asyncio.Transport | None = None
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        made = cast(asyncio.Transport, transport)
+        if not self._connections.admit(made):
+            made.abort()
+            return
+        self._transport = made
+        self._inner.connection_made(transport)
+
+    def data_received(self, data: bytes) -> None:
+        if self._transport is not None:
+            self._inner.data_received(data)
+
+    def eof_received(self) -> bool | None:
+        return self._inner.eof_received() if self._transport is not None else None
+
+    def pause_writing(self) -> None:
+        self._inner.pause_writing()
+
+    def resume_writing(self) -> None:
+        self._inner.resume_writing()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        if self._transport is not None:
+            self._connections.forget(self._transport)
+            self._inner.connection_lost(exc)

@@ -1,0 +1,141 @@
+"""The elements of satellites on the page: which there are and how old, and files that a person sends.
+
+Knows requests and bounds. A file is checked by the reader that reads all others, in a process of its own where it is
+large, and is taken whole or not at all. Does not know orbits, nor how elements are fetched.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from aiohttp import web
+
+from rotator.orbits.elements import Elements, printable
+from rotator.protocols.methods import WrongValuesError
+from rotator.store.fetches import FetchesFile
+from rotator.store.uploads import MOST_BYTES, NotKeptError, Uploads
+from rotator.tracking.file_reader import FileReader
+from rotator.tracking.known_sky import KnownSky
+from rotator.web.entrance import Entrance, bytes_of, error, values_of
+from rotator.web.route import Route, get, post
+
+Told = dict[str, Any]
+LONGEST_NAME = 200
+
+
+class ElementFiles:
+    """`changed`: is called when a file is new or gone. `fetch`: the addresses of the configuration."""
+
+    def __init__(
+        self,
+        sky: KnownSky,
+        uploads: Uploads,
+        fetches: FetchesFile,
+        fetch: Sequence[str],
+        *,
+        changed: Callable[[], None],
+        utc: Callable[[], float],
+    ) -> None:
+        self._sky = sky
+        self._uploads = uploads
+        self._fetches = fetches
+        self._fetch = fetch
+        self._changed = changed
+        self._utc = utc
+        self._reader = FileReader()
+        self._one = asyncio.Lock()
+        """One file at a time: each takes memory and a core."""
+
+    def routes(self, entrance: Entrance) -> Sequence[Route]:
+        async def told(request: web.Request) -> web.StreamResponse:
+            entrance.may_read(request)
+            return web.json_response(await asyncio.to_thread(self.told))
+
+        async def take(request: web.Request) -> web.StreamResponse:
+            # Before a byte of it is read: a stranger's file takes no memory.
+            entrance.must_be_paired(request)
+            name = request.query.get("name", "")
+            if not 0 < len(name) <= LONGEST_NAME:
+                raise WrongValuesError("send the file as the body of /api/elements?name=FILE")
+            async with self._one:
+                content = await bytes_of(request, MOST_BYTES)
+                try:
+                    kept = await asyncio.to_thread(self._uploads.put, name, content, self._faults)
+                except NotKeptError as reason:
+                    return error(400, printable(str(reason)))
+            self._changed()
+            return web.json_response({"name": kept})
+
+        async def remove(request: web.Request) -> web.StreamResponse:
+            entrance.must_be_paired(request)
+            match await values_of(request):
+                case {"name": str() as name}:
+                    pass
+                case _:
+                    raise WrongValuesError('send {"name": "the name in /api/elements"}')
+            async with self._one:
+                try:
+                    await asyncio.to_thread(self._uploads.remove, name)
+                except NotKeptError as reason:
+                    return error(409, str(reason))
+            self._changed()
+            return web.json_response({"ok": True})
+
+        summary = "A file of elements as the body, its name as ?name=: taken whole or not at all"
+        return (
+            get("/api/elements", told, "The files and addresses of elements, and how old these are"),
+            replace(post("/api/elements", take, summary), most_body=MOST_BYTES),
+            post("/api/elements/remove", remove, "Forget a file that was sent", {"name": {"type": "string"}}),
+        )
+
+    async def close(self) -> None:
+        """A file that is checked is given up."""
+        self._reader.close()
+
+    def _faults(self, path: Path) -> list[str]:
+        """What is wrong with a file that was sent. Raises OSError."""
+        try:
+            found = self._reader.read(path)
+        except UnicodeDecodeError:
+            return ["it is no text"]
+        except (ValueError, RuntimeError) as fault:
+            return [str(fault)]
+        wrong = [each for each in found if isinstance(each, str)]
+        return wrong if found else ["it holds no elements"]
+
+    def told(self) -> Told:
+        """Files and addresses, each with its satellites and the age of their elements in days."""
+        now_s, mine = self._utc(), {self._uploads.folder / name for name in self._uploads.names()}
+        files = [
+            {"name": path.name, "uploaded": path in mine, **_ages(sets, now_s)}
+            for path, sets in self._sky.by_file.items()
+        ]
+        asked = self._fetches.load() or {}
+        return {
+            "satellites": len(self._sky.elements or ()),
+            "files": files,
+            "faults": list(self._sky.faults),
+            "fetch": [
+                {
+                    "address": address,
+                    "trouble": (one := asked.get(address)) and one.trouble,
+                    "good_s": one and one.good_utc_s and round(now_s - one.good_utc_s),
+                    "satellites": one.sets if one else 0,
+                    "again_s": round(one.asked_utc_s + one.wait_s - now_s) if one else None,
+                }
+                for address in self._fetch
+            ],
+        }
+
+
+def _ages(sets: Sequence[Elements], now_s: float) -> Told:
+    ages = [each.age_days(now_s) for each in sets]
+    return {
+        "satellites": len(sets),
+        "newest_days": round(min(ages), 1) if ages else None,
+        "oldest_days": round(max(ages), 1) if ages else None,
+    }

@@ -1,0 +1,148 @@
+"""Who comes in to the page: which requests are heard, who asks, and what a request may hold.
+
+Knows headers, cookies and tokens, and the answers to those who may not. Does not know what a request asks for.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from aiohttp import web
+
+from rotator.orders import PAGE, Source
+from rotator.protocols.methods import WrongValuesError
+from rotator.store.paired import Paired
+from rotator.web import assets
+from rotator.web.connections import Connections
+from rotator.web.doors import Doors
+from rotator.web.pairing import LASTS_S, NotPairedError, Pairings
+from rotator.web.route import MOST_BODY, Handler
+
+COOKIE = "rotator"
+
+
+class RefusedError(Exception):
+    """The request is understood, and the box as it stands does not do it. The words say why."""
+
+
+class Entrance:
+    """`reading_open`: those who are not paired may read. `most_body`: by path, where a request may be longer."""
+
+    def __init__(self, doors: Doors, pairings: Pairings, connections: Connections, *, reading_open: bool) -> None:
+        self._doors = doors
+        self._pairings = pairings
+        self._connections = connections
+        self.reading_open = reading_open
+        self.most_body: Mapping[str, int] = {}
+
+    @web.middleware
+    async def guarded(self, request: web.Request, handler: Handler) -> web.StreamResponse:
+        self._connections.begin(request.transport)
+        try:
+            if refused := self._refused(request):
+                return error(403, refused)
+            most = self.most_body.get(request.path, MOST_BODY)
+            if request.content_length is not None and request.content_length > most:
+                return error(413, f"this request has a body of at most {most} bytes")
+            return await handler(request)
+        except web.HTTPException as answer:
+            return error(answer.status, answer.reason)
+        except NotPairedError as reason:
+            return error(403, str(reason))
+        except RefusedError as reason:
+            return error(409, str(reason))
+        except WrongValuesError as reason:
+            return error(400, str(reason))
+        finally:
+            self._connections.end(request.transport)
+
+    def _refused(self, request: web.Request) -> str:
+        """Why this request is not heard; empty: it is."""
+        host = request.headers.get("Host", "")
+        if not self._doors.knows(host):
+            return "the box has another name: open the page by its number, or write [page] names into its file"
+        does = request.method not in ("GET", "HEAD") or "upgrade" in request.headers.get("Connection", "").lower()
+        origin, site = request.headers.get("Origin"), request.headers.get("Sec-Fetch-Site")
+        if does and not self._doors.is_own(host, origin, site):
+            return "another site's page may not do that"
+        return ""
+
+    def who(self, request: web.Request) -> Paired | None:
+        """The paired browser or program that asks; None: one that is not paired."""
+        scheme, _, bearer = request.headers.get("Authorization", "").partition(" ")
+        token = bearer.strip() if scheme.lower() == "bearer" else request.cookies.get(COOKIE, "")
+        return self._pairings.known(token) if token else None
+
+    def must_be_paired(self, request: web.Request) -> Paired:
+        who = self.who(request)
+        if who is None:
+            raise web.HTTPUnauthorized(reason="not paired: only a paired browser or program may do that")
+        return who
+
+    def may_read(self, request: web.Request) -> None:
+        if not self.reading_open:
+            self.must_be_paired(request)
+
+    def lasts(self, request: web.Request) -> None:
+        """This connection has become a WebSocket, and stays."""
+        self._connections.live(request.transport)
+
+    def renew_cookie(self, request: web.Request, answer: web.Response) -> None:
+        """A pairing lasts from the latest visit on, and so does its cookie."""
+        token = request.cookies.get(COOKIE, "")
+        if token and self._pairings.known(token):
+            set_cookie(answer, token)
+
+
+def set_cookie(answer: web.Response, token: str) -> None:
+    answer.set_cookie(COOKIE, token, max_age=int(LASTS_S), path="/", httponly=True, samesite="Strict")
+
+
+def source_of(who: Paired | None) -> Source:
+    return Source(PAGE, who.number if who else 0)
+
+
+async def values_of(request: web.Request, most: int = MOST_BODY) -> dict[str, object]:
+    """The request's JSON object; empty without a body. Raises WrongValuesError, HTTPRequestEntityTooLarge."""
+    try:
+        text = (await bytes_of(request, most)).decode("utf-8")
+        values = json.loads(text) if text.strip() else {}
+    except (ValueError, RecursionError):
+        raise WrongValuesError("the body must be a JSON object") from None
+    if not isinstance(values, dict):
+        raise WrongValuesError("the body must be a JSON object")
+    return values
+
+
+async def bytes_of(request: web.Request, most: int) -> bytes:
+    """The request's body as it is. Raises HTTPRequestEntityTooLarge, however its length was announced."""
+    body = bytearray()
+    async for piece in request.content.iter_any():
+        body += piece
+        if len(body) > most:
+            raise web.HTTPRequestEntityTooLarge(most, len(body))
+    return bytes(body)
+
+
+def computed(told: dict[str, Any] | None) -> web.Response:
+    """What takes a while to compute. None: 202, ask again. With `error` in it: 409."""
+    if told is None:
+        return web.json_response({"computing": True}, status=202)
+    return web.json_response(told, status=409 if "error" in told else 200)
+
+
+def error(status: int, reason: str) -> web.Response:
+    answer = web.json_response({"error": reason}, status=status)
+    if status == web.HTTPRequestEntityTooLarge.status_code:
+        answer.force_close()
+    return answer
+
+
+async def add_headers(_request: web.Request, answer: web.StreamResponse) -> None:
+    """Of every answer."""
+    for name, text in assets.HEADERS.items():
+        answer.headers.setdefault(name, text)
+    answer.headers.setdefault("Cache-Control", "no-store")
+    answer.headers.pop("Server", None)

@@ -1,0 +1,115 @@
+"""The passes that were flown, on the page: each with its picture, the last ones on the disk.
+
+Knows requests, and when to draw. A picture is drawn and written by a thread of its own, for a disk may be slow. Does
+not know how a pass is recorded.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import hashlib
+import logging
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from datetime import UTC, datetime
+
+from aiohttp import web
+
+from rotator.control.sky.mount import Mount
+from rotator.protocols.methods import WrongValuesError
+from rotator.status import Status
+from rotator.store.flown import FlownPass, FlownPasses, picture_name
+from rotator.views.pass_svg import Flown, draw
+from rotator.web.entrance import Entrance
+from rotator.web.recorder import Record, Recorder
+from rotator.web.route import Route, get
+
+log = logging.getLogger(__name__)
+
+LOOK_S = 0.1
+_STYLE = re.compile(r"<style>(.*?)</style>", re.DOTALL)
+
+
+class FlownPictures:
+    """`status`: the latest. `utc`: seconds since 1970."""
+
+    def __init__(
+        self,
+        kept: FlownPasses,
+        recorder: Recorder,
+        mount: Mount,
+        status: Callable[[], Status],
+        utc: Callable[[], float],
+    ) -> None:
+        self._kept = kept
+        self._recorder = recorder
+        self._mount = mount
+        self._status = status
+        self._utc = utc
+        recorder.over = self._take
+        self._over: list[Record] = []
+
+    def routes(self, entrance: Entrance) -> Sequence[Route]:
+        async def listed(request: web.Request) -> web.StreamResponse:
+            entrance.may_read(request)
+            return web.json_response({"flown": [asdict(each) for each in self._kept.passes]})
+
+        async def picture(request: web.Request) -> web.StreamResponse:
+            entrance.may_read(request)
+            file = request.query.get("file", "")
+            if not file:
+                raise WrongValuesError("send the name of a picture as ?file=: /api/flown lists them")
+            svg = await asyncio.to_thread(self._kept.picture, file)
+            if svg is None:
+                raise web.HTTPNotFound(reason="there is no picture of that name: /api/flown lists them")
+            return web.Response(
+                text=svg,
+                content_type="image/svg+xml",
+                headers={"Content-Security-Policy": policy(svg), "Cache-Control": "private, max-age=86400"},
+            )
+
+        return (
+            get("/api/flown", listed, "The last passes that were flown, the latest first"),
+            get("/api/flown/picture", picture, "The picture of one of them as SVG; its name as ?file="),
+        )
+
+    async def run(self) -> None:
+        """Look at every status, and draw what is over, until cancelled."""
+        while True:
+            self._recorder.look(self._status())
+            while self._over:
+                record = self._over.pop(0)
+                try:
+                    await asyncio.to_thread(self._keep, record)
+                except Exception:
+                    # A picture that cannot be drawn costs the picture, never the page and its STOP.
+                    log.exception("the picture of %s cannot be drawn", record.name)
+            await asyncio.sleep(LOOK_S)
+
+    def _take(self, record: Record) -> None:
+        self._over.append(record)
+
+    def _keep(self, record: Record) -> None:
+        begin_utc_s = self._utc() - (self._status().at_s - record.begin_s)
+        flown = FlownPass(
+            file=picture_name(record.name, begin_utc_s),
+            name=record.name,
+            begin_utc_s=round(begin_utc_s, 1),
+            end_utc_s=round(begin_utc_s + record.trace[-1].t, 1),
+            rms_deg=round(record.rms_deg, 2),
+            max_deg=round(record.errors_deg[-1], 2),
+            relay_starts=record.relay_starts,
+        )
+        when = datetime.fromtimestamp(begin_utc_s, UTC)
+        antenna = Flown("antenna as measured", "blue", record.trace, record, record.clicks_s)
+        self._kept.keep(flown, draw(f"{record.name}, {when:%d %b %Y %H:%M} UTC", [antenna], self._mount))
+
+
+def policy(svg: str) -> str:
+    """What the picture's answer allows: its own style, known by its hash, and nothing else."""
+    found = _STYLE.search(svg)
+    digest = base64.b64encode(hashlib.sha256(found[1].encode()).digest()).decode() if found else ""
+    style = f"style-src 'sha256-{digest}'; " if digest else ""
+    return f"default-src 'none'; {style}base-uri 'none'; form-action 'none'; frame-ancestors 'none'"

@@ -1,0 +1,86 @@
+"""The routes that help when something is wrong: the doctor, the bytes of the links, and a file for another person.
+
+Knows HTTP, and who may see what. What is shown comes from the parts beside this file.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from aiohttp import web
+
+from rotator.web.computed import Computed, of_the_program
+from rotator.web.entrance import Entrance, computed, error
+from rotator.web.redaction import Redaction
+from rotator.web.route import Route, get
+from rotator.web.wire_watch import MOST_WATCHERS, WireWatch
+from rotator.web.wires import WireLog
+
+DOCTOR_KEPT_S = 5.0
+LONGEST_NUMBER = 18
+WIRES = "A WebSocket: the lines of `rotator monitor`; `?after=` the `upto` of the last message"
+DIAGNOSTICS = "A zip with what another person needs to see what is wrong, without secrets"
+WITH_FAULTS = (0, 1, 2)
+"""The exit codes of `rotator doctor` that has printed its report."""
+
+
+def doctor(
+    path: Path, redaction: Redaction, clock: Callable[[], float], utc: Callable[[], float], *, kept_s: float
+) -> Computed:
+    """The report of `rotator doctor` on this file, without secrets: everyone who may look reads it."""
+
+    def shaped(told: dict[str, Any]) -> dict[str, Any]:
+        return {**redaction.value(told), "at_s": utc()}
+
+    words = of_the_program("doctor", "--json", "--config", str(path))
+    return Computed(words, clock, named="the checks", kept_s=kept_s, shaped=shaped, good=WITH_FAULTS)
+
+
+class HelpApi:
+    """`pack`: makes the diagnostics file, from the doctor's report. It may read files."""
+
+    def __init__(
+        self, entrance: Entrance, doctor: Computed, wires: WireLog, pack: Callable[[dict[str, Any]], bytes]
+    ) -> None:
+        self._entrance = entrance
+        self._doctor = doctor
+        self._pack = pack
+        self._watch = WireWatch(wires)
+
+    def routes(self) -> Sequence[Route]:
+        return (
+            get("/api/doctor", self._examine, "The checks of `rotator doctor --json`; 202: ask again"),
+            get("/api/diagnostics", self._diagnose, DIAGNOSTICS, paired=True),
+            get("/api/wires", self._serve_wires, WIRES, paired=True),
+        )
+
+    async def _examine(self, request: web.Request) -> web.StreamResponse:
+        self._entrance.may_read(request)
+        return computed(self._doctor.told())
+
+    async def _diagnose(self, request: web.Request) -> web.StreamResponse:
+        self._entrance.must_be_paired(request)
+        packed = await asyncio.to_thread(self._pack, await self._doctor.newest())
+        return download(packed, "rotator-diagnostics.zip")
+
+    async def _serve_wires(self, request: web.Request) -> web.StreamResponse:
+        # They name machines, and what people's programs send.
+        self._entrance.must_be_paired(request)
+        if self._watch.is_full:
+            return error(409, f"{MOST_WATCHERS} are watching already")
+        socket = web.WebSocketResponse(max_msg_size=64, compress=False, heartbeat=10.0, timeout=1.0)
+        await socket.prepare(request)
+        self._entrance.lasts(request)
+        upto = request.query.get("after", "")
+        seen = int(upto) if upto.isdecimal() and len(upto) <= LONGEST_NUMBER else None
+        await self._watch.serve(socket, seen, lambda: self._entrance.who(request) is not None)
+        return socket
+
+
+def download(packed: bytes, name: str) -> web.Response:
+    """A zip that the browser keeps as a file."""
+    headers = {"Content-Disposition": f'attachment; filename="{name}"'}
+    return web.Response(body=packed, content_type="application/zip", headers=headers)

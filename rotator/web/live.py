@@ -1,0 +1,151 @@
+"""The live connection of a browser: ten pictures of the box a second, and the button that is held.
+
+Knows the WebSocket. A reader that is slow gets the newest picture and no queue; one that takes none is dropped. Does
+not know what a picture holds, nor who may give orders: it is told at each sign.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import logging
+from collections import Counter
+from collections.abc import Callable
+from typing import Any
+
+from aiohttp import WSMsgType, web
+
+from rotator.protocols.panel_words import TURNS
+from rotator.web.holding import Holding, Pictures
+
+log = logging.getLogger(__name__)
+
+EVERY_S = 0.1
+TAKES_S = 5.0
+"""A browser that takes a picture in no less than this is dropped."""
+LONGEST_SIGN = 256
+MOST_SIGNS_PER_S = 40
+MOST_WATCHERS = 80
+
+
+class Live:
+    """`picture` makes what is shown now; it is asked once for all browsers. `clock` gives seconds."""
+
+    def __init__(
+        self, picture: Callable[[], dict[str, Any]], note: Callable[[], None], clock: Callable[[], float]
+    ) -> None:
+        self.pictures = Pictures()
+        self._picture = picture
+        self._note = note
+        self._clock = clock
+        self._text = ""
+        self._new = asyncio.Event()
+        self._watchers: dict[web.WebSocketResponse, str] = {}
+        """Each with its machine; the oldest first."""
+
+    def __len__(self) -> int:
+        return len(self._watchers)
+
+    async def run(self) -> None:
+        """Make pictures until cancelled; without a browser only what is kept of the past, once a second."""
+        noted_s, failed = 0.0, False
+        while True:
+            now_s = self._clock()
+            try:
+                if now_s - noted_s >= 1.0:
+                    noted_s = now_s
+                    self._note()
+                if self._watchers:
+                    self._text = self._made(now_s)
+                    new, self._new = self._new, asyncio.Event()
+                    new.set()
+                failed = False
+            except Exception:
+                # The next one may be good again. A browser without pictures says so itself.
+                if not failed:
+                    log.exception("page: a picture cannot be made")
+                failed = True
+            await asyncio.sleep(EVERY_S)
+
+    async def serve(
+        self,
+        socket: web.WebSocketResponse,
+        hello: dict[str, Any],
+        holding: Holding | None,
+        may_look: Callable[[], bool],
+        *,
+        stop: Callable[[], str],
+        host: str,
+    ) -> None:
+        """Until the browser leaves, or may look no more. `holding`: None for one that may only look.
+
+        `stop` stops everything: anybody may. `host`: the browser's machine.
+        """
+        if len(self._watchers) >= MOST_WATCHERS:
+            # As with connections: of the machine that has most, the oldest.
+            most, _ = Counter(self._watchers.values()).most_common(1)[0]
+            oldest = next(one for one, theirs in self._watchers.items() if theirs == most)
+            del self._watchers[oldest]
+            await oldest.close(code=1013, message=b"another browser needed the place")
+        self._watchers[socket] = host
+        sender = asyncio.create_task(self._send(socket, hello, may_look), name="page: live")
+        try:
+            await self._listen(socket, holding, stop)
+        finally:
+            if holding is not None:
+                holding.let_go()
+            sender.cancel()
+            await asyncio.gather(sender, return_exceptions=True)
+            self._watchers.pop(socket, None)
+
+    async def _send(self, socket: web.WebSocketResponse, hello: dict[str, Any], may_look: Callable[[], bool]) -> None:
+        try:
+            async with asyncio.timeout(TAKES_S):
+                await socket.send_str(json.dumps({"hello": hello} | json.loads(self._made(self._clock()))))
+            while not socket.closed:
+                await self._new.wait()
+                if not may_look():
+                    await socket.close()
+                    return
+                async with asyncio.timeout(TAKES_S):
+                    await socket.send_str(self._text)
+        except (TimeoutError, ConnectionError, RuntimeError):
+            # It takes nothing, or has gone. Its reader ends with the transport.
+            if (transport := socket.get_extra_info("transport")) is not None:
+                transport.abort()
+
+    def _made(self, now_s: float) -> str:
+        return json.dumps({"n": self.pictures.next(now_s), "now": self._picture()}, separators=(",", ":"))
+
+    async def _listen(self, socket: web.WebSocketResponse, holding: Holding | None, stop: Callable[[], str]) -> None:
+        second, signs = 0, 0
+        async for message in socket:
+            if message.type is not WSMsgType.TEXT:
+                return
+            now_s = self._clock()
+            second, signs = (second, signs + 1) if int(now_s) == second else (int(now_s), 1)
+            if message.data.replace(" ", "") == '{"stop":true}':
+                refused = stop()
+            elif signs > MOST_SIGNS_PER_S:
+                return
+            else:
+                refused = _act(message.data, holding, now_s)
+            if refused:
+                await socket.send_str(json.dumps({"refused": refused}))
+
+
+def _act(text: str, holding: Holding | None, now_s: float) -> str:
+    """Returns why not; empty: done."""
+    try:
+        sign = json.loads(text)
+    except ValueError:
+        return "that is no JSON"
+    match sign:
+        case {"let_go": True}:
+            if holding is not None:
+                holding.let_go()
+            return ""
+        case {"hold": str() as turn, "press": int() as press, "n": int() as picture} if turn in TURNS:
+            return holding.sign(turn, press, picture, now_s) if holding else "this browser is not paired"
+        case _:
+            return 'send {"hold": "cw", "press": 1, "n": NUMBER OF THE PICTURE} or {"let_go": true}, or {"stop": true}'

@@ -1,0 +1,77 @@
+"""The log for the page, and what of HTTP goes into the log: strangers' junk is told in one line, now and then.
+
+Knows log records. Keeps the latest lines in memory, and writes nothing. Does not know who reads them.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from rotator.runtime.log_limit import LogLimit
+
+MOST_LINES, LONGEST_LINE = 500, 600
+_RANKS = {"D": "note", "I": "note", "W": "warning", "E": "error", "C": "error"}
+
+
+class LogLines(logging.Handler):
+    """The latest lines of the box's log. `keep` and `forget` begin and end that."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.INFO)
+        self._lines: deque[tuple[float, str, str]] = deque(maxlen=MOST_LINES)
+
+    def keep(self) -> None:
+        logging.getLogger().addHandler(self)
+
+    def forget(self) -> None:
+        logging.getLogger().removeHandler(self)
+
+    def emit(self, record: logging.LogRecord) -> None:
+        try:
+            text = record.getMessage().splitlines()[:1]
+            self._lines.append((record.created, _RANKS.get(record.levelname[:1], "note"), "".join(text)[:LONGEST_LINE]))
+        except Exception:
+            # As every handler does: a line that cannot be written ends nothing of the box.
+            self.handleError(record)
+
+    def kept(self) -> list[tuple[float, str, str]]:
+        """Seconds since 1970, rank and text of each line, the oldest first."""
+        return list(self._lines)
+
+    def told(self) -> list[dict[str, Any]]:
+        """The lines, the latest first. `at_s`: seconds since 1970."""
+        return [{"at_s": at_s, "rank": rank, "text": text} for at_s, rank, text in reversed(self.kept())]
+
+
+class HttpLog(logging.Filter):
+    """Of the HTTP library's log: a request that is none costs one line without a trace, and rarely."""
+
+    def __init__(self, junk: type[BaseException], clock: Callable[[], float] = time.monotonic) -> None:
+        super().__init__()
+        self._junk = junk
+        self._limit = LogLimit(clock, most=2)
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        kind = record.exc_info[0] if isinstance(record.exc_info, tuple) else None
+        if kind is not None and issubclass(kind, self._junk):
+            record.exc_info = record.exc_text = None
+            record.levelno, record.levelname = logging.INFO, "INFO"
+            record.msg, record.args = "page: a request was no HTTP", None
+        text = self._limit.admit(record.getMessage())
+        if text is None:
+            return False
+        record.msg, record.args = text, None
+        return True
+
+
+def http_logger(junk: type[BaseException]) -> logging.Logger:
+    """For the HTTP library. `junk`: what it raises for bytes that are no request."""
+    logger = logging.getLogger("rotator.web.http")
+    for old in list(logger.filters):
+        logger.removeFilter(old)
+    logger.addFilter(HttpLog(junk))
+    return logger

@@ -1,0 +1,55 @@
+"""The passes of the next day for the page, as `rotator sky passes --json` prints them.
+
+Knows the command. Does not know orbits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from rotator.config.station import NO_PLACE
+from rotator.web.computed import Computed, of_the_program
+
+KEPT_S = 1200.0
+MOST = 300
+HOURS = 24
+
+
+def command(path: Path) -> tuple[str, ...]:
+    """Prints the passes of what this configuration names, as JSON."""
+    return of_the_program("sky", "passes", "--json", "--hours", str(HOURS), "--config", str(path))
+
+
+class Passes:
+    """`words`: the command; None: the box knows no place. `clock` gives seconds."""
+
+    def __init__(self, words: Sequence[str] | None, clock: Callable[[], float]) -> None:
+        self._computed = (
+            Computed(words, clock, named="the passes", kept_s=KEPT_S, shaped=lambda rows: {"passes": rows[:MOST]})
+            if words
+            else None
+        )
+
+    @property
+    def latest(self) -> list[dict[str, Any]] | None:
+        """Those that were computed last, though they may be old: new ones are computed then. None: there were none."""
+        if self._computed is None:
+            return []
+        latest = self._computed.latest()
+        return None if latest is None else latest.get("passes", [])
+
+    def forget(self) -> None:
+        """They are computed anew when they are asked for: elements or priorities have changed."""
+        if self._computed:
+            self._computed.forget()
+
+    async def close(self) -> None:
+        """The process that computes them ends."""
+        if self._computed:
+            await self._computed.close()
+
+    def told(self) -> dict[str, Any] | None:
+        """`passes`, or `error`, why there are none. None: ask again, for they are computed now."""
+        return self._computed.told() if self._computed else {"error": NO_PLACE}

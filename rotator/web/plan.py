@@ -1,0 +1,174 @@
+"""The sky for the page: the passes of the next day with their plan, the next one, and the order of what is followed.
+
+Knows what `rotator sky passes --json` prints. The order that a person drags is kept beside the configuration, which
+stays as it was written. Does not know how a plan is made.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from datetime import datetime
+from typing import Any
+
+from aiohttp import web
+
+from rotator.config.sky import FollowTable
+from rotator.orbits.catalogue import Unknown
+from rotator.orbits.sight import NotThere
+from rotator.orders import Aim
+from rotator.protocols.methods import WrongValuesError
+from rotator.store.priorities import Priorities
+from rotator.tracking.known_sky import KnownSky
+from rotator.tracking.ranking import ranked
+from rotator.web.entrance import Entrance, computed, error, values_of
+from rotator.web.passes import Passes
+from rotator.web.route import Route, get, post
+
+Told = dict[str, Any]
+LONGEST_ORDER = 16_384
+LEAST_DEG = 10.0
+"""Without a plan the next pass is the next that rises so high."""
+POINTS = 40
+"""Of the path of the next pass."""
+
+
+class Plan:
+    """`changed`: is called when the order is another one. `utc`: seconds since 1970."""
+
+    def __init__(
+        self,
+        follow: Sequence[FollowTable],
+        sky: KnownSky,
+        priorities: Priorities,
+        passes: Passes,
+        *,
+        changed: Callable[[], None],
+        utc: Callable[[], float],
+    ) -> None:
+        self._follow = follow
+        self._sky = sky
+        self._priorities = priorities
+        self._passes = passes
+        self._changed = changed
+        self._utc = utc
+        self._next: tuple[str, Told] = ("", {})
+        """The next pass as it was told, by its name and rise."""
+
+    def routes(self, entrance: Entrance) -> Sequence[Route]:
+        async def passes(request: web.Request) -> web.StreamResponse:
+            entrance.may_read(request)
+            return computed(self._passes.told())
+
+        async def upcoming(request: web.Request) -> web.StreamResponse:
+            entrance.may_read(request)
+            return computed(self.upcoming())
+
+        async def followed(request: web.Request) -> web.StreamResponse:
+            entrance.may_read(request)
+            return web.json_response({"followed": self.followed()})
+
+        async def order(request: web.Request) -> web.StreamResponse:
+            entrance.must_be_paired(request)
+            match await values_of(request, LONGEST_ORDER):
+                case {"order": list() as names}:
+                    reason = await asyncio.to_thread(self.reorder, names)
+                case {"order": None}:
+                    reason = await asyncio.to_thread(self.as_written)
+                case _:
+                    raise WrongValuesError('send {"order": ["ISS", "SO-50"]}, or {"order": null} for that of the file')
+            self._changed()
+            return error(409, reason) if reason else web.json_response({"ok": True})
+
+        names = {"type": ["array", "null"], "items": {"type": "string"}, "description": "null: as the file says"}
+        put = post(
+            "/api/followed", order, "What is followed in a new order: what stands first counts most", {"order": names}
+        )
+        return (
+            get("/api/passes", passes, "The passes of the next day, as `rotator sky passes --json`; 202: ask again"),
+            get("/api/next", upcoming, "The next pass, with its path; 202: ask again"),
+            get("/api/followed", followed, "What the file follows, the highest priority first"),
+            replace(put, most_body=LONGEST_ORDER),
+        )
+
+    # --- what is followed
+
+    def followed(self) -> list[Told]:
+        """What the configuration follows, the highest priority first."""
+        rows = [self._row(each) for each in self._follow]
+        return sorted(rows, key=lambda row: -row["priority"])
+
+    def _row(self, each: FollowTable) -> Told:
+        target, fault = "", ""
+        try:
+            wanted = self._sky.find(each.name)
+            target = "" if isinstance(wanted, Aim) else wanted.target().name
+        except (Unknown, NotThere) as reason:
+            fault = str(reason)
+        return {
+            "name": each.name,
+            "target": target or each.name,
+            "priority": self._priorities.of(each.name, each.priority),
+            "written": each.priority,
+            "least_deg": each.min_culmination_deg,
+            "fault": fault,
+        }
+
+    def reorder(self, names: Sequence[object]) -> str:
+        """What stands further up counts more. Returns why not; empty: it does."""
+        written = {each.name: each.priority for each in self._follow}
+        order = [name for name in names if isinstance(name, str)]
+        if len(order) != len(names) or sorted(order) != sorted(written):
+            raise WrongValuesError("order must name each followed target once: GET /api/followed lists them")
+        inforce = [self._priorities.of(name, priority) for name, priority in written.items()]
+        return self._put(dict(zip(order, ranked(inforce), strict=True)), written)
+
+    def as_written(self) -> str:
+        """The priorities of the configuration again."""
+        written = {each.name: each.priority for each in self._follow}
+        return self._put(written, written)
+
+    def _put(self, priorities: Mapping[str, float], written: Mapping[str, float]) -> str:
+        kept = self._priorities.change(priorities, written)
+        return "" if kept else "the order counts, but it cannot be kept: the log tells why"
+
+    # --- the next pass
+
+    def upcoming(self) -> Told | None:
+        """The next pass of the plan, else the next good one, with its path; empty: there is none; None: ask again."""
+        if not self._sky.elements and not self._follow:
+            return {}
+        passes = self._passes.latest
+        if passes is None:
+            return None
+        found = next_pass(passes, self._utc())
+        if found is None:
+            return {}
+        key = f"{found['name']} {found['aos']}"
+        if key != self._next[0]:
+            self._next = key, {**found, "points": self._path(found)}
+        return self._next[1]
+
+    def _path(self, found: Told) -> list[list[float]]:
+        """Its directions, as far as its elements are still known."""
+        begin_s, end_s = (datetime.fromisoformat(found[key]).timestamp() for key in ("aos", "los"))
+        try:
+            wanted = self._sky.find(found["name"])
+            if isinstance(wanted, Aim):
+                return []
+            target = wanted.target()
+            moments_s = [begin_s + (end_s - begin_s) * index / POINTS for index in range(POINTS + 1)]
+            sights = [target.sight(moment_s) for moment_s in moments_s]
+        except (Unknown, NotThere):
+            return []
+        return [[round(sight.azimuth_deg, 1), round(max(0.0, sight.elevation_deg), 1)] for sight in sights]
+
+
+def next_pass(passes: Sequence[Told], now_s: float) -> Told | None:
+    """The first that is to come: of the plan; where nothing is planned, of those that rise high enough."""
+    now = datetime.fromtimestamp(now_s).astimezone()
+    to_come = [each for each in passes if each["aos"] and each["los"] and datetime.fromisoformat(each["aos"]) > now]
+    planned = [each for each in to_come if each["plan"] and each["plan"]["flown"]]
+    high = [each for each in to_come if each["max_el_deg"] >= LEAST_DEG]
+    return min(planned or high, key=lambda each: str(each["aos"]), default=None)

@@ -1,0 +1,233 @@
+"""What the page shows: the box as it stands, in one object for the browser, and what has been a while ago.
+
+Knows a status, and makes plain values of it. Words come from `rotator.views`, so that page, terminal and display say
+the same. Knows no HTTP and no browser.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from math import isnan, nan
+from typing import Any
+
+from hw.ports import Axis, Direction
+from rotator import __version__
+from rotator.control.sky.mount import Mount
+from rotator.links.wire import Wire
+from rotator.orders import TRACKER, Fly
+from rotator.protocols.status_object import as_object
+from rotator.spoken import spoken
+from rotator.status import AxisStatus, Status, Trust
+from rotator.views import words
+from rotator.views.sky_plot import Way, aimed_at, off_deg, pointing
+
+KEPT_S, EVERY_S = 600, 1.0
+"""The strip chart and the trail go back so far, with a point so often."""
+LAST_BYTES = 24
+MOST_POINTS = 180
+ITSELF = "the box itself"
+_PAGE = re.compile(r"\bpage(?:#(\d+))?\b")
+_LAMPS = {Axis.AZIMUTH: ("cw", "ccw"), Axis.ELEVATION: ("up", "down")}
+
+
+@dataclass(frozen=True, slots=True)
+class Station:
+    """What does not change while the box runs. `tolerances_deg`: of azimuth and elevation."""
+
+    mount: Mount
+    beam_deg: float
+    tolerances_deg: tuple[float, float]
+    where: tuple[float, float] | None
+    """Latitude and longitude; None: not known."""
+
+
+def box(station: Station, status: Status) -> dict[str, Any]:
+    """The range, the horizon, the sectors: what the browser asks for once."""
+    mount = station.mount
+    return {
+        "version": __version__,
+        "simulated": status.simulated,
+        "beam_deg": station.beam_deg,
+        "where": station.where,
+        "azimuth": {"min_deg": mount.azimuth.min_deg, "max_deg": mount.azimuth.max_deg},
+        "elevation": {"min_deg": mount.elevation.min_deg, "max_deg": mount.elevation.max_deg},
+        "tolerance_deg": station.tolerances_deg,
+        "park": [mount.park_azimuth_deg, mount.park_elevation_deg],
+        "horizon": list(mount.horizon),
+        "sectors": [
+            {
+                "name": sector.name,
+                "azimuth": [sector.azimuth.min_deg, sector.azimuth.max_deg],
+                "elevation": [sector.elevation.min_deg, sector.elevation.max_deg],
+            }
+            for sector in mount.sectors
+        ],
+    }
+
+
+class Scene:
+    """`status`: the latest. `lcd`: the rows of the display, a code covered.
+
+    `named`: the name of a paired browser by its number. `tracks`: `off`, `planning`, `tracking`, or `ended: ` and why.
+    """
+
+    def __init__(
+        self,
+        status: Callable[[], Status],
+        lcd: Callable[[], Sequence[str]],
+        wires: Sequence[Wire],
+        named: Callable[[int], str],
+        tracks: Callable[[], str],
+    ) -> None:
+        self._status = status
+        self._lcd = lcd
+        self._wires = wires
+        self._named = named
+        self._tracks = tracks
+        self._past: deque[tuple[float, ...]] = deque(maxlen=int(KEPT_S / EVERY_S))
+        self._path: tuple[str, list[Way]] = ("", [])
+
+    def note_order(self, order: object) -> None:
+        """Of every order: a flight has the path of the pass. Called from any thread."""
+        if isinstance(order, Fly):
+            step = max(1, len(order.path) // MOST_POINTS)
+            points = [(round(az, 1), round(el, 1)) for _, az, el in order.path[::step]]
+            self._path = (order.name, points)
+
+    def note(self) -> None:
+        """One more point of the past."""
+        status = self._status()
+        row = [status.at_s]
+        for axis in (status.azimuth, status.elevation):
+            row += [_number(axis.points_deg), _number(_target(axis))]
+        self._past.append((*row, _number(off_deg(status))))
+
+    def past(self) -> dict[str, Any]:
+        """Rows of seconds ago, azimuth, its target, elevation, its target, error; null where there was none."""
+        now_s = self._status().at_s
+        return {
+            "every_s": EVERY_S,
+            "rows": [[round(row[0] - now_s, 2), *(_or_null(value) for value in row[1:])] for row in self._past],
+        }
+
+    def path(self) -> dict[str, Any]:
+        """The pass that is flown, or that the antenna waits for: its directions."""
+        name, points = self._path
+        return {"name": name, "points": points}
+
+    def now(self) -> dict[str, Any]:
+        """All that may change from one moment to the next."""
+        status = self._status()
+        told = self._told(status)
+        headline, style = words.headline(told)
+        flown = status.flown
+        return {
+            "status": as_object(status),
+            "headline": headline,
+            "mood": _MOODS[style],
+            "passes": all(fault.passing for fault in status.faults),
+            "antenna": _rounded(pointing(status)),
+            "target": _rounded(aimed_at(status)),
+            "azimuth_deg": _short(status.azimuth.points_deg),
+            "elevation_deg": _short(status.elevation.points_deg),
+            "azimuth_target_deg": _short(_target(status.azimuth)),
+            "elevation_target_deg": _short(_target(status.elevation)),
+            "readings": [_short(axis.raw, 4) for axis in (status.azimuth, status.elevation)],
+            "off_deg": _short(off_deg(status), 2),
+            "starts": _starts(status),
+            "tracking": self._tracks(),
+            "rise_or_set": words.rise_or_set(flown, status.at_s) if flown else "",
+            "path": self._path[0] if flown and flown.name == self._path[0] else "",
+            "lamps": {name: lamp for axis in Axis for name, lamp in _lamps(axis, status.axis(axis)).items()},
+            "lcd": list(self._lcd()),
+            "mover": told.controlled_by,
+            "holder": told.held_by,
+            "stopper": told.latched,
+            "mode_by": told.mode_by,
+            "mode_switch": status.mode_switch,
+            "notes": [*told.notices, *words.notes(status), *words.lacks(status)],
+            "links": [_link(wire) for wire in self._wires],
+        }
+
+    def _told(self, status: Status) -> Status:
+        """The status with the names of people's browsers in place of their numbers."""
+        return replace(
+            status,
+            latched=self.said(status.latched),
+            controlled_by=ITSELF if status.controlled_by == TRACKER else self.said(status.controlled_by),
+            held_by=self.said(status.held_by),
+            mode_by=self.said(status.mode_by),
+            notices=tuple(self.said(notice) for notice in status.notices),
+        )
+
+    def said(self, text: str) -> str:
+        """A text with the names of people's browsers in place of their numbers."""
+        return spoken(_PAGE.sub(lambda found: self._name(found[1]), text))
+
+    def _name(self, number: str | None) -> str:
+        return (self._named(int(number)) if number else "") or "the page"
+
+
+_MOODS = {words.GOOD: "good", words.PLAIN: "plain", words.WARNS: "warns", words.ALARMS: "alarms"}
+
+
+def _target(axis: AxisStatus) -> float | None:
+    return None if axis.target_deg is None else axis.target_deg + axis.correction_deg
+
+
+def _starts(status: Status) -> int | None:
+    starts = [axis.starts for axis in (status.azimuth, status.elevation) if axis.starts is not None]
+    return sum(starts) if starts else None
+
+
+def _lamps(axis: Axis, status: AxisStatus) -> dict[str, str]:
+    """Of the relays of an axis: `on`, `off`, or `doubted` where it may be closed although it was switched off."""
+    plus, minus = _LAMPS[axis]
+    lamps = {plus: "off", minus: "off"}
+    for name, direction, trust in (
+        (plus, Direction.PLUS, status.trusts[0]),
+        (minus, Direction.MINUS, status.trusts[1]),
+    ):
+        if status.drive is direction:
+            lamps[name] = "on"
+        elif trust in (Trust.DOUBTED, Trust.WELDED):
+            lamps[name] = "doubted"
+    return lamps
+
+
+def _link(wire: Wire) -> dict[str, Any]:
+    return {
+        "name": wire.name,
+        "protocol": wire.protocol,
+        "where": wire.where,
+        "state": wire.state,
+        "out": words.is_out(wire),
+        "heard": _readable(wire.last_in),
+        "count": wire.count_in,
+    }
+
+
+def _readable(data: bytes) -> str:
+    """The last line that a program sent; other bytes than text as dots."""
+    lines = [line for line in re.split(rb"[\r\n]+", data) if line]
+    last = lines[-1][-LAST_BYTES:] if lines else b""
+    return "".join(chr(byte) if 32 <= byte < 127 else "·" for byte in last)
+
+
+def _rounded(way: Way | None) -> list[float] | None:
+    return None if way is None else [round(way[0], 2), round(way[1], 2)]
+
+
+def _short(number: float | None, digits: int = 1) -> float | None:
+    return None if number is None else round(number, digits) + 0.0
+
+
+def _number(number: float | None) -> float:
+    return nan if number is None else number
+
+
+def _or_null(number: float) -> float | None:
+    return None if isnan(number) else round(number, 2)

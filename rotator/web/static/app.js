@@ -1,0 +1,104 @@
+// The page: what is shown where. The box itself is in box.js, each part in a file of its own, STOP in stop.js.
+import { Live, post, read } from "/box.js";
+import { Chart } from "/chart.js";
+import { AzimuthDial, ElevationDial } from "/dials.js";
+import { Asks, JogPad, Target, Track } from "/hand.js";
+import { Help, helps } from "/help.js";
+import { Pair, Paired } from "/pairing.js";
+import { Passes } from "/passes.js";
+import { Control, Front, Headline, Links, Mode, Notes, Troubles } from "/panels.js";
+import { Setup } from "/setup.js";
+import { Sky } from "/sky.js";
+import { act, html, render, useEffect, useState } from "/ui.js";
+
+const PAST_MS = 5000, NEXT_MS = 20_000, COMPUTES_MS = 2000;
+let tell = () => {};
+const live = new Live((seen) => tell(seen));
+
+function usePast(name) {
+  const [past, setPast] = useState([]), [path, setPath] = useState(null);
+  useEffect(() => {
+    const load = () => !document.hidden && read("past").then((told) => setPast(told.rows), () => {});
+    load();
+    const timer = setInterval(load, PAST_MS);
+    return () => clearInterval(timer);
+  }, []);
+  useEffect(() => {
+    setPath(null);
+    if (name) read("path").then((told) => told.name === name && setPath(told), () => {});
+  }, [name]);
+  return [past, path];
+}
+
+/** The next pass, with its path; null: there is none, or it is not computed yet. */
+function useNext(name) {
+  const [next, setNext] = useState(null);
+  useEffect(() => {
+    let timer, gone = false;
+    const load = () => read("next").then((told) => {
+      if (gone) return;
+      if (told) setNext(told.name ? told : null);
+      timer = setTimeout(load, told ? NEXT_MS : COMPUTES_MS);
+    }, () => gone || (timer = setTimeout(load, NEXT_MS)));
+    load();
+    return () => ((gone = true), clearTimeout(timer));
+  }, [name]);
+  return next;
+}
+
+function Antenna({ station, now, hello, fresh }) {
+  const [draft, setDraft] = useState(null), [said, say] = useState("");
+  const [past, path] = usePast(now.path), next = useNext(now.path);
+  const paired = hello.paired;
+  const { azimuth, elevation } = now.status;
+  return html`<main class=${`board ${fresh ? "" : "old"}`}>
+    <div class="top"><${Headline} now=${now} next=${next} /><${Troubles} now=${now} paired=${paired} say=${say} /></div>
+    <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${draft} onPick=${setDraft} /></div>
+    <section class="panel hand" aria-label="By hand">
+      <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
+      <${Mode} now=${now} hello=${hello} paired=${paired} say=${say} />
+      ${paired ? html`<${JogPad} live=${live} say=${say} />
+        <${Target} station=${station} draft=${draft} setDraft=${setDraft} say=${say} />
+        <${Track} now=${now} known=${station.where} say=${say} />
+        <${Asks} label="Park" question=${`The antenna turns to ${station.park[0]}°, ${station.park[1]}° and stays there until you let it move again. Park it?`}
+          yes="Park it" onYes=${() => act(post("park"), say)} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
+      <p class="said" role="status">${said}</p>
+    </section>
+    <div class="panel dials"><${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />
+      <${ElevationDial} range=${station.elevation} angle=${now.elevation_deg} target=${now.elevation_target_deg} drive=${elevation.drive} /></div>
+    <div class="panel front-panel"><${Front} now=${now} /><${Notes} now=${now} /></div>
+    <div class="panel links-panel"><${Links} now=${now} /></div>
+    <div class="panel chart-panel"><${Chart} past=${past} /></div>
+  </main>`;
+}
+
+const VIEWS = [["", "Antenna"], ["sky", "Sky"], ["setup", "Setup"], ["doctor", "Help"], ["paired", "Browsers"]];
+
+function Page() {
+  const [seen, setSeen] = useState({ now: null }), [station, setStation] = useState(null), [view, setView] = useState(location.hash.slice(1));
+  useEffect(() => {
+    tell = setSeen;
+    live.tell();
+    addEventListener("hashchange", () => setView(location.hash.slice(1)));
+  }, []);
+  useEffect(() => {
+    // A box that has been started anew may have another range. It greets anew.
+    if (seen.fresh) read("box").then(setStation, () => {});
+  }, [seen.fresh, seen.hello]);
+  const { now, hello, fresh, old } = seen;
+  return html`<header>
+      <h1>rotator</h1>
+      ${now?.status.simulated && html`<strong class="sim">SIM<span> simulated: nothing real turns</span></strong>`}
+      <nav aria-label="Views">${VIEWS.map(([hash, name]) => html`<a href=${`#${hash}`} aria-current=${view === hash || (hash === "doctor" && helps(view)) ? "page" : null}>${name}</a>`)}</nav>
+      <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? (hello.paired ? hello.name : "looking") : now ? "no connection" : "connecting …"}</span>${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
+    </header>
+    ${now && station && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} />`}
+    ${now && station && view === "sky" && html`<main><${Passes} now=${now} station=${station} paired=${hello.paired} /></main>`}
+    ${now && helps(view) && html`<${Help} view=${view} now=${now} hello=${hello} onPaired=${() => live.connect()} />`}
+    ${now && (view === "setup" || view === "paired") && html`<main>${!hello.paired ? html`<${Pair} onPaired=${() => live.connect()} />`
+      : view === "setup" ? html`<${Setup} now=${now} hello=${hello} live=${live} />`
+      : html`<${Paired} hello=${hello} onChange=${() => live.connect()} />`}</main>`}
+    ${!(now && station) && html`<main class="wait"><p>Looking for the box …</p></main>`}`;
+}
+
+render(html`<${Page} />`, document.getElementById("app"));

@@ -1,0 +1,166 @@
+// The box as the page sees it: pictures come over a WebSocket, orders go by POST. Knows no element of the page.
+
+const OLD_MS = 1500, AGAIN_MS = 1000, SIGN_MS = 120;
+// After so long without a picture the connection is taken for dead. A plug that is pulled closes no socket.
+// The first picture of a new connection may take longer each time: browsers themselves delay those that fail often.
+const SILENT_MS = 3000, MOST_SILENT_MS = 10_000;
+const NO_ANSWER = "the box does not answer", LOST = "the connection was lost: the antenna has stopped";
+
+function within(ms) {
+  const quits = new AbortController();
+  setTimeout(() => quits.abort(), ms);
+  return quits.signal;
+}
+
+async function told(answer) {
+  const found = await answer.json().catch(() => ({}));
+  if (!answer.ok) throw new Error(found.error ?? `the box answers ${answer.status}`);
+  return found;
+}
+
+/** Ask the box for something. Throws an Error with the box's own sentence. */
+export const post = (path, values) =>
+  asked(path, { headers: { "Content-Type": "application/json" }, body: JSON.stringify(values ?? {}), keepalive: true, signal: within(5000) });
+
+/** Send a file. The box may take a while to check it. */
+export const send = (path, file) => asked(path, { body: file, signal: within(60_000) });
+
+async function asked(path, request) {
+  let answer;
+  try {
+    answer = await fetch(`/api/${path}`, { method: "POST", ...request });
+  } catch {
+    throw new Error(NO_ANSWER);
+  }
+  return told(answer);
+}
+
+/** Send a file. Throws an Error with the box's own sentence. */
+export async function upload(path, file) {
+  let answer;
+  try {
+    answer = await fetch(`/api/${path}`, { method: "POST", headers: { "Content-Type": "application/zip" }, body: file, signal: within(20_000) });
+  } catch {
+    throw new Error(NO_ANSWER);
+  }
+  return told(answer);
+}
+
+/** Read something. Null: the box still computes it, so ask again. Throws an Error with the box's own sentence. */
+export async function read(path) {
+  let answer;
+  try {
+    answer = await fetch(`/api/${path}`, { signal: within(5000) });
+  } catch {
+    throw new Error(NO_ANSWER);
+  }
+  if (answer.status === 202) return null;
+  return told(answer);
+}
+
+/** The live connection. `changed` is called with {now, hello, fresh} at each picture, and when pictures stop coming. */
+export class Live {
+  constructor(changed) {
+    this.changed = changed;
+    this.picture = null;
+    this.hello = null;
+    this.held = null;
+    this.number = 0;
+    this.press = 0;
+    this.seen = 0;
+    this.patience = SILENT_MS;
+    this.connect();
+    setInterval(() => this.look(), 500);
+    document.addEventListener("visibilitychange", () => (document.hidden ? this.letGo() : this.connect()));
+    addEventListener("blur", () => this.letGo());
+    addEventListener("pagehide", () => this.letGo());
+    // A sleeping computer's clock may stand still, so the last picture looks fresh when it wakes.
+    addEventListener("pageshow", (event) => event.persisted && this.connect());
+    addEventListener("online", () => this.connect());
+    addEventListener("rotator-stop", () => {
+      this.letGo();
+      this.send({ stop: true });
+    });
+  }
+
+  /** A new connection in place of the old one: also when who this browser is has changed. */
+  connect() {
+    clearTimeout(this.again);
+    if (this.socket) {
+      this.socket.onmessage = this.socket.onclose = null;
+      this.socket.close();
+      this.ended(LOST);
+    }
+    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/live`);
+    this.socket = socket;
+    this.heard = performance.now();
+    socket.onmessage = (event) => {
+      const told = JSON.parse(event.data);
+      if (told.refused) {
+        this.ended(told.refused);
+        return;
+      }
+      if (!told.now) return;
+      if (told.hello) this.hello = told.hello;
+      this.number = told.n;
+      this.picture = told.now;
+      this.seen = this.heard = performance.now();
+      this.patience = SILENT_MS;
+      this.tell();
+    };
+    socket.onclose = () => {
+      this.ended(LOST);
+      this.again = setTimeout(() => this.connect(), AGAIN_MS);
+    };
+  }
+
+  get fresh() {
+    return this.picture !== null && performance.now() - this.seen < OLD_MS;
+  }
+
+  look() {
+    if (this.fresh) return;
+    this.ended(LOST);
+    this.tell();
+    if (performance.now() - this.heard < this.patience) return;
+    this.patience = Math.min(MOST_SILENT_MS, 1.5 * this.patience);
+    this.connect();
+  }
+
+  tell() {
+    this.changed({ now: this.picture, hello: this.hello, fresh: this.fresh, old: performance.now() - this.seen });
+  }
+
+  send(sign) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(sign));
+  }
+
+  /** A button is held: the box hears it again and again, and stops by itself when it hears nothing. `ended`: it turns no
+      more, with the reason; an empty one where it was let go. */
+  hold(turn, ended) {
+    this.letGo();
+    if (!this.fresh || this.socket.readyState !== WebSocket.OPEN) {
+      ended("there is no connection to the box: nothing turns");
+      return;
+    }
+    this.press += 1;
+    this.held = ended;
+    const sign = () => this.send({ hold: turn, press: this.press, n: this.number });
+    sign();
+    this.signs = setInterval(sign, SIGN_MS);
+  }
+
+  letGo() {
+    if (this.ended("")) this.send({ let_go: true });
+  }
+
+  /** The button that was held is held no more. Returns whether one was. */
+  ended(reason) {
+    const held = this.held;
+    if (!held) return false;
+    clearInterval(this.signs);
+    this.held = null;
+    held(reason);
+    return true;
+  }
+}

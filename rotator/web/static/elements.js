@@ -1,0 +1,44 @@
+// The elements of satellites: which files there are and how old, what is fetched, and a file that is sent to the box.
+import { post, read, send } from "/box.js";
+import { act, html, useEffect, useState } from "/ui.js";
+
+const EVERY_MS = 10_000, READ_MS = 1500, MOST_BYTES = 2_000_000;
+
+const days = (file) => (file.newest_days == null ? "" : file.newest_days === file.oldest_days ? `${file.newest_days} days old` : `${file.newest_days} to ${file.oldest_days} days old`);
+const hours = (seconds) => (seconds < 5400 ? `${Math.max(1, Math.round(seconds / 60))} min` : `${Math.round(seconds / 3600)} h`);
+
+function Fetched({ one }) {
+  const good = one.good_s == null ? "nothing fetched yet" : `${one.satellites} satellites, fetched ${hours(one.good_s)} ago`;
+  const next = one.again_s == null ? "" : one.again_s > 0 ? `, asked again in ${hours(one.again_s)}` : ", asked again soon";
+  return html`<li><b>${one.address}</b><span>${good}${next}</span>${one.trouble && html`<span class="warning">${one.trouble}</span>`}</li>`;
+}
+
+export function Elements({ paired, changed }) {
+  const [told, setTold] = useState(null), [said, say] = useState(""), [kept, keep] = useState(""), [sends, setSends] = useState(false);
+  const load = () => read("elements").then(setTold, () => {});
+  useEffect(() => {
+    load();
+    const timer = setInterval(load, EVERY_MS);
+    return () => clearInterval(timer);
+  }, []);
+  const after = () => (changed(), load(), setTimeout(load, READ_MS));
+  const take = (event) => {
+    const [file] = event.target.files;
+    event.target.value = "";
+    if (!file) return;
+    if (file.size > MOST_BYTES) return void say(`${file.name} is too large: a file has at most ${MOST_BYTES / 1e6} MB.`);
+    setSends(true);
+    keep("");
+    act(send(`elements?name=${encodeURIComponent(file.name)}`, file).then((answer) => (keep(`${answer.name} is kept.`), after())).finally(() => setSends(false)), say);
+  };
+  const remove = (name) => act(post("elements/remove", { name }).then(() => (keep(`${name} is removed.`), after())), say);
+  if (!told) return null;
+  return html`<section class="log elements" aria-label="Elements"><h2>Elements of satellites</h2>
+    <p>${told.satellites ? `${told.satellites} satellites. Of each the newest set counts.` : "No satellite is known yet."}</p>
+    <ul>${told.files.map((file) => html`<li><b>${file.name}</b><span>${file.satellites} satellites${file.satellites ? `, ${days(file)}` : ""}</span>
+        ${file.uploaded && paired && html`<button type="button" aria-label=${`Remove ${file.name}`} onClick=${() => remove(file.name)}>Remove</button>`}</li>`)}
+      ${told.fetch.map((one) => html`<${Fetched} one=${one} />`)}</ul>
+    ${told.faults.length > 0 && html`<ul class="notes">${told.faults.map((fault) => html`<li>${fault}</li>`)}</ul>`}
+    ${paired && html`<label class="file">Send a file: TLE, or OMM as JSON or CSV<input type="file" disabled=${sends} onChange=${take} accept=".tle,.txt,.json,.csv" /></label>`}
+    <p role="status">${sends ? "It is sent and checked …" : kept}</p><p class="said" role="alert">${said}</p></section>`;
+}

@@ -1,0 +1,111 @@
+// By hand: buttons that turn the antenna while they are held, a target to point at or track, places that are kept, park.
+import { post } from "/box.js";
+import { act, html, useEffect, useRef, useState } from "/ui.js";
+
+const TURNS = [["up", "Up", "▲"], ["ccw", "CCW", "◀"], ["cw", "CW", "▶"], ["down", "Down", "▼"]];
+const PRESETS = [["North", 0, 0], ["East", 90, 0], ["South", 180, 0], ["West", 270, 0]];
+
+function HeldButton({ live, turn, name, arrow, say }) {
+  const [held, setHeld] = useState(false);
+  const press = (event) => {
+    event.preventDefault();
+    if (event.button > 0 || event.repeat) return;
+    if (event.pointerId !== undefined) event.currentTarget.setPointerCapture?.(event.pointerId);
+    event.currentTarget.focus();
+    say("");
+    setHeld(true);
+    // Whatever ends it puts out the light: the finger, another button, STOP, the box.
+    live.hold(turn, (reason) => (setHeld(false), say(reason)));
+  };
+  const leave = () => live.letGo();
+  const key = (event) => (event.key === " " || event.key === "Enter") && press(event);
+  return html`<button type="button" class=${`jog ${turn} ${held ? "held" : ""}`} aria-label=${`Hold to turn ${name}`}
+    onPointerDown=${press} onLostPointerCapture=${leave} onKeyDown=${key} onBlur=${leave} onContextMenu=${(event) => event.preventDefault()}>
+    <span aria-hidden="true">${arrow}</span><small>${name}</small></button>`;
+}
+
+const RELEASES = ["pointerup", "pointercancel", "keyup"];
+
+export function JogPad({ live, say }) {
+  // The window hears the release wherever the finger is by then, and when the pad goes, so does the hold.
+  useEffect(() => {
+    const leave = () => live.letGo();
+    RELEASES.forEach((release) => addEventListener(release, leave));
+    return () => (RELEASES.forEach((release) => removeEventListener(release, leave)), leave());
+  }, []);
+  return html`<div class="jogpad" role="group" aria-label="Turn by hand, while a button is held">
+    ${TURNS.map(([turn, name, arrow]) => html`<${HeldButton} key=${turn} live=${live} turn=${turn} name=${name} arrow=${arrow} say=${say} />`)}
+    <p class="hint">hold</p></div>`;
+}
+
+function kept() {
+  try {
+    return JSON.parse(localStorage.getItem("presets")) ?? PRESETS;
+  } catch {
+    return PRESETS;
+  }
+}
+
+export function Target({ station, draft, setDraft, say }) {
+  const [presets, setPresets] = useState(kept);
+  const [az, el] = draft ?? ["", ""];
+  const keep = (list) => (setPresets(list), localStorage.setItem("presets", JSON.stringify(list)));
+  const point = (event) => {
+    event.preventDefault();
+    act(post("point", { azimuth_deg: Number(az), elevation_deg: Number(el) }), say);
+  };
+  const number = (text) => (text === "" ? "" : Number(text));
+  return html`<form class="aim" onSubmit=${point}>
+    <div class="fields">
+      <label>Azimuth<input type="number" inputmode="decimal" required step="any" min="-180" max=${Math.max(360, station.azimuth.max_deg)}
+        value=${az} onInput=${(event) => setDraft([number(event.target.value), el])} /></label>
+      <label>Elevation<input type="number" inputmode="decimal" required step="any" min=${station.elevation.min_deg} max=${Math.max(90, station.elevation.max_deg)}
+        value=${el} onInput=${(event) => setDraft([az, number(event.target.value)])} /></label>
+      <button type="submit" class="go">Point there</button>
+    </div>
+    <div class="chips" role="group" aria-label="Kept places">
+      ${presets.map(([name, atAz, atEl], index) => html`<span class="chip"><button type="button" onClick=${() => setDraft([atAz, atEl])}>${name}</button>
+        ${index >= PRESETS.length && html`<button type="button" aria-label=${`Forget ${name}`} onClick=${() => keep(presets.filter((_, each) => each !== index))}>×</button>`}</span>`)}
+      ${draft && az !== "" && el !== "" && html`<button type="button" class="quiet" onClick=${() => keep([...presets, [`${az}° / ${el}°`, az, el]])}>keep ${az}° / ${el}°</button>`}
+    </div>
+  </form>`;
+}
+
+export function Track({ now, known, say }) {
+  const [name, setName] = useState("");
+  const track = (event) => {
+    event.preventDefault();
+    act(post("track", { target: name }), say);
+  };
+  const tracks = now.status.tracks, ended = now.tracking.startsWith("ended") || now.tracking === "planning";
+  return html`<form class="track" onSubmit=${track}>
+    <label>Track<input required maxlength="100" placeholder=${known ? "ISS, Moon, Sun, JN58td" : "the box does not know its place"} value=${name}
+      onInput=${(event) => setName(event.target.value)} /></label>
+    <button type="submit">Track</button>
+    ${tracks && html`<button type="button" onClick=${() => act(post("track", { target: "off" }), say)}>End ${tracks.name}</button>`}
+    ${ended && html`<p class="hint-line" role="status">${now.tracking === "planning" ? "The next pass is planned …" : `Tracking has ${now.tracking}`}</p>`}
+  </form>`;
+}
+
+/** What turns the antenna by surprise asks first. The question opens in its place and covers nothing. */
+export function Asks({ label, question, yes, onYes }) {
+  const [open, setOpen] = useState(false), asks = useRef(null), no = useRef(null), opener = useRef(null), back = useRef(false);
+  const close = () => {
+    back.current = asks.current.contains(document.activeElement);
+    setOpen(false);
+  };
+  useEffect(() => {
+    if (!open) {
+      if (back.current) opener.current.focus();
+      back.current = false;
+      return undefined;
+    }
+    no.current.focus();
+    const timer = setTimeout(close, 20_000);
+    return () => clearTimeout(timer);
+  }, [open]);
+  if (!open) return html`<button type="button" ref=${opener} onClick=${() => setOpen(true)}>${label}</button>`;
+  return html`<div class="asks" role="alertdialog" aria-label=${label} ref=${asks}><p>${question}</p>
+    <button type="button" class="go" onClick=${() => (close(), onYes())}>${yes}</button>
+    <button type="button" ref=${no} onClick=${close}>No</button></div>`;
+}

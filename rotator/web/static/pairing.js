@@ -1,0 +1,45 @@
+// Pairing this browser, and the list of all that are paired.
+import { post, read } from "/box.js";
+import { act, html, useEffect, useState } from "/ui.js";
+
+function guess() {
+  const agent = navigator.userAgent;
+  const what = ["iPhone", "iPad", "Android", "Windows", "Mac", "Linux"].find((each) => agent.includes(each)) ?? "browser";
+  const browser = ["Firefox", "Edg", "Chrome", "Safari"].find((each) => agent.includes(each)) ?? "";
+  return `${browser === "Edg" ? "Edge" : browser} on ${what}`.trim();
+}
+
+export function Pair({ onPaired }) {
+  const [open, setOpen] = useState(false), [code, setCode] = useState(""), [name, setName] = useState(guess), [said, say] = useState("");
+  const begin = () => act(post("pair/begin").then(() => setOpen(true)), say);
+  const enter = (event) => {
+    event.preventDefault();
+    act(post("pair", { code, name }).then(onPaired), say);
+  };
+  return html`<section class="pair" aria-label="Pair this browser">
+    <p>You can look, and stop. To move the antenna, pair this browser once.</p>
+    ${!open && html`<button type="button" class="go" onClick=${begin}>Pair this browser</button>`}
+    ${open && html`<form onSubmit=${enter}>
+      <p>The box shows six digits on its display for two minutes. Without a display: <code>rotator pair</code></p>
+      <label>Code<input class="code" inputmode="numeric" autocomplete="one-time-code" pattern="[0-9 ]{6,7}" required autofocus value=${code}
+        onInput=${(event) => setCode(event.target.value)} /></label>
+      <label>Name<input required maxlength="40" value=${name} onInput=${(event) => setName(event.target.value)} /></label>
+      <button type="submit" class="go">Pair</button> <button type="button" onClick=${begin}>Show a code again</button></form>`}
+    <p class="said" role="status">${said}</p>
+  </section>`;
+}
+
+const days = (seconds) => (seconds < 86400 ? "today" : `${Math.floor(seconds / 86400)} d ago`);
+
+export function Paired({ hello, onChange }) {
+  const [all, setAll] = useState([]), [said, say] = useState("");
+  const load = () => act(read("paired").then((told) => setAll(told.paired)), say);
+  useEffect(load, []);
+  const revoke = (number) => act(post("revoke", { number }).then(() => (number === hello.number ? onChange() : load())), say);
+  return html`<section class="paired"><h2>Paired browsers and programs</h2>
+    <ul>${all.map((one) => html`<li><b>${one.name}</b>${one.number === hello.number && " (this one)"}
+      <span>paired ${days(one.since_s)}, seen ${days(one.seen_s)}</span>
+      <button type="button" onClick=${() => revoke(one.number)} aria-label=${`Unpair ${one.name}`}>Unpair</button></li>`)}</ul>
+    <p>A program gets a token: <code>rotator pair --token NAME</code>. What it may ask: <a href="/api/openapi.json">openapi.json</a></p>
+    <p class="said" role="status">${said}</p></section>`;
+}

@@ -1,0 +1,89 @@
+// The parts of the box as it stands: what it does, who moves it, its display, its relays, its links, what is wrong.
+import { post } from "/box.js";
+import { act, degrees, html } from "/ui.js";
+
+function minutes(text) {
+  const left = Math.max(0, Math.round((new Date(text) - Date.now()) / 60_000));
+  return left < 60 ? `${left} min` : `${Math.floor(left / 60)} h ${String(left % 60).padStart(2, "0")} min`;
+}
+
+export function Headline({ now, next }) {
+  const { tracks } = now.status;
+  return html`<section class=${`headline ${now.mood}`} aria-label="What the box does">
+    <div role="status"><h2>${now.headline}</h2></div>
+    <dl class="angles">
+      <div><dt>azimuth</dt><dd>${degrees(now.azimuth_deg)}</dd><dd class="to">${now.azimuth_target_deg != null ? `to ${degrees(now.azimuth_target_deg)}` : " "}</dd></div>
+      <div><dt>elevation</dt><dd>${degrees(now.elevation_deg)}</dd><dd class="to">${now.elevation_target_deg != null ? `to ${degrees(now.elevation_target_deg)}` : " "}</dd></div>
+    </dl>
+    <p class="facts">
+      ${now.off_deg != null && html`<span>off by <b>${now.off_deg.toFixed(1)}°</b></span>`}
+      ${tracks && html`<span>${tracks.name} <b>${now.rise_or_set}</b></span>`}
+      ${next && next.name !== tracks?.name && html`<span>next ${next.name} <b>in ${minutes(next.aos)}</b>, ${Math.round(next.max_el_deg)}° high${next.plan?.flown ? "" : ", not in a plan"}</span>`}
+      ${now.starts != null && html`<span><b>${now.starts}</b> motor starts in this pass</span>`}
+    </p>
+  </section>`;
+}
+
+export function Control({ now, hello, paired, say }) {
+  const { status } = now, mine = status.held_by === hello.source;
+  const who = now.mover ? (status.moved_by === hello.source ? "this browser" : now.mover) : "nobody";
+  const holder = mine ? "this browser" : now.holder;
+  return html`<div class="control">
+    <p>${who === holder ? html`Moved and held by <b>${who}</b>` : html`Moved by <b>${who}</b>${status.held_by && html`, held by <b>${holder}</b>`}`}</p>
+    ${paired && !mine && html`<button type="button" onClick=${() => act(post("take"), say)}>
+      ${now.holder || now.mover ? `Take over from ${now.holder || who}` : "Take the antenna"}</button>`}
+    ${paired && status.held_by && html`<button type="button" onClick=${() => act(post("give-back"), say)}>Give it back to the programs</button>`}
+  </div>`;
+}
+
+const MODES = {
+  auto: ["AUTO", () => "Programs and the plan move the antenna."],
+  manual: ["MANUAL", (who) => `Only ${who} points and turns it.`],
+  jog: ["JOG", (who) => `Only buttons that ${who} holds turn it.`],
+  park: ["PARK", () => "It stays where it is: nobody moves it."],
+};
+
+/** A box with a mode switch of its own shows where it stands; without one the page is the switch. */
+export function Mode({ now, hello, paired, say }) {
+  const { panel_mode: mode, mode_by: source } = now.status, who = source === hello.source ? "this browser" : now.mode_by || "the panel";
+  const told = `${MODES[mode][1](who)}${mode === "auto" || !source ? "" : ` Set by ${who}.`}`;
+  if (now.mode_switch || !paired) return html`<p class="mode">Mode <b>${MODES[mode][0]}</b>: ${told}</p>`;
+  return html`<div class="mode"><div class="choice" role="group" aria-label="Mode">${Object.entries(MODES).map(([each, [name]]) => html`<button type="button" aria-label=${`Mode ${name}`}
+      aria-pressed=${mode === each} onClick=${() => act(post("mode", { mode: each }), say)}>${name}</button>`)}</div><p>${told}</p></div>`;
+}
+
+/** Stops and faults: in words, with what to do, and the button that lets it go on. */
+export function Troubles({ now, paired, say }) {
+  const faults = [now.status.azimuth.fault, now.status.elevation.fault].filter(Boolean);
+  if (!now.stopper && !faults.length) return null;
+  const resume = html`<button type="button" class="go" disabled=${!paired} onClick=${() => act(post("resume"), say)}>
+    ${now.stopper ? "Let it move again" : "Repaired: go on"}</button>`;
+  return html`<section class="troubles" role="alert" aria-label="What is wrong">
+    ${faults.map((fault) => html`<p><b>${fault.act_now ? "Act now" : "Fault"}:</b> ${fault.text}</p>`)}
+    ${now.stopper && html`<p><b>Stopped by ${now.stopper}.</b> Nothing moves until a person lets it.</p>`}
+    ${!now.stopper && now.passes ? html`<p>This ends by itself when the cause is gone.</p>` : resume}
+    ${!paired && html`<small>for a paired browser</small>`}
+  </section>`;
+}
+
+export function Notes({ now }) {
+  if (!now.notes.length) return null;
+  return html`<ul class="notes" aria-label="Notes">${now.notes.map((note) => html`<li>${note}</li>`)}</ul>`;
+}
+
+const LAMPS = [["ccw", "CCW"], ["cw", "CW"], ["down", "DOWN"], ["up", "UP"]];
+
+export function Front({ now }) {
+  return html`<section class="front" aria-label="The front of the box">
+    <pre class="lcd" aria-label="Display">${now.lcd.join("\n")}</pre>
+    <ul class="lamps" aria-label="Relays">${LAMPS.map(([lamp, name]) => html`<li class=${now.lamps[lamp]}>
+      <i aria-hidden="true"></i>${name}<span class="only-read"> relay ${now.lamps[lamp]}</span></li>`)}</ul>
+  </section>`;
+}
+
+export function Links({ now }) {
+  return html`<section class="links"><h2>Links</h2><ul>
+    ${now.links.map((link) => html`<li class=${link.out ? "out" : ""}><b>${link.name}</b> <span>${link.where}</span>
+      <span class="state">${link.state}</span>${link.heard && html`<code>${link.heard}</code>`}</li>`)}
+    ${!now.links.length && html`<li>The file has no [[link]]: no program can connect.</li>`}</ul></section>`;
+}

@@ -1,0 +1,85 @@
+// STOP, and nothing else: a script of its own that is loaded first, needs no other file and no new browser.
+// It acts before, while and after the rest of the page does. Each try is also told to the page as the event
+// "rotator-stop", so that the open WebSocket carries the STOP too.
+(function () {
+  "use strict";
+
+  var TRIES = 40, ANSWER_MS = 1500, AGAIN_MS = 250, SAME_PRESS_MS = 1000;
+  var round = 0, unheard = false, pressedMs = -SAME_PRESS_MS;
+
+  function say(text) {
+    document.getElementById("stop-note").textContent = text;
+    document.getElementById("stop-said").textContent = text;
+  }
+
+  // Only {"ok": true} of the box itself counts as heard. A proxy, a login page or an old answer is none.
+  function heard(request, told) {
+    return request.status === 200 && told !== null && told.ok === true;
+  }
+
+  function answered(request) {
+    try {
+      return JSON.parse(request.responseText);
+    } catch (fault) {
+      return null;
+    }
+  }
+
+  function send(mine, tries) {
+    if (mine !== round) return;
+    window.dispatchEvent(new CustomEvent("rotator-stop"));
+    var request = new XMLHttpRequest();
+    request.open("POST", "/api/stop");
+    request.timeout = ANSWER_MS;
+    request.onloadend = function () {
+      if (mine !== round) return;
+      var told = answered(request);
+      if (heard(request, told)) {
+        unheard = false;
+        say("");
+        return;
+      }
+      if (tries + 1 === TRIES) {
+        say("NOT HEARD: use the box's own switch");
+        return;
+      }
+      say(told !== null && told.error ? told.error + ": trying again" : "not heard yet: trying again");
+      setTimeout(send, AGAIN_MS, mine, tries + 1);
+    };
+    request.send();
+  }
+
+  function press(button) {
+    pressedMs = Date.now();
+    button.classList.add("pressed");
+    setTimeout(function () { button.classList.remove("pressed"); }, 300);
+    unheard = true;
+    round += 1;
+    send(round, 0);
+  }
+
+  function isStop(event) {
+    return event.target.closest !== undefined && event.target.closest("#stop") !== null;
+  }
+
+  function onPress(event) {
+    if (!isStop(event)) return;
+    // The click that ends a press is no second one. A click without a press comes from a key or a spoken command.
+    if (event.type === "click" && event.detail !== 0 && Date.now() - pressedMs < SAME_PRESS_MS) return;
+    event.preventDefault();
+    press(document.getElementById("stop"));
+  }
+
+  document.addEventListener("pointerdown", onPress, true);
+  document.addEventListener("click", onPress, true);
+  document.addEventListener("keydown", function (event) {
+    var stops = event.key === "Escape" || event.key === "Esc";
+    if (!stops && !(event.repeat && isStop(event))) return;
+    event.preventDefault();
+    if (stops && !event.repeat) press(document.getElementById("stop"));
+  }, true);
+  // A page that is left can wait for no answer.
+  window.addEventListener("pagehide", function () {
+    if (unheard && navigator.sendBeacon) navigator.sendBeacon("/api/stop");
+  });
+})();

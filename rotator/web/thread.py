@@ -1,0 +1,171 @@
+"""The thread of the page: an event loop of its own, so that no browser holds up a link, a stop or the control.
+
+Knows the socket on which the page listens, and how its parts start and end. A port that is taken is said, and the box
+runs on without a page.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import socket
+import threading
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Protocol
+
+from rotator.links.wire import Wire, reason
+from rotator.runtime.event_watch import EventWatch
+from rotator.web.connections import Connection, Connections
+from rotator.web.logs import http_logger
+
+if TYPE_CHECKING:
+    from rotator.web.api import Behind
+    from rotator.web.pairing import Pairings
+
+log = logging.getLogger(__name__)
+
+PAGE_THREAD = "page"
+JOIN_S = 2.0
+UNSENT_BYTES = 16_384
+KEEP_S = 5.0
+WAITING = 64
+"""Connections that the kernel keeps until they are taken."""
+
+
+class Kept(Protocol):
+    """What collects lines for the page, from its start to its end."""
+
+    def keep(self) -> None: ...
+
+    def forget(self) -> None: ...
+
+
+class PageThread:
+    """`behind` is called in the thread: what it needs takes a while to load. `clock` gives seconds."""
+
+    def __init__(
+        self,
+        host: str,
+        port: int,
+        behind: Callable[[], Behind],
+        kept: Sequence[Kept],
+        clock: Callable[[], float],
+        *,
+        events: EventWatch,
+    ) -> None:
+        """`events`: by it the control thread sees whether this thread's event loop runs."""
+        self._host, self._port = host, port
+        self._behind = behind
+        self._clock = clock
+        self._kept = kept
+        self._events = events
+        shown = f"[{host}]" if ":" in host else host
+        self.wire = Wire("page", "page", f"http://{shown}:{port}")
+        self._socket: socket.socket | None = None
+        self._thread = threading.Thread(target=self._run, name=PAGE_THREAD, daemon=True)
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._stopping = threading.Event()
+        self._stop: asyncio.Event | None = None
+
+    def start(self) -> None:
+        """Listen, and serve from now on. Raises nothing: without a page the box runs on."""
+        try:
+            ipv6 = ":" in self._host
+            self._socket = socket.create_server(
+                (self._host, self._port),
+                family=socket.AF_INET6 if ipv6 else socket.AF_INET,
+                backlog=WAITING,
+                dualstack_ipv6=ipv6 and self._host == "::" and socket.has_dualstack_ipv6(),
+            )
+            # A slow browser shall not find a queue of old pictures.
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, UNSENT_BYTES)
+        except (OSError, UnicodeError) as fault:
+            self.wire.state = "closed"
+            log.warning("%s:%d: there is no page: %s", self._host, self._port, reason(fault))
+            return
+        self.wire.state = "listening"
+        for each in self._kept:
+            each.keep()
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Returns when the thread has ended."""
+        self._stopping.set()
+        loop, stop = self._loop, self._stop
+        if loop is not None and stop is not None and not loop.is_closed():
+            loop.call_soon_threadsafe(stop.set)
+        if self._thread.is_alive():
+            self._thread.join(JOIN_S)
+        if self._socket is not None:
+            self._socket.close()
+        for each in self._kept:
+            each.forget()
+        self.wire.state = "closed"
+
+    def _run(self) -> None:
+        try:
+            asyncio.run(self._serve())
+        except Exception:
+            log.exception("page: it has failed; the box runs on without it")
+            self.wire.state = "closed"
+            if self._socket is not None:
+                # Else a browser would wait for an answer that never comes.
+                self._socket.close()
+
+    async def _serve(self) -> None:
+        assert self._socket is not None, "start() comes first"
+        self._loop, self._stop = asyncio.get_running_loop(), asyncio.Event()
+        # Some hundred modules: loaded here, they hold up no start of the box.
+        from aiohttp import http_exceptions, web  # noqa: PLC0415
+
+        from rotator.web.api import Api  # noqa: PLC0415
+        from rotator.web.live import Live  # noqa: PLC0415
+
+        behind = self._behind()
+        connections = Connections(behind.doors.lets_in, self._clock)
+        live = Live(behind.scene.now, behind.scene.note, self._clock)
+        runner = web.AppRunner(
+            Api(behind, live, connections).application(),
+            access_log=None,
+            logger=http_logger(http_exceptions.HttpProcessingError),
+            handle_signals=False,
+            keepalive_timeout=8.0,
+            lingering_time=0.0,
+            shutdown_timeout=0.5,
+        )
+        await runner.setup()
+        server = runner.server
+        assert server is not None, "a runner that is set up has a server"
+        listening = await self._loop.create_server(lambda: Connection(connections, server()), sock=self._socket)
+        works = [
+            connections.watch(),
+            live.run(),
+            _keep(behind.pairings),
+            self._events.run(),
+            *(each() for each in behind.works),
+        ]
+        tasks: list[asyncio.Task[Any]] = [asyncio.create_task(work, name="page") for work in works]
+        try:
+            if not self._stopping.is_set():
+                asked = asyncio.create_task(self._stop.wait(), name="page: stop")
+                tasks.append(asked)
+                ended, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+                for task in ended:
+                    # Without its pictures, or its watch over connections, it is no page.
+                    task.result()
+        finally:
+            listening.close()
+            connections.drop_all()
+            for close in behind.closes:
+                await close()
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+            await runner.cleanup()
+
+
+async def _keep(pairings: Pairings) -> None:
+    """Write down who was there, until cancelled. In a thread of its own: a stop does not wait for the disk."""
+    while True:
+        await asyncio.sleep(KEEP_S)
+        await asyncio.to_thread(pairings.keep)

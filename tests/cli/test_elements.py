@@ -1,0 +1,66 @@
+"""Elements fetched by a running box, and a table handed in to it, as a person does both."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from tests.cli.conftest import Running
+from tests.fetching.http_server import Said, serving
+from tests.orbits.skyfield_oracle import TLE
+
+Start = Callable[..., Running]
+Rotator = Callable[..., subprocess.CompletedProcess[str]]
+
+
+def elements(rotator: Rotator, config: Path) -> Any:
+    return json.loads(rotator("sky", "elements", "--json", "--config", config).stdout)
+
+
+def test_a_box_fetches_once_and_knows_the_satellites_after_its_restart_too(
+    start: Start, rotator: Rotator, rotator_here: Rotator, tmp_path: Path
+) -> None:
+    config = tmp_path / "box.toml"
+    with serving(Said(content=TLE.read_bytes())) as server:
+        config.write_text(f'[station]\nlocator = "JO62qm"\n[sky]\nfetch = "{server.address()}"\n', encoding="utf-8")
+        assert elements(rotator_here, config)["fetch"][0]["reason"] == "not asked yet"
+        box = start("run", "--config", config)
+        box.until("SIMULATED")
+        assert rotator_here("tell", "--config", config, "clock-is-right").returncode == 0
+        assert any(elements(rotator, config)["satellites"] == 3 for _ in range(100))
+        assert box.stop() == 0
+        again = start("run", "--config", config)
+        again.until("SIMULATED")
+        tracked = rotator_here("track", "iss", "--config", config)
+        assert tracked.stdout.startswith("ISS rises in "), tracked.stderr
+        assert again.stop() == 0
+        assert len(server.asked) == 1
+    (fetched,) = elements(rotator_here, config)["fetch"]
+    assert (fetched["satellites"], fetched["reason"]) == (3, None)
+    text = rotator_here("sky", "elements", "--config", config).stdout
+    assert re.search(r"last good .* UTC .*: 3 satellites\n  not asked again before ", text)
+    assert rotator_here("sky", "where", "so50", "--config", config).returncode == 0
+
+
+def test_a_table_is_flown_and_its_mistakes_are_told_with_their_lines(
+    start: Start, rotator_here: Rotator, tmp_path: Path, config: Path
+) -> None:
+    """The box needs no place for it."""
+    (tmp_path / "pass.csv").write_text("t,az,el\n100,20,5\n\n140,50,25\n", encoding="utf-8")
+    (tmp_path / "back.csv").write_text("t,az,el\n100,20,5\n\n40,60,30\n", encoding="utf-8")
+    box = start("run", "--config", config)
+    box.until("SIMULATED")
+    mistaken = rotator_here("track", "back.csv", "--config", config)
+    assert mistaken.returncode == 1
+    assert "back.csv:4: t must rise from row to row: 40 comes after 100" in mistaken.stderr
+    assert rotator_here("track", "pass.csv", "--config", config).stdout == (
+        "pass begins in 2 min. The antenna waits for it there.\n"
+    )
+    tracks = json.loads(rotator_here("where", "--json", "--config", config).stdout)["tracks"]
+    assert tracks["name"] == "pass"
+    assert tracks["ends_in_s"] > tracks["begins_in_s"] + 39
+    assert box.stop() == 0

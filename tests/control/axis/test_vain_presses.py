@@ -1,0 +1,82 @@
+"""Presses of an axis without a calibration: which of them have moved it, by readings that scatter."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from hw.ports import Direction
+from rotator.control.axis.vain_presses import VainPresses
+
+PLUS, OFF = Direction.PLUS, Direction.OFF
+CYCLE_S = 0.05
+
+
+class Pot:
+    """Of a rotor that turns so fast while its relay is on; its readings scatter by so much, rms."""
+
+    def __init__(self, speed_dps: float, noise_deg: float) -> None:
+        self.presses = VainPresses()
+        self.chance = random.Random(3)
+        self.speed_dps, self.noise_deg = speed_dps, noise_deg
+        self.now_s = self.place_deg = 100.0
+        self.rest(2.0)
+
+    def press(self, seconds: float) -> None:
+        self.presses.driven(self.now_s, PLUS)
+        self._pass(seconds, self.speed_dps)
+        self.presses.driven(self.now_s, OFF)
+
+    def rest(self, seconds: float) -> None:
+        self._pass(seconds, 0.0)
+
+    def _pass(self, seconds: float, speed_dps: float) -> None:
+        for _ in range(round(seconds / CYCLE_S)):
+            self.now_s += CYCLE_S
+            self.place_deg += speed_dps * CYCLE_S
+            self.presses.see(self.now_s, self.place_deg + self.chance.gauss(0.0, self.noise_deg), self.noise_deg)
+
+
+@pytest.mark.parametrize("noise_deg", [0.02, 0.1, 0.5])
+@pytest.mark.parametrize(("press_s", "enough"), [(2.0, 3), (0.5, 3), (0.3, 4), (0.15, 7)])
+def test_three_presses_that_move_nothing_are_enough_and_more_of_short_ones(
+    noise_deg: float, press_s: float, enough: int
+) -> None:
+    pot = Pot(0.0, noise_deg)
+    for _ in range(enough - 1):
+        pot.press(press_s)
+        pot.rest(1.0)
+        assert not pot.presses.enough
+    pot.press(press_s)
+    pot.rest(1.0)
+    assert pot.presses.enough
+
+
+@pytest.mark.parametrize(("speed_dps", "noise_deg"), [(0.5, 0.1), (2.7, 0.5), (6.0, 1.0)])
+def test_a_motor_that_turns_is_never_pressed_in_vain_however_slow(speed_dps: float, noise_deg: float) -> None:
+    pot = Pot(speed_dps, noise_deg)
+    for press_s in (2.0, 0.3, 0.3, 1.0, 0.1, 0.1, 0.1) * 20:
+        pot.press(press_s)
+        pot.rest(0.8)
+        assert not pot.presses.enough
+
+
+def test_from_one_press_to_the_next_without_a_pause_they_count_too() -> None:
+    pot = Pot(0.0, 0.1)
+    for _ in range(3):
+        pot.press(2.0)
+        pot.rest(0.1)
+    pot.rest(1.0)
+    assert pot.presses.enough
+
+
+def test_a_person_who_has_looked_begins_anew() -> None:
+    pot = Pot(0.0, 0.1)
+    for _ in range(3):
+        pot.press(2.0)
+        pot.rest(1.0)
+    pot.presses.forget()
+    pot.press(2.0)
+    pot.rest(1.0)
+    assert not pot.presses.enough

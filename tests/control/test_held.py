@@ -1,0 +1,180 @@
+"""A person on the page: the antenna is theirs until it is given back, and a button turns it while it is held."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from hw.ports import Axis, Direction
+from rotator.control.senders import PAUSE_S
+from rotator.faults import Missing
+from rotator.orders import Aim, GiveBack, Jog, Mode, Order, Park, Release, SetMode, Source, Stop, Take
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+MINUS, OFF, PLUS = Direction
+ANNA, BERT = Source("page", 1), Source("page", 2)
+PROGRAM, CONSOLE, TRACKER = Source("gs232b", 1), Source("console", 1), Source("track")
+LEASE_S = 0.4
+
+
+def held(axis: Axis, direction: Direction) -> Jog:
+    return Jog(axis, direction, LEASE_S, held=True)
+
+
+@pytest.mark.parametrize("order", [Aim(200.0, 30.0), held(AZ, PLUS), Take()], ids=["aim", "jog", "take"])
+def test_a_stream_does_not_snatch_what_the_page_has_taken(desk: Any, order: Order) -> None:
+    desk.step(order, by=ANNA)
+    desk.run(PAUSE_S + 60.0)
+    for _ in range(5):
+        desk.step(Aim(20.0, 80.0), by=PROGRAM)
+        desk.run(1.0)
+    assert desk.status.wanted_azimuth_deg != 20.0
+    assert desk.status.held_by == "page#1"
+    assert "page#1 holds the antenna" in desk.status.notices[0]
+
+
+def test_a_program_s_order_counts_at_once_when_it_is_given_back(desk: Any) -> None:
+    for _ in range(5):
+        desk.step(Aim(120.0, 20.0), by=PROGRAM)
+        desk.run(1.0)
+    desk.step(Take(), by=ANNA)
+    desk.step(Aim(20.0, 80.0), by=PROGRAM)
+    assert desk.status.wanted_azimuth_deg is None or desk.status.wanted_azimuth_deg == 120.0
+    desk.step(GiveBack(), by=ANNA)
+    desk.step(Aim(121.0, 20.0), by=PROGRAM)
+    assert desk.status.wanted_azimuth_deg == 121.0
+    assert desk.status.held_by == ""
+
+
+def test_to_take_what_one_tracks_stops_nothing_and_what_a_program_moves_stops(desk: Any) -> None:
+    desk.step(Aim(200.0, 60.0), by=TRACKER)
+    desk.run(1.0)
+    desk.step(Take(stops=False), by=ANNA)
+    assert desk.driven[AZ] is PLUS
+    desk.step(Aim(20.0, 60.0), by=PROGRAM)
+    assert (desk.status.held_by, desk.status.controlled_by) == ("page#1", "track")
+    assert desk.status.wanted_azimuth_deg == 200.0
+    desk.step(GiveBack(), by=ANNA)
+    desk.step(Aim(200.0, 60.0), by=PROGRAM)
+    desk.step(Take(stops=False), by=ANNA)
+    desk.run(2.0)
+    assert desk.at_rest()
+
+
+def test_another_person_on_the_page_takes_it_over_before_giving_it_back(desk: Any) -> None:
+    desk.step(Take(), by=ANNA)
+    desk.step(GiveBack(), by=BERT)
+    assert desk.status.held_by == "page#1"
+    desk.step(GiveBack(), by=CONSOLE)
+    assert desk.status.held_by == ""
+
+
+def test_to_take_it_does_not_halt_a_storm_park_half_way(desk: Any) -> None:
+    desk.step(Aim(200.0, 60.0), by=PROGRAM)
+    desk.run(10.0)
+    desk.step(Park(storm=True), by=ANNA)
+    desk.step(Take(), by=BERT)
+    assert desk.status.storm
+    desk.run(60.0)
+    assert desk.status.azimuth.angle_deg == pytest.approx(0.0, abs=5.0)
+    desk.step(Stop(latch=True), by=BERT)
+    desk.step(Take(), by=BERT)
+    assert desk.status.held_by == "page#2"
+
+
+def test_to_take_it_stops_it(desk: Any) -> None:
+    desk.step(Aim(200.0, 60.0), by=PROGRAM)
+    desk.run(1.0)
+    assert desk.driven[AZ] is PLUS
+    desk.step(Take(), by=ANNA)
+    desk.run(2.0)
+    assert desk.at_rest()
+
+
+def test_two_people_on_the_page_do_not_snatch_it_from_each_other(desk: Any) -> None:
+    desk.step(Aim(200.0, 30.0), by=ANNA)
+    desk.step(Aim(20.0, 30.0), by=BERT)
+    assert desk.status.wanted_azimuth_deg == 200.0
+    desk.step(Take(), by=BERT)
+    desk.step(Aim(20.0, 30.0), by=BERT)
+    assert desk.status.wanted_azimuth_deg == 20.0
+    desk.step(held(AZ, PLUS), by=ANNA)
+    assert desk.status.wanted_azimuth_deg == 20.0
+    assert desk.status.held_by == "page#2"
+
+
+@pytest.mark.parametrize("source", [CONSOLE, TRACKER], ids=str)
+def test_who_is_at_the_box_is_not_held_off(desk: Any, source: Source) -> None:
+    desk.step(Take(), by=ANNA)
+    desk.step(Aim(200.0, 30.0), by=source)
+    assert desk.status.wanted_azimuth_deg == 200.0
+
+
+def test_a_stop_of_a_program_stops_what_a_person_holds(desk: Any) -> None:
+    desk.step(Aim(200.0, 30.0), by=ANNA)
+    desk.run(1.0)
+    desk.step(Stop(), by=PROGRAM)
+    desk.run(2.0)
+    assert desk.at_rest()
+    assert desk.status.held_by == "page#1"
+
+
+def test_the_switch_of_the_panel_ends_the_hold(desk: Any) -> None:
+    desk.step(Take(), by=ANNA)
+    desk.step(SetMode(Mode.AUTO), by=Source("panel"))
+    assert desk.status.held_by == ""
+
+
+def test_a_held_button_that_is_heard_no_more_ends_in_its_lease(desk: Any) -> None:
+    for _ in range(8):
+        desk.step(held(AZ, PLUS), by=ANNA, seconds=0.15)
+    assert desk.driven[AZ] is PLUS
+    desk.step(seconds=LEASE_S - 0.1)
+    assert desk.driven[AZ] is PLUS
+    desk.step(seconds=0.1)
+    assert desk.driven[AZ] is OFF
+
+
+def test_to_let_go_stops_at_once_and_nothing_else(desk: Any) -> None:
+    desk.step(held(AZ, PLUS), by=ANNA)
+    assert desk.step(Jog(AZ, OFF, held=True), by=ANNA)[AZ] is OFF
+    desk.step(Take(), by=BERT)
+    desk.step(held(EL, PLUS), by=BERT)
+    assert desk.step(Jog(EL, OFF, held=True), by=ANNA)[EL] is PLUS
+
+
+def test_to_let_go_does_not_end_a_storm_park(desk: Any) -> None:
+    desk.step(held(AZ, PLUS), by=ANNA)
+    desk.step(Park(storm=True), by=CONSOLE)
+    desk.step(Jog(AZ, OFF, held=True), by=ANNA)
+    assert desk.status.storm
+    desk.run(60.0)
+    assert desk.status.azimuth.angle_deg == pytest.approx(0.0, abs=5.0)
+
+
+def test_a_press_the_other_way_that_is_let_go_while_its_relay_waits_moves_nothing_later(desk: Any) -> None:
+    """The other relay must be seen to open first. A press with a time of its own would wait for that."""
+    for _ in range(10):
+        desk.step(held(AZ, PLUS), by=ANNA, seconds=0.15)
+    desk.step(held(AZ, MINUS), by=ANNA)
+    assert (AZ, MINUS) not in desk.run(8.0)
+
+
+def test_a_held_press_on_an_axis_without_calibration_ends_after_two_seconds(new_desk: Any) -> None:
+    desk = new_desk(missing={AZ: (Missing.DIRECTION_CHECK,)})
+    turned_s = 0.0
+    for _ in range(40):
+        desk.step(held(AZ, PLUS), by=ANNA, seconds=0.1)
+        turned_s += 0.1 if desk.driven[AZ] is PLUS else 0.0
+    assert turned_s < 3.3, "two seconds of it, then a rest, then the next"
+    assert turned_s > 1.5
+
+
+def test_nothing_moves_by_hand_after_a_stop_until_it_is_released(desk: Any) -> None:
+    desk.step(Stop(latch=True), by=BERT)
+    for order in (Take(), held(AZ, PLUS), Aim(200.0, 30.0)):
+        desk.step(order, by=ANNA)
+        assert not any(desk.driven.values())
+    desk.step(Release(), by=ANNA)
+    assert desk.step(held(AZ, PLUS), by=ANNA)[AZ] is PLUS

@@ -1,0 +1,125 @@
+"""What a message on a topic makes the box do, and what it does not."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import hypothesis.strategies as st
+import pytest
+from hypothesis import given
+
+from rotator.mqtt.desk import LONGEST, Desk
+from rotator.mqtt.topics import Topics, discovery
+from rotator.orders import MQTT, Aim, Order, Park, Refusal, Source, Stop
+from rotator.protocols.methods import METHODS
+from rotator.protocols.operating import Operating
+from rotator.status import AxisStatus, Status
+
+AT_REST = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))
+POINT = b'{"azimuth_deg": 200, "elevation_deg": 30}'
+
+
+class Box:
+    """Takes orders, and does nothing with them."""
+
+    def __init__(self, status: Status = AT_REST) -> None:
+        self.orders: list[Order] = []
+        self._status = status
+
+    def status(self) -> Status:
+        return self._status
+
+    def order(self, order: Order) -> Refusal | None:
+        self.orders.append(order)
+        return None
+
+
+def desk(box: Box, may: str = "move") -> Desk:
+    return Desk(Operating(box, None, Source(MQTT)), may)
+
+
+def test_a_message_is_the_method_of_the_page() -> None:
+    box = Box()
+    assert desk(box).do("point", POINT, kept=False) == {"method": "point", "ok": True}
+    assert box.orders == [Aim(200.0, 30.0)]
+
+
+@pytest.mark.parametrize("payload", [b"", b"PRESS", b" ", b"no JSON", b"[1]", b"\xff"])
+def test_a_stop_counts_whatever_the_message_says(payload: bytes) -> None:
+    box = Box()
+    assert desk(box, "stop").do("stop", payload, kept=False)["ok"] is True
+    assert box.orders == [Stop(latch=True)]
+
+
+def test_a_button_of_home_assistant_is_a_message_without_values() -> None:
+    box = Box()
+    assert desk(box).do("park", b"PRESS", kept=False)["ok"] is True
+    assert box.orders == [Park(storm=True)]
+
+
+@pytest.mark.parametrize("name", [method.name for method in METHODS])
+def test_a_message_that_the_broker_has_kept_orders_nothing(name: str) -> None:
+    box = Box()
+    answer = desk(box).do(name, POINT, kept=True)
+    assert answer["error"] == "the broker has kept this message: send it without retain"
+    assert box.orders == []
+
+
+@pytest.mark.parametrize(("may", "obeys"), [("look", set()), ("stop", {"stop"})])
+def test_what_may_only_look_or_stop_does_no_more(may: str, obeys: set[str]) -> None:
+    for method in METHODS:
+        box = Box()
+        answer = desk(box, may).do(method.name, POINT, kept=False)
+        assert answer["ok"] is (method.name in obeys), method.name
+        assert bool(box.orders) is (method.name in obeys)
+
+
+@pytest.mark.parametrize(
+    ("name", "payload", "says"),
+    [
+        ("fly", b"", "there is no method 'fly': stop, resume"),
+        ("point", b"", "point needs azimuth_deg"),
+        ("point", b"{", "the message must be a JSON object"),
+        ("point", b"[]", "the message must be a JSON object"),
+        ("point", b"{" * 5000, "no message has more than"),
+        ("point", b"[" * LONGEST, "the message must be a JSON object"),
+        ("jog", b'{"turn": "cw", "seconds": 600}', "seconds must be a number from 0.05 to 5"),
+    ],
+)
+def test_a_mistake_says_what_to_send_instead(name: str, payload: bytes, says: str) -> None:
+    box = Box()
+    assert says in desk(box).do(name, payload, kept=False)["error"]
+    assert box.orders == []
+
+
+@given(st.text(max_size=20), st.binary(max_size=200))
+def test_any_message_is_answered(name: str, payload: bytes) -> None:
+    assert isinstance(desk(Box()).do(name, payload, kept=False)["ok"], bool)
+
+
+def found(may: str) -> dict[str, Any]:
+    return {topic: json.loads(text or "null") for topic, text in discovery(Topics("shack/rotator"), may)}
+
+
+def test_home_assistant_gets_only_buttons_that_do_something_and_forgets_the_others() -> None:
+    assert [topic for topic, said in found("stop").items() if "/button/" in topic and said] == [
+        "homeassistant/button/shack_rotator/stop/config"
+    ]
+    assert None not in found("move").values()
+
+
+def test_each_entity_has_an_id_of_its_own_and_topics_of_the_box() -> None:
+    said = found("move")
+    assert len({each["unique_id"] for each in said.values()}) == len(said)
+    for topic, each in said.items():
+        assert each["availability_topic"] == "shack/rotator/availability"
+        assert {each.get("state_topic"), each.get("command_topic")} & {
+            "shack/rotator/status",
+            f"shack/rotator/do/{topic.split('/')[-2]}",
+        }
+
+
+def test_the_method_of_a_topic_is_its_last_word() -> None:
+    topics = Topics("shack/rotator")
+    assert topics.method(topics.order("point")) == "point"

@@ -1,0 +1,194 @@
+"""What a person sees and does on the page, in Chromium, before the real program on a simulated rotor."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.page.conftest import PATIENCE_MS, START_S, Station, code_at_the_box, headline, pair
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+Start = Callable[..., Station]
+Visit = Callable[..., "Page"]
+PHONE = {"viewport": {"width": 390, "height": 844}, "is_mobile": True, "has_touch": True}
+STATION = '[station]\nlocator = "JO62qm"\n'
+
+
+def waits_for(page: Page, met: Callable[[], bool]) -> None:
+    for _ in range(PATIENCE_MS // 50):
+        if met():
+            return
+        page.wait_for_timeout(50)
+    raise AssertionError("it does not come")
+
+
+def test_a_visitor_sees_the_antenna_and_may_stop_it_alone(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    assert page.locator(".sim").is_visible()
+    assert "SIM A:000" in page.locator(".lcd").inner_text()
+    assert page.get_by_role("button", name="Point there").count() == 0
+    page.locator("#stop").click()
+    headline(page, "STOPPED by the page")
+    assert page.get_by_role("button", name="Let it move again").is_disabled()
+
+
+def test_pairing_by_the_code_that_the_box_shows_and_no_page(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    page.get_by_role("button", name="Pair this browser").click()
+    page.get_by_text("PAIR CODE").wait_for()
+    assert "PAIR CODE ******" in page.locator(".lcd").inner_text()
+    code = code_at_the_box(page)
+    page.get_by_label("Code").fill(f"{(int(code) + 1) % 1_000_000:06d}")
+    page.get_by_role("button", name="Pair", exact=True).click()
+    page.get_by_text("that is not the code on the display; 4 tries left").wait_for()
+    page.get_by_label("Code").fill(code)
+    page.get_by_role("button", name="Pair", exact=True).click()
+    page.get_by_role("button", name="Point there").wait_for()
+    page.reload()
+    page.get_by_role("button", name="Point there").wait_for()
+
+
+def test_who_is_revoked_may_look_on(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    pair(page, "lost phone")
+    page.get_by_role("link", name="Browsers").click()
+    page.get_by_text("lost phone", exact=True).first.wait_for()
+    page.get_by_role("button", name="Unpair lost phone").click()
+    page.get_by_role("button", name="Pair this browser").wait_for()
+    page.get_by_role("link", name="Antenna").click()
+    page.locator(".headline").wait_for()
+    assert page.get_by_role("button", name="Point there").count() == 0
+
+
+@pytest.mark.parametrize("how", [{}, PHONE], ids=["wide", "phone"])
+def test_a_press_on_the_sky_names_a_target_and_the_antenna_arrives(
+    start: Start, visit: Visit, how: dict[str, object]
+) -> None:
+    station = start()
+    page = visit(station, **how)
+    pair(page)
+    sky = page.locator(".skyview svg")
+    sky.scroll_into_view_if_needed()
+    box = sky.bounding_box()
+    assert box is not None
+    # East, at a third of the way from the horizon to the zenith.
+    reach = min(box["width"] / 244, box["height"] / 240)
+    page.mouse.click(box["x"] + box["width"] / 2 + 66.7 * reach, box["y"] + box["height"] / 2)
+    page.get_by_role("button", name="Point there").click()
+    headline(page, "ON TARGET")
+    waits_for(page, lambda: station.points(90.0, 30.0))
+    page.get_by_text("Moved and held by this browser").wait_for()
+
+
+def test_a_held_button_turns_and_a_lost_connection_stops(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    pair(page)
+    button = page.get_by_role("button", name="Hold to turn CW", exact=True)
+    button.scroll_into_view_if_needed()
+    box = button.bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + 20, box["y"] + 20)
+    page.mouse.down()
+    waits_for(page, lambda: station.world().antenna_deg[0] > 5.0)
+    page.mouse.up()
+    headline(page, "AT REST")
+    stood_deg = station.world().antenna_deg[0]
+    page.mouse.down()
+    waits_for(page, lambda: station.world().antenna_deg[0] > stood_deg + 5.0)
+    page.context.set_offline(True)
+    waits_for(page, lambda: station.world().drives == (0, 0))
+
+
+def test_stop_works_by_key_while_a_question_is_open(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    pair(page)
+    page.get_by_label("Azimuth", exact=True).fill("300")
+    page.get_by_label("Elevation", exact=True).fill("60")
+    page.get_by_role("button", name="Point there").click()
+    headline(page, "TURNING")
+    page.get_by_role("button", name="Park", exact=True).click()
+    page.get_by_role("alertdialog").wait_for()
+    stop = page.locator("#stop").bounding_box()
+    assert stop is not None
+    for share in (0.05, 0.5, 0.95):
+        there = [stop["x"] + stop["width"] * share, stop["y"] + stop["height"] / 2]
+        assert page.evaluate("([x, y]) => document.elementFromPoint(x, y).closest('#stop') !== null", there)
+    page.keyboard.press("Escape")
+    headline(page, "STOPPED by test")
+    page.get_by_role("button", name="Let it move again").click()
+    headline(page, "AT REST")
+
+
+def test_a_fault_is_told_with_its_remedy_and_cleared(start: Start, visit: Visit) -> None:
+    station = start("", "--fault", "azimuth-pot-open@8")
+    page = visit(station)
+    pair(page)
+    page.locator(".troubles", has_text="Check the pot's wires and its supply").wait_for()
+    headline(page, "FAULT")
+
+
+def test_the_box_tracks_what_the_page_asks_for(start: Start, visit: Visit) -> None:
+    station = start(STATION)
+    page = visit(station)
+    pair(page)
+    page.get_by_label("Track").fill("JN58td")
+    page.get_by_role("button", name="Track", exact=True).click()
+    headline(page, "ON TARGET")
+
+
+def test_two_people_take_the_antenna_from_each_other_by_name(start: Start, visit: Visit) -> None:
+    station = start()
+    anna, bert = visit(station), visit(station)
+    pair(anna, "Anna")
+    pair(bert, "Bert")
+    anna.get_by_role("button", name="Take the antenna").click()
+    bert.get_by_text("held by Anna").wait_for()
+    bert.get_by_role("button", name="North").click()
+    bert.get_by_role("button", name="Point there").click()
+    bert.get_by_text("Anna holds the antenna: take it over first").wait_for()
+    bert.get_by_role("button", name="Take over from Anna").click()
+    anna.get_by_text("held by Bert").wait_for()
+    bert.get_by_role("button", name="Give it back to the programs").click()
+    anna.get_by_role("button", name="Take the antenna").wait_for()
+
+
+def test_a_box_that_has_gone_is_seen_to_be_gone(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    page.context.set_offline(True)
+    station.process.terminate()
+    station.process.wait(timeout=START_S)
+    page.get_by_text(re.compile("no connection: this is .* old")).wait_for()
+
+
+def test_the_page_is_the_mode_switch_of_a_box_that_has_none(start: Start, visit: Visit) -> None:
+    station = start()
+    anna, bert = visit(station), visit(station)
+    pair(anna, "Anna")
+    pair(bert, "Bert")
+    anna.get_by_role("button", name="Mode MANUAL").click()
+    bert.get_by_text("Only Anna points and turns it. Set by Anna.").wait_for()
+    bert.get_by_role("button", name="East").click()
+    bert.get_by_role("button", name="Point there").click()
+    bert.get_by_text("Anna has set the mode MANUAL").wait_for()
+    anna.get_by_role("button", name="East").click()
+    anna.get_by_role("button", name="Point there").click()
+    headline(anna, "ON TARGET")
+    anna.get_by_role("button", name="Mode JOG").click()
+    anna.get_by_text("Only buttons that this browser holds turn it.").wait_for()
+    anna.get_by_role("button", name="Point there").click()
+    anna.get_by_text("this browser has set the mode JOG").or_(anna.get_by_text("Anna has set the mode JOG")).wait_for()
+    bert.get_by_role("button", name="Mode PARK").click()
+    headline(anna, "Bert has set the mode PARK")
+    anna.get_by_role("button", name="Mode AUTO").click()
+    headline(bert, "AT REST")

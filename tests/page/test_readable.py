@@ -1,0 +1,105 @@
+"""The page for everybody: axe finds nothing, no size scrolls sideways, every control has a name and a key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.page.conftest import Station, headline, pair, violations
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+Start = Callable[..., Station]
+Visit = Callable[..., "Page"]
+SIZES = {"phone": (360, 740), "tablet": (820, 1180), "wide": (1600, 900)}
+BUSY = """
+[station]
+locator = "JO62qm"
+[mount]
+horizon = [[0, 5], [60, 12], [180, 3], [250, 15]]
+[[mount.forbidden]]
+name = "chimney"
+azimuth_deg = [290, 320]
+elevation_deg = [0, 35]
+"""
+
+
+@pytest.mark.parametrize("light", ["light", "dark"])
+def test_axe_finds_nothing(start: Start, visit: Visit, light: str) -> None:
+    station = start(BUSY)
+    page = visit(station, color_scheme=light)
+    assert violations(page) == [], "looking on"
+    pair(page)
+    assert violations(page) == [], "paired"
+    page.get_by_role("button", name="Park", exact=True).click()
+    assert violations(page) == [], "a question"
+    page.keyboard.press("Escape")
+    headline(page, "STOPPED by")
+    assert violations(page) == [], "stopped"
+    page.get_by_role("link", name="Help").click()
+    page.locator(".doctor li").first.wait_for()
+    assert violations(page) == [], "doctor"
+    page.get_by_role("link", name="Wires").click()
+    page.get_by_role("region", name="Bytes of the links").wait_for()
+    assert violations(page) == [], "wires"
+    page.get_by_role("link", name="Files").click()
+    page.get_by_role("link", name="Save a backup").wait_for()
+    assert violations(page) == [], "files"
+    page.get_by_role("link", name="Log").click()
+    page.get_by_text("stopped by page").first.wait_for()
+    assert violations(page) == [], "log"
+    page.get_by_role("link", name="Browsers").click()
+    page.get_by_text("Paired browsers").wait_for()
+    assert violations(page) == [], "browsers"
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_nothing_is_wider_than_the_screen_and_stop_is_on_it(start: Start, visit: Visit, size: str) -> None:
+    station = start(BUSY)
+    width, height = SIZES[size]
+    page = visit(station, viewport={"width": width, "height": height}, is_mobile=size == "phone", has_touch=True)
+    pair(page)
+    for view in ("Antenna", "Help", "Wires", "Log", "Files", "Browsers"):
+        page.get_by_role("link", name=view).click()
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        stop = page.locator("#stop").bounding_box()
+        assert stop is not None
+        assert stop["width"] == width
+        assert stop["y"] + stop["height"] == height
+
+
+def test_the_keyboard_alone_points_and_turns(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    pair(page)
+    page.get_by_label("Azimuth", exact=True).focus()
+    page.keyboard.type("45")
+    page.keyboard.press("Tab")
+    page.keyboard.type("20")
+    page.keyboard.press("Enter")
+    headline(page, "ON TARGET")
+    page.get_by_role("button", name="Hold to turn CW", exact=True).focus()
+    page.keyboard.down("Space")
+    page.locator(".lamps .on", has_text="CW").wait_for()
+    page.keyboard.up("Space")
+    page.locator(".lamps .on").wait_for(state="detached")
+
+
+def test_a_question_takes_the_keys_and_gives_them_back(start: Start, visit: Visit) -> None:
+    page = visit(start())
+    pair(page)
+    page.get_by_role("button", name="Park", exact=True).press("Enter")
+    page.locator(".asks button:focus", has_text="No").press("Enter")
+    page.locator("button:focus", has_text="Park").wait_for()
+
+
+def test_what_changes_each_second_is_not_read_out(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    station.process.terminate()
+    station.process.wait()
+    page.get_by_text("no connection: this is").wait_for()
+    assert page.locator(".connection").get_by_role("status").inner_text() == "no connection"

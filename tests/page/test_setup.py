@@ -1,0 +1,276 @@
+"""A box is set up on the page alone: its settings, its relays one by one, and a calibration to the end."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from tests.page.conftest import Station, pair, violations
+from tests.page.test_dashboard import PHONE, STATION, waits_for
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+Start = Callable[..., Station]
+Visit = Callable[..., "Page"]
+REMARK = "[mount]\npark_azimuth_deg = 90   # away from the trees\n"
+
+
+def values(station: Station) -> dict[str, Any]:
+    return tomllib.loads((station.folder / "r.toml").read_text(encoding="utf-8"))
+
+
+def open_step(page: Page, title: str) -> None:
+    page.locator(".step > summary", has_text=title).click()
+
+
+def at_setup(page: Page) -> None:
+    pair(page)
+    page.get_by_role("link", name="Setup").click()
+    page.get_by_role("heading", name="Setup").wait_for()
+
+
+def write_it(page: Page) -> None:
+    """Write what is proposed, and wait until the box has started anew with it."""
+    page.get_by_role("button", name="Write it and start anew").click()
+    page.get_by_text("The box starts anew …").first.wait_for()
+    page.get_by_text("The box starts anew …").first.wait_for(state="detached")
+
+
+@pytest.mark.parametrize("how", [{}, PHONE], ids=["wide", "phone"])
+def test_a_setting_is_changed_in_the_file_and_its_remark_stays(
+    start: Start, visit: Visit, how: dict[str, object]
+) -> None:
+    station = start(REMARK)
+    page = visit(station, **how)
+    at_setup(page)
+    open_step(page, "All settings")
+    page.get_by_label("Find a setting").fill("park_azimuth_deg")
+    page.get_by_label("park_azimuth_deg").fill("95")
+    page.get_by_role("button", name="See the change").click()
+    page.locator(".diff .new", has_text="+park_azimuth_deg = 95   # away from the trees").wait_for()
+    write_it(page)
+    assert "park_azimuth_deg = 95   # away from the trees" in (station.folder / "r.toml").read_text()
+    assert "park_azimuth_deg = 90 " in (station.folder / "r.toml.bak").read_text()
+    page.get_by_role("link", name="Antenna").click()
+    page.get_by_role("button", name="Park", exact=True).click()
+    page.get_by_text("The antenna turns to 95°").wait_for()
+
+
+def test_a_wrong_value_is_refused_beside_its_field(start: Start, visit: Visit) -> None:
+    station = start(REMARK)
+    page = visit(station)
+    at_setup(page)
+    before = (station.folder / "r.toml").read_text()
+    open_step(page, "Limits")
+    page.get_by_label("park_azimuth_deg").fill("4o")
+    page.get_by_role("button", name="See the change").click()
+    field = page.locator(".field", has=page.get_by_label("park_azimuth_deg"))
+    field.locator(".mistake", has_text="must be a number; write 4 without quotes and unit").wait_for()
+    assert page.get_by_label("park_azimuth_deg").get_attribute("aria-invalid") == "true"
+    assert page.get_by_role("button", name="Write it").count() == 0
+    assert (station.folder / "r.toml").read_text() == before
+
+
+def test_links_come_and_go(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    at_setup(page)
+    open_step(page, "All settings")
+    page.get_by_label("Find a setting").fill("link")
+    page.get_by_role("button", name="One more: [[link]]").click()
+    new = page.locator("details.one", has_text="link[2]")
+    new.get_by_label("protocol", exact=True).select_option("easycomm2")
+    new.get_by_label("pty", exact=True).fill("ec2")
+    page.get_by_role("button", name="See").click()
+    write_it(page)
+    assert [link["protocol"] for link in values(station)["link"]] == ["gs232b", "easycomm2"]
+    first = page.locator("details.one", has_text="link[1]")
+    first.locator("summary").click()
+    first.get_by_role("button", name="Take link[1] out").click()
+    page.get_by_role("button", name="See the change").click()
+    write_it(page)
+    assert [link["protocol"] for link in values(station)["link"]] == ["easycomm2"]
+
+
+def test_a_pulse_moves_the_chosen_relay_alone(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    at_setup(page)
+    open_step(page, "Try each relay")
+    pulse = page.get_by_role("button", name="Pulse elevation up")
+    assert pulse.is_disabled()
+    page.get_by_role("button", name="Take the antenna").click()
+    pulse.click()
+    waits_for(page, lambda: station.world().antenna_deg[1] > 1.0)
+    waits_for(page, lambda: station.world().drives == (0, 0))
+    assert abs(station.world().antenna_deg[0]) < 0.5
+    assert station.world().antenna_deg[1] < 45.0
+
+
+def test_a_program_is_heard_and_its_settings_are_told(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    at_setup(page)
+    open_step(page, "Your tracking program")
+    page.get_by_label("Your tracking program").select_option("PstRotator")
+    page.get_by_text("Yaesu GS-232 with the same letter, 9600 8N1").wait_for()
+    page.locator(".heard", has_text="nothing heard yet").wait_for()
+    with (station.folder / "gs232").open("r+b", buffering=0) as port:
+        port.write(b"C2\r")
+        page.locator(".heard", has_text="has just asked for the position: C2").wait_for()
+
+
+class Calibration:
+    """A person with the guide on the page: reads its question, presses, and answers."""
+
+    def __init__(self, station: Station, page: Page, axis: int) -> None:
+        self._station, self._page, self._axis = station, page, axis
+
+    def asked(self, question: str) -> None:
+        self._page.locator(".prompt", has_text=question).wait_for()
+
+    def turn(self, way: str) -> None:
+        before = self._station.world().relay_starts
+        self._page.get_by_role("button", name=way).click()
+        waits_for(self._page, lambda: self._station.world().relay_starts != before)
+        waits_for(self._page, lambda: self._station.world().drives == (0, 0))
+
+    def drive_to(self, way: str, arrived: Callable[[float], bool]) -> None:
+        while not arrived(self._station.world().antenna_deg[self._axis]):
+            self.turn(way)
+
+    def answer(self, name: str) -> None:
+        self._page.get_by_role("button", name=name).click()
+
+    def angle(self, degrees: float) -> None:
+        self._page.get_by_label("Degrees").fill(f"{degrees:g}")
+        self._page.get_by_role("button", name="Enter the degrees").click()
+
+
+def calibrate(station: Station, page: Page, name: str, turns: tuple[str, str], most_deg: float) -> None:
+    plus, minus = turns
+    open_step(page, f"Calibrate the {name}")
+    page.get_by_role("button", name=f"Calibrate the {name}").click()
+    guide = Calibration(station, page, 0 if name == "azimuth" else 1)
+    guide.asked("and watch the antenna")
+    guide.turn(f"{plus} 2 s")
+    guide.asked("Did the antenna turn")
+    guide.answer("Yes")
+    guide.asked("Press")
+    guide.turn(f"{minus} a little")
+    guide.asked("At the low end")
+    guide.drive_to(f"{minus} 2 s", lambda at_deg: at_deg < 0.5)
+    guide.answer("Read here")
+    guide.asked("Which angle")
+    guide.angle(0)
+    guide.asked("At the high end")
+    guide.drive_to(f"{plus} 2 s", lambda at_deg: at_deg > most_deg - 0.5)
+    guide.answer("Read here")
+    guide.asked("Which angle")
+    guide.angle(most_deg)
+    guide.asked("Another point?")
+    guide.turn(f"{minus} a little")
+    guide.answer("One back")
+    page.locator(".guide-lines", has_text=f"Taken back: {most_deg:g}°.").wait_for()
+    guide.asked("At the high end")
+    guide.drive_to(f"{plus} 2 s", lambda at_deg: at_deg > most_deg - 0.5)
+    guide.answer("Read here")
+    guide.asked("Which angle")
+    guide.angle(most_deg)
+    guide.asked("Another point?")
+    guide.answer("No more points")
+    guide.asked("Lowest angle")
+    guide.angle(2)
+    guide.asked("Highest angle")
+    guide.angle(most_deg - 2)
+    guide.asked("Save this?")
+    guide.answer("Yes")
+    page.locator(".guide-lines", has_text="Saved in").wait_for()
+    # At its stop the box could not see the relay open. A person has looked.
+    page.get_by_role("button", name=f"Both relays of the {name} are open").click()
+    page.get_by_role("button", name="I have seen it").click()
+    page.get_by_text(f"whether a relay of the {name} has opened").wait_for(state="detached")
+    open_step(page, f"Calibrate the {name}")
+
+
+def test_from_nothing_to_a_calibrated_rotor(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    at_setup(page)
+    open_step(page, "Which rotor")
+    page.get_by_label("Which rotor?").select_option("g5500")
+    page.get_by_label("Is the rotor wired").select_option("sim")
+    page.get_by_label("How many degrees does azimuth turn").fill("360")
+    page.get_by_label("Which program turns").select_option("gs232b")
+    page.get_by_label("Where does the antenna stand?").fill("JO62qm")
+    page.get_by_role("button", name="See the new file").click()
+    write_it(page)
+    written = values(station)
+    assert written["azimuth"]["max_deg"] == 360
+    assert written["station"]["locator"] == "JO62qm"
+    assert written["page"]["listen"] in station.url, "the page stays where it is"
+    open_step(page, "Which rotor")
+    calibrate(station, page, "azimuth", ("CW ▶", "◀ CCW"), 360.0)
+    calibrate(station, page, "elevation", ("up ▲", "▼ down"), 180.0)
+    written = values(station)
+    for axis, most_deg in (("azimuth", 358), ("elevation", 178)):
+        assert written[axis]["direction_checked"] is True
+        assert (written[axis]["min_deg"], written[axis]["max_deg"]) == (2, most_deg)
+        assert len(written[axis]["calibration"]) == 2
+    for name in ("azimuth", "elevation"):
+        summary = page.locator(".step > summary", has_text=f"Calibrate the {name}")
+        summary.get_by_text("done").wait_for()
+    status = json.loads(station.tell("status", "json"))
+    assert [status[axis]["missing"] for axis in ("azimuth", "elevation")] == [[], []]
+
+
+def test_a_motor_stops_when_the_browser_of_a_calibration_goes(start: Start, visit: Visit) -> None:
+    station = start()
+    page = visit(station)
+    at_setup(page)
+    open_step(page, "Calibrate the azimuth")
+    page.get_by_role("button", name="Calibrate the azimuth").click()
+    page.locator(".prompt", has_text="and watch the antenna").wait_for()
+    page.get_by_role("button", name="CW ▶ 2 s").click()
+    waits_for(page, lambda: station.world().drives == (1, 0))
+    page.context.set_offline(True)
+    waits_for(page, lambda: station.world().drives == (0, 0))
+
+
+@pytest.mark.parametrize("light", ["light", "dark"])
+def test_axe_finds_nothing_in_any_step(start: Start, visit: Visit, light: str) -> None:
+    page = visit(start(STATION), color_scheme=light, viewport={"width": 390, "height": 844})
+    at_setup(page)
+    assert violations(page) == [], "the steps"
+    for number in range(page.locator(".step").count()):
+        page.locator(".step > summary").nth(number).click()
+        page.wait_for_timeout(300)
+        assert violations(page) == [], f"step {number + 1}"
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), f"step {number + 1}"
+        page.locator(".step > summary").nth(number).click()
+    open_step(page, "All settings")
+    for summary in page.locator(".settings > details > summary").all():
+        summary.click()
+    assert violations(page) == [], "all settings open"
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_the_keyboard_alone_changes_a_setting(start: Start, visit: Visit) -> None:
+    station = start(REMARK)
+    page = visit(station)
+    at_setup(page)
+    page.locator(".step > summary", has_text="Limits").focus()
+    page.keyboard.press("Enter")
+    page.get_by_label("park_azimuth_deg").focus()
+    page.keyboard.press("Control+a")
+    page.keyboard.type("120")
+    page.get_by_role("button", name="See the change").focus()
+    page.keyboard.press("Enter")
+    page.get_by_role("button", name="Write it").focus()
+    page.keyboard.press("Enter")
+    waits_for(page, lambda: values(station)["mount"]["park_azimuth_deg"] == 120)

@@ -1,0 +1,154 @@
+"""The front panel as a whole, in simulated time: from a switch to an order, from the box to a lamp and a needle."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any, cast
+
+import pytest
+
+from firmware_sim.buses.gpio import SimGpio
+from firmware_sim.buses.i2c import SimI2CBus
+from firmware_sim.clock import SimClock
+from firmware_sim.panel import PanelSpec, SimPanel
+from hw.buses.gpio import GpioInputs
+from hw.ports import Axis, Direction
+from rotator.orders import Aim, Home, Jog, Mode, Nudge, Order, Release, SetMode, Stop
+from rotator.panel.panel import Panel, PanelSettings
+from rotator.panel.thread import PanelParts, PanelThread
+from rotator.status import AxisStatus, Status
+from tests.panel.desk import AUTO, AZ, EL, FULL_SCALE, JOG, MANUAL, PARK, Desk, in_mode
+
+
+@pytest.mark.parametrize(("position", "name"), list(enumerate(("manual", "park", "auto", "jog"))))
+def test_each_position_sets_its_mode_and_lights_its_lamp(position: int, name: str) -> None:
+    assert in_mode(position).sim.lit() == {name}
+
+
+def test_meters_show_where_the_axes_stand_and_do_not_flicker() -> None:
+    desk = in_mode(AUTO)
+    assert desk.needles() == pytest.approx((0.25, 0.25), abs=0.004)
+    assert desk.sim.board.period_s() == pytest.approx(1e-3, rel=0.1)
+    assert desk.sim.board.early_writes == 0
+
+
+def test_a_needle_reaches_its_end_and_no_further() -> None:
+    desk = in_mode(AUTO)
+    desk.status = replace(desk.status, azimuth=replace(desk.status.azimuth, angle_deg=360.0))
+    desk.waits(0.2)
+    assert desk.sim.board.high_share(0) == pytest.approx(FULL_SCALE, abs=0.001)
+
+
+@pytest.mark.parametrize(
+    ("axis", "way", "nudge"),
+    [
+        ("azimuth", 1, (AZ, 5.0)),
+        ("azimuth", -1, (AZ, -5.0)),
+        ("elevation", 1, (EL, 5.0)),
+        ("elevation", -1, (EL, -5.0)),
+    ],
+)
+def test_jog_switches_nudge_in_auto(axis: str, way: int, nudge: tuple[Axis, float]) -> None:
+    desk = in_mode(AUTO)
+    desk.sim.throw(axis, way)
+    assert desk.waits(1.0) == [Nudge(*nudge)]
+    assert desk.sim.lit() == {"auto", "switch"}
+
+
+def test_knobs_send_the_antenna_in_manual() -> None:
+    desk = in_mode(MANUAL)
+    for tenth in range(1, 6):
+        desk.sim.turn_knob("azimuth", tenth / 10)
+        assert desk.waits(0.2) == []
+    assert desk.needles() == pytest.approx((0.5, 0.25), abs=0.004)
+    assert desk.waits(1.2) == [Aim(cast(Any, pytest.approx(180.0, abs=0.5)), None)]
+    assert desk.needles() == pytest.approx((0.25, 0.25), abs=0.004)
+
+
+def test_in_park_the_needles_follow_the_knobs() -> None:
+    desk = in_mode(PARK)
+    desk.sim.turn_knob("elevation", 0.75)
+    assert desk.waits(3.0) == []
+    assert desk.needles() == pytest.approx((0.0, 0.75), abs=0.004)
+
+
+def test_jog_drives_while_held_and_two_at_once_stop() -> None:
+    desk = in_mode(JOG)
+    desk.sim.throw("elevation", -1)
+    assert set(desk.waits(1.0)) == {Jog(EL, Direction.MINUS, 0.3)}
+    desk.sim.throw("azimuth", 1)
+    assert desk.waits(1.0) == [Stop((EL,))]
+    desk.sim.throw("elevation", 0)
+    assert desk.waits(1.0) == []
+
+
+def test_the_stop_button_and_the_way_back() -> None:
+    desk = in_mode(JOG)
+    desk.sim.throw("azimuth", 1)
+    desk.waits(0.5)
+    desk.sim.press_stop()
+    assert desk.waits(2.0) == [Stop(latch=True)]
+    assert desk.sim.lit() == {"jog", "stop"}
+    desk.sim.pull_stop()
+    assert desk.waits(2.0) == []
+    desk.sim.turn_mode(AUTO)
+    assert desk.waits(2.0) == [Release(), SetMode(Mode.AUTO)]
+    assert desk.sim.lit() == {"auto"}
+
+
+def test_calibration_at_power_up() -> None:
+    desk = Desk()
+    desk.sim.set_calibrate(closed=True)
+    desk.sim.turn_knob("azimuth", 0.95)
+    desk.sim.turn_knob("elevation", 0.9)
+    assert desk.waits(3.0) == [SetMode(Mode.MANUAL)]
+    assert desk.kept == pytest.approx({AZ: 0.95, EL: 0.9}, abs=0.001)
+    assert desk.needles() == pytest.approx((1.0, 1.0), abs=0.004)
+    for position, orders in (
+        (PARK, [Release(), Home(AZ)]),
+        (AUTO, [Release(), Home(EL)]),
+        (JOG, [Release(), SetMode(Mode.JOG)]),
+    ):
+        desk.sim.turn_mode(position)
+        assert desk.waits(3.0) == orders
+
+
+def test_lamps_of_pulses_and_data() -> None:
+    desk = in_mode(AUTO)
+    desk.pulses = {AZ}
+    desk.thread.data_received()
+    desk.waits(0.05)
+    assert desk.sim.lit() == {"auto", "azimuth_pulse", "data"}
+    desk.waits(0.3)
+    assert desk.sim.lit() == {"auto", "azimuth_pulse"}
+
+
+def test_what_has_not_changed_is_not_written_again() -> None:
+    desk = in_mode(AUTO)
+    writes: list[None] = []
+    desk.sim.board.before_change.append(lambda: writes.append(None))
+    desk.waits(10.0)
+    assert len(writes) <= 2 * 11  # only the addresses of what `check` reads, once a second
+
+
+def test_at_the_end_it_is_dark() -> None:
+    desk = in_mode(AUTO)
+    desk.thread.stop()
+    assert desk.sim.lit() == set()
+    assert desk.needles() == (0.0, 0.0)
+
+
+def test_a_stop_button_alone_is_a_panel() -> None:
+    clock = SimClock()
+    gpio = SimGpio(clock)
+    sim = SimPanel(PanelSpec(stop=16), gpio, SimI2CBus(), clock)
+    posted: list[Order] = []
+    status = Status(0.0, AxisStatus(0.0, 360.0), AxisStatus(0.0, 180.0))
+    inputs = GpioInputs(gpio, "/dev/gpiochip0", {"stop": 16}, consumer="panel")
+    parts = PanelParts(switches=inputs, has_stop=True)
+    thread = PanelThread(Panel(PanelSettings(mode_switch=False)), parts, lambda: status, posted.append, clock)
+    thread.cycle(0.0)
+    assert posted == []
+    sim.press_stop()
+    thread.cycle(0.05)
+    assert posted == [Stop(latch=True)]

@@ -1,0 +1,64 @@
+"""The pictures of the last passes: so many and no more, and a name from space that is no path."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from rotator.store.flown import LONGEST_BYTES, MOST, FlownPass, FlownPasses, picture_name
+
+EVENING_S = 1_740_787_200.0
+
+
+def flown(index: int) -> FlownPass:
+    begin_s = EVENING_S + 6000.0 * index
+    return FlownPass(picture_name("ISS", begin_s), "ISS", begin_s, begin_s + 600.0, 0.5, 2.0, 31)
+
+
+@pytest.mark.parametrize(
+    ("name", "file"),
+    [
+        ("ISS (ZARYA)", "20250301-000000-iss-zarya.svg"),
+        ("../../etc", "20250301-000000-etc.svg"),
+        ("☃", "20250301-000000-pass.svg"),
+        ("x" * 80, f"20250301-000000-{'x' * 40}.svg"),
+    ],
+)
+def test_the_name_of_a_picture(name: str, file: str) -> None:
+    assert picture_name(name, EVENING_S) == file
+
+
+def test_the_latest_are_kept_and_outlive_the_program(tmp_path: Path) -> None:
+    passes = FlownPasses(tmp_path)
+    (tmp_path / "flown").mkdir()
+    (tmp_path / "flown" / "mine.svg").write_text("a person's own")
+    for index in range(MOST + 3):
+        passes.keep(flown(index), f"<svg>{index}</svg>")
+    again = FlownPasses(tmp_path)
+    assert [each.file for each in again.passes] == [flown(index).file for index in range(MOST + 2, 2, -1)]
+    assert len(list((tmp_path / "flown").glob("2*.svg"))) == MOST
+    assert (tmp_path / "flown" / "mine.svg").exists()
+    assert again.picture(flown(MOST).file) == f"<svg>{MOST}</svg>"
+    assert again.picture(flown(0).file) is None
+
+
+@pytest.mark.parametrize("file", ["../flown.json", "mine.svg", "", "/etc/passwd"])
+def test_no_other_file_is_a_picture(tmp_path: Path, file: str) -> None:
+    passes = FlownPasses(tmp_path)
+    passes.keep(flown(0), "<svg/>")
+    (tmp_path / "flown" / "mine.svg").write_text("a person's own")
+    assert passes.picture(file) is None
+
+
+def test_a_picture_that_is_too_large_is_not_kept(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    passes = FlownPasses(tmp_path)
+    passes.keep(flown(0), "x" * (LONGEST_BYTES + 1))
+    assert not passes.passes
+    assert "is not kept" in caplog.text
+
+
+def test_a_list_that_names_another_file_begins_anew(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    (tmp_path / "flown.json").write_text('{"format": "rotator flown 1", "passes": [{"file": "../state.json"}]}')
+    assert not FlownPasses(tmp_path).passes
+    assert "it begins anew" in caplog.text

@@ -1,0 +1,95 @@
+"""A latched stop survives the program; it is written once, however often it is repeated; a damaged file is a stop."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import pytest
+
+from rotator.status import Latch
+from rotator.store.latch import DAMAGED, LatchFile
+
+STOP, STORM = Latch("page#2"), Latch("console#3", storm=True)
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "run" / "latch.json"
+
+
+def test_without_a_file_nothing_was_stopped_and_none_is_written_for_that(path: Path) -> None:
+    file = LatchFile(path)
+    assert file.load() is None
+    assert file.save(None)
+    assert not path.exists()
+
+
+@pytest.mark.parametrize("latch", [STOP, STORM])
+def test_the_next_run_knows_who_stopped_it_and_how(path: Path, latch: Latch) -> None:
+    assert LatchFile(path).save(latch)
+    assert LatchFile(path).load() == Latch(f"{latch.by} before the restart", storm=latch.storm)
+
+
+def test_a_release_is_kept_too(path: Path) -> None:
+    LatchFile(path).save(STOP)
+    file = LatchFile(path)
+    file.load()
+    assert file.save(None)
+    assert LatchFile(path).load() is None
+
+
+def test_after_ten_restarts_it_says_so_once(path: Path) -> None:
+    LatchFile(path).save(STOP)
+    for _ in range(10):
+        file = LatchFile(path)
+        latch = file.load()
+        assert latch == Latch("page#2 before the restart")
+        file.save(latch)
+
+
+def test_a_repeated_stop_writes_nothing(path: Path) -> None:
+    file = LatchFile(path)
+    file.save(STOP)
+    path.unlink()
+    for number in range(100):
+        assert file.save(Latch(f"console#{number}"))
+    assert not path.exists()
+    file.save(STORM)
+    assert path.exists(), "a storm park is another thing"
+
+
+def test_a_stop_that_could_not_be_written_is_written_later(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    (tmp_path / "run").write_text("a file where the folder should be")
+    file = LatchFile(tmp_path / "run" / "latch.json")
+    assert not file.save(STOP)
+    assert not file.save(STOP)
+    assert [record.levelno for record in caplog.records] == [logging.ERROR], "each reason once"
+    (tmp_path / "run").unlink()
+    assert file.save(STOP)
+    assert LatchFile(tmp_path / "run" / "latch.json").load() == Latch("page#2 before the restart")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "\0" * 40,
+        "{}",
+        '{"format": "rotator latch 1"}',
+        '{"format": "rotator latch 1", "by": ""}',
+        '{"format": "rotator latch 1", "by": 0, "storm": false}',
+        '{"format": "rotator latch 1", "by": null, "storm": false}',
+        '{"format": "rotator latch 1", "by": "", "storm": true}',
+        '{"format": "rotator latch 1", "by": "page#2", "storm": "no"}',
+        '{"format": "rotator latch 1", "by": "a\\u001b[2Jb", "storm": false}',
+    ],
+)
+def test_a_damaged_file_may_have_held_a_stop(path: Path, text: str, caplog: pytest.LogCaptureFixture) -> None:
+    path.parent.mkdir()
+    path.write_text(text)
+    file = LatchFile(path)
+    assert file.load() == DAMAGED
+    assert len(caplog.records) == 1
+    assert file.save(DAMAGED)
+    assert LatchFile(path).load() == Latch("the damaged file latch.json before the restart")

@@ -1,0 +1,44 @@
+"""What is no ordinary file of a sensible size is refused at once, in words for the person who has named it."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from rotator.store.plain import NoPlainFileError, read_plain
+
+NO_FILE = "is a device or a pipe, no file: save what it should hold in a file"
+
+
+def test_a_file_is_read_whole(tmp_path: Path) -> None:
+    (tmp_path / "link.toml").symlink_to(tmp_path / "station.toml")
+    (tmp_path / "station.toml").write_bytes(b"[rotor]\n" * 1000)
+    assert read_plain(tmp_path / "link.toml") == b"[rotor]\n" * 1000
+
+
+def test_a_pipe_without_a_writer_is_not_waited_for(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(NoPlainFileError, match=NO_FILE):
+        read_plain(tmp_path / "pipe")
+
+
+@pytest.mark.parametrize("device", ["/dev/zero", "/dev/null"])
+def test_a_device_is_not_read(device: str) -> None:
+    with pytest.raises(NoPlainFileError, match=NO_FILE):
+        read_plain(Path(device))
+
+
+def test_what_is_far_too_large_is_not_read_to_its_end(tmp_path: Path) -> None:
+    with (tmp_path / "video.toml").open("wb") as file:
+        file.truncate(10**12)
+    with pytest.raises(NoPlainFileError, match="has more than 4 MB: another file must be meant"):
+        read_plain(tmp_path / "video.toml")
+
+
+def test_a_folder_and_a_missing_file_are_told_apart(tmp_path: Path) -> None:
+    with pytest.raises(IsADirectoryError):
+        read_plain(tmp_path)
+    with pytest.raises(FileNotFoundError):
+        read_plain(tmp_path / "station.toml")

@@ -1,0 +1,251 @@
+"""A backup and the way back: checked whole, put in place whole, and what was there is kept."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+import zipfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import hypothesis.strategies as st
+import pytest
+from hypothesis import given
+
+from rotator import backup
+from rotator.backup import ABOUT, BEFORE, CONFIGURATION, FAILED, FORM, UNDER_WAY, WAITING, BackupError
+from rotator.config.load import parse
+from rotator.store import compass, knobs, learnt, priorities
+from rotator.store.whole import write_whole
+
+ABOUT_TEXT = '{"format": "rotator backup 1", "made": "2026-11-23T12:00:00Z", "program": "0.1.0"}'
+KNOBS = '{"format": "rotator knobs 1", "full_scales": {"azimuth": 0.93}}'
+CHANGED = {"ISS": {"priority": 3.0, "written": 1.0}}
+OTHER_KNOBS = KNOBS.replace("0.93", "0.71")
+TOML = """# our mast
+[rotor]
+hardware = "sim"
+[azimuth]
+max_deg = {}  # the stop
+[state]
+path = "{}/state.json"
+"""
+
+
+class Station:
+    """A configuration and a state in a folder."""
+
+    def __init__(self, folder: Path) -> None:
+        folder.mkdir()
+        self.folder = folder
+        self.path = folder / "station.toml"
+        self.write(450, KNOBS)
+
+    def write(self, max_deg: int, kept: str) -> None:
+        self.path.write_text(TOML.format(max_deg, self.folder), encoding="utf-8")
+        (self.folder / knobs.FILE_NAME).write_text(kept, encoding="utf-8")
+
+    def packed(self) -> bytes:
+        return backup.pack(self.path, parse(self.path.read_text(), "test"), 0.0)
+
+    def everything(self) -> dict[str, str]:
+        files = (each for each in self.folder.iterdir() if not each.name.endswith((WAITING, UNDER_WAY, FAILED, BEFORE)))
+        return {each.name: each.read_text() for each in files}
+
+
+@pytest.fixture
+def station(tmp_path: Path) -> Station:
+    return Station(tmp_path / "box")
+
+
+def zipped(*files: tuple[str, str | bytes]) -> bytes:
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, content in files:
+            file.writestr(name, content)
+    return packed.getvalue()
+
+
+def with_more(name: str) -> bytes:
+    return zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (name, KNOBS))
+
+
+def test_what_was_saved_comes_back_with_its_comments_and_what_was_there_is_kept(station: Station) -> None:
+    kept, saved = station.everything(), station.packed()
+    station.write(360, OTHER_KNOBS)
+    changed = station.everything()
+    backup.stage(station.path, saved)
+    assert station.everything() == changed, "the running box is left alone"
+    assert backup.complete(station.path, 0.0)
+    assert station.everything() == kept
+    assert not backup.complete(station.path, 0.0), "once"
+    backup.stage(station.path, (station.folder / f"station.toml{BEFORE}").read_bytes())
+    assert backup.complete(station.path, 0.0)
+    assert station.everything() == changed, "and back again"
+
+
+def test_a_start_without_a_backup_that_waits_changes_nothing(station: Station) -> None:
+    kept = station.everything()
+    assert not backup.complete(station.path, 0.0)
+    assert not backup.complete(station.folder / "not there.toml", 0.0)
+    assert station.everything() == kept
+
+
+def test_another_pi_gets_the_whole_box(station: Station, tmp_path: Path) -> None:
+    saved, new = station.packed(), tmp_path / "new.toml"
+    new.write_text("this card has a file that cannot be used", encoding="utf-8")
+    backup.stage(new, saved)
+    assert backup.complete(new, 0.0)
+    assert new.read_text() == station.path.read_text()
+
+
+def test_counts_doubted_relays_and_pairings_stay_in_the_box(station: Station) -> None:
+    for name in ("counts.json", "relays.json", "paired.json"):
+        (station.folder / name).write_text("{}", encoding="utf-8")
+    with zipfile.ZipFile(io.BytesIO(station.packed())) as file:
+        assert set(file.namelist()) == {ABOUT, CONFIGURATION, knobs.FILE_NAME}
+
+
+BAD: dict[str, tuple[bytes, str]] = {
+    "no zip": (b"hello", "no backup of a rotator, or it is damaged"),
+    "empty": (b"", "no backup of a rotator, or it is damaged"),
+    "another zip": (zipped(("photo.jpg", "x")), "it holds 'photo.jpg'"),
+    "nothing of ours": (zipped(), "backup.json is not in it"),
+    "no configuration": (zipped((ABOUT, ABOUT_TEXT)), "rotator.toml is not in it"),
+    "a later one": (
+        zipped((ABOUT, ABOUT_TEXT.replace("backup 1", "backup 2")), (CONFIGURATION, "")),
+        "a later version of the program wrote it: its format is 'rotator backup 2', not 'rotator backup 1'. Update",
+    ),
+    "another form": (zipped((ABOUT, '{"format": "x"}'), (CONFIGURATION, "")), "its format is not"),
+    "no JSON": (zipped((ABOUT, "{" * 9999), (CONFIGURATION, "")), "no backup of a rotator"),
+    "a mistake": (zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, "[azimuth]\nmax_deg = 9999\n")), "azimuth.max_deg"),
+    "a later file": (zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, "format = 99\n")), "later version"),
+    "later knobs": (
+        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (knobs.FILE_NAME, KNOBS.replace("knobs 1", "knobs 9"))),
+        "knobs.json of the backup: a later version",
+    ),
+    "wrong knobs": (
+        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (knobs.FILE_NAME, KNOBS.replace("0.93", "7"))),
+        "knobs.json of the backup: the azimuth knob's full scale is 7",
+    ),
+    "wrong motors": (
+        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), ("state.json", '{"format": "rotator state 1", "axes": 3}')),
+        "state.json of the backup",
+    ),
+    "a way out": (with_more("../knobs.json"), "it holds '../knobs.json'"),
+    "the root": (with_more("/etc/passwd"), "it holds '/etc/passwd'"),
+    "a name of Windows": (with_more("..\\knobs.json"), "it holds"),
+    "not for a backup": (with_more("paired.json"), "it holds 'paired.json'"),
+    "a bomb": (zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, b"#" * 20_000_000)), "has more than 300 kB"),
+    "too long": (b"x" * 2_000_000, "more than 1 MB"),
+    "no text": (zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, b"\xff\xfe")), "no text"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_what_is_no_backup_of_this_program_is_refused_with_a_sentence_and_changes_nothing(
+    station: Station, name: str
+) -> None:
+    kept = station.everything()
+    data, says = BAD[name]
+    with pytest.raises(BackupError) as refused:
+        backup.stage(station.path, data)
+    assert says in str(refused.value)
+    assert not backup.complete(station.path, 0.0)
+    assert station.everything() == kept
+
+
+def test_one_name_twice_is_refused() -> None:
+    with pytest.warns(UserWarning, match="Duplicate name"):
+        data = zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, ""), (CONFIGURATION, "[page]\n"))
+    with pytest.raises(BackupError, match=r"it holds 'rotator\.toml'"):
+        backup.check(data)
+
+
+def test_a_bomb_that_lies_about_its_size_is_not_unpacked() -> None:
+    data = bytearray(zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, b"#" * 5_000_000)))
+    for at in (data.rindex(b"PK\x01\x02") + 24, data.rindex(b"PK\x03\x04") + 22):
+        struct.pack_into("<I", data, at, 10)
+    with pytest.raises(BackupError):
+        backup.check(bytes(data))
+
+
+@given(st.data())
+def test_a_damaged_backup_is_refused_or_whole(data: st.DataObject) -> None:
+    whole = bytearray(
+        zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, "[azimuth]\nmax_deg = 400\n"), (knobs.FILE_NAME, KNOBS))
+    )
+    for _ in range(data.draw(st.integers(1, 3))):
+        whole[data.draw(st.integers(0, len(whole) - 1))] = data.draw(st.integers(0, 255))
+    cut = whole[: data.draw(st.integers(0, len(whole)))] if data.draw(st.booleans()) else whole
+    try:
+        found = backup.check(bytes(cut))
+    except BackupError:
+        return
+    assert found.config.azimuth.max_deg == 400
+    assert found.parts.get(knobs.FILE_NAME, KNOBS) == KNOBS
+
+
+class PowerCut(BaseException):
+    pass
+
+
+def test_after_a_power_cut_at_any_step_the_next_start_has_the_new_box_and_the_old_one_is_kept(tmp_path: Path) -> None:
+    outcomes = set()
+    for cut_at in range(5):
+        station = Station(tmp_path / f"box{cut_at}")
+        new, saved = station.everything(), station.packed()
+        station.write(360, OTHER_KNOBS)
+        old = station.everything()
+        backup.stage(station.path, saved)
+        steps = iter(range(9))
+
+        def cut(path: Path, content: str | bytes, at: int = cut_at, steps: Iterator[int] = steps) -> None:
+            if next(steps) == at:
+                raise PowerCut
+            write_whole(path, content)
+
+        try:
+            backup.complete(station.path, 0.0, cut)
+        except PowerCut:
+            outcomes.add(cut_at)
+        backup.complete(station.path, 0.0)
+        assert station.everything() == new
+        before = backup.check((station.folder / f"station.toml{BEFORE}").read_bytes())
+        assert before.text == old["station.toml"]
+        assert before.parts[knobs.FILE_NAME] == OTHER_KNOBS
+    assert outcomes == {0, 1, 2}, "the backup of what is there, the knobs, the configuration"
+
+
+def test_a_disk_that_is_full_leaves_the_old_box(station: Station, caplog: pytest.LogCaptureFixture) -> None:
+    saved = station.packed()
+    station.write(360, OTHER_KNOBS)
+    old = station.everything()
+    backup.stage(station.path, saved)
+    # A folder in the way of the new file: it cannot be written, as on a full disk.
+    (station.folder / "station.toml.new").mkdir()
+    try:
+        assert not backup.complete(station.path, 0.0)
+    finally:
+        (station.folder / "station.toml.new").rmdir()
+    assert station.everything() == old
+    assert "not restored, the box is as it was" in caplog.text
+    assert not backup.complete(station.path, 0.0), "it is not tried for ever"
+    assert (station.folder / f"station.toml{FAILED}").exists()
+
+
+def test_what_the_motors_taught_and_the_compass_found_go_along(station: Station) -> None:
+    motors = {"speed_dps": 6.0, "coast_deg": 0.9}
+    taught = {"axes": {"azimuth": {"begun": {"speed_dps": 6.0}, "plus": motors, "minus": motors}}}
+    texts: dict[str, tuple[str, Callable[[str], object]]] = {
+        "state.json": (json.dumps({"format": learnt.FORM.today, **taught}), learnt.decode),
+        priorities.FILE_NAME: (json.dumps({"format": priorities.FORM.today, "changed": CHANGED}), priorities.decode),
+        compass.FILE_NAME: (compass.encode(bytes(compass.OFFSETS_COUNT)), compass.decode),
+    }
+    for name, (text, _) in texts.items():
+        (station.folder / name).write_text(text, encoding="utf-8")
+    found = backup.check(station.packed())
+    for name, (text, decode) in texts.items():
+        assert decode(found.parts[name]) == decode(text)
+    assert FORM.today == "rotator backup 1"

@@ -1,0 +1,34 @@
+"""From an order that a person drags to priorities: the order holds, and the scale of the configuration stays."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotator.tracking.ranking import MOST, ranked
+
+
+@pytest.mark.parametrize(
+    ("written", "expected"),
+    [
+        ([10, 1, 5], [10, 5, 1]),
+        ([1, 1, 1], [3, 2, 1]),
+        ([0.5, 0.5, 8], [8, 1.5, 0.5]),
+        ([1000, 1000], [1000, 999.000999]),
+        ([7], [7]),
+        ([], []),
+    ],
+)
+def test_the_numbers_stay_and_equal_ones_part(written: list[float], expected: list[float]) -> None:
+    assert ranked(written) == expected
+
+
+@given(st.lists(st.floats(0.001, MOST), min_size=1, max_size=100))
+def test_each_place_counts_more_than_the_next_within_the_bounds_of_the_file(written: list[float]) -> None:
+    places = ranked(written)
+    assert all(upper > lower for upper, lower in pairwise(places))
+    assert places[-1] > 0
+    assert places[0] <= MOST

@@ -1,0 +1,168 @@
+"""The diagnostics file: whole, readable, and without a secret wherever one can stand."""
+
+from __future__ import annotations
+
+import asyncio
+import io
+import json
+import tomllib
+import zipfile
+from collections.abc import Callable
+from contextlib import AbstractAsyncContextManager
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+from urllib.parse import quote
+
+import hypothesis.strategies as st
+from hypothesis import given
+
+from rotator.config.load import parse
+from rotator.monitor.transcript import Way, encode_piece
+from rotator.orders import Source
+from rotator.status import AxisStatus, Status
+from rotator.web.diagnostics import Known, diagnostics
+from rotator.web.redaction import Redaction, secrets_of, spellings_of_place
+from tests.web.conftest import Box
+
+Start = Callable[..., AbstractAsyncContextManager[Box]]
+STATUS = Status(0.0, AxisStatus(0, 450, 0.0), AxisStatus(0, 180, 0.0))
+SECRET = (
+    st.text("abcdefghijkmnpqrstuvwxyzABCDEFGHJKLMN23456789-_.~!$*+=", max_size=40)
+    .filter(lambda text: text.strip("-_.~!$*+=") == text)
+    .map(lambda text: f"Zq7x{text}")  # so that no word of the file is one by chance
+)
+
+
+@dataclass
+class Planting:
+    """Where secrets can stand, before the file is made."""
+
+    toml: str = '[rotor]\nhardware = "sim"\n'
+    log: list[str] = field(default_factory=list)
+    found: list[str] = field(default_factory=list)
+    wires: list[str] = field(default_factory=list)
+    state: str = '{"format": "rotator state 1"}'
+
+    def packed(self) -> bytes:
+        config = parse(self.toml, "a test's file")
+        known = Known(
+            config,
+            STATUS,
+            {"checks": [{"name": "x", "ok": False, "found": each, "advice": each} for each in self.found]},
+            [(0.0, "warning", each) for each in self.log],
+            self.wires,
+            paired=2,
+            utc_s=0.0,
+        )
+        read = {Path(config.state.path): self.state}.get
+        return diagnostics(known, Redaction(secrets_of(config), {"Anna's phone": "page#1"}), read)
+
+
+def comment(put: Planting, secret: str) -> None:
+    put.toml += f"# my router's password: {secret}\n"
+
+
+def key_of_a_server(put: Planting, secret: str) -> None:
+    """Elements are fetched with a key; the log and the doctor tell of it in their own words."""
+    number = len(put.log)
+    put.toml = put.toml.replace(
+        "[sky]\nfetch = [", f'[sky]\nfetch = ["https://s{number}.example/x?key={quote(secret)}", '
+    )
+    if "[sky]" not in put.toml:
+        put.toml += f'[sky]\nfetch = ["https://s{number}.example/x?key={quote(secret)}"]\n'
+    put.log += [f"s{number}.example: GET /x?key={quote(secret)}: 403", f"the key {secret} is refused"]
+    put.found += [f"https://s{number}.example/x?key={quote(secret)}: 403"]
+
+
+def step_of_an_address(put: Planting, secret: str) -> None:
+    number = len(put.log)
+    address = f"https://n{number}.example/{quote(secret * 2)}/tle"
+    put.toml += f'[[link]]\nprotocol = "gs232b"\nserial = "socket://user:{quote(secret)}@n{number}.example:7000"\n'
+    put.log += [f"{address}: 404", f"no answer from {address}", f"/{quote(secret * 2)}/tle: 404"][:2]
+
+
+def password_of_a_port(put: Planting, secret: str) -> None:
+    number = len(put.log)
+    put.toml += f'[[link]]\nprotocol = "gs232b"\nserial = "rfc2217://anna:{quote(secret)}@h{number}.example:4000"\n'
+    put.log += [f"link: cannot log in as anna with {secret}"]
+
+
+def password_of_the_broker(put: Planting, secret: str) -> None:
+    if "[mqtt]" in put.toml:
+        return
+    put.toml += f'[mqtt]\nbroker = "192.168.1.3:1883"\nuser = "box"\npassword = "{secret}"\n'
+    put.log += [f"mqtt: box cannot log in with {secret}"]
+
+
+def header(put: Planting, secret: str) -> None:
+    put.log += [f"Authorization: Bearer {secret}", f"sent Bearer {secret} twice", f"Cookie: a=1; rotator={secret}"]
+
+
+def named(put: Planting, secret: str) -> None:
+    put.log += [f"mqtt password={secret} refused", f'{{"token": "{secret}"}}', f"api_key: '{secret}'"]
+    put.state = json.dumps({"format": "rotator state 1", "password": secret})
+
+
+def wire(put: Planting, secret: str) -> None:
+    data = f"GET http://anna:{quote(secret)}@host/ HTTP/1.1\r\nCookie: rotator={secret}\r\n".encode()
+    put.wires += [encode_piece(datetime(2026, 11, 23), Source("gs232b", 1), Way.IN, data)]
+
+
+PLACES = (comment, key_of_a_server, step_of_an_address, password_of_a_port, password_of_the_broker, header, named, wire)
+
+
+def members(packed: bytes) -> dict[str, str]:
+    with zipfile.ZipFile(io.BytesIO(packed)) as file:
+        return {name: file.read(name).decode() for name in file.namelist()}
+
+
+@given(st.lists(st.tuples(st.sampled_from(PLACES), SECRET), min_size=1, max_size=6, unique_by=lambda each: each[1]))
+def test_no_secret_is_in_it_wherever_it_stood(planted: list[tuple[Callable[[Planting, str], None], str]]) -> None:
+    put = Planting()
+    for place, secret in planted:
+        place(put, secret)
+    for name, text in members(put.packed()).items():
+        for place, secret in planted:
+            for spelt in (secret, quote(secret), quote(secret, safe="")):
+                assert spelt not in text, f"{place.__name__}: {secret!r} is in {name}: {text}"
+
+
+def test_the_place_is_coarse_and_browsers_have_no_names() -> None:
+    put = Planting(
+        '[rotor]\nhardware = "sim"\n[station]\nlatitude_deg = 52.51632\nlongitude_deg = -13.37777\n',
+        log=["page: Anna's phone is paired"],
+        wires=["12:00:00.000 pstrotator#1 < LLH:52.51632;-13.37777\\r"],
+    )
+    config = parse(put.toml, "a test's file")
+    known = Known(config, STATUS, {}, [(0.0, "note", put.log[0])], put.wires, 1, 0.0)
+    redaction = Redaction(spellings_of_place(52.51632, -13.37777), {"Anna's phone": "page#1"})
+    texts = members(diagnostics(known, redaction, lambda _path: None))
+    assert tomllib.loads(texts["rotator/configuration.toml"])["station"] == {"latitude_deg": 53, "longitude_deg": -13}
+    assert "52.516" not in str(texts)
+    assert "13.377" not in str(texts)
+    assert texts["rotator/log.txt"].endswith("page: page#1 is paired\n")
+
+
+def test_a_paired_browser_downloads_it_whole(page_box: Start, tmp_path: Path) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            assert (await box.get("diagnostics"))[0] == 401
+            await box.pair("Anna's phone")
+            async with box.http.get(f"{box.url}/api/diagnostics") as answer:
+                assert answer.status == 200
+                assert answer.headers["Content-Disposition"] == 'attachment; filename="rotator-diagnostics.zip"'
+                texts = members(await answer.read())
+            assert {"README.txt", "about.json", "configuration.toml", "status.json", "doctor.json", "log.txt"} <= {
+                name.removeprefix("rotator/") for name in texts
+            }
+            assert json.loads(texts["rotator/about.json"])["kernel"].startswith("Linux")
+            assert json.loads(texts["rotator/status.json"])["simulated"] is True
+            assert any(check["name"] == "python" for check in json.loads(texts["rotator/doctor.json"])["checks"])
+            digest = json.loads((tmp_path / "paired.json").read_text())["paired"][0]["digest"]
+            cookies = [each.value for each in box.http.cookie_jar]
+            assert cookies
+            for secret in (digest, *cookies, "Anna"):
+                assert secret not in str(texts)
+
+    asyncio.run(main())

@@ -1,0 +1,67 @@
+"""The page's own files: small, complete, and from nowhere else."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+
+import pytest
+
+from rotator.web import assets
+
+FILES = assets.load()
+OURS = sorted(path for path in FILES if "/vendor/" not in path and path != "/")
+
+
+def test_all_of_it_compressed_is_below_100_kib() -> None:
+    assert sum(len(asset.packed) for path, asset in FILES.items() if path != "/") <= 100 * 1024
+
+
+@pytest.mark.parametrize("path", OURS)
+def test_nothing_is_loaded_from_elsewhere(path: str) -> None:
+    text = FILES[path].plain.decode()
+    named = [
+        url
+        for url in re.findall(r"(?:https?:)?//[a-zA-Z0-9.-]+", text)
+        if not url.endswith(("www.w3.org", "//THIS-ADDRESS"))
+    ]
+    assert [url for url in named if "://" in url] == []
+
+
+@pytest.mark.parametrize("path", [path for path in OURS if path.endswith((".js", ".html"))])
+def test_what_a_file_names_is_there(path: str) -> None:
+    text = FILES[path].plain.decode()
+    for name in re.findall(r'(?:from|src=|href=)\s*"(/[^"#]*)"', text):
+        assert name in FILES or name.startswith("/api/"), name
+
+
+def test_each_library_has_its_licence() -> None:
+    folder = assets.FOLDER / "vendor"
+    for library, file in {"preact": "preact.mjs", "htm": "htm.mjs", "uplot": "uplot.js"}.items():
+        assert (folder / file).is_file()
+        assert (folder / f"LICENSE-{library}").is_file()
+
+
+def test_libraries_are_as_they_were_put_in() -> None:
+    folder = assets.FOLDER / "vendor"
+    lines = [line.split() for line in (folder / "VERSIONS").read_text().splitlines()[3:]]
+    named = {file: digest.removeprefix("sha256:") for _, _, file, digest in lines}
+    assert named == {
+        path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in folder.iterdir() if path.suffix
+    }
+
+
+def test_no_script_or_style_stands_in_the_page_itself() -> None:
+    """The content security policy forbids both."""
+    page = FILES["/"].plain.decode()
+    assert not re.search(r"<script(?![^>]*\bsrc=)", page)
+    assert "<style" not in page
+    assert " style=" not in page
+    assert not re.search(r"\son[a-z]+=", page)
+
+
+def test_the_colour_of_a_simulated_rotor_is_used_for_nothing_else() -> None:
+    style = FILES["/style.css"].plain.decode()
+    rules = [line for line in style.splitlines() if "var(--sim)" in line]
+    assert rules
+    assert all(line.startswith(".sim") for line in rules)

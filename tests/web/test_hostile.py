@@ -1,0 +1,251 @@
+"""Foreign pages, forged names, endless bodies, crowds of half-open connections: refused, and nothing moves."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from contextlib import AbstractAsyncContextManager
+from typing import Any, cast
+
+import aiohttp
+import pytest
+
+from rotator.web.connections import ANSWER_S, MOST, SILENT_S, Connections, machine
+from tests.web.conftest import OFF, PATIENCE_S, Box
+
+Start = Callable[..., AbstractAsyncContextManager[Box]]
+POINT = {"azimuth_deg": 200, "elevation_deg": 60}
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Origin": "http://evil.example"},
+        {"Origin": "null"},
+        {"Sec-Fetch-Site": "cross-site"},
+        {"Host": "evil.example"},
+        {"Host": "127.0.0.1.evil.example"},
+        {"Host": ""},
+    ],
+    ids=str,
+)
+def test_a_foreign_page_moves_nothing_even_in_a_paired_browser(page_box: Start, headers: dict[str, str]) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            await box.pair()
+            for path in ("point", "take", "stop", "pair/begin"):
+                status, _ = await box.post(path, POINT if path == "point" else {}, headers=headers)
+                assert status in (400, 403)
+            with pytest.raises(aiohttp.WSServerHandshakeError):
+                await box.http.ws_connect(f"{box.url}/api/live", headers=headers)
+            assert box.status.wanted_azimuth_deg is None
+            assert box.status.held_by == box.status.latched == ""
+            assert box.app.lcd_rows(0.0)[0].startswith("SAT")
+
+    asyncio.run(main())
+
+
+def test_a_replayed_cookie_of_a_revoked_browser_moves_nothing(page_box: Start) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            me = await box.pair()
+            kept = {each.key: each.value for each in box.http.cookie_jar}
+            await box.post("revoke", {"number": me["number"]})
+            async with aiohttp.ClientSession(cookies=kept) as thief:
+                assert (await Box(box.app, box.world, box.url, thief, box.anew).post("point", POINT))[0] == 401
+            assert box.world.drives() == OFF
+
+    asyncio.run(main())
+
+
+def test_the_code_goes_to_nobody_who_does_not_stand_at_the_box(page_box: Start) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            assert (await box.post("pair/begin"))[0] == 200
+            code = box.app.lcd_rows(0.0)[0].removeprefix("PAIR CODE ")
+            assert code.isdigit()
+            told = [await box.post("pair/begin"), await box.post("pair", {"code": "x", "name": "thief"})]
+            for path in ("status", "box", "past", "path", "me", "paired", "log", "passes", "openapi.json", "nothing"):
+                told.append(await box.get(path))
+            async with box.http.ws_connect(f"{box.url}/api/live") as live:
+                pictures = [await live.receive_str() for _ in range(3)]
+            assert "PAIR CODE ******" in pictures[-1]
+            assert code not in f"{told}{pictures}"
+
+    asyncio.run(main())
+
+
+def test_the_cookie_cannot_be_read_by_scripts_nor_sent_by_other_sites(page_box: Start) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            await box.post("pair/begin")
+            code = box.app.lcd_rows(0.0)[0].removeprefix("PAIR CODE ")
+            async with box.http.post(f"{box.url}/api/pair", json={"code": code, "name": "x"}) as answer:
+                (cookie,) = answer.headers.getall("Set-Cookie")
+                token = answer.cookies["rotator"].value
+                assert "HttpOnly" in cookie
+                assert "SameSite=Strict" in cookie
+                assert token not in await answer.text()
+            async with box.http.get(f"{box.url}/") as answer:
+                assert answer.headers["Set-Cookie"] == cookie, "it lasts from the latest visit on"
+
+    asyncio.run(main())
+
+
+def test_every_answer_forbids_foreign_frames_and_foreign_scripts(page_box: Start) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            for path in ("/", "/app.js", "/api/status", "/nothing", "/api/nothing", "/../../etc/passwd", "/%2e%2e/x"):
+                async with box.http.get(f"{box.url}{path}") as answer:
+                    policy = answer.headers["Content-Security-Policy"]
+                    assert "default-src 'none'" in policy
+                    assert "frame-ancestors 'none'" in policy
+                    assert "unsafe" not in policy
+                    assert "Access-Control-Allow-Origin" not in answer.headers
+
+    asyncio.run(main())
+
+
+@pytest.mark.parametrize(
+    "body",
+    [b"Content-Length: 1000000000\r\n\r\n", b"Transfer-Encoding: chunked\r\n\r\n"],
+    ids=["1 GB", "endless"],
+)
+@pytest.mark.parametrize("path", [b"point", b"stop", b"pair"])
+def test_a_body_without_end_is_cut_off(page_box: Start, path: bytes, body: bytes) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            host = box.url.removeprefix("http://").encode()
+            reader, writer = await asyncio.open_connection(*_place(box))
+            writer.write(b"POST /api/" + path + b" HTTP/1.1\r\nHost: " + host + b"\r\n" + body)
+            sent = 0
+            try:
+                async with asyncio.timeout(PATIENCE_S):
+                    while not reader.at_eof():
+                        writer.write(b"1000\r\n" + b"x" * 4096 + b"\r\n")
+                        await writer.drain()
+                        sent += 4096
+                        if sent > 50_000_000:
+                            break
+                        await asyncio.sleep(0)
+                        if reader._buffer:  # type: ignore[attr-defined]
+                            await reader.read(4096)
+            except ConnectionError:
+                pass
+            finally:
+                writer.close()
+            assert sent < 50_000_000
+            assert box.status.wanted_azimuth_deg is None
+            assert (await box.get("status"))[0] == 200
+
+    asyncio.run(main())
+
+
+def test_a_crowd_of_half_open_connections_keeps_nobody_from_stop(page_box: Start) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            await box.pair()
+            await box.post("point", POINT)
+            await box.until(lambda: box.world.drives() != OFF)
+            crowd = [await asyncio.open_connection(*_place(box)) for _ in range(2 * MOST)]
+            try:
+                for _, writer in crowd:
+                    writer.write(b"POST /api/point HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Slow: ")
+                async with aiohttp.ClientSession() as person:
+                    assert (await Box(box.app, box.world, box.url, person, box.anew).post("stop"))[0] == 200
+                await box.until(lambda: box.world.drives() == OFF)
+            finally:
+                for _, writer in crowd:
+                    writer.close()
+
+    asyncio.run(main())
+
+
+class Transport:
+    """A connection's transport, as far as the crowd needs it."""
+
+    def __init__(self, host: str) -> None:
+        self.host = host
+        self.aborted = False
+
+    def get_extra_info(self, _name: str) -> tuple[str, int]:
+        return self.host, 1
+
+    def set_write_buffer_limits(self, high: int) -> None:
+        assert high > 0
+
+    def abort(self) -> None:
+        self.aborted = True
+
+
+class Crowd:
+    def __init__(self) -> None:
+        self.now_s = 100.0
+        self.connections = Connections(lambda host: host != "8.8.8.8", lambda: self.now_s)
+
+    def come(self, host: str = "192.168.1.2") -> Any:
+        transport = Transport(host)
+        assert self.connections.admit(cast(asyncio.Transport, transport))
+        return transport
+
+
+def test_a_machine_of_the_internet_is_turned_away() -> None:
+    assert not Crowd().connections.admit(cast(asyncio.Transport, Transport("8.8.8.8")))
+
+
+def test_a_machine_is_one_however_many_addresses_it_gives_itself() -> None:
+    assert machine("fe80::1%eth0") == machine("fe80::ffff:2") != machine("fd00::1")
+    assert machine("::ffff:192.168.1.2") == machine("192.168.1.2") != machine("192.168.1.3")
+
+
+def test_a_connection_that_asks_nothing_ends_and_a_live_one_stays() -> None:
+    crowd = Crowd()
+    silent, live = crowd.come(), crowd.come()
+    crowd.connections.live(live)
+    crowd.now_s += SILENT_S + 1.0
+    crowd.connections.look()
+    assert silent.aborted
+    assert not live.aborted
+
+
+def test_an_answer_that_its_reader_does_not_take_ends() -> None:
+    crowd = Crowd()
+    reader = crowd.come()
+    crowd.connections.begin(reader)
+    crowd.now_s += SILENT_S + 1.0
+    crowd.connections.look()
+    assert not reader.aborted
+    crowd.connections.end(reader)
+    crowd.connections.begin(reader)
+    crowd.now_s += ANSWER_S + 1.0
+    crowd.connections.look()
+    assert reader.aborted
+
+
+def test_where_all_places_are_taken_the_machine_that_has_most_loses_one() -> None:
+    crowd = Crowd()
+    person = crowd.come("192.168.1.9")
+    crowd.connections.live(person)
+    flood = [crowd.come("192.168.1.66") for _ in range(3 * MOST)]
+    assert not person.aborted
+    assert len(crowd.connections) == MOST
+    assert crowd.come("192.168.1.10")
+    assert sum(each.aborted for each in flood) == 2 * MOST + 2
+
+
+def test_a_connection_whose_request_is_under_way_is_spared() -> None:
+    """In a browser that has many connections open STOP comes on a new one, and asks nothing for a moment."""
+    crowd = Crowd()
+    old = [crowd.come() for _ in range(MOST - 1)]
+    for each in old:
+        crowd.connections.begin(each)
+    crowd.now_s += 5.0
+    stop = crowd.come()
+    crowd.come()
+    assert not stop.aborted
+    assert sum(each.aborted for each in old) == 1
+
+
+def _place(box: Box) -> tuple[str, int]:
+    host, _, port = box.url.removeprefix("http://").partition(":")
+    return host, int(port)

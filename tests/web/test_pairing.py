@@ -1,0 +1,251 @@
+"""Codes and tokens: who gets one, for how long, and what is kept of it."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from rotator.store.paired import MOST, Paired, PairedFile
+from rotator.web.pairing import CODE_S, LASTS_S, MOST_TRIES, TRIES, WAIT_S, NotPairedError, Pairings
+
+
+class Clocks:
+    def __init__(self) -> None:
+        self.now_s, self.utc_s = 1000.0, 1.8e9
+        self.right = True
+
+    def pass_by(self, seconds: float) -> None:
+        self.now_s += seconds
+        self.utc_s += seconds
+
+
+@pytest.fixture
+def clocks() -> Clocks:
+    return Clocks()
+
+
+@pytest.fixture
+def pairings(tmp_path: Path, clocks: Clocks) -> Pairings:
+    return opened(tmp_path, clocks)
+
+
+def opened(folder: Path, clocks: Clocks) -> Pairings:
+    file = PairedFile(folder / "paired.json")
+    return Pairings(file, lambda: clocks.now_s, lambda: clocks.utc_s, lambda: clocks.right)
+
+
+def wrong(code: str) -> str:
+    return f"{(int(code) + 1) % 1_000_000:06d}"
+
+
+def test_a_code_has_six_digits_and_pairs_once(pairings: Pairings) -> None:
+    code = pairings.begin()
+    assert len(code) == 6
+    assert code.isdigit()
+    assert pairings.shown() == code
+    token, one = pairings.enter(code, "Anna's phone")
+    known = pairings.known(token)
+    assert known is not None
+    assert (known.name, known.number) == ("Anna's phone", one.number)
+    with pytest.raises(NotPairedError):
+        pairings.enter(code, "another")
+
+
+def test_a_code_is_worth_nothing_after_two_minutes(pairings: Pairings, clocks: Clocks) -> None:
+    code = pairings.begin()
+    clocks.pass_by(CODE_S)
+    assert pairings.shown() == ""
+    with pytest.raises(NotPairedError, match="no code is shown"):
+        pairings.enter(code, "late")
+
+
+def test_five_wrong_codes_end_it_and_browsers_wait(pairings: Pairings, clocks: Clocks) -> None:
+    pairings.ask()
+    code = pairings.shown()
+    for _ in range(TRIES):
+        with pytest.raises(NotPairedError):
+            pairings.enter(wrong(code), "thief")
+    with pytest.raises(NotPairedError, match="too many wrong codes"):
+        pairings.enter(code, "thief")
+    with pytest.raises(NotPairedError, match="too many wrong codes"):
+        pairings.ask()
+    clocks.pass_by(WAIT_S + 1.0)
+    pairings.ask()
+    assert pairings.shown()
+
+
+def test_to_ask_again_gives_no_fresh_tries(pairings: Pairings) -> None:
+    """Else a thief asks after each four, and has as many as wanted."""
+    pairings.ask()
+    code = pairings.shown()
+    for _ in range(TRIES - 1):
+        with pytest.raises(NotPairedError):
+            pairings.enter(wrong(code), "thief")
+        pairings.ask()
+    assert pairings.shown() == code
+    with pytest.raises(NotPairedError, match="too many"):
+        pairings.enter(wrong(code), "thief")
+
+
+def test_a_person_at_the_box_need_not_wait(pairings: Pairings) -> None:
+    code = pairings.begin()
+    for _ in range(TRIES):
+        with pytest.raises(NotPairedError):
+            pairings.enter(wrong(code), "thief")
+    assert pairings.enter(pairings.begin(), "owner")
+
+
+def test_tries_are_counted_over_all_codes_and_the_wait_grows(pairings: Pairings, clocks: Clocks) -> None:
+    """Else a thief makes four tries, waits for the next code, and has 2880 tries a day."""
+    tries = 0
+    for _ in range(86_400 // 60):
+        try:
+            pairings.ask()
+            for _ in range(TRIES - 1):
+                tries += 1
+                with pytest.raises(NotPairedError):
+                    pairings.enter(wrong(pairings.shown() or "0"), "thief")
+        except NotPairedError:
+            pass
+        clocks.pass_by(60.0)
+    assert tries < 100
+
+
+def test_codes_that_are_asked_for_and_not_used_leave_the_display_free(pairings: Pairings, clocks: Clocks) -> None:
+    shown = 0
+    for _ in range(360):
+        with contextlib.suppress(NotPairedError):
+            pairings.ask()
+        shown += bool(pairings.shown())
+        clocks.pass_by(10.0)
+    assert shown < 180, "more than half of the hour is left"
+
+
+def test_a_stranger_s_tries_do_not_end_the_code_of_a_person_at_the_box(pairings: Pairings) -> None:
+    code = pairings.begin()
+    for _ in range(3 * TRIES):
+        with pytest.raises(NotPairedError):
+            pairings.enter(wrong(code), "thief", "192.168.1.66")
+    with pytest.raises(NotPairedError):
+        pairings.enter(code, "thief", "192.168.1.66")
+    assert pairings.enter(code, "owner", "192.168.1.2")
+
+
+def test_a_crowd_has_fifty_tries_at_it_at_most(pairings: Pairings) -> None:
+    code = pairings.begin()
+    for number in range(MOST_TRIES):
+        with pytest.raises(NotPairedError):
+            pairings.enter(wrong(code), "thief", f"10.0.0.{number // TRIES}")
+    assert pairings.shown() == ""
+
+
+@pytest.mark.parametrize("typed", ["", "000000\n", "١٢٣٤٥٦", "12345", "1234567", "-00001"])
+def test_odd_codes_are_wrong_codes(pairings: Pairings, typed: str) -> None:
+    pairings.begin()
+    with pytest.raises(NotPairedError):
+        pairings.enter(typed, "odd")
+
+
+def test_the_file_has_no_token_and_a_new_start_knows_it(pairings: Pairings, tmp_path: Path, clocks: Clocks) -> None:
+    token = pairings.token("curl")
+    assert token not in (tmp_path / "paired.json").read_text()
+    again = opened(tmp_path, clocks).known(token)
+    assert again is not None
+    assert again.name == "curl"
+
+
+def test_a_revoked_token_is_none(pairings: Pairings) -> None:
+    token = pairings.token("lost phone")
+    one = pairings.known(token)
+    assert one is not None
+    assert pairings.revoke(one.number) == ""
+    assert pairings.known(token) is None
+    assert "no browser or program" in pairings.revoke(one.number)
+
+
+def test_a_token_that_was_not_seen_for_half_a_year_is_none(pairings: Pairings, clocks: Clocks) -> None:
+    used, forgotten = pairings.token("used"), pairings.token("forgotten")
+    for _ in range(4):
+        clocks.pass_by(LASTS_S / 3)
+        assert pairings.known(used) is not None
+    assert pairings.known(forgotten) is None
+    assert [one.name for one in pairings.all()] == ["used"]
+
+
+@pytest.mark.parametrize("ahead_s", [-1.7e9, 20 * LASTS_S])
+def test_a_wrong_clock_ends_no_pairing(pairings: Pairings, clocks: Clocks, ahead_s: float) -> None:
+    before = pairings.token("before")
+    clocks.right = False
+    clocks.utc_s += ahead_s
+    assert pairings.known(before) is not None
+    during = pairings.token("during")
+    clocks.right = True
+    clocks.utc_s -= ahead_s
+    assert pairings.known(before) is not None
+    assert pairings.known(during) is not None
+    clocks.pass_by(LASTS_S + 2 * 86_400.0)
+    assert pairings.known(before) is None
+
+
+def test_two_browsers_of_one_name_are_told_apart(pairings: Pairings) -> None:
+    for _ in range(3):
+        pairings.token("x" * 99)
+    names = [one.name for one in pairings.all()]
+    assert len(set(names)) == 3
+    assert max(map(len, names)) == 40
+
+
+def test_a_number_is_never_given_again_also_after_a_new_start(
+    pairings: Pairings, tmp_path: Path, clocks: Clocks
+) -> None:
+    pairings.token("one")
+    pairings.token("two")
+    pairings.revoke(2)
+    again = opened(tmp_path, clocks)
+    again.token("three")
+    assert [one.number for one in again.all()] == [1, 3]
+
+
+def test_to_know_who_stops_the_antenna_does_not_wait_for_the_disk(tmp_path: Path, clocks: Clocks) -> None:
+    class SlowFile(PairedFile):
+        """Its disk takes as long as the test likes."""
+
+        def save(self, paired: Sequence[Paired], highest: int) -> bool:
+            writes.set()
+            assert may_end.wait(60.0)
+            return super().save(paired, highest)
+
+    writes, may_end = threading.Event(), threading.Event()
+    may_end.set()
+    slow = Pairings(SlowFile(tmp_path / "paired.json"), lambda: clocks.now_s, lambda: clocks.utc_s)
+    token = slow.token("phone")
+    may_end.clear()
+    writes.clear()
+    clocks.pass_by(2 * 86_400.0)
+    assert slow.known(token) is not None
+    assert not writes.is_set()
+    writer = threading.Thread(target=slow.keep)
+    writer.start()
+    assert writes.wait(60.0)
+    assert slow.known(token) is not None
+    may_end.set()
+    writer.join()
+
+
+def test_numbers_are_never_given_twice_while_one_lives(pairings: Pairings) -> None:
+    for _ in range(MOST + 5):
+        pairings.token("many")
+    numbers = [one.number for one in pairings.all()]
+    assert len(set(numbers)) == len(numbers) == MOST
+
+
+@pytest.mark.parametrize(
+    ("given", "kept"), [("<b>x</b>#1", "bx/b1"), ("\x1b[31mred", "[31mred"), ("", "browser"), ("a" * 99, "a" * 40)]
+)
+def test_a_name_is_kept_as_plain_text(pairings: Pairings, given: str, kept: str) -> None:
+    pairings.token(given)
+    assert pairings.all()[0].name == kept

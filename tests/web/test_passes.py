@@ -1,0 +1,80 @@
+"""The passes of the next day: another process computes them, once for all who look."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from rotator.config.station import NO_PLACE
+from rotator.web.computed import ERROR_KEPT_S, LEAST_PRIORITY
+from rotator.web.passes import KEPT_S, Passes, command
+from tests.orbits import skyfield_oracle
+from tests.web.conftest import PATIENCE_S
+
+
+def printing(text: str, code: int = 0, *, to: str = "stdout") -> tuple[str, ...]:
+    return (sys.executable, "-c", f"import sys; sys.{to}.write({text!r}); sys.exit({code})")
+
+
+async def computed(passes: Passes) -> dict[str, Any]:
+    """Ask until they are there, as the page does."""
+    async with asyncio.timeout(PATIENCE_S):
+        while (told := passes.told()) is None:
+            await asyncio.sleep(0.01)
+        return told
+
+
+def test_an_error_is_not_kept_for_long() -> None:
+    now_s = [0.0]
+
+    async def main() -> None:
+        passes = Passes(printing("", 3), lambda: now_s[0])
+        assert "error" in await computed(passes)
+        now_s[0] = ERROR_KEPT_S
+        assert passes.told() is None
+        await computed(passes)
+
+    asyncio.run(main())
+
+
+def test_they_are_those_of_the_command_line(tmp_path: Path) -> None:
+    config = tmp_path / "r.toml"
+    config.write_text(f'[station]\nlocator = "JN18eu"\n[sky]\nelements = ["{skyfield_oracle.TLE}"]\n', encoding="utf-8")
+    words = command(config)[len(LEAST_PRIORITY) :]  # a busy machine would let the test wait
+    told = asyncio.run(computed(Passes(words, lambda: 0.0)))
+    assert "error" in told or {"name", "aos", "los", "max_el_deg"} <= told["passes"][0].keys()
+
+
+def test_they_are_kept_for_a_while(tmp_path: Path) -> None:
+    counts = tmp_path / "counts"
+    words = (sys.executable, "-c", f"open({str(counts)!r}, 'a').write('x'); print('[]')")
+    now_s = [0.0]
+
+    async def main() -> None:
+        passes = Passes(words, lambda: now_s[0])
+        assert passes.told() is None, "nobody waits for them"
+        assert await asyncio.gather(computed(passes), computed(passes)) == [{"passes": []}] * 2
+        assert counts.read_text() == "x"
+        now_s[0] = KEPT_S
+        await computed(passes)
+        assert counts.read_text() == "xx"
+
+    asyncio.run(main())
+
+
+@pytest.mark.parametrize(
+    ("words", "error"),
+    [
+        (None, NO_PLACE),
+        (printing("rotator: name a target\n", 1, to="stderr"), "name a target"),
+        (printing("no JSON"), "the passes cannot be read"),
+        (printing("", 3), "the passes cannot be computed"),
+    ],
+)
+def test_a_box_without_a_sky_says_why(words: tuple[str, ...] | None, error: str) -> None:
+    told = asyncio.run(computed(Passes(words, lambda: 0.0)))
+    assert told["error"].startswith(error)

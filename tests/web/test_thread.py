@@ -1,0 +1,59 @@
+"""The thread of the page: a page that has failed takes no connection any more, and says so."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from pathlib import Path
+
+import pytest
+
+from rotator.app import App
+from rotator.config.load import parse
+from rotator.runtime.event_watch import EventWatch
+from tests.boxes import file_with_page, free_port
+from tests.web.conftest import page_of
+
+PATIENCE_S = 30.0
+
+
+def test_its_event_loop_is_watched_from_its_start_to_its_end(tmp_path: Path) -> None:
+    port = free_port()
+    config = parse(file_with_page(tmp_path, port), "test")
+    events = EventWatch(lambda: 0.0)
+    page = page_of(App(config), events=events)
+    assert events.stalled_s(100.0) == 0.0, "it has not begun"
+    page.start()
+    try:
+        with socket.create_connection(("127.0.0.1", port), PATIENCE_S) as browser:
+            browser.sendall(b"GET /api/me HTTP/1.1\r\nHost: localhost\r\n\r\n")
+            assert browser.recv(12) == b"HTTP/1.1 200"
+        assert events.stalled_s(100.0) == 100.0
+    finally:
+        page.stop()
+    assert events.stalled_s(100.0) == 0.0, "a page that has ended is not watched"
+
+
+def test_a_page_that_has_failed_hangs_up_and_is_closed(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    port, broken = free_port(), threading.Event()
+    config = parse(file_with_page(tmp_path, port), "test")
+
+    def clock() -> float:
+        if broken.is_set():
+            raise OverflowError("no time")
+        return 0.0
+
+    page = page_of(App(config), clock=clock)
+    page.start()
+    try:
+        with socket.create_connection(("127.0.0.1", port), PATIENCE_S) as browser:
+            browser.sendall(b"GET /api/me HTTP/1.1\r\nHost: localhost\r\n\r\n")
+            assert browser.recv(12) == b"HTTP/1.1 200"
+            broken.set()
+            while browser.recv(4096):
+                pass
+        with pytest.raises(ConnectionRefusedError):
+            socket.create_connection(("127.0.0.1", port), PATIENCE_S)
+    finally:
+        page.stop()
+    assert [record.getMessage() for record in caplog.records] == ["page: it has failed; the box runs on without it"]
