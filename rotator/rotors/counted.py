@@ -100,9 +100,15 @@ class CountedAxis:
         """Whether the contact is closed now. Raises HardwareError."""
         return self._counter.closed
 
-    def may_start(self) -> bool:
-        """Whether the motor may be switched on now: its file is ready for a move."""
-        return self._counts_writer is None or self._counts_writer.may_start(self._axis, self._clock())
+    def start(self, close_relay: Callable[[], Direction]) -> Direction:
+        """Start the motor if its file is ready for a move; OFF: ask again. Raises HardwareError.
+
+        One step for the sensor thread: an angle read between the two would be written as one at rest.
+        """
+        with self._lock:
+            if self._counts_writer and not self._counts_writer.may_start(self._axis):
+                return Direction.OFF
+            return close_relay()
 
     def place(self, angle_deg: float) -> None:
         """The axis stands at this angle of the rotor's own scale: at its end stop, or confirmed by a user.
@@ -138,7 +144,6 @@ class CountedAxis:
                 self._counts_writer.lost(self._axis)
             self._reported_lost = True
             return
-        # Before it is looked at: a motor that starts meanwhile makes this angle an old one.
         now_s = self._clock()
         if self._counter.at_rest and now_s - self._reported_s >= KEEP_EVERY_S:
             self._reported_s = now_s
@@ -171,9 +176,10 @@ class CountedRotor(RelayRotor):
     def obey(self, axis: Axis, command: Command) -> Direction:
         runs = isinstance(command, Run) and command.direction is not Direction.OFF
         starts = runs and self.bank.driven()[axis] is Direction.OFF
-        if starts and axis in self._axes and not self._axes[axis].may_start():
-            return Direction.OFF
-        return super().obey(axis, command)
+        obey = super().obey
+        if starts and axis in self._axes:
+            return self._axes[axis].start(lambda: obey(axis, command))
+        return obey(axis, command)
 
     def run(self, errand: Errand) -> None:
         match errand:

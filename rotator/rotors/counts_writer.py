@@ -6,7 +6,6 @@ moving. Does not know the file's form, nor when an angle is worth a write: `rota
 
 from __future__ import annotations
 
-import math
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -17,9 +16,6 @@ from rotator.store.counts import CountsFile, Place
 
 COUNTS_THREAD = "counts"
 """The writing thread's name begins with this."""
-
-STARTS_S = 2.0
-"""So long after it was let start a motor may not have been seen to turn: an angle of that time is none at rest."""
 
 Later = Callable[[Callable[[], None]], object]
 """Runs a job soon, one job after the other."""
@@ -42,7 +38,8 @@ class Mark(Enum):
 class CountsWriter:
     """`later` runs the writing jobs; None: the writer starts a thread for them, which `close` ends.
 
-    After `close` no motor may start, and the other calls do nothing: a sensor thread may run longer than the rotor.
+    The caller lets no `rests` come between `may_start` and the relay that closes. After `close` no motor may start, and
+    the other calls do nothing: a sensor thread may run longer than the rotor.
     """
 
     def __init__(self, file: CountsFile, later: Later | None = None) -> None:
@@ -50,10 +47,6 @@ class CountsWriter:
         self._pool = ThreadPoolExecutor(1, COUNTS_THREAD) if later is None else None
         self._run_later: Later = self._pool.submit if self._pool else later or at_once
         self._marks = dict.fromkeys(Axis, Mark.NONE)
-        self._let_s = dict.fromkeys(Axis, -math.inf)
-        """When the motor of each axis was last let start."""
-        self._starting = threading.Lock()
-        """The control thread lets a motor start while the sensor thread says that it rests: one after the other."""
         self._closing = threading.Lock()
         self._closed = False
 
@@ -61,30 +54,23 @@ class CountsWriter:
         """The counts of the last run. Call this before any other method."""
         return self._file.load()
 
-    def may_start(self, axis: Axis, now_s: float) -> bool:
+    def may_start(self, axis: Axis) -> bool:
         """Whether the motor may start now. False: not yet (ask again), or not at all (`trouble` says why)."""
         if self._closed:
             return False
-        with self._starting:
-            if self._marks[axis] in (Mark.NONE, Mark.REFUSED):
-                self._marks[axis] = Mark.ASKED
-                self._later(lambda: self._mark(axis))
-            if self._marks[axis] is not Mark.SET:
-                return False
-            self._let_s[axis] = now_s
-            return True
+        if self._marks[axis] in (Mark.NONE, Mark.REFUSED):
+            self._marks[axis] = Mark.ASKED
+            self._later(lambda: self._mark(axis))
+        return self._marks[axis] is Mark.SET
 
     def trouble(self, axis: Axis) -> str:
         """Why the motor may not start; empty when it may start now or soon."""
         return self._file.trouble if self._marks[axis] is Mark.REFUSED else ""
 
     def rests(self, now_s: float, axis: Axis, angle_deg: float) -> None:
-        """The axis stood at this angle on the rotor's own scale at `now_s`, and its count is right."""
-        with self._starting:
-            if now_s - self._let_s[axis] < STARTS_S:
-                return  # its motor may run by now
-            self._marks[axis] = Mark.NONE
-            self._later(lambda: self._file.rest(now_s, axis, angle_deg))
+        """The axis stands at this angle on the rotor's own scale, and its count is right."""
+        self._marks[axis] = Mark.NONE
+        self._later(lambda: self._file.rest(now_s, axis, angle_deg))
 
     def lost(self, axis: Axis) -> None:
         """The count of the axis may be wrong."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 
 import pytest
@@ -107,6 +108,36 @@ def test_the_file_says_so_before_the_relay_closes(path: Path) -> None:
     assert mast.on_disk().standing is Standing.LOST
 
 
+def test_the_sensor_thread_writes_no_rest_between_the_mark_and_the_relay(path: Path) -> None:
+    """It looked before the relay closed, and would take back the mark of an axis that turns."""
+    mast = Mast(path, KNOWN)
+    mast.wait(3.0)
+    has_read = threading.Event()
+
+    def read() -> None:
+        mast.axis.read()
+        has_read.set()
+
+    def close_relay() -> Direction:
+        threading.Thread(target=read).start()
+        assert not has_read.wait(0.05)
+        return mast.rig.bank.drive(AZ, PLUS, mast.rig.clock() + 0.2)
+
+    assert mast.axis.start(close_relay) is PLUS
+    assert has_read.wait(10.0)
+    mast.counts_writer.close()
+    assert mast.on_disk().standing is Standing.LOST, "moving"
+
+
+def test_a_stop_soon_after_a_short_move_keeps_the_count(path: Path) -> None:
+    """It rests again 1.2 s after its motor was let start."""
+    mast = Mast(path, KNOWN)
+    mast.run(PLUS, 0.2)
+    mast.wait(1.0)
+    mast.rotor.close()
+    assert mast.on_disk().standing is Standing.KNOWN
+
+
 def test_a_file_that_cannot_say_so_keeps_the_relay_open(path: Path) -> None:
     mast = Mast(path, KNOWN)
     mast.wait(1.0)
@@ -201,5 +232,5 @@ def test_without_a_file_nothing_is_waited_for() -> None:
     rig = PulseRig(180.0)
     axis = CountedAxis(AZ, rig.counter, None, rig.clock)
     axis.begin(KNOWN)
-    assert axis.may_start()
+    assert axis.start(lambda: PLUS) is PLUS
     assert axis.read() == pytest.approx(180.0, abs=0.3)

@@ -61,50 +61,38 @@ def test_what_was_kept_is_there_before_anything_else(path: Path) -> None:
 
 def test_a_motor_waits_until_the_file_says_that_it_moves(path: Path, disk: SlowDisk) -> None:
     counts_writer = CountsWriter(known(path), disk)
-    assert [counts_writer.may_start(AZ, 0.0) for _ in range(3)] == [False] * 3, "asked once, and then waited for"
+    assert [counts_writer.may_start(AZ) for _ in range(3)] == [False] * 3, "asked once, and then waited for"
     assert len(disk.jobs) == 1
     assert standing(path) is Standing.KNOWN
     disk.work()
     assert standing(path) is Standing.LOST, "moving, when it is read again"
-    assert counts_writer.may_start(AZ, 0.0)
+    assert counts_writer.may_start(AZ)
     assert standing(path, EL) is Standing.KNOWN
     assert counts_writer.trouble(AZ) == ""
 
 
 def test_the_mark_stays_while_it_goes_from_step_to_step(path: Path, disk: SlowDisk) -> None:
     counts_writer = CountsWriter(known(path), disk)
-    counts_writer.may_start(AZ, 0.0)
+    counts_writer.may_start(AZ)
     disk.work()
-    assert [counts_writer.may_start(AZ, 0.0) for _ in range(5)] == [True] * 5
+    assert [counts_writer.may_start(AZ) for _ in range(5)] == [True] * 5
     assert disk.jobs == []
 
 
 def test_after_a_rest_the_file_is_asked_again(path: Path, disk: SlowDisk) -> None:
     counts_writer = CountsWriter(known(path), disk)
-    counts_writer.may_start(AZ, 0.0)
+    counts_writer.may_start(AZ)
     disk.work()
     counts_writer.rests(50.0, AZ, 120.0)
-    assert not counts_writer.may_start(AZ, 0.0), "the rest may be on its way to the disk"
+    assert not counts_writer.may_start(AZ), "the rest may be on its way to the disk"
     disk.work()
-    assert counts_writer.may_start(AZ, 0.0)
+    assert counts_writer.may_start(AZ)
     assert standing(path) is Standing.LOST
-
-
-def test_an_angle_at_rest_that_is_told_after_the_motor_was_let_start_is_none(path: Path) -> None:
-    """The sensor thread had no turn between looking and telling: the motor turns by now."""
-    counts_writer = CountsWriter(known(path), at_once)
-    counts_writer.may_start(AZ, 40.0)
-    looked_s = 99.9
-    assert counts_writer.may_start(AZ, 100.0)
-    counts_writer.rests(looked_s, AZ, 120.0)
-    assert standing(path) is Standing.LOST, "moving, as before"
-    counts_writer.close()
-    assert standing(path) is Standing.LOST, "a program that ends now leaves no old angle as a good one"
 
 
 def test_a_rest_of_some_seconds_is_kept(path: Path) -> None:
     counts_writer = CountsWriter(known(path), at_once)
-    counts_writer.may_start(AZ, 0.0)
+    counts_writer.may_start(AZ)
     for moment_s in (100.0, 101.0, 102.5):
         counts_writer.rests(moment_s, AZ, 123.0)
     assert CountsFile(path, CAMS).load()[AZ] == Place(Standing.KNOWN, 123.0)
@@ -114,15 +102,15 @@ def test_a_file_that_cannot_be_written_refuses_and_says_why(path: Path, disk: Sl
     counts_writer = CountsWriter(known(path), disk)
     path.unlink()
     path.mkdir()
-    assert not counts_writer.may_start(AZ, 0.0)
+    assert not counts_writer.may_start(AZ)
     assert counts_writer.trouble(AZ) == "", "nothing is known yet"
     disk.work()
     assert "directory" in counts_writer.trouble(AZ)
     assert counts_writer.trouble(EL) == "", "nobody has asked for the other"
-    assert not counts_writer.may_start(AZ, 0.0)
+    assert not counts_writer.may_start(AZ)
     path.rmdir()
     disk.work()
-    assert counts_writer.may_start(AZ, 0.0)
+    assert counts_writer.may_start(AZ)
     assert counts_writer.trouble(AZ) == ""
 
 
@@ -133,7 +121,7 @@ def test_what_is_lost_anyway_may_move_whatever_the_disk_does(path: Path) -> None
     assert standing(path) is Standing.LOST
     path.unlink()
     path.mkdir()
-    assert counts_writer.may_start(AZ, 0.0)
+    assert counts_writer.may_start(AZ)
 
 
 def test_homed_it_is_known_again(path: Path) -> None:
@@ -147,7 +135,7 @@ def test_in_real_time_a_thread_of_its_own_writes_and_ends(path: Path) -> None:
     counts_writer = CountsWriter(known(path))
     give_up = threading.Event()
     for _ in range(round(PATIENCE_S / 0.005)):
-        if counts_writer.may_start(AZ, 0.0):
+        if counts_writer.may_start(AZ):
             break
         give_up.wait(0.005)
     assert standing(path) is Standing.LOST
@@ -162,7 +150,7 @@ def test_closed_it_writes_no_more_and_lets_nothing_start(path: Path) -> None:
     counts_writer = CountsWriter(known(path))
     counts_writer.close()
     counts_writer.close()
-    assert not counts_writer.may_start(AZ, 0.0)
+    assert not counts_writer.may_start(AZ)
     counts_writer.rests(100.0, AZ, 130.0)
     counts_writer.lost(AZ)
     counts_writer.homed(AZ, 130.0)
