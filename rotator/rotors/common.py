@@ -23,7 +23,7 @@ def no_switches(_axis: Axis) -> frozenset[Direction]:
 
 
 class PlainRotor:
-    """Default answers: no switched supply, no index contact, nothing to check."""
+    """Default answers: no switched supply, no index contact, no way that is counted, nothing to check."""
 
     def closed_contacts(self) -> frozenset[Axis]:
         return frozenset()
@@ -36,6 +36,9 @@ class PlainRotor:
 
     def check(self) -> None:
         pass
+
+    def coasts(self) -> bool:
+        return False
 
 
 class GuardedRotor(PlainRotor):

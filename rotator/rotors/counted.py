@@ -59,6 +59,8 @@ class CountedAxis:
         self._doubt = ""
         """Why the stored count is not trusted. The counter's own reason is in its `trouble`."""
         self._reported_s = 0.0
+        self._moved = False
+        """It has moved since its last angle at rest was reported."""
         self._reported_lost = False
 
     def begin(self, kept: counts.Place) -> None:
@@ -100,6 +102,11 @@ class CountedAxis:
         """Whether the contact is closed now. Raises HardwareError."""
         return self._counter.closed
 
+    @property
+    def coasts(self) -> bool:
+        """After its relays have opened: it may still turn, and its count is right so far."""
+        return self._moved and not self._doubt and not self._counter.trouble
+
     def start(self, close_relay: Callable[[], Direction]) -> Direction:
         """Start the motor if its file is ready for a move; OFF: ask again. Raises HardwareError.
 
@@ -108,7 +115,10 @@ class CountedAxis:
         with self._lock:
             if self._counts_writer and not self._counts_writer.may_start(self._axis):
                 return Direction.OFF
-            return close_relay()
+            moved, self._moved = self._moved, True  # also where the line fails: its relay may have closed
+            way = close_relay()
+            self._moved = moved or way is not Direction.OFF
+            return way
 
     def place(self, angle_deg: float) -> None:
         """The axis stands at this angle of the rotor's own scale: at its end stop, or confirmed by a user.
@@ -145,8 +155,8 @@ class CountedAxis:
             self._reported_lost = True
             return
         now_s = self._clock()
-        if self._counter.at_rest and now_s - self._reported_s >= KEEP_EVERY_S:
-            self._reported_s = now_s
+        if self._counter.at_rest and (self._moved or now_s - self._reported_s >= KEEP_EVERY_S):
+            self._reported_s, self._moved = now_s, False
             self._counts_writer.rests(now_s, self._axis, angle_deg)
 
 
@@ -190,6 +200,9 @@ class CountedRotor(RelayRotor):
 
     def closed_contacts(self) -> frozenset[Axis]:
         return frozenset(axis for axis, each in self._axes.items() if each.closed)
+
+    def coasts(self) -> bool:
+        return self._counts_writer is not None and any(axis.coasts for axis in self._axes.values())
 
     def close(self) -> None:
         try:

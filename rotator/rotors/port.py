@@ -46,6 +46,9 @@ class Rotor(Protocol):
     def restore(self) -> None:
         """Allow the motors' supply again. It comes on with the next motor that runs."""
 
+    def coasts(self) -> bool:
+        """After `off`: a motor turns on, and its sensor counts the way. From any thread."""
+
     def start(self) -> None:
         """Begin in real time: start the guard and all other threads."""
 

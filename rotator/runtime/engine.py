@@ -13,13 +13,13 @@ from contextlib import suppress
 
 from hw.ports import HardwareError
 from rotator.rotors.port import Rotor
-from rotator.runtime.loop import ControlLoop
+from rotator.runtime.loop import COAST_S, ControlLoop
 
 log = logging.getLogger(__name__)
 
 CONTROL_THREAD = "control"
 """The name of the thread."""
-JOIN_S = 2.0
+JOIN_S = 2.0 + COAST_S
 
 
 async def process_end(pid: int) -> None:
@@ -56,6 +56,7 @@ class ControlThread:
             await asyncio.wait([self.ended], timeout=JOIN_S)
         if self.ended.done():
             return self.ended.result()
+        self._loop.leave()
         log.error("the control thread does not end; the relays are off")
         return None
 

@@ -25,6 +25,8 @@ log = logging.getLogger(__name__)
 
 LATE_PERIODS = 1.5
 """Without new readings for so many periods the loop acts all the same, and notices that the sensors are silent."""
+COAST_S = 1.5
+"""At its end the loop waits so long at most for a motor that coasts: the next run needs its count."""
 SUPPLY, HEARTBEAT, LINKS, PAGE_LOOP = "supply", "heartbeat", "the links", "the page"
 DRIVES = {axis: f"{axis.value} drive" for axis in Axis}
 MUST_OBEY = (SUPPLY, LINKS, *DRIVES.values())
@@ -148,8 +150,9 @@ class ControlLoop:
         finally:
             try:
                 self._rotor.off()
+                self._see_the_coast()
             finally:
-                self.stop()
+                self.leave()
                 self._sensors.join()
 
     def fail(self, failure: Exception) -> None:
@@ -160,8 +163,18 @@ class ControlLoop:
     def stop(self) -> None:
         """Let `run` end, from any thread. May be called twice."""
         self._stopping = True
-        self._sensors.stop()
         self._wake.set()
+
+    def leave(self) -> None:
+        """Let the sensors' thread end too, also where `run` hangs. May be called twice, from any thread."""
+        self.stop()
+        self._sensors.stop()
+
+    def _see_the_coast(self) -> None:
+        give_up_s = self._clock() + COAST_S
+        while self._rotor.coasts() and self._sensors.failure is None and self._clock() < give_up_s:
+            self._wake.wait(self._period_s)
+            self._wake.clear()
 
     def _watch_links(self, now_s: float) -> None:
         """While an event loop stands still, what it serves cannot stop the antenna: end what was ordered there."""

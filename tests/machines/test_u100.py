@@ -124,8 +124,13 @@ def parked(machine: Shack, pc: Terminal, chance: random.Random) -> None:
     machine.rotator("resume")
     order(pc, (chance.choice([60.0, 300.0]), 30.0))
     with_motion(machine)
+    time.sleep(chance.uniform(0.0, 1.0))
     pc.close()
     ended_well(machine)
+    # The end waits for the coast, so the count is kept.
+    axes = json.loads(Path(machine.folder, "counts.json").read_text())["axes"]
+    kept = [axes[axis].get("angle_deg") for axis in ("azimuth", "elevation")]
+    assert kept == pytest.approx(machine.world().shafts_deg, abs=SPEED_DPS * 0.5), machine.log()
 
 
 def test_a_day_with_the_pc(shack: Callable[..., Shack], chance: random.Random) -> None:

@@ -14,6 +14,7 @@ from rotator.control.commands import Run
 from rotator.control.sky.offsets import Offsets
 from rotator.rotors.counted import CountedAxis, CountedRotor
 from rotator.rotors.counts_writer import CountsWriter, at_once
+from rotator.runtime.loop import COAST_S
 from rotator.store.counts import LOST, NEVER, CountsFile, Place, Standing
 from tests.hw.sensors.pulse_rig import AZ, CYCLE_S, STANDS_S, PulseRig
 
@@ -136,6 +137,27 @@ def test_a_stop_soon_after_a_short_move_keeps_the_count(path: Path) -> None:
     mast.wait(1.0)
     mast.rotor.close()
     assert mast.on_disk().standing is Standing.KNOWN
+
+
+def test_it_coasts_until_its_angle_at_rest_is_told(path: Path) -> None:
+    """The end of the program waits for that: the next run goes on from the count."""
+    mast = Mast(path, KNOWN)
+    mast.wait(1.0)
+    assert not mast.rotor.coasts()
+    mast.run(PLUS, 3.0)
+    assert mast.rotor.coasts()
+    waits_from_s = mast.rig.clock()
+    while mast.rotor.coasts():
+        mast.wait(CYCLE_S)
+    assert 0.1 < mast.rig.clock() - waits_from_s < COAST_S
+    mast.rotor.close()
+    assert mast.on_disk().angle_deg == pytest.approx(mast.rig.shaft_deg, abs=2.0)
+
+
+def test_a_count_in_doubt_is_not_waited_for(path: Path) -> None:
+    mast = Mast(path, LOST)
+    mast.run(PLUS, 1.0)
+    assert not mast.rotor.coasts()
 
 
 def test_a_file_that_cannot_say_so_keeps_the_relay_open(path: Path) -> None:
