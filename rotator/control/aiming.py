@@ -157,7 +157,13 @@ class Aiming:
         self.forget(axes)
 
     def forget(self, axes: tuple[Axis, ...]) -> None:
-        """Nothing is asked of these axes any more. A path needs both, so the other axis stays where it is."""
+        """Nothing is asked of these axes any more. A path needs both, so the other axis stays where it is.
+
+        Half a planned pass is none: the other axis stops.
+        """
+        if self._flight is not None:
+            for axis in set(self._axes) - set(axes):
+                self._axes[axis].halt()
         self._asked = self._flight = None
         self._pointing.forget(azimuth=Axis.AZIMUTH in axes, elevation=Axis.ELEVATION in axes)
         self._round.forget_paths()

@@ -146,6 +146,19 @@ def test_what_ends_a_flight_ends_it_on_both_axes(either: Any, order: Any) -> Non
     assert max(turned_deg(either, 60.0)) < 0.1
 
 
+@pytest.mark.parametrize("order", [Jog(EL, Direction.PLUS, 0.2), Aim(None, 15.0), Stop((EL,))], ids=str)
+def test_an_order_for_one_axis_stops_the_other_on_its_way_to_where_the_pass_begins(desk: Any, order: Order) -> None:
+    begin_s = desk.now_s + 60.0
+    path = tuple((begin_s + PLAN_STEP_S * count, 250.0, 10.0) for count in range(10))
+    azimuth, elevation = (AxisPlan(begin_s, (angle_deg,) * 10, ()) for angle_deg in (250.0, 10.0))
+    desk.step(Fly("ISS", path, azimuth, elevation), by=TRACK)
+    desk.run(5.0)
+    assert desk.driven[AZ] is Direction.PLUS
+    desk.step(order, by=OTHER)
+    assert desk.status.flown is None
+    assert turned_deg(desk, 20.0)[0] == pytest.approx(0.0, abs=0.1)
+
+
 def test_resume_without_a_stop_or_a_fault_lets_the_flight_go_on(either: Any) -> None:
     fly(either)
     either.step(Release(), by=CONSOLE)

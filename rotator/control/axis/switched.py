@@ -47,6 +47,8 @@ class SwitchedAxis:
     def __init__(self, settings: SwitchedSettings, *, lease_s: float, period_s: float) -> None:
         self.settings = settings
         self._goal: AimGoal | JogGoal | HomeGoal | None = None
+        self._decided_s: float | None = None
+        """When it decided last: each order that comes makes it decide anew."""
         self._attempts = Attempts(settings.axis, settings.limits, settings.sensor)
         self._vain = VainPresses()
         self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
@@ -185,17 +187,19 @@ class SwitchedAxis:
         self._gate.checked()
 
     def decide(self, now_s: float) -> Decision:
+        past_s = 0.0 if self._decided_s is None else now_s - self._decided_s
+        self._decided_s = now_s
         begun = isinstance(self._goal, HomeGoal) and self._goal.homing.begun
         self._gate.homes(homing=begun, failed=self.fault is not None)
-        run = self._safe(self._wish(now_s), now_s)
+        run = self._safe(self._wish(now_s), now_s, past_s)
         if isinstance(self._goal, HomeGoal) and self._goal.homing.homed:
             homed_deg = self._goal.homing.home_deg
             self._goal = None
             return Decision(run, homed_deg)
         return Decision(run)
 
-    def _safe(self, run: Run, now_s: float) -> Run | Feed:
-        """The run, unless a relay, a limit or the motor's heat forbids it."""
+    def _safe(self, run: Run, now_s: float, past_s: float) -> Run | Feed:
+        """The run, unless a relay, a limit or the motor's heat forbids it. `past_s`: since the last one."""
         if run.direction is Direction.OFF:
             self._gate.rests()
             return run
@@ -208,7 +212,7 @@ class SwitchedAxis:
             return self._law.rest(now_s)
         passed = self._gate.passed(run, now_s)
         if self._gate.waiting and isinstance(self._goal, JogGoal):
-            self._goal = self._goal.put_off(self._timing.period_s)
+            self._goal = self._goal.put_off(past_s)
         return passed
 
     def sweep(self, now_s: float, command: Command | None) -> Range:
