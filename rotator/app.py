@@ -21,7 +21,14 @@ from rotator.assembly.calibration import calibration_controller
 from rotator.assembly.fetching import build_elements_server, build_fetching
 from rotator.assembly.hands import hands
 from rotator.assembly.links import build_links
-from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets, build_relays_file
+from rotator.assembly.settings import (
+    build_controller,
+    build_latch_file,
+    build_learnt,
+    build_mount,
+    build_offsets,
+    build_relays_file,
+)
 from rotator.assembly.sky import build_sky
 from rotator.assembly.station import Station, fitted_panel
 from rotator.assembly.tracking import build_tracking
@@ -47,8 +54,7 @@ from rotator.runtime.latch_thread import LatchThread
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
 from rotator.spoken import held_by
-from rotator.store import counts, latch
-from rotator.store.latch import LatchFile
+from rotator.store import counts
 from rotator.views import lcd
 from rotator.web.build import build_page, build_pairings
 
@@ -90,7 +96,7 @@ class App:
         self._events, page_events = EventWatch(time.monotonic), EventWatch(time.monotonic)
         self.mount = mount = build_mount(config)
         learnt, relays_file = build_learnt(config), build_relays_file(config)
-        latch_file = LatchFile(Path(config.state.path).with_name(latch.FILE_NAME))
+        latch_file = build_latch_file(config)
         # A new start by the page knows the stop even where a full disk has not taken it.
         stopped = latch_file.load() or self._anew.latch
         self._latch = LatchThread(latch_file, stopped)

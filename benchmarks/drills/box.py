@@ -39,7 +39,8 @@ from rotator.runtime.autosave import CALIBRATIONS_EVERY_S, Autosave
 from rotator.runtime.client import Client
 from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.loop import ControlLoop
-from rotator.store import counts, knobs
+from rotator.store import counts, knobs, latch
+from rotator.store.latch import LatchFile
 
 SENTINEL_S = 0.04
 """So soon after the death of the program its sentinel has opened the relays (docs/safety.md)."""
@@ -95,7 +96,11 @@ class Box:
         learnt, relays = build_learnt(config), build_relays_file(config)
         commissioning = Axis(drill.commissioning) if drill.commissioning else None
         trusts = relays.load() if relays else None
-        controller = build_controller(config, learnt.load(), commissioning, trusts=trusts, panel=config.panel.fitted)
+        kept = LatchFile(folder / latch.FILE_NAME)
+        stopped = kept.load()
+        controller = build_controller(
+            config, learnt.load(), commissioning, trusts=trusts, latch=stopped, panel=config.panel.fitted
+        )
         self.events = EventWatch(clock)
         """The watch over the event loop that serves the links; the drill ticks for it."""
         self.loop = ControlLoop(
@@ -105,6 +110,7 @@ class Box:
             1 / config.control.rate_hz,
             after_good_step=self.station.beat,
             events=self.events,
+            keep_latch=kept.save,  # the thread that writes it takes no simulated time
         )
         self._autosave = Autosave(self.loop, None, build_offsets(config), learnt, relays)
         self._kept_s = clock()

@@ -45,10 +45,6 @@ class FrontPanel:
         """Whether the mode switch turns, and may count by now."""
         return self._turn is not None and self._turn.since_s <= now_s
 
-    def begin_anew(self) -> None:
-        """The program begins anew, and reads the switch again."""
-        self.mode = "auto"
-
     def turn(self, mode: str, at_s: float) -> None:
         releases = not self.pressed and self._pulled_s <= at_s
         self._turn, self._due_s = Turned(mode, at_s + STILL_S, releases), at_s + STILL_AT_MOST_S

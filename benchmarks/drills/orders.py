@@ -26,6 +26,8 @@ PUT_OFF_S = 6.0
 """A jog with a time may begin so late: when the axis has been seen to stand."""
 PANEL_S = 0.2
 """A jog switch is read twice before it counts, and once when it is let go."""
+TAKEN_S = 0.2
+"""A program that is killed so soon after a stop may not have taken it."""
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -81,7 +83,10 @@ class Orders:
         self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
         self.heard = 0
         """How many orders there have been."""
-        self._storm = False
+        self._storm = self._storms = False
+        """A person has asked for a storm park; it holds for certain."""
+        self._stopped_s = math.inf
+        """When a person last stopped it, or parked it before a storm."""
         self._shifts = Shifts()
 
     @property
@@ -102,10 +107,11 @@ class Orders:
         return self.axes[axis].ended_s or 0.0
 
     def forget_all(self, now_s: float) -> None:
-        """The program ends, and all orders with it; a new one begins with no order, and no stop."""
+        """The program ends, and all orders with it. A stop that it had time to take goes on in the new one."""
+        stopped = (self.latched or self._storms) and now_s - self._stopped_s > TAKEN_S
         self._forget(now_s)
         self._release(now_s)
-        self._panel.begin_anew()
+        self.latched = self.latched or stopped
         self._shifts = Shifts()
         self._tracked.begin_anew()
 
@@ -122,7 +128,7 @@ class Orders:
                 self._turned_s[axis] = now_s
         if self._panel.pressed and not self.latched:
             self._forget(now_s)
-            self.latched = True
+            self.latched, self._stopped_s = True, now_s
         before = self._panel.mode
         if (turned := self._panel.look(now_s)) is not None:
             if turned.mode != before:
@@ -162,7 +168,7 @@ class Orders:
         match event.what:
             case "stop" | "let-go":
                 self._forget(event.at_s)
-                self.latched = True
+                self.latched, self._stopped_s = True, event.at_s
                 self.acknowledged_s = event.at_s
             case "resume":
                 self._release(event.at_s)
@@ -171,7 +177,8 @@ class Orders:
                     # An antenna that must be homed first cannot park: what goes on then goes on.
                     if not self._counts:
                         self._forget(event.at_s)
-                    self._storm = True
+                    self._storm, self._stopped_s = True, event.at_s
+                    self._storms = not self._counts and self._panel.mode == "auto" and self._panel.settled
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
             case "home":
@@ -245,6 +252,7 @@ class Orders:
                 self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds)
             case "stop":
                 self._forget(event.at_s)
+                self.latched = self.latched or self._storms  # it ends the way to the park position, and no more
                 self.acknowledged_s = event.at_s
             case "stop-axis":
                 self._end(event.text(0), event.at_s)
@@ -263,6 +271,7 @@ class Orders:
 
     def _release(self, now_s: float) -> None:
         self.latched, self._storm = self._panel.pressed, False
+        self._storms = False
         self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
 

@@ -29,6 +29,8 @@ from rotator.faults import Missing
 from rotator.orders import Mode
 from rotator.status import ALL_OPEN, Latch, LearntMotor, Trusts
 from rotator.store import relays
+from rotator.store.latch import FILE_NAME as LATCH_NAME
+from rotator.store.latch import LatchFile
 from rotator.store.learnt import LearntFile, Motors
 from rotator.store.relays import RelaysFile
 
@@ -66,6 +68,10 @@ def build_relays_file(config: Config) -> RelaysFile | None:
     """The file in which a doubt about a relay survives the program; None where the rotor does not, or has no relays."""
     kept = config.keeps_files and config.rotor.switched
     return RelaysFile(Path(config.state.path).with_name(relays.FILE_NAME)) if kept else None
+
+
+def build_latch_file(config: Config) -> LatchFile:
+    return LatchFile(Path(config.state.path).with_name(LATCH_NAME))
 
 
 def build_learnt(config: Config) -> LearntFile:

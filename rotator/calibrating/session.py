@@ -15,6 +15,7 @@ from typing import Protocol
 
 from hw.ports import Axis
 from rotator.assembly.calibration import compass_path
+from rotator.assembly.settings import build_latch_file
 from rotator.assembly.station import Station
 from rotator.calibrating.results import AngleConfirmed, Result
 from rotator.calibrating.rig import AxisRig, NorthRig, Rig
@@ -27,6 +28,7 @@ from rotator.config.load import ConfigError
 from rotator.config.model import Config
 from rotator.orbits.sight import Target
 from rotator.runtime.engine import Engine
+from rotator.status import Latch
 
 POLL_S = 0.02
 NORTH, SKY = "north", "sky"
@@ -135,6 +137,8 @@ class CalibrationSession:
                 # The motors first: a compass that hangs takes seconds to stop.
                 try:
                     failure = await engine.halt()
+                    if (stopped := rig.loop.status.latch) is not None:
+                        await asyncio.to_thread(self._keep, stopped)
                 finally:
                     try:
                         await stops.end()
@@ -147,6 +151,12 @@ class CalibrationSession:
         if not rig.guide.ended:
             self._screen.show(f"Stopped: the motors stand, nothing of the {task} is saved.")
         return rig.result
+
+    def _keep(self, stopped: Latch) -> None:
+        """A stop holds for the box that is started next, too."""
+        file = build_latch_file(self._config)
+        file.load()
+        file.save(stopped)
 
     async def _save(self, result: Result) -> bool:
         if isinstance(result, AngleConfirmed):

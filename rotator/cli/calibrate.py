@@ -1,7 +1,7 @@
 """`rotator calibrate`: connects a calibration session to the terminal, or to lines on standard input and output.
 
-Reads keys and lines, prints, and refuses to start beside a running box. `calibrating.session` runs the guides, which
-ask the questions.
+Reads keys and lines, prints, and refuses to start beside a running box, or after a stop that nobody has released.
+`calibrating.session` runs the guides, which ask the questions.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from rich.text import Text
 
 from hw.ports import Axis
 from rotator.app import open_station
+from rotator.assembly.settings import build_latch_file
 from rotator.assembly.sky import build_catalogue, build_site
 from rotator.assembly.station import Station
 from rotator.calibrating.receiver import BadAddress
@@ -43,6 +44,7 @@ from rotator.config.station import NO_PLACE
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, Target
 from rotator.orbits.targets import find
+from rotator.spoken import held_by
 from rotator.store.whole import write_whole
 from rotator.views.residual_svg import residual_svg
 
@@ -52,6 +54,7 @@ def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None,
     config = load(path)
     if config.rotor.hardware != "sim":
         _refuse_beside_running_box(path)
+    _refuse_stopped(config)
     tasks = [axis.value for axis in Axis] if what is None else [what]
     return asyncio.run(_run(config, path, faults, tasks, plain=plain))
 
@@ -75,6 +78,7 @@ def calibrate_sky(
         if at_s is not None:
             raise CommandFailed("--at is for a simulated rotor: a real antenna points where the target is now")
         _refuse_beside_running_box(path)
+    _refuse_stopped(config)
     later_s = 0.0 if at_s is None else at_s - time.time()
 
     def utc() -> float:
@@ -237,6 +241,15 @@ def _refuse_beside_running_box(path: Path | None) -> None:
                 "the box is running, or another calibration, and two programs cannot have the motors: end it (sudo "
                 "systemctl stop rotator)"
             )
+
+
+def _refuse_stopped(config: Config) -> None:
+    """Raises CommandFailed if the box was stopped when it ran last: somebody may be at the mast still."""
+    if (stopped := build_latch_file(config).load()) is not None:
+        raise CommandFailed(
+            f"{held_by(stopped.by, storm=stopped.storm)}: nothing turns in a calibration either. Start the box, say "
+            "resume there when nobody is at the mast, and end it again"
+        )
 
 
 def _read_lines(typed: TypedAhead, events: asyncio.AbstractEventLoop) -> None:

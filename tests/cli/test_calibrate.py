@@ -17,6 +17,8 @@ from rotator.calibrating.results import AxisCalibrated
 from rotator.calibrating.saving import as_toml
 from rotator.config.load import load, parse
 from rotator.config.places import console_path
+from rotator.status import Latch
+from rotator.store.latch import FILE_NAME, LatchFile
 
 LIMIT_S = 60.0
 STATION = """# A fast one.
@@ -172,3 +174,37 @@ def test_not_beside_a_box_that_runs(start: Start, tmp_path: Path) -> None:
     assert code == 1
     assert "the box is running" in text
     assert "Traceback" not in text
+
+
+def kept_station(folder: Path) -> Path:
+    path = folder / "station.toml"
+    path.write_text(f'[state]\npath = "{folder / "state.json"}"\n[monitor]\npath = "{folder / "monitor"}"\n' + STATION)
+    return path
+
+
+@pytest.mark.parametrize("storm", [False, True])
+def test_nothing_turns_after_a_stop_of_the_box_that_nobody_has_released(
+    start: Start, tmp_path: Path, storm: bool
+) -> None:
+    path = kept_station(tmp_path)
+    LatchFile(tmp_path / FILE_NAME).save(Latch("panel", storm=storm))
+    for tasks in ([], ["north"]):
+        text, code = finish(start("--config", str(path), *tasks))
+        assert code == 1
+        words = " ".join(text.split())
+        assert f"{'storm park' if storm else 'stopped'} by panel before the restart: " in words
+        assert "say resume there" in words
+
+
+def test_a_stop_during_a_calibration_holds_for_the_next_program(start: Start, tmp_path: Path) -> None:
+    path = kept_station(tmp_path)
+    process = start("--config", str(path), "azimuth")
+    read_until(process, "> Press r")
+    subprocess.run([sys.executable, "-m", "rotator", "stop", "--config", str(path)], check=True, timeout=LIMIT_S)
+    process.communicate(timeout=LIMIT_S)
+    stopped = LatchFile(tmp_path / FILE_NAME).load()
+    assert stopped is not None
+    assert stopped.by.startswith("console")
+    text, code = finish(start("--config", str(path), "azimuth"))
+    assert code == 1
+    assert "say resume there" in " ".join(text.split())
