@@ -265,6 +265,11 @@ class Judges:
         if case.standing_s > case.patience_s + LOOK_S:
             self._accuse(STANDING_CURRENT, truth, f"for {case.standing_s:.2f} s")
 
+    def there(self, axes: list[AxisTruth]) -> frozenset[str]:
+        """The axes whose control box stands as it was sent, as far as the box can see."""
+        pairs = zip(axes, self.cases, strict=True)
+        return frozenset(truth.name for truth, case in pairs if self._is_there(truth, case))
+
     def _is_there(self, truth: AxisTruth, case: AxisCase) -> bool:
         """Whether a control box of its own drives it where the box sees it arrived: nothing shows the current.
 

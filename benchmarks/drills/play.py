@@ -154,7 +154,8 @@ class _Play:
         self._judges.count(self._world.relay_starts)
         self._sectors.look(now_s, self._world.axes)
         ordered = any(map(self._orders.holds, self._orders.axes))
-        self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered)
+        there = self._judges.there(self._world.axes)
+        self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered, there=there)
 
     def _happen(self, event: Event, late_s: float) -> None:
         match event.who:

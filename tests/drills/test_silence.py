@@ -45,8 +45,39 @@ def test_a_notice_is_a_word_and_so_is_a_line_in_the_log() -> None:
     for room in (for_notice, for_line):
         room.silence.begin("azimuth-every:18", 0.0)
     assert for_notice.listen(60.0, TOLD) == []
-    for_line.words.emit(logging.makeLogRecord({"name": "rotator.runtime.journal", "msg": "bad readings"}))
+    for_line.words.emit(logging.makeLogRecord({"name": "rotator.runtime.journal", "msg": "azimuth: bad readings"}))
     assert for_line.listen(60.0) == []
+
+
+@pytest.mark.parametrize(
+    "told",
+    [
+        replace(QUIET, elevation=replace(QUIET.elevation, notices=(Notice("bad readings now and then"),))),
+        replace(QUIET, notices=("orders from gs232b#1 are ignored: stopped by page",)),
+    ],
+)
+def test_a_word_about_the_other_axis_or_about_a_sender_tells_no_fault(told: Status) -> None:
+    room = Room()
+    room.silence.begin("azimuth-every:18", 0.0)
+    assert room.listen(60.0, told) == [SILENCE]
+
+
+def test_a_notice_that_was_there_before_tells_no_fault() -> None:
+    room = Room()
+    room.listen(0.1, TOLD)
+    room.silence.begin("azimuth-every:18", room.now_s)
+    assert room.listen(60.0, TOLD) == [SILENCE]
+
+
+def test_a_control_box_that_stands_as_it_was_sent_shows_no_stall() -> None:
+    room = Room()
+    room.silence.begin("azimuth-motor-stalled", 0.0)
+    room.axes[0].coil = 1
+    for _ in range(200):
+        room.now_s += 0.05
+        room.silence.look(room.now_s, room.axes, QUIET, ordered=True, there=frozenset({"azimuth"}))
+    assert room.silence.found == []
+    assert room.listen(10.0) == [SILENCE]
 
 
 def test_that_a_target_is_tracked_no_longer_tells_no_fault() -> None:
