@@ -330,6 +330,7 @@ class Controller:
             self.troubles.append(f"{axis.value} measures its angle: there is nothing to confirm")
             return
         self._halt((axis,))
+        self._axes[axis].confirmed()
         self.errands.append(Place(axis, angle_deg))
 
     def _park(self, now_s: float) -> None:

@@ -57,6 +57,9 @@ class ControlledAxis(Protocol):
     def moving(self, now_s: float) -> bool:
         """Driven, or still coasting."""
 
+    def confirmed(self) -> None:
+        """A person says where it stands: its readings jump there, and that is no fault of the sensor."""
+
     def see(self, reading: Reading, now_s: float) -> None:
         """Take the latest reading. The same reading again is not new, but it may have grown too old."""
 

@@ -111,6 +111,9 @@ class PositionedAxis:
         if isinstance(self._goal, AimGoal):
             self._goal = self._goal.standing()
 
+    def confirmed(self) -> None:
+        self._sensing.begin_anew(self._sensing.calibration)
+
     def see(self, reading: Reading, now_s: float) -> None:
         self._condition = reading.condition
         self._seen_s = now_s

@@ -149,6 +149,7 @@ class Sensing:
         self._sparks.begin_anew()
         self._last = None
         self._jumps.clear()
+        self._moved_s.clear()
 
     def take(self, reading: Reading, now_s: float, noise_deg: float = 0.0) -> Fault | None:
         """Take a reading, or the same one again where no new one came. Returns the fault that it shows, if any.

@@ -137,6 +137,9 @@ class SwitchedAxis:
         if isinstance(self._goal, AimGoal):
             self._goal = self._goal.standing()
 
+    def confirmed(self) -> None:
+        self._sensing.begin_anew(self._sensing.calibration)
+
     def see(self, reading: Reading, now_s: float) -> None:
         lost = self._note_condition(reading.condition)
         unbelievable = self._sensing.take(reading, now_s, self._gate.noise_deg)

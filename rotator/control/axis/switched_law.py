@@ -20,7 +20,9 @@ from rotator.control.sky.plan import Path, next_place_deg
 FLOOR = 0.55
 """Below this share of the tolerance no error starts a motor, however slow the target: whole degrees are no better."""
 LEAST_MOVE_DEG = 0.3
-
+AGAIN_S = 0.5
+"""A motor that has been switched off for a target that stands is not switched on for it again sooner: what its readings
+show by then is where it stands. A count that waits for its contact would else make its relay chatter."""
 
 ANYWHERE = (-math.inf, math.inf)
 
@@ -47,6 +49,8 @@ class SwitchedLaw:
         self._relay = Direction.OFF
         self._running = Direction.OFF
         self._goal_deg = 0.0
+        self._off_s = -math.inf
+        """When the relay opened last."""
         self._stop_s: float | None = None
         """When the lease will have opened the relay."""
         self._planned: tuple[Path, float] | None = None
@@ -60,6 +64,8 @@ class SwitchedLaw:
         """What the relays do from now on."""
         if direction is not Direction.OFF and self._relay is Direction.OFF:
             self._taught = dict(self.motion.motors)
+        if direction is Direction.OFF and self._relay is not Direction.OFF:
+            self._off_s = now_s
         self._relay = direction
         self._note_stop(now_s)
         wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
@@ -81,6 +87,8 @@ class SwitchedLaw:
         target_deg = self._within_reach(target_deg)
         error_deg = target_deg - self._rest_deg(now_s)
         if self._running is Direction.OFF and abs(error_deg) <= tolerance_deg:
+            return self.rest(now_s)
+        if self._running is Direction.OFF and target_deg == self._goal_deg and now_s < self._off_s + AGAIN_S:
             return self.rest(now_s)
         return self._go(now_s, target_deg)
 

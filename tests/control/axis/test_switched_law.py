@@ -188,3 +188,14 @@ def test_it_does_not_start_for_less_than_the_least_move() -> None:
     assert axis.law.follow(axis.now_s, still, 0.01).direction is OFF
     further = path(axis.now_s, 100.0 + LEAST_MOVE_DEG + 0.01, 0.0)
     assert axis.law.follow(axis.now_s, further, 0.01).direction is PLUS
+
+
+def test_where_the_readings_take_a_move_back_it_is_not_tried_again_at_once() -> None:
+    """A count that waits for its contact comes back to the contact's place when the axis rests."""
+    axis = Axis()
+    for _ in range(200):
+        axis.cycle(axis.law.approach(axis.now_s, 101.8, 1.0))
+        if axis.relay is OFF:
+            axis.angle_deg, axis.turning_dps = 100.0, 0.0
+            axis.law.see(axis.now_s, axis.angle_deg)
+    assert 2 <= axis.starts <= 15
