@@ -2,7 +2,8 @@
 
 Knows what ends them by the rules of docs/safety.md and docs/tracking.md: any stop, whether a plan is flown or still
 computed; another sender that takes the antenna; `track off`. Where a flight leads is not judged, only whether there may
-be one. Does not know passes.
+be one. A `resume` ends a flight only where it releases a fault of the box, and no judge asks the box: a flight in force
+then stays excused until a stop, another target or `track off` ends it. Does not know passes.
 """
 
 from __future__ import annotations

@@ -53,7 +53,12 @@ class CompassAtStart:
         return self._confirmed_s is None or status.at_s - self._confirmed_s >= AGAIN_S
 
     def see(self, reading: CompassReading, status: Status) -> Confirm | None:
-        """Take a reading of the standing antenna. Returns the order, once the readings are enough."""
+        """Take a reading of the standing antenna. Returns the order, once the readings are enough.
+
+        A person may have confirmed the angle while the compass was read: then it is asked no more.
+        """
+        if not self.wanted(status):
+            return None
         if reading.problem:
             self.trouble = reading.problem
             self._samples.clear()

@@ -12,10 +12,11 @@ pytest.importorskip("moteus", reason="moteus is missing: pip install --no-deps m
 from rotator.assembly.calibration import open_compass
 from rotator.calibrating.at_start import CompassAtStart
 from rotator.calibrating.compass import CompassReader
+from rotator.calibrating.compass_guide import SAMPLES
 from rotator.calibrating.facts import north_facts
 from rotator.config.load import ConfigError, parse
-from rotator.orders import Aim, Source
-from tests.rotors.rig import AZ, EL, KINDS, Box
+from rotator.orders import Aim, Confirm, Source
+from tests.rotors.rig import AZ, EL, KINDS, PERSON, Box
 
 ISEL = next(kind for kind in KINDS if kind.profile == "isel")
 LEARNT_S = 16.0
@@ -108,3 +109,14 @@ def test_a_compass_that_has_not_learnt_settles_nothing(bench: Callable[..., Benc
 def test_a_file_that_cannot_mean_it_is_refused(text: str, why: str) -> None:
     with pytest.raises(ConfigError, match=why):
         parse(text, "test")
+
+
+def test_where_a_person_was_faster_the_compass_is_asked_no_more(bench: Callable[..., Bench]) -> None:
+    at = bench(120.0)
+    at.box.run(LEARNT_S + 1.0)
+    at.compass.read()
+    assert at.compass.latest is not None
+    at.box.order(Confirm(AZ, 120.0), by=PERSON)
+    at.box.run(1.0)
+    assert at.box.axis(AZ).fault is None
+    assert [at.start.see(at.compass.latest, at.box.status) for _ in range(SAMPLES + 1)] == [None] * (SAMPLES + 1)

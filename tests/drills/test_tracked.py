@@ -122,3 +122,41 @@ def test_a_recognised_stream_is_flown_anywhere_until_it_is_stopped() -> None:
     script.say("console", "resume")
     script.say("gs232b", "aim", 91.0, 20.0)
     assert script.orders.axes["azimuth"].goals["gs232b"].angles_deg
+
+
+def restart(script: Script) -> None:
+    script.wait(1.0)
+    script.orders.forget_all(script.now_s)
+    script.wait(SOON_S)
+
+
+@pytest.mark.parametrize("stopper", [("console", "stop"), ("panel", "stop", "press"), ("console", "storm")], ids=str)
+def test_a_stop_holds_over_a_restart_until_a_person_resumes(stopper: tuple[str, ...]) -> None:
+    script = Script()
+    script.say(*stopper)
+    restart(script)
+    script.say("gs232b", "aim", 90.0, 45.0)
+    assert script.orders.latched
+    assert script.moves == (False, False)
+    if stopper[0] == "panel":
+        script.say("panel", "stop", "pull")
+    script.say("console", "resume")
+    script.say("gs232b", "aim", 90.0, 45.0)
+    assert script.moves == (True, True)
+
+
+def test_a_stop_that_the_program_had_no_time_to_take_may_be_lost() -> None:
+    script = Script()
+    script.orders.note(Event(script.now_s, "console", "stop", ()))
+    script.orders.forget_all(script.now_s + 0.1)
+    assert not script.orders.latched
+
+
+def test_a_restart_releases_no_mode_switch() -> None:
+    script = Script()
+    script.say("panel", "mode", "park")
+    for _ in range(40):
+        script.wait(SOON_S)
+    restart(script)
+    script.say("gs232b", "aim", 90.0, 45.0)
+    assert script.moves == (False, False)
