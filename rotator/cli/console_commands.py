@@ -11,7 +11,9 @@ import click
 
 from rotator.cli.commands import ANY_WORDS, CONFIG, YES, Number, NumbersCommand, examples
 
-AXIS = click.argument("axis", type=click.Choice(["azimuth", "elevation"]), metavar="azimuth|elevation")
+AXIS = click.argument(
+    "axis", type=click.Choice(["azimuth", "elevation"], case_sensitive=False), metavar="azimuth|elevation"
+)
 WAIT = click.option("--no-wait", "wait", is_flag=True, flag_value=False, default=True, help="Give the order, and end.")
 
 
@@ -68,7 +70,9 @@ def track(path: Path | None, clock_is_right: bool, words: tuple[str, ...]) -> No
 @click.command(cls=NumbersCommand, epilog=examples("rotator jog cw 2", "rotator jog down 0,5"))
 @CONFIG
 @WAIT
-@click.argument("direction", type=click.Choice(["cw", "ccw", "up", "down"]), metavar="cw|ccw|up|down")
+@click.argument(
+    "direction", type=click.Choice(["cw", "ccw", "up", "down"], case_sensitive=False), metavar="cw|ccw|up|down"
+)
 @click.argument("seconds", type=Number("seconds", 0.05))
 def jog(path: Path | None, wait: bool, direction: str, seconds: float) -> None:
     """Turn one axis for some SECONDS, 5 at most.

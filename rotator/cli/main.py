@@ -139,7 +139,9 @@ def arduino(pty: Path, path: Path | None, plain: bool) -> None:
 @CONFIG
 @FAULT
 @click.option("--plain", is_flag=True, help="Lines in and out even in a terminal.")
-@click.argument("what", required=False, type=click.Choice(["azimuth", "elevation", "north", "sky"]))
+@click.argument(
+    "what", required=False, type=click.Choice(["azimuth", "elevation", "north", "sky"], case_sensitive=False)
+)
 @click.option("--target", metavar="NAME", help="sky: what the antenna is steered to; the Sun, if left out.")
 @click.option("--at", "at_s", type=utc_time, metavar="UTC", help="sky: begin at this moment; for a simulated rotor.")
 @click.option("--receiver", metavar="HOST:PORT", help="sky: its rigctld; the box finds the target by the strength.")

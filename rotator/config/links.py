@@ -212,7 +212,8 @@ def address(text: str) -> tuple[str, int]:
     """`host:port` taken apart; an IPv6 host stands in brackets. Raises ValueError."""
     parts = re.fullmatch(r"(?:\[([0-9a-fA-F:.%\w]+)\]|([^:\[\]\s]+)):(\d{1,5})", text)
     if not parts or not 0 < int(parts[3]) <= LAST_PORT:
-        raise ValueError(f'"{text}" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"')
+        port = text if text.isascii() and text.isdecimal() and 0 < int(text) <= LAST_PORT else "4533"
+        raise ValueError(f'"{text}" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:{port}"')
     return parts[1] or parts[2], int(parts[3])
 
 

@@ -37,6 +37,13 @@ _SYNONYMS = {
     "right": ("azimuth_cw",), "up": ("elevation_up",), "down": ("elevation_down",), "min": ("min_deg",),
     "max": ("max_deg",), "offset": ("offset_deg",),
 }  # fmt: skip
+_PROTOCOL_OF = {
+    "yaesu": "gs232b", "gs232": "gs232b", "g5500": "gs232b", "satpc32": "gs232b", "sattrack": "gs232-f1efw",
+    "hamlib": "rotctld", "gpredict": "rotctld", "easycomm": "easycomm2", "spid": "rot2prog", "arduino": "gs232-f1efw",
+}  # fmt: skip
+"""What a person calls a protocol, in small letters and digits, and the one that is meant."""
+_LISTENS = ("tcp", "listen")
+"""Keys for a port of this machine: a bare number is the port."""
 _YES, _NO = ("yes", "on", "true", "1", "ja", "oui"), ("no", "off", "false", "0", "nein", "non")
 
 
@@ -65,7 +72,8 @@ def explain(error: ErrorDetails) -> str:
             sort = kind.split("_")[0]
             expected = _KINDS.get(sort) if kind.endswith(("_type", "_parsing")) else None
             expected = expected or error["msg"].removeprefix("Input should be ")
-            return f"{key} = {show(value)}: must be {expected}{_right_value(sort, value)}"
+            right = _right_port(str(place[-1]), value) or _right_value(sort, value)
+            return f"{key} = {show(value)}: must be {expected}{right}"
 
 
 def written(place: list[int | str]) -> str:
@@ -137,6 +145,12 @@ def _right_type(value: object) -> str:
 def _right_choice(value: object, allowed: list[str]) -> str:
     if isinstance(value, str) and value in allowed:
         return f"; write {value} without quotes"
+    if isinstance(value, bool) and len(allowed) == 2 and "off" in allowed:
+        on = next(choice for choice in allowed if choice != "off")
+        return f'; write "{on if value else "off"}"'
+    usual = _PROTOCOL_OF.get(re.sub(r"[^a-z0-9]", "", str(value).lower()))
+    if usual in allowed:
+        return f"; did you mean {usual}?"
     near = _near(str(value).lower(), allowed, 0.6)
     return f"; did you mean {near}?" if near else ""
 
@@ -163,6 +177,11 @@ def _right_value(sort: str, value: object) -> str:
         case "list", str(text):
             return f'; write ["{text}"]'
     return ""
+
+
+def _right_port(name: str, value: object) -> str:
+    """`tcp = 4533`: a port alone, of this machine alone."""
+    return f'; write "127.0.0.1:{value}"' if name in _LISTENS and type(value) is int else ""
 
 
 def _bare(text: str) -> bool:

@@ -57,7 +57,8 @@ class PtyLink:
             raise LinkError(f"{self._path}: another program of this kind has it") from fault
         except OSError as fault:
             self._close_fds()
-            raise LinkError(f"{self._path}: cannot be made a link to a terminal: {fault.strerror}") from fault
+            why = f"{self._path}: cannot be made a link to a terminal: {fault.strerror}"
+            raise LinkError(f"{why}: begin the box in a folder of yours, or write another pty") from fault
 
     async def run(self) -> None:
         assert self._terminal is not None, "open() comes first"

@@ -33,10 +33,10 @@ TURNS = {"g5500": ("450", "180"), "f1efw": ("360", "90"), "spid": ("360", "180")
 
 NETWORK_PROGRAM, NONE_YET = "rotctld", "none"
 PROGRAMS = (
-    Choice("rotctld", "Gpredict, Look4Sat, SatDump, Hamlib: by network (rotctld)"),
+    Choice("rotctld", "Gpredict, SDR Console, Look4Sat, Hamlib: by network (rotctld)"),
     Choice("gs232b", "PstRotator, SatPC32, OscarWatch, SDRangel, Termite: GS-232"),
-    Choice("gs232-f1efw", "Orbitron or SDR Console, or what steered the Arduino: W orders"),
-    Choice("easycomm2", "SatTrack, predict and others: EasyComm II"),
+    Choice("gs232-f1efw", "SatTrack, Orbitron, or what steered the Arduino: W orders"),
+    Choice("easycomm2", "predict and others: EasyComm II"),
     Choice("macdoppler", "MacDoppler, by UDP"),
     Choice("n1mm", "N1MM Logger+, by UDP"),
     Choice(NONE_YET, "none yet"),

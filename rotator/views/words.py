@@ -110,7 +110,7 @@ def links(wires: Sequence[WireView]) -> tuple[str, str]:
     count = f"{len(wires)} link{'' if len(wires) == 1 else 's'}"
     if out := [wire for wire in wires if is_out(wire)]:
         return f"{count}, out: {', '.join(wire.name for wire in out)}", WARNS
-    return (f"{count}, none out" if wires else "no links"), PLAIN
+    return (f"{count}, all ready" if wires else "no links"), PLAIN
 
 
 def pass_starts(status: Status) -> str:

@@ -54,3 +54,8 @@ def test_help_as_a_word(words: str, first: str, capsys: pytest.CaptureFixture[st
         main(words.split())
     assert ended.value.code in {0, None}
     assert capsys.readouterr().out.startswith(first)
+
+
+def test_capitals_are_no_mistake(capsys: pytest.CaptureFixture[str]) -> None:
+    _, text = errors(["jog", "CW", "x"], capsys)
+    assert "invalid value for 'SECONDS'" in text

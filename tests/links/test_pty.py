@@ -135,7 +135,10 @@ def test_a_place_that_cannot_be_is_refused(link: PtyLink, path: Path) -> None:
     path.parent.write_text("no folder\n")
     with pytest.raises(LinkError) as refused:
         asyncio.run(link.open())
-    assert str(refused.value) == f"{path}: cannot be made a link to a terminal: File exists"
+    assert (
+        str(refused.value) == f"{path}: cannot be made a link to a terminal: File exists: "
+        "begin the box in a folder of yours, or write another pty"
+    )
 
 
 def test_only_its_own_symlink_is_removed(link: PtyLink, path: Path, running: Running, tmp_path: Path) -> None:

@@ -153,7 +153,7 @@ def test_a_link_that_is_out_is_named_at_every_size(columns: int, rows: int, stat
 
 
 def test_on_a_small_terminal_their_number_is_told(wires: list[Wire]) -> None:
-    assert "2 links, none out" in show(wires=wires, size=(40, 12))
+    assert "2 links, all ready" in show(wires=wires, size=(40, 12))
     assert "2 links" not in show(wires=wires, size=(80, 24))
 
 
