@@ -63,6 +63,8 @@ UP_S, BEFORE_S = 240.0, 12.0
 SITE = Site(52.52, 13.375, 0.0)
 VIEWS = {"sky": 1400, "setup": 0, "log": 900, "paired": 900}
 """By the name in the address: how high the window is; 0: as high as the screen."""
+WHOLE = 1260
+"""So high is the Antenna view with its chart in a wide window."""
 
 
 def sky(now_s: float) -> tuple[str, str]:
@@ -105,7 +107,8 @@ def take(into: Path, code: str) -> None:
 def _each(browser: Any, into: Path, paired: Any, view: str, high: int) -> None:
     for light in ("light", "dark"):
         for name, size in {"wide": WIDE, "phone": PHONE}.items():
-            viewport = {**size["viewport"], **({"height": high} if high else {})}
+            height = WHOLE if name == "wide" and not view else high
+            viewport = {**size["viewport"], **({"height": height} if height else {})}
             shown: Any = {"color_scheme": light, "storage_state": paired, **size, "viewport": viewport}
             page = browser.new_context(**shown).new_page()
             page.set_default_timeout(PATIENCE_MS)
@@ -119,6 +122,8 @@ def _each(browser: Any, into: Path, paired: Any, view: str, high: int) -> None:
                 case "setup":
                     _unfold(page)
             page.wait_for_timeout(1500)
+            if page.locator(".troubles").count():
+                raise RuntimeError(f"the box has a fault: {page.locator('.troubles').inner_text()}")
             page.screenshot(path=into / f"page-{f'{view}-' if view else ''}{name}-{light}.png")
             page.context.close()
 

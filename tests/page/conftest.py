@@ -6,11 +6,13 @@ for what must come.
 
 from __future__ import annotations
 
+import fcntl
 import os
 import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import urllib.error
 import urllib.request
@@ -23,7 +25,7 @@ import pytest
 
 from firmware_sim import world_file
 from firmware_sim.world_file import WorldState
-from tests.boxes import file_with_page, free_port
+from tests.boxes import FAST_ROTOR, file_with_page, free_port
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -50,6 +52,14 @@ def browser() -> Iterator[Browser]:
         chromium = playwright.chromium.launch(executable_path=CHROMIUM, args=list(QUIET))
         yield chromium
         chromium.close()
+
+
+@pytest.fixture
+def usual_port() -> Iterator[None]:
+    """For boxes that take rotctld's usual port, as the page writes it: one of them at a time."""
+    with (Path(tempfile.gettempdir()) / "rotator-test-4533.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 @dataclass
@@ -91,19 +101,24 @@ def code_at_the_box(page: Page) -> str:
 
 @pytest.fixture
 def start(tmp_path: Path) -> Iterator[Callable[..., Station]]:
-    """Starts the program. `more`: text for the end of its file; `words`: of the command line."""
+    """Starts the program. `more`: text for the end of its file; `words`: of the command line.
+
+    `kind`: another rotor, of its usual speed.
+    """
     started: list[subprocess.Popen[bytes]] = []
 
-    def run(more: str = "", *words: str) -> Station:
+    def run(more: str = "", *words: str, kind: str = "") -> Station:
         port = free_port()
         text = file_with_page(tmp_path, port, f'[sim]\nworld = "{tmp_path}/world"\n{more}')
+        if kind:
+            text = text.replace("[rotor]", f'[rotor]\ntype = "{kind}"').replace(FAST_ROTOR, "")
         (tmp_path / "r.toml").write_text(text, encoding="utf-8")
         command = (sys.executable, "-m", "rotator", "run", "--plain", "--config", str(tmp_path / "r.toml"), *words)
         with (tmp_path / "log").open("wb") as log:
             process = subprocess.Popen(command, cwd=tmp_path, stdout=log, stderr=subprocess.STDOUT)
         started.append(process)
         station = STATIONS[f"http://127.0.0.1:{port}"] = Station(tmp_path, f"http://127.0.0.1:{port}", process)
-        _until_it_answers(station)
+        until_it_answers(station)
         return station
 
     yield run
@@ -113,7 +128,7 @@ def start(tmp_path: Path) -> Iterator[Callable[..., Station]]:
         assert process.wait(timeout=START_S) == 0
 
 
-def _until_it_answers(station: Station) -> None:
+def until_it_answers(station: Station) -> None:
     deadline_s = time.monotonic() + START_S
     while time.monotonic() < deadline_s:
         try:

@@ -198,6 +198,7 @@ def calibrate(station: Station, page: Page, name: str, turns: tuple[str, str], m
     open_step(page, f"Calibrate the {name}")
 
 
+@pytest.mark.usefixtures("usual_port")
 def test_from_nothing_to_a_calibrated_rotor(start: Start, visit: Visit) -> None:
     station = start()
     page = visit(station)

@@ -2,6 +2,7 @@
 import { Live, post, read } from "/box.js";
 import { Chart } from "/chart.js";
 import { AzimuthDial, ElevationDial } from "/dials.js";
+import { Errands } from "/errands.js";
 import { Asks, JogPad, Target, Track } from "/hand.js";
 import { Help, helps } from "/help.js";
 import { Pair, Paired } from "/pairing.js";
@@ -61,7 +62,8 @@ function Antenna({ station, now, hello, fresh }) {
         <${Target} station=${station} draft=${draft} setDraft=${setDraft} say=${say} />
         <${Track} now=${now} known=${station.where} say=${say} />
         <${Asks} label="Park" question=${`The antenna turns to ${station.park[0]}°, ${station.park[1]}° and stays there until you let it move again. Park it?`}
-          yes="Park it" onYes=${() => act(post("park"), say)} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
+          yes="Park it" onYes=${() => act(post("park"), say)} />
+        <${Errands} now=${now} say=${say} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
       <p class="said" role="status">${said}</p>
     </section>
     <div class="panel dials"><${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />

@@ -29,7 +29,7 @@ export function AzimuthDial({ range, angle, target, drive }) {
       aria-label=${`Azimuth ${degrees(angle)}${over ? ", in the overlap" : ""}, range ${range.min_deg}° to ${range.max_deg}°`}>
     ${scale}
     ${target != null && html`<path class="mark" transform=${`rotate(${target})`} d="M0,-72 5,-60 -5,-60Z" />`}
-    ${angle != null && html`<g transform=${`rotate(${angle})`}><line class="needle" y1="-24" y2=${over ? -95 : -84} /><circle class="tip" cy=${over ? -95 : -84} r="5" /></g>`}
+    ${angle != null && html`<g transform=${`rotate(${angle})`}><line class="needle" y1="-34" y2=${over ? -95 : -84} /><circle class="tip" cy=${over ? -95 : -84} r="5" /></g>`}
     <text class="what" y="-4">azimuth</text>
     <text class="turn" y="14"><${Turn} drive=${drive} names=${["CW ↻", "CCW ↺"]} />${!drive && over ? "overlap" : ""}</text>
   </svg>`;
@@ -45,12 +45,12 @@ export function ElevationDial({ range, angle, target, drive }) {
       <line class="tick" x1=${at(turned(each), 78)[0]} y1=${at(turned(each), 78)[1]} x2=${at(turned(each), 71)[0]} y2=${at(turned(each), 71)[1]} />
       <text class="number" x=${at(turned(each), 58)[0]} y=${+at(turned(each), 58)[1] + 4}>${each}</text></g>`)}
   </g>`, [range]);
-  return html`<svg class="dial" viewBox=${over ? "-104 -104 208 132" : "-30 -104 134 132"} role="img"
+  return html`<svg class="dial" viewBox=${over ? "-104 -104 208 140" : "-30 -104 134 140"} role="img"
       aria-label=${`Elevation ${degrees(angle)}, range ${range.min_deg}° to ${range.max_deg}°`}>
     ${scale}
     ${target != null && html`<path class="mark" transform=${`rotate(${turned(target)})`} d="M0,-72 5,-60 -5,-60Z" />`}
-    ${angle != null && html`<g transform=${`rotate(${turned(angle)})`}><line class="needle" y1="-24" y2="-84" /><circle class="tip" cy="-84" r="5" /></g>`}
-    <text class="what" y="-2">elevation</text>
-    <text class="turn" y="16"><${Turn} drive=${drive} names=${["up ↑", "down ↓"]} /></text>
+    ${angle != null && html`<g transform=${`rotate(${turned(angle)})`}><line class="needle" y1="-34" y2="-84" /><circle class="tip" cy="-84" r="5" /></g>`}
+    <text class="what" y="15">elevation</text>
+    <text class="turn" y="32"><${Turn} drive=${drive} names=${["up ↑", "down ↓"]} /></text>
   </svg>`;
 }

@@ -1,7 +1,7 @@
 // Setting up: the steps from a bare box to a calibrated rotor, in one list. Each may be skipped, and done again.
 import { post, read } from "/box.js";
 import { Calibrate } from "/calibrate.js";
-import { Asks } from "/hand.js";
+import { Errands } from "/errands.js";
 import { Header } from "/header.js";
 import { Proposed, Settings, useSettings } from "/settings.js";
 import { act, html, useEffect, useRef, useState } from "/ui.js";
@@ -45,19 +45,11 @@ function Relays({ now, hello, say }) {
   const mine = now.status.held_by === hello.source;
   return html`<p>Take the antenna first: then no program moves it. Each press closes one relay for 0.2 s. Watch the lamps of the relay board, and the motor.</p>
     ${!mine && html`<button type="button" class="go" onClick=${() => act(post("take"), say)}>Take the antenna</button>`}
-    <div class="chips" role="group" aria-label="Close one relay for 0.2 s">${RELAYS.map(([turn, name]) => html`<button type="button" disabled=${!mine} onClick=${() => act(post("pulse", { turn }), say)}>Pulse ${name}
+    <div class="chips" role="group" aria-label="Close one relay for 0.2 s">${RELAYS.map(([turn, name]) => html`<button type="button" disabled=${!mine || now.status.moving} onClick=${() => act(post("pulse", { turn }), say)}>Pulse ${name}
       <span class=${`pulse ${now.lamps[turn]}`}>${now.lamps[turn]}</span></button>`)}</div>
     ${mine && html`<button type="button" onClick=${() => act(post("give-back"), say)}>Give it back to the programs</button>`}
-    <${Doubt} now=${now} axis="azimuth" say=${say} /><${Doubt} now=${now} axis="elevation" say=${say} />
+    <${Errands} now=${now} say=${say} />
     <p class="about">The wrong relay, or none: change its GPIO in <code>[relays]</code> below. The antenna turns the wrong way: exchange the two numbers of that axis.</p>`;
-}
-
-/** At an end stop a motor with current stands as one without: the box cannot see whether the relay has opened. */
-function Doubt({ now, axis, say }) {
-  if (!now.status[axis].relays_in_doubt) return null;
-  return html`<p>The box could not see whether a relay of the ${axis} has opened. Turn it the same way again for a second, away from its stop; or look at both relays:</p>
-    <${Asks} label=${`Both relays of the ${axis} are open`} question=${`Have you seen that both relays of the ${axis} are open? A relay that sticks turns the antenna.`} yes="I have seen it"
-      onYes=${() => act(post("relays-checked", { axis }), say)} />`;
 }
 
 function Sensor({ now, axis, at }) {
@@ -126,8 +118,8 @@ export function Setup({ now, hello }) {
     <${Step} number="3" title="Try each relay"><${Relays} now=${now} hello=${hello} say=${say} />${some(["relays"])}<//>
     <${Step} number="4" title="Read the sensors"><${Sensor} now=${now} axis="azimuth" at="0" /><${Sensor} now=${now} axis="elevation" at="1" />
       <p class="about">Turn the rotor by hand or by its own box: the reading follows smoothly, and stands with it.</p>${some(["azimuth.sensor", "elevation.sensor", "adc"])}<//>
-    <${Step} number="5" title="Calibrate the azimuth" done=${calibrated("azimuth")}><${Calibrate} axis="azimuth" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} /><${Doubt} now=${now} axis="azimuth" say=${say} /><//>
-    <${Step} number="6" title="Calibrate the elevation" done=${calibrated("elevation")}><${Calibrate} axis="elevation" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} /><${Doubt} now=${now} axis="elevation" say=${say} /><//>
+    <${Step} number="5" title="Calibrate the azimuth" done=${calibrated("azimuth")}><${Calibrate} axis="azimuth" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} /><${Errands} now=${now} axes=${["azimuth"]} say=${say} /><//>
+    <${Step} number="6" title="Calibrate the elevation" done=${calibrated("elevation")}><${Calibrate} axis="elevation" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} /><${Errands} now=${now} axes=${["elevation"]} say=${say} /><//>
     <${Step} number="7" title="Limits">${some(["azimuth", "elevation", "mount"], ["min_deg", "max_deg", "park_azimuth_deg", "park_elevation_deg", "flip", "horizon"])}<//>
     <${Step} number="8" title="Place and time" done=${file?.values.station?.locator}><${Clock} />${some(["station"])}<//>
     <${Step} number="9" title="Your tracking program"><${Links} ...${of} /><//>
