@@ -36,14 +36,23 @@ def monitors(path: Path | None) -> list[Path]:
 
 
 def quick_monitors(path: Path | None) -> list[Path]:
-    """The same without the model; empty: the keys cannot be read."""
+    """The same without the model. Empty: the keys cannot be read, and no box runs that was started with this file."""
     try:
         tables = tomllib.loads(_text(path))
         state, monitor = tables.get("state", {}).get("path", STATE), tables.get("monitor", {}).get("path")
     except (OSError, ValueError, AttributeError):
-        return []
+        return _started_with(path)
     usual = isinstance(state, str) and isinstance(monitor, str | None)
-    return monitor_places(state, monitor, os.environ) if usual else []
+    return monitor_places(state, monitor, os.environ) if usual else _started_with(path)
+
+
+def _started_with(path: Path | None) -> list[Path]:
+    """The boxes that run with a file that has a mistake now, or is gone: they can be stopped all the same."""
+    if path is None:
+        return []
+    file, service = path.resolve(), places.MONITOR_OF_THE_SERVICE
+    running = [box.monitor for box in boxes() if box.config == file]
+    return [*running, service] if file == INSTALLED and service.exists() else running
 
 
 def with_announced(usual: Sequence[Path], path: Path | None) -> list[Path]:
@@ -51,7 +60,7 @@ def with_announced(usual: Sequence[Path], path: Path | None) -> list[Path]:
     running = boxes()
     if path is not None:
         file = path.resolve()
-        return [*(box.monitor for box in running if box.config == file), *usual]
+        return list(dict.fromkeys((*(box.monitor for box in running if box.config == file), *usual)))
     here = {place.absolute() for place in usual}
     return [*usual, *(box.monitor for box in running if box.monitor not in here)]
 

@@ -32,7 +32,9 @@ ANSWERED_S = 10.0
 """A broker that has not let the box in after this time does not."""
 FIRST_WAIT_S, LONGEST_WAIT_S = 1.0, 60.0
 JOIN_S = 2.0
-NO_LIBRARY = "[mqtt] needs paho-mqtt: sudo ./install.sh installs it; without it, pip install paho-mqtt in its venv"
+NO_LIBRARY = (
+    "[mqtt] needs paho-mqtt: on a Pi run sudo ./install.sh again; beside make run, .venv/bin/pip install paho-mqtt"
+)
 
 
 @dataclass(frozen=True, slots=True)

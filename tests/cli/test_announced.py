@@ -14,7 +14,7 @@ import pytest
 
 from rotator.cli.announced import FOLDER, STATE_OF_A_USER, Home, announced, boxes
 from rotator.cli.failed import CommandFailed
-from rotator.cli.reach import consoles, reach
+from rotator.cli.reach import consoles, quick_monitors, reach
 from rotator.config.places import console_path
 from tests.cli.conftest import COMMAND
 
@@ -68,6 +68,19 @@ def test_a_file_names_its_box_in_every_folder(new_box: NewBox, tmp_path: Path) -
     south = new_box("south", tmp_path / "south.toml")
     assert consoles(Path("south.toml"))[0] == south
     assert consoles(tmp_path / "north" / ".." / "south.toml")[0] == south
+
+
+@pytest.mark.parametrize("text", ["[rotor", "[state]\npath = 3\n", None])
+def test_a_file_with_a_mistake_or_gone_still_names_its_box(new_box: NewBox, tmp_path: Path, text: str | None) -> None:
+    file = tmp_path / "edited.toml"
+    file.write_text("")
+    place = new_box("one", file)
+    if text is None:
+        file.unlink()
+    else:
+        file.write_text(text)
+    assert consoles(file) == [place]
+    assert quick_monitors(file)
 
 
 def test_the_box_of_the_folder_comes_first(new_box: NewBox, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
