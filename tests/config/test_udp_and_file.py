@@ -58,7 +58,7 @@ def test_a_status_line_for_n1mm(text: str) -> None:
         (link("pstrotator", connect="a:1"), "link[0]: connect is for rotctld-follow only; pstrotator must have udp"),
         (
             link("pstrotator", udp="12000"),
-            'link[0].udp: "12000" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
+            'link[0].udp: "12000" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:12000"',
         ),
         (
             link("pstrotator", udp="127.0.0.1:65535"),
