@@ -204,6 +204,9 @@ def _unpacked(data: bytes) -> dict[str, str]:
                 name = info.filename
                 if name not in known or name in texts:
                     raise BackupError(f"this is no backup of a rotator: it holds {name[:60]!a}")
+                if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                    # The others ask for as much memory as the file says, and fail in ways of their own.
+                    raise BackupError(f"this is no backup of a rotator: {name} is packed in another way")
                 with file.open(info) as part:
                     # What it says of its size is not believed: a small zip can hold a very large file.
                     content = part.read(LARGEST_PART + 1)

@@ -163,6 +163,18 @@ def test_one_name_twice_is_refused() -> None:
         backup.check(data)
 
 
+@pytest.mark.parametrize("packing", [zipfile.ZIP_BZIP2, zipfile.ZIP_LZMA])
+def test_another_packing_is_refused_damaged_or_not(packing: int) -> None:
+    """Its unpacker asks for the memory that the file names, and fails in a way of its own."""
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", packing) as file:
+        file.writestr(ABOUT, ABOUT_TEXT)
+    whole = packed.getvalue()
+    for data in (whole, whole.replace(whole[60:70], b"\xff" * 10)):
+        with pytest.raises(BackupError, match=f"{ABOUT} is packed in another way"):
+            backup.check(data)
+
+
 def test_a_bomb_that_lies_about_its_size_is_not_unpacked() -> None:
     data = bytearray(zipped((ABOUT, ABOUT_TEXT), (CONFIGURATION, b"#" * 5_000_000)))
     for at in (data.rindex(b"PK\x01\x02") + 24, data.rindex(b"PK\x03\x04") + 22):
