@@ -43,6 +43,9 @@ AT_END_NOISES, AT_END_MOST_DEG = 5.0, 1.0
 """A reading beyond an end of the range by up to so many times the noise, and by so much at most, is that end. Five
 times: one reading in three million is further off."""
 
+JOG_ENDS_DEG = 0.5
+"""Nearer than this to the end of its range no jog turns an axis towards that end."""
+
 
 @dataclass(frozen=True, slots=True)
 class AxisStatus:
@@ -109,6 +112,13 @@ class AxisStatus:
             return False
         off_deg = abs(self.angle_deg - self.target_deg)
         return not self.moving and off_deg <= self.tolerance_deg + AT_END_NOISES * self.noise_deg
+
+    def at_end(self, direction: Direction) -> bool:
+        """It is known to stand where no jog turns it any further that way."""
+        if self.missing or self.angle_deg is None or not self.seen:
+            return False
+        end_deg = self.max_deg if direction > 0 else self.min_deg
+        return direction is not Direction.OFF and (end_deg - self.angle_deg) * direction <= JOG_ENDS_DEG
 
     @property
     def relays_in_doubt(self) -> bool:

@@ -135,13 +135,17 @@ class Operating:
 
 
 def _beyond(order: Order, status: Status) -> str:
-    """Why the rotor has no such angle; empty: it has. A person who names one is not led to another one instead.
+    """Why the rotor has no such angle, or turns no further that way; empty: neither.
 
-    A program's order means a direction all the same: it sends what its satellite does.
+    A person who names an angle is not led to another one instead. A program's order means a direction all the same: it
+    sends what its satellite does.
     """
     match order:
         case Aim(float() as azimuth_deg, float() as elevation_deg):
             pass
+        case Jog(name, direction) if (axis := status.axis(name)).at_end(direction):
+            end_deg = axis.max_deg if direction > 0 else axis.min_deg
+            return f"{name.value} stands at the end of its range, {end_deg:g}°: it turns only the other way"
         case _:
             return ""
     azimuth, elevation = status.azimuth, status.elevation

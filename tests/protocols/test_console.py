@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.faults import Missing
 from rotator.orders import (
     Aim,
     Confirm,
@@ -229,6 +230,36 @@ def test_an_angle_that_the_rotor_has_not_is_not_led_to_another_one(
 def test_an_angle_at_an_end_and_every_direction_is_taken(new_box: type[BenchBox], line: bytes) -> None:
     box = new_box(azimuth=(-90, 400), elevation=(-2, 110))
     assert ConsoleSession(box).receive(line + b"\n") == [b"ok\n"]
+
+
+@pytest.mark.parametrize(
+    ("at", "line", "why"),
+    [
+        ((0, 0), b"jog ccw 1", "azimuth stands at the end of its range, 0°: it turns only the other way"),
+        ((450, 0), b"jog cw 1", "azimuth stands at the end of its range, 450°: it turns only the other way"),
+        ((90, 0.4), b"jog down 1", "elevation stands at the end of its range, 0°: it turns only the other way"),
+        ((90, 180), b"pulse up", "elevation stands at the end of its range, 180°: it turns only the other way"),
+    ],
+)
+def test_a_jog_against_an_end_of_the_range_is_refused_with_the_reason(
+    new_box: type[BenchBox], at: tuple[float, float], line: bytes, why: str
+) -> None:
+    box = new_box(at=at)
+    assert ConsoleSession(box).receive(line + b"\n") == [f"error: {why}\n".encode()]
+    assert box.orders == []
+
+
+@pytest.mark.parametrize("line", [b"jog cw 1", b"jog up 1", b"pulse cw", b"pulse up"])
+@pytest.mark.parametrize("missing", [(), (Missing.CALIBRATION,)])
+def test_from_an_end_of_the_range_it_jogs_the_other_way(
+    new_box: type[BenchBox], line: bytes, missing: tuple[Missing, ...]
+) -> None:
+    assert ConsoleSession(new_box(missing=missing)).receive(line + b"\n") == [b"ok\n"]
+
+
+@pytest.mark.parametrize("line", [b"jog ccw 1", b"jog down 1"])
+def test_an_axis_without_a_known_range_jogs_both_ways(new_box: type[BenchBox], line: bytes) -> None:
+    assert ConsoleSession(new_box(missing=(Missing.CALIBRATION,))).receive(line + b"\n") == [b"ok\n"]
 
 
 def test_the_horizon_is_a_direction_where_the_scale_begins_above_it(new_box: type[BenchBox]) -> None:

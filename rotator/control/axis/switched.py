@@ -30,12 +30,10 @@ from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Missing, Notice
-from rotator.status import AxisStatus, LearntMotor
+from rotator.status import JOG_ENDS_DEG, AxisStatus, LearntMotor
 
 ABOUT_DEG = 0.5
 """What readings scatter of an axis at rest."""
-JOG_TOLERANCE_DEG = 0.5
-"""Nearer than this to its limit a jog does not start."""
 WHY_IT_TURNS = (FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF)
 """Faults that say more than the notice TURNS."""
 BLIND = Notice("a broken pot wire would look like an angle: fit end resistors")
@@ -285,10 +283,10 @@ class SwitchedAxis:
             return Run(direction, longest_s)
         limits, rests_deg = self._attempts.limits, self._rests_deg
         limit_deg = min(limits.max_deg, rests_deg[1]) if direction > 0 else max(limits.min_deg, rests_deg[0])
-        if (limit_deg - self._sensing.angle_deg) * direction <= JOG_TOLERANCE_DEG:
+        if (limit_deg - self._sensing.angle_deg) * direction <= JOG_ENDS_DEG:
             self._goal = None
             return self._law.rest(now_s)
-        run = self._law.approach(now_s, limit_deg, JOG_TOLERANCE_DEG)
+        run = self._law.approach(now_s, limit_deg, JOG_ENDS_DEG)
         # A jog never turns back. Where the law would, the motor rests, also before a reversal.
         return Run(direction, min(run.until_s, longest_s)) if run.direction is direction else self._law.rest(now_s)
 
