@@ -143,6 +143,7 @@ class Rules:
     def __init__(self) -> None:
         self.ordered = self.latched = self.storm = False
         self._mode, self._panel = Mode.AUTO, LINKS[0]
+        self._held_by: Source | None = None
         self._good: dict[Axis, tuple[float, Direction]] = {}
         """When each axis was last driven on a good reading, and which way."""
 
@@ -156,7 +157,12 @@ class Rules:
             case Stop():
                 self.storm = False
             case SetMode(mode):
-                self._mode, self._panel, self.storm = mode, source, False
+                self._mode, self._panel, self._held_by, self.storm = mode, source, None, False
+            case Take() if not self.storm:
+                self._mode = self._mode if source == self._panel else Mode.AUTO
+                self._held_by = source
+            case GiveBack() if self._held_by in (None, source) or source.is_person:
+                self._mode, self._held_by = Mode.AUTO, None
             case Park(storm=True) if self._may_park(source):
                 self.latched = self.storm = True
             case Release():
