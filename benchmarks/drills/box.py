@@ -14,7 +14,8 @@ from typing import Any
 
 import tomlkit
 
-from benchmarks.drills.script import Drill
+from benchmarks.drills.browser import Browser
+from benchmarks.drills.script import PAGE, Drill
 from benchmarks.drills.speech import PROTOCOLS
 from benchmarks.drills.tracking import DrilledTracking
 from firmware_sim.clock import SimClock
@@ -191,6 +192,8 @@ class Box:
         return self._sessions[who]
 
     def _speaks(self, who: str, client: Client) -> Session:
+        if who == PAGE:
+            return Browser(client, self.tracking.tracker, self._sources[who])
         if who.startswith("console"):
             return ConsoleSession(client, hands(self.world), self.tracking.tracker)
         place = {"udp": "127.0.0.1:12000"} if who == "pstrotator" else {"tcp": "127.0.0.1:4000"}

@@ -9,6 +9,7 @@ import random
 
 from benchmarks.drills.arcs import draw_arc
 from benchmarks.drills.boxes import BOTH, KINDS, ROTORS, Mast, draw_mast
+from benchmarks.drills.browser import draw_browser
 from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
 from benchmarks.drills.stories import stories
 
@@ -44,6 +45,7 @@ def draw(seed: str, kind: str = "") -> Drill:
 
 
 def _drill(mast: Mast, seconds: float, events: list[Event], seed: str) -> Drill:
+    events = events + draw_browser(seed, mast, seconds, [event.at_s for event in events] or [0.0])
     return Drill(
         kind=mast.rotor.kind,
         profile=mast.rotor.profile,

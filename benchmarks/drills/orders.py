@@ -12,7 +12,8 @@ from dataclasses import replace
 
 from benchmarks.drills.front_panel import FrontPanel
 from benchmarks.drills.goals import TURN_DEG, ZENITH_DEG, AxisOrders, Goal, Ranges
-from benchmarks.drills.script import PANEL, PEOPLE, Event
+from benchmarks.drills.held_off import HeldOff
+from benchmarks.drills.script import PAGE, PANEL, PEOPLE, Event
 from benchmarks.drills.shifts import Shifts
 from benchmarks.drills.silenced import Silenced
 from benchmarks.drills.tracked import Tracked
@@ -28,6 +29,9 @@ PANEL_S = 0.2
 """A jog switch is read twice before it counts, and once when it is let go."""
 TAKEN_S = 0.2
 """A program that is killed so soon after a stop may not have taken it."""
+LEASE_S = 0.5
+"""So long a button on the page counts as held after its last sign."""
+AT_END = "at the end"
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -41,7 +45,8 @@ class Orders:
 
     `over_top`: whether the antenna stands over the top: one coordinate alone then moves both axes. `confirms`: a person
     may tell the box where an axis stands. `counts`: the axes count, and may not be homed. `turns`: whether an axis
-    turns, or its motor is fed: the box may refuse to be told then where it stands.
+    turns, or its motor is fed: the box may refuse to be told then where it stands. `at_end`: whether an axis stands
+    about at that end of its range: a person's jog is refused there.
     """
 
     def __init__(
@@ -56,6 +61,7 @@ class Orders:
         turns: Callable[[str], bool] = lambda _axis: False,
         counts: bool = False,
         follows: bool = False,
+        at_end: Callable[[str, int], bool] = lambda _axis, _way: False,
     ) -> None:
         self.axes = {name: AxisOrders() for name in AXES}
         self._ranges = dict(zip(AXES, ranges, strict=True))
@@ -67,6 +73,7 @@ class Orders:
         self._turns = turns
         self._turned_s = dict.fromkeys(AXES, -math.inf)
         self._counts = counts
+        self._at_end = at_end
         self.latched = False
         """A person has stopped it, and has not let it go."""
         self.acknowledged_s = 0.0
@@ -79,6 +86,9 @@ class Orders:
         self.goes_round = False
         """Forbidden sectors lie in the way: an order for one axis may turn both."""
         self._silenced = Silenced()
+        self._held_off = HeldOff()
+        self._button: str | None = None
+        """The axis whose button is held on the page."""
         self._tracked = Tracked(self.axes, self._ranges, follows=follows, lacking=lacking)
         self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
         self.heard = 0
@@ -113,12 +123,13 @@ class Orders:
         self._release(now_s)
         self.latched = self.latched or stopped
         self._shifts = Shifts()
+        self._held_off.forget()
         self._tracked.begin_anew()
 
     def links_lost(self, now_s: float) -> None:
         """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
-        at_panel = self._panel.mode != "auto" or any(PANEL in orders.goals for orders in self.axes.values())
-        if not self._storm and not at_panel:
+        elsewhere = any(who in orders.goals for who in (PANEL, PAGE) for orders in self.axes.values())
+        if not self._storm and self._panel.mode == "auto" and not elsewhere:
             self._forget(now_s)
 
     def expire(self, now_s: float) -> None:
@@ -134,6 +145,7 @@ class Orders:
             if turned.mode != before:
                 self._forget(now_s, turned.since_s)
                 self._silenced.forget()
+                self._held_off.forget()
                 self._shifts.cleared()
             if turned.releases:
                 self._release(now_s)
@@ -144,11 +156,20 @@ class Orders:
         self.heard += 1
         if event.who == PANEL:
             self._note_panel(event)
+        elif event.who == PAGE:
+            self._note_page(event)
         elif event.who in PEOPLE:
             self._note_person(event)
+        elif self._held_off.holds_off(event):
+            pass
+        elif self._held_off.may_hold_off(event):
+            for axis in AXES:
+                self._anywhere(event, axis)
         else:
             self._note_order(event)
         self._note_flights(event)
+        free = not self._held and not self._storm and self._panel.mode == "auto" and self._panel.settled
+        self._held_off.note(event, free=free)
         self._may_idle(event.at_s)
 
     def _note_flights(self, event: Event) -> None:
@@ -156,6 +177,7 @@ class Orders:
         if event.what == "track" and event.text(0) != "off" and refused:
             return
         free = self._panel.mode == "auto" and self._panel.settled and not self._held and not self._storm
+        free = free and not self._held_off.perhaps
         self._tracked.note(event, takes=free and not self.lacking and not self._counts)
 
     def _may_idle(self, now_s: float) -> None:
@@ -194,6 +216,41 @@ class Orders:
                 pass  # a storm park holds every other order back
             case _:
                 self._note_order(event)
+
+    def _note_page(self, event: Event) -> None:
+        match event.what:
+            case "take" if self._storm:
+                pass
+            case "take" | "mode":
+                self._forget(event.at_s)
+                self.latched = self.latched or self._storms
+            case "hold" if event.text(0) == "off":
+                self._let_button_go(event.at_s)
+            case "hold":
+                axis, way = WAYS[event.text(0)]
+                if self._button is not None and self._button != axis:
+                    self._let_button_go(event.at_s)
+                self._button = axis
+                if axis == self.lacking:
+                    self.pressed_s = event.at_s
+                self._jog(event, axis, Goal(way=way, said_s=event.at_s, until_s=event.at_s + LEASE_S + PANEL_S))
+            case "give-back" | "relays-checked":
+                pass
+            case _:
+                self._note_person(event)
+
+    def _let_button_go(self, now_s: float) -> None:
+        if self._button is not None:
+            for who in (PAGE, f"{PAGE} {AT_END}"):
+                if (goal := self.axes[self._button].goals.get(who)) and goal.way:
+                    goal.until_s = min(goal.until_s, now_s + PANEL_S)
+        self._button = None
+
+    def _jog(self, event: Event, axis: str, goal: Goal) -> None:
+        """At an end of the range a person's jog is refused with the reason: what goes on may go on beside it."""
+        person = event.who in (*PEOPLE, PAGE)
+        who = f"{event.who} {AT_END}" if person and self._at_end(axis, goal.way) else event.who
+        self.axes[axis].goals[who] = goal
 
     def _note_panel(self, event: Event) -> None:
         match event.what:
@@ -249,7 +306,7 @@ class Orders:
                     self.pressed_s = event.at_s
                     seconds = min(seconds, UNCALIBRATED_S)
                 until_s = event.at_s + seconds + PUT_OFF_S
-                self.axes[axis].goals[event.who] = Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds)
+                self._jog(event, axis, Goal(way=way, said_s=event.at_s, until_s=until_s, turns_s=seconds))
             case "stop":
                 self._forget(event.at_s)
                 self.latched = self.latched or self._storms  # it ends the way to the park position, and no more

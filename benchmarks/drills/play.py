@@ -200,6 +200,8 @@ class _Play:
         else:
             if event.what == "confirm":
                 event = self._confirmed(event)
+            if event.what == "relays-checked" and self._world.axes[event.text(0) == "elevation"].welded:
+                return  # a person who looks at the relays sees it
             if not (data := said(event)):
                 return
             self._orders.note(event)

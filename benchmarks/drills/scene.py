@@ -28,6 +28,8 @@ ROUGH_S, ROUGH_TRY_S = 0.08, 3.0
 READINGS = ("every", "burst", "noise", "drift", "stands")
 SENSORS = ("pot-", "adc-", "contact-", "pulses-", "replies-")
 """How the simulators' names of faults of a sensor begin, without their axis."""
+AT_END_DEG = 4.0
+"""So near to an end of its range a person's jog may be refused: by a status that is a moment old."""
 DIP_S = 1.2
 """A chip that has lost its supply for a moment gets its order again within a second."""
 
@@ -82,9 +84,18 @@ def build_orders(config: Config, truths: list[AxisTruth], cases: tuple[AxisCase,
         ),
         parks_idle=config.mount.park_after_s > 0,
         follows=bool(config.sky.follow),
+        at_end=lambda name, way: any(
+            truth.name == name and _may_see_end(truth, case, way) for truth, case in zip(truths, cases, strict=True)
+        ),
         counts=config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
         confirms=config.kind.confirmable or config.angle(Axis.AZIMUTH).source is AngleSource.COUNTED,
     )
+
+
+def _may_see_end(truth: AxisTruth, case: AxisCase, way: int) -> bool:
+    """Whether the box may believe that the axis stands at that end of its range."""
+    end_deg = case.high_deg if way > 0 else case.low_deg
+    return not case.trusted or case.astray or (end_deg - truth.shaft_deg) * way <= AT_END_DEG + case.slack_deg
 
 
 def lapse(drill: Drill) -> Iterator[Event]:

@@ -12,6 +12,8 @@ from typing import Any
 FORMAT = "drill 1"
 LINKS = ("gs232b", "gs232a", "rotctld", "rotctld-2", "easycomm2", "easycomm3", "pstrotator")
 PEOPLE = ("console", "console-2")
+PAGE = "page"
+"""A person with a browser."""
 PANEL, WORLD, CLOCK, PROGRAM = "panel", "world", "clock", "program"
 
 Arg = float | str

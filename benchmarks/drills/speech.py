@@ -5,7 +5,7 @@ Knows how each order is written. Does not know what the box makes of it.
 
 from __future__ import annotations
 
-from benchmarks.drills.script import Event
+from benchmarks.drills.script import PAGE, Event
 
 PROTOCOLS = {
     "gs232b": "gs232b",
@@ -25,7 +25,7 @@ def said(event: Event) -> bytes:
     """The bytes of an event of a link or a console; empty: this protocol has no words for it."""
     if event.what == "junk":
         return event.text(0).encode("latin-1") + b"\r\n"  # else the next order would be a part of it
-    if event.who.startswith("console"):
+    if event.who == PAGE or event.who.startswith("console"):
         return _line(_console(event), b"\n")
     match PROTOCOLS[event.who]:
         case "gs232a" | "gs232b":
@@ -126,12 +126,12 @@ def _console(event: Event) -> str:
             return f"point {float(azimuth_deg):g} {float(elevation_deg):g}"
         case "jog", (way, seconds):
             return f"jog {way} {float(seconds):.3g}"
-        case "stop" | "resume" | "let-go" as word, ():
+        case "stop" | "resume" | "let-go" | "take" | "give-back" as word, ():
             return word
         case "storm", ():
             return "park"
-        case "home", (axis,):
-            return f"home {axis}"
+        case "home" | "relays-checked" | "hold" | "mode" as word, (what,):
+            return f"{word} {what}"
         case "confirm", (axis, angle_deg):
             return f"confirm {axis} {float(angle_deg):.2f}"
         case "panel", (*words,):

@@ -66,6 +66,8 @@ class Tracked:
                 self._before = {sender for orders in self._axes.values() for sender in orders.goals}
             case "recognised":
                 self._recognise(event)
+            case "give-back":
+                self._rests_until_s = -math.inf  # the plan of the day has the antenna back
             case "stop-axis" | "resume" | "storm":
                 self.stopped(event.at_s)
             case "aim" if takes and self._is_new(event):

@@ -74,6 +74,7 @@ def test_every_kind_of_event_is_drawn_before_long() -> None:
     assert persons >= {"stop", "resume", "storm", "home", "confirm", "let-go", "aim", "jog", "leave"}
     others = {what for link, person, what in drawn if not link and not person}
     assert others >= {"mode", "knob", "fault", "clear", "weld", "unweld", "pace", "push", "every", "burst", "noise"}
+    assert others >= {"take", "give-back", "hold", "relays-checked"}
     assert others >= {"drift", "stands", "stalled", "late", "hung", "jitter", "restart", "kill"}
 
 
@@ -93,6 +94,8 @@ def test_a_campaign_fills_its_hours_with_all_kinds() -> None:
         ("pstrotator", "park", (), b"<PST><PARK>1</PARK></PST>"),
         ("console", "storm", (), b"park\n"),
         ("console", "jog", ("cw", 0.5), b"jog cw 0.5\n"),
+        ("page", "hold", ("ccw",), b"hold ccw\n"),
+        ("page", "relays-checked", ("azimuth",), b"relays-checked azimuth\n"),
         ("rotctld", "list", (1.0, 2.0), b""),
     ],
 )

@@ -1,0 +1,109 @@
+"""A person on the page in a drill: what a paired browser sends, and when. Drawn from a stream of its own.
+
+Knows what people do with a page: they take the antenna, hold a button, point, set a mode, give it back, and say that
+they have looked at the relays. Does not know what the box makes of it. A button that is held sends its sign several
+times a second, and is let go, or its connection is lost.
+"""
+
+from __future__ import annotations
+
+import random
+from typing import cast
+
+from benchmarks.drills.boxes import BOTH, Mast
+from benchmarks.drills.script import PAGE, Arg, Event
+from hw.ports import Direction
+from rotator.orders import Jog, Source
+from rotator.protocols.console import PersonCommand, parse
+from rotator.protocols.operating import Operating
+from rotator.protocols.panel_words import TURNS
+from rotator.protocols.session import Box, Tracking
+from rotator.web.holding import LEASE_S
+
+LOOKS_ON = 0.35
+"""In so many of the drills there is a browser."""
+SIGN_S = 0.1
+WAYS = ("cw", "ccw", "up", "down")
+MODES = ("auto", "manual", "jog", "park")
+
+
+class Browser:
+    """A session of the page: lines as on the console, and `hold WAY` or `hold off` for the button that is held."""
+
+    idle_s = None
+    closed = False
+
+    def __init__(self, box: Box, tracking: Tracking, source: Source) -> None:
+        self._operating = Operating(box, tracking, source)
+        self._held: Jog | None = None
+
+    def receive(self, data: bytes) -> list[bytes]:
+        match data.split():
+            case [b"hold", b"off"]:
+                jog = Jog(self._held.axis, Direction.OFF, held=True) if self._held else None
+                self._held = None
+                return [self._operating.do(jog).encode()] if jog else []
+            case [b"hold", way]:
+                jog = Jog(*TURNS[way.decode()], LEASE_S, held=True)
+                if self._held is not None and (self._held.axis, self._held.direction) != (jog.axis, jog.direction):
+                    self._operating.do(Jog(self._held.axis, Direction.OFF, held=True))
+                self._held = jog
+                return [self._operating.do(jog).encode()]
+        command = cast(PersonCommand, parse(data.rstrip(b"\n")))  # a drill asks nothing here
+        return [self._operating.do(command).encode()]
+
+    def idle(self) -> list[bytes]:
+        return []
+
+
+def draw_browser(seed: str, mast: Mast, seconds: float, moments_s: list[float]) -> list[Event]:
+    """Of the drill with this seed; empty: no browser is there. Much of it comes soon after another event."""
+    chance = random.Random(f"{seed}/page")
+    if chance.random() >= LOOKS_ON:
+        return []
+    events: list[Event] = []
+    for _ in range(chance.choice((1, 2, 3, 5))):
+        at_s = chance.uniform(0.0, seconds)
+        if chance.random() < 0.7:
+            at_s = max(0.0, chance.choice(moments_s) + chance.uniform(-0.5, 6.0))
+        for what, *args in _errand(chance, mast):
+            events += _press(chance, at_s, what, args)
+            at_s = events[-1].at_s + chance.choice((0.05, 0.5, 2.0, 10.0))
+    return [event for event in events if event.at_s < seconds]
+
+
+def _errand(chance: random.Random, mast: Mast) -> list[tuple[str, *tuple[Arg, ...]]]:
+    """What a person does in a row."""
+    way, axis = chance.choice(WAYS), chance.choice(BOTH)
+    azimuth_deg, elevation_deg = (float(chance.randrange(round(top_deg))) for top_deg in mast.top_deg)
+    aim: tuple[str, *tuple[Arg, ...]] = ("aim", azimuth_deg, elevation_deg)
+    match chance.randrange(9):
+        case 0:
+            return [("take",), aim, ("give-back",)]
+        case 1:
+            return [("take",), ("hold", way), ("hold", chance.choice(WAYS))]
+        case 2:
+            return [("hold", way)]
+        case 3:
+            return [aim, ("hold", way), ("give-back",)]
+        case 4 if not mast.has_panel:
+            return [("mode", chance.choice(MODES)), aim, ("hold", way), ("mode", chance.choice(MODES))]
+        case 5:
+            return [("stop",), ("resume",), ("hold", way)]
+        case 6:
+            return [("relays-checked", axis), ("jog", chance.choice(WAYS), 2.0)]
+        case 7:
+            return [("take",), ("give-back",)]
+        case _:
+            return [("jog", way, chance.choice((0.1, 1.0, 5.0))), ("give-back",)]
+
+
+def _press(chance: random.Random, at_s: float, what: str, args: list[Arg]) -> list[Event]:
+    """The events of one press; a button that is held sends its signs, and is not always seen to be let go."""
+    if what != "hold":
+        return [Event(round(at_s, 3), PAGE, what, tuple(args))]
+    count = round(chance.choice((0.1, 0.4, 1.0, 3.0, 8.0)) / SIGN_S)
+    signs = [Event(round(at_s + SIGN_S * number, 3), PAGE, what, tuple(args)) for number in range(count)]
+    if chance.random() < 0.6:
+        signs.append(Event(round(at_s + SIGN_S * count, 3), PAGE, what, ("off",)))
+    return signs
