@@ -31,7 +31,7 @@ TAKEN_S = 0.2
 """A program that is killed so soon after a stop may not have taken it."""
 LEASE_S = 0.5
 """So long a button on the page counts as held after its last sign."""
-AT_END = "at the end"
+AT_END, ROUND = "at the end", "round a sector"
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -251,6 +251,10 @@ class Orders:
         person = event.who in (*PEOPLE, PAGE)
         who = f"{event.who} {AT_END}" if person and self._at_end(axis, goal.way) else event.who
         self.axes[axis].goals[who] = goal
+        others = [orders.goals for name, orders in self.axes.items() if name != axis]
+        if self.goes_round and any(other.angles_deg for goals in others for other in goals.values()):
+            # The other axis goes on to its target, and this one may have to make room for it.
+            self.axes[axis].goals[f"{event.who} {ROUND}"] = Goal(said_s=event.at_s)
 
     def _note_panel(self, event: Event) -> None:
         match event.what:

@@ -129,7 +129,8 @@ class Silence:
     def _most_s(self, fault: _Lasting) -> float:
         """A contact that stands still shows nothing before three of its periods."""
         case = self._cases[fault.axis]
-        return max(SILENT_S, case.patience_s) if case.counts and fault.name in DRIVEN else SILENT_S
+        waits = case.counts and (fault.name in DRIVEN or fault.name.startswith("relay-welded"))
+        return max(SILENT_S, case.patience_s) if waits else SILENT_S
 
     @staticmethod
     def _to_be_seen(fault: _Lasting, truth: AxisTruth, *, ordered: bool, there: frozenset[str]) -> bool:

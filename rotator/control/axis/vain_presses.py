@@ -14,6 +14,8 @@ from rotator.faults import Notice
 
 ENOUGH, ENOUGH_S = 3, 1.0
 """So many presses in a row, and so long in all, that did not move it."""
+LONG_S = 4.5
+"""Or so long in all: presses that follow each other without a pause look like one."""
 SMOOTHED = 5
 """The mean of so many readings is where it is."""
 MOVED_DEG, MOVED_NOISES = 0.3, 4.0
@@ -32,7 +34,7 @@ class VainPresses:
 
     def forget(self) -> None:
         """A person has looked."""
-        self._count, self._pressed_s = 0, 0.0
+        self._count, self._pressed_s, self._present_s = 0, 0.0, 0.0
         self._stands_deg: float | None = None
         """Where it stood when the first of these presses began."""
         self._since_s: float | None = None
@@ -44,15 +46,16 @@ class VainPresses:
 
     @property
     def enough(self) -> bool:
-        """Whether a program has pressed it in vain often enough."""
-        return self._count >= ENOUGH and self._pressed_s >= ENOUGH_S
+        """Whether it has been pressed in vain often enough, or for long enough."""
+        long = self._pressed_s + self._present_s >= LONG_S
+        return long or (self._count >= ENOUGH and self._pressed_s >= ENOUGH_S)
 
     def driven(self, now_s: float, direction: Direction) -> None:
         if direction is Direction.OFF:
             if self._since_s is not None and not self._moved:
                 self._pressed_s += now_s - self._since_s
                 self._ended_s = now_s
-            self._since_s, self._moved = None, False
+            self._since_s, self._moved, self._present_s = None, False, 0.0
         elif self._since_s is None:
             self._counted()
             self._since_s = now_s
@@ -66,7 +69,9 @@ class VainPresses:
             return
         if abs(self._place_deg - self._stands_deg) >= max(MOVED_DEG, MOVED_NOISES * noise_deg):
             self._count, self._pressed_s, self._stands_deg, self._ended_s = 0, 0.0, self._place_deg, None
-            self._moved = self._since_s is not None
+            self._moved, self._present_s = self._since_s is not None, 0.0
+        elif self._since_s is not None and not self._moved:
+            self._present_s = at_s - self._since_s
         elif self._ended_s is not None and at_s - self._ended_s >= SETTLES_S:
             self._counted()
 

@@ -71,6 +71,23 @@ def test_from_one_press_to_the_next_without_a_pause_they_count_too() -> None:
     assert pot.presses.enough
 
 
+def test_presses_that_run_into_each_other_are_told_within_five_seconds() -> None:
+    """Each order comes while the relay is still on: the relay closes once."""
+    pot = Pot(0.0, 0.1)
+    pot.presses.driven(pot.now_s, PLUS)
+    pot.rest(4.0)
+    assert not pot.presses.enough
+    pot.rest(1.0)
+    assert pot.presses.enough
+
+
+def test_a_long_press_that_turns_it_is_not_in_vain() -> None:
+    pot = Pot(0.5, 0.1)
+    pot.press(60.0)
+    pot.rest(1.0)
+    assert not pot.presses.enough
+
+
 def test_a_person_who_has_looked_begins_anew() -> None:
     pot = Pot(0.0, 0.1)
     for _ in range(3):
