@@ -87,6 +87,8 @@ class Orders:
         """Forbidden sectors lie in the way: an order for one axis may turn both."""
         self._silenced = Silenced()
         self._held_off = HeldOff()
+        self._modes = False
+        """A person on the page has set a mode, which may hold a storm park back."""
         self._button: str | None = None
         """The axis whose button is held on the page."""
         self._tracked = Tracked(self.axes, self._ranges, follows=follows, lacking=lacking)
@@ -124,6 +126,7 @@ class Orders:
         self.latched = self.latched or stopped
         self._shifts = Shifts()
         self._held_off.forget()
+        self._modes = False
         self._tracked.begin_anew()
 
     def links_lost(self, now_s: float) -> None:
@@ -200,7 +203,8 @@ class Orders:
                     if not self._counts:
                         self._forget(event.at_s)
                     self._storm, self._stopped_s = True, event.at_s
-                    self._storms = not self._counts and self._panel.mode == "auto" and self._panel.settled
+                    free = self._panel.mode == "auto" and self._panel.settled and not self._modes
+                    self._storms = not self._counts and free
                     for axis in AXES:
                         self._aim(event, axis, (self._park_deg[axis],))
             case "home":
@@ -224,6 +228,7 @@ class Orders:
             case "take" | "mode":
                 self._forget(event.at_s)
                 self.latched = self.latched or self._storms
+                self._modes = self._modes or event.what == "mode"
             case "hold" if event.text(0) == "off":
                 self._let_button_go(event.at_s)
             case "hold":
