@@ -223,8 +223,8 @@ class Orders:
 
     def _note_page(self, event: Event) -> None:
         match event.what:
-            case "take" if self._storm:
-                pass
+            case "take" if self._storm or self._panel.mode != "auto" or not self._panel.settled:
+                pass  # a person at the panel whose switch is held jogs on
             case "take" | "mode":
                 self._forget(event.at_s)
                 self.latched = self.latched or self._storms
