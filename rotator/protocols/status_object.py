@@ -56,6 +56,7 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
     Field("min_deg", "number", "the low end of its range", lambda axis: _angle(axis.min_deg)),
     Field("max_deg", "number", "the high end of its range", lambda axis: _angle(axis.max_deg)),
     Field("fault", "object or null", "the fault that holds it", lambda axis: _fault(axis.fault)),
+    Field("confirmable", "true or false", "`rotator confirm` has an effect", lambda axis: axis.confirmable),
     Field("relays_in_doubt", "true or false", "`rotator relays-checked` has an effect",
           lambda axis: axis.relays_in_doubt),
     Field("missing", "list of text", "what it needs before it may be aimed: calibration, homing …",

@@ -36,7 +36,7 @@ BEFORE_S = 120.0
 """A plan that is older than `FRESH_S` is made again so long before its pass, with the newest elements."""
 CLOCK_UNSURE = (
     "nothing is tracked before this computer's clock is right: it has reached no time server yet. Where `date` shows "
-    "the right time: rotator track --clock-is-right NAME"
+    "the right time: rotator track --clock-is-right NAME, or step 8 of the page's Setup"
 )
 
 

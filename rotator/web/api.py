@@ -110,7 +110,10 @@ class Api:
     async def _log(self, request: web.Request) -> web.StreamResponse:
         # It names people's browsers and their machines.
         self._entrance.must_be_paired(request)
-        return web.json_response({"lines": self._behind.lines.told()})
+        said = self._behind.scene.said
+        return web.json_response(
+            {"lines": [{**line, "text": said(line["text"])} for line in self._behind.lines.told()]}
+        )
 
     async def _serve_live(self, request: web.Request) -> web.StreamResponse:
         self._entrance.may_read(request)
@@ -133,7 +136,7 @@ class Api:
         def order(jog: Jog) -> str:
             # At each sign anew: it may have been revoked since.
             who = self._entrance.who(request)
-            return self._as(who).do(jog) if who else "this browser is paired no more"
+            return self._behind.scene.said(self._as(who).do(jog)) if who else "this browser is paired no more"
 
         return order
 

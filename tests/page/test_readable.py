@@ -49,7 +49,7 @@ def test_axe_finds_nothing(start: Start, visit: Visit, light: str) -> None:
     page.get_by_role("link", name="Save a backup").wait_for()
     assert violations(page) == [], "files"
     page.get_by_role("link", name="Log").click()
-    page.get_by_text("stopped by page").first.wait_for()
+    page.locator(".log td", has_text="stopped by").first.wait_for()
     assert violations(page) == [], "log"
     page.get_by_role("link", name="Browsers").click()
     page.get_by_text("Paired browsers").wait_for()

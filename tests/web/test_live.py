@@ -154,7 +154,7 @@ def test_a_stop_ends_what_is_held_and_the_held_button_starts_nothing(page_box: S
                 edges = Edges(box.world)
                 await browser.holds("cw", lambda: bool(browser.refused))
                 assert edges.opened_s == []
-                assert browser.refused[0].startswith("stopped by page")
+                assert browser.refused[0].startswith("stopped by a browser")
 
     asyncio.run(main())
 

@@ -48,7 +48,7 @@ def test_the_log_is_for_paired_browsers(page_box: Start) -> None:
             await box.pair("Anna's phone")
             await box.post("stop")
             async with asyncio.timeout(PATIENCE_S):
-                while not any("stopped by page" in line["text"] for line in (await box.get("log"))[1]["lines"]):
+                while not any("stopped by Anna" in line["text"] for line in (await box.get("log"))[1]["lines"]):
                     await asyncio.sleep(0)
 
     asyncio.run(main())

@@ -3,11 +3,11 @@ import { Live, post, read } from "/box.js";
 import { Chart } from "/chart.js";
 import { AzimuthDial, ElevationDial } from "/dials.js";
 import { Errands } from "/errands.js";
-import { Asks, JogPad, Target, Track } from "/hand.js";
+import { Asks, JogPad, Target, ThereFromSky, Track } from "/hand.js";
 import { Help, helps } from "/help.js";
 import { Pair, Paired } from "/pairing.js";
 import { Passes } from "/passes.js";
-import { Control, Front, Headline, Links, Mode, Notes, Troubles } from "/panels.js";
+import { Control, Front, Headline, Links, Mode, Notes, Strip } from "/panels.js";
 import { Setup } from "/setup.js";
 import { Sky } from "/sky.js";
 import { act, html, render, useEffect, useState } from "/ui.js";
@@ -47,14 +47,15 @@ function useNext(name) {
   return next;
 }
 
-function Antenna({ station, now, hello, fresh }) {
-  const [draft, setDraft] = useState(null), [said, say] = useState("");
+function Antenna({ station, now, hello, fresh, say }) {
+  const [draft, setDraft] = useState(null);
   const [past, path] = usePast(now.path), next = useNext(now.path);
   const paired = hello.paired;
   const { azimuth, elevation } = now.status;
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
-    <div class="top"><${Headline} now=${now} next=${next} /><${Troubles} now=${now} paired=${paired} say=${say} /></div>
-    <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${draft} onPick=${setDraft} /></div>
+    <div class="top"><${Headline} now=${now} next=${next} /></div>
+    <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${draft} onPick=${setDraft} />
+      ${paired && html`<${ThereFromSky} draft=${draft} say=${say} />`}</div>
     <section class="panel hand" aria-label="By hand">
       <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
       <${Mode} now=${now} hello=${hello} paired=${paired} say=${say} />
@@ -64,7 +65,6 @@ function Antenna({ station, now, hello, fresh }) {
         <${Asks} label="Park" question=${`The antenna turns to ${station.park[0]}°, ${station.park[1]}° and stays there until you let it move again. Park it?`}
           yes="Park it" onYes=${() => act(post("park"), say)} />
         <${Errands} now=${now} say=${say} />` : html`<${Pair} onPaired=${() => live.connect()} />`}
-      <p class="said" role="status">${said}</p>
     </section>
     <div class="panel dials"><${AzimuthDial} range=${station.azimuth} angle=${now.azimuth_deg} target=${now.azimuth_target_deg} drive=${azimuth.drive} />
       <${ElevationDial} range=${station.elevation} angle=${now.elevation_deg} target=${now.elevation_target_deg} drive=${elevation.drive} /></div>
@@ -77,11 +77,11 @@ function Antenna({ station, now, hello, fresh }) {
 const VIEWS = [["", "Antenna"], ["sky", "Sky"], ["setup", "Setup"], ["doctor", "Help"], ["paired", "Browsers"]];
 
 function Page() {
-  const [seen, setSeen] = useState({ now: null }), [station, setStation] = useState(null), [view, setView] = useState(location.hash.slice(1));
+  const [seen, setSeen] = useState({ now: null }), [station, setStation] = useState(null), [view, setView] = useState(location.hash.slice(1)), [said, say] = useState("");
   useEffect(() => {
     tell = setSeen;
     live.tell();
-    addEventListener("hashchange", () => setView(location.hash.slice(1)));
+    addEventListener("hashchange", () => (setView(location.hash.slice(1)), say("")));
   }, []);
   useEffect(() => {
     // A box that has been started anew may have another range. It greets anew.
@@ -94,7 +94,8 @@ function Page() {
       <nav aria-label="Views">${VIEWS.map(([hash, name]) => html`<a href=${`#${hash}`} aria-current=${view === hash || (hash === "doctor" && helps(view)) ? "page" : null}>${name}</a>`)}</nav>
       <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? (hello.paired ? hello.name : "looking") : now ? "no connection" : "connecting …"}</span>${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
     </header>
-    ${now && station && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} />`}
+    ${now && html`<${Strip} now=${now} paired=${hello.paired} fresh=${fresh} beside=${view === ""} said=${said} say=${say} />`}
+    ${now && station && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} say=${say} />`}
     ${now && station && view === "sky" && html`<main><${Passes} now=${now} station=${station} paired=${hello.paired} /></main>`}
     ${now && helps(view) && html`<${Help} view=${view} now=${now} hello=${hello} onPaired=${() => live.connect()} />`}
     ${now && (view === "setup" || view === "paired") && html`<main>${!hello.paired ? html`<${Pair} onPaired=${() => live.connect()} />`

@@ -34,7 +34,7 @@ export function Elements({ paired, changed }) {
   const remove = (name) => act(post("elements/remove", { name }).then(() => (keep(`${name} is removed.`), after())), say);
   if (!told) return null;
   return html`<section class="log elements" aria-label="Elements"><h2>Elements of satellites</h2>
-    <p>${told.satellites ? `${told.satellites} satellites. Of each the newest set counts.` : "No satellite is known yet."}</p>
+    <p>${told.satellites ? `${told.satellites} satellites. Of each the newest set counts.` : "No satellite is known yet."}${!told.files.length && !told.fetch.length && html` Send a file, or name an address to fetch from: <a href="#setup">Setup, step 8</a>.`}</p>
     <ul>${told.files.map((file) => html`<li><b>${file.name}</b><span>${file.satellites} satellites${file.satellites ? `, ${days(file)}` : ""}</span>
         ${file.uploaded && paired && html`<button type="button" aria-label=${`Remove ${file.name}`} onClick=${() => remove(file.name)}>Remove</button>`}</li>`)}
       ${told.fetch.map((one) => html`<${Fetched} one=${one} />`)}</ul>

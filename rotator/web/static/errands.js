@@ -1,7 +1,7 @@
 // What only a person at the antenna may order: homing, and the word that relays have been looked at. Each asks first.
 import { post } from "/box.js";
 import { Asks } from "/hand.js";
-import { act, html } from "/ui.js";
+import { act, html, useState } from "/ui.js";
 
 const AXES = ["azimuth", "elevation"];
 
@@ -23,6 +23,19 @@ function Homes({ now, axis, say }) {
     onYes=${() => act(post("home", { axis }), say)} />`;
 }
 
+/** An axis that cannot know its angle, or counts, is told it by a person who reads it off the mast. */
+function Confirms({ now, axis, say }) {
+  const [angle, setAngle] = useState("");
+  if (!now.status[axis].confirmable) return null;
+  const confirm = (event) => {
+    event.preventDefault();
+    act(post("confirm", { axis, angle_deg: Number(angle) }).then(() => setAngle("")), say);
+  };
+  return html`<details><summary>Tell the box where the ${axis} stands</summary><form class="fields" onSubmit=${confirm}>
+    <label>The ${axis} stands at, in degrees<input type="number" inputmode="decimal" required step="any" value=${angle} onInput=${(event) => setAngle(event.target.value)} /></label>
+    <button type="submit">It stands there</button></form></details>`;
+}
+
 export function Errands({ now, say, axes = AXES }) {
-  return axes.map((axis) => html`<${Doubt} now=${now} axis=${axis} say=${say} /><${Homes} now=${now} axis=${axis} say=${say} />`);
+  return axes.map((axis) => html`<${Doubt} now=${now} axis=${axis} say=${say} /><${Homes} now=${now} axis=${axis} say=${say} /><${Confirms} now=${now} axis=${axis} say=${say} />`);
 }

@@ -71,6 +71,13 @@ export function Target({ station, draft, setDraft, say }) {
   </form>`;
 }
 
+/** A direction that was pressed on the sky: the next step stands there, too. */
+export function ThereFromSky({ draft, say }) {
+  const [az, el] = draft ?? ["", ""];
+  if (az === "" || el === "") return null;
+  return html`<p><button type="button" class="go" onClick=${() => act(post("point", { azimuth_deg: Number(az), elevation_deg: Number(el) }), say)}>Turn to ${az}°, ${el}°</button></p>`;
+}
+
 export function Track({ now, known, say }) {
   const [name, setName] = useState("");
   const track = (event) => {

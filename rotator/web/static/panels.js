@@ -19,7 +19,7 @@ export function Headline({ now, next }) {
       ${now.off_deg != null && html`<span>off by <b>${now.off_deg.toFixed(1)}°</b></span>`}
       ${tracks && html`<span>${tracks.name} <b>${now.rise_or_set}</b></span>`}
       ${next && next.name !== tracks?.name && html`<span>next ${next.name} <b>in ${minutes(next.aos)}</b>, ${Math.round(next.max_el_deg)}° high${next.plan?.flown ? "" : ", not in a plan"}</span>`}
-      ${now.starts != null && html`<span><b>${now.starts}</b> motor starts in this pass</span>`}
+      ${now.starts != null && now.off_deg != null && html`<span><b>${now.starts}</b> motor starts in this pass</span>`}
     </p>
   </section>`;
 }
@@ -52,8 +52,19 @@ export function Mode({ now, hello, paired, say }) {
       aria-pressed=${mode === each} onClick=${() => act(post("mode", { mode: each }), say)}>${name}</button>`)}</div><p>${told}</p></div>`;
 }
 
+/** Over every view, also one that is scrolled: where the antenna points, what stopped it, why an order has no effect.
+    `beside`: the headline is on this view, too. */
+export function Strip({ now, paired, fresh, beside, said, say }) {
+  const quiet = beside && !said && !now.stopper && !now.status.azimuth.fault && !now.status.elevation.fault;
+  return html`<section class=${`strip ${beside ? "beside" : ""} ${quiet ? "quiet" : ""}`} aria-label="Where the antenna points">
+    <p class=${`glance ${now.mood} ${fresh ? "" : "old"}`} aria-hidden=${beside ? "true" : null}><b>${now.headline}</b>
+      <span>${degrees(now.azimuth_deg)} / ${degrees(now.elevation_deg)}</span></p>
+    <${Troubles} now=${now} paired=${paired} say=${say} />
+    <p class="said" role="status">${said}</p></section>`;
+}
+
 /** Stops and faults: in words, with what to do, and the button that lets it go on. */
-export function Troubles({ now, paired, say }) {
+function Troubles({ now, paired, say }) {
   const faults = [now.status.azimuth.fault, now.status.elevation.fault].filter(Boolean);
   if (!now.stopper && !faults.length) return null;
   const resume = html`<button type="button" class="go" disabled=${!paired} onClick=${() => act(post("resume"), say)}>

@@ -82,7 +82,7 @@ export function Passes({ now: box, station, paired }) {
     <section class="log passes"><h2>Passes of the next day</h2>
     <p>Error: how far a satellite may be off, from the age of its elements.</p>
     <label>Passes that reach, in degrees<input type="number" min="0" max="90" value=${least} onInput=${(event) => setLeast(Number(event.target.value))} /></label>
-    <p class="said" role="status">${fault}</p>
+    <p class="said" role="status">${station.where ? fault : html`The box does not know where it stands: <a href="#setup">Setup, step 8</a>.`}</p>
     ${shown.length > 0 && html`<table><thead><tr><th scope="col">satellite</th><th scope="col">rises</th><th scope="col" class="wide">at</th>
       <th scope="col" class="wide">for</th><th scope="col">highest</th><th scope="col" class="wide">from, to</th><th scope="col">error</th><th scope="col">track</th></tr></thead>
       <tbody>${shown.slice(0, rows).map((pass) => html`<${Row} key=${pass.name + pass.tca} pass=${pass} now=${now} paired=${paired} tracked=${tracks?.name === pass.name} track=${track} beam=${station.beam_deg} />`)}</tbody></table>`}

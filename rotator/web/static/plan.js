@@ -65,7 +65,7 @@ export function Followed({ paired, changed, say }) {
     addEventListener("pointermove", move);
     ["pointerup", "pointercancel"].forEach((each) => addEventListener(each, end));
   };
-  if (!followed.length) return html`<p>The file follows nothing: [[sky.follow]] names a target whose passes the box flies by itself.</p>`;
+  if (!followed.length) return html`<p>The file follows nothing. <a href="#setup">Setup, step 8</a>, <code>sky.follow</code>: a target whose passes the box flies by itself.</p>`;
   const other = followed.some((one) => one.priority !== one.written);
   return html`<div class="followed"><p>${paired ? "Drag what matters more to the top." : "What stands further up counts more."} Where two are up at once, a minute at priority 2 is worth two at priority 1.</p>
     <ol ref=${list}>${followed.map((one, index) => (paired ? html`<${Target} key=${one.name} one=${one} place=${index} count=${followed.length} onMove=${place} onDrag=${begin} dragged=${drag === one.name} />`

@@ -2,6 +2,7 @@
 import { post, read } from "/box.js";
 import { Calibrate } from "/calibrate.js";
 import { Errands } from "/errands.js";
+import { Asks } from "/hand.js";
 import { Header } from "/header.js";
 import { Proposed, Settings, useSettings } from "/settings.js";
 import { act, html, useEffect, useRef, useState } from "/ui.js";
@@ -45,8 +46,7 @@ function Relays({ now, hello, say }) {
   const mine = now.status.held_by === hello.source;
   return html`<p>Take the antenna first: then no program moves it. Each press closes one relay for 0.2 s. Watch the lamps of the relay board, and the motor.</p>
     ${!mine && html`<button type="button" class="go" onClick=${() => act(post("take"), say)}>Take the antenna</button>`}
-    <div class="chips" role="group" aria-label="Close one relay for 0.2 s">${RELAYS.map(([turn, name]) => html`<button type="button" disabled=${!mine || now.status.moving} onClick=${() => act(post("pulse", { turn }), say)}>Pulse ${name}
-      <span class=${`pulse ${now.lamps[turn]}`}>${now.lamps[turn]}</span></button>`)}</div>
+    <div class="chips" role="group" aria-label="Close one relay for 0.2 s">${RELAYS.map(([turn, name]) => html`<button type="button" disabled=${!mine || now.status.moving} onClick=${() => act(post("pulse", { turn }), say)}>Pulse ${name} <span class=${`pulse ${now.lamps[turn]}`}>${now.lamps[turn]}</span></button>`)}</div>
     ${mine && html`<button type="button" onClick=${() => act(post("give-back"), say)}>Give it back to the programs</button>`}
     <${Errands} now=${now} say=${say} />
     <p class="about">The wrong relay, or none: change its GPIO in <code>[relays]</code> below. The antenna turns the wrong way: exchange the two numbers of that axis.</p>`;
@@ -95,10 +95,12 @@ function Network({ settings, now, say }) {
       : html`<button type="button" class="go" disabled=${!wanted || busy !== ""} onClick=${() => act(post("settings/check", values).then(propose), say)}>Open it to ${wanted || "this network"}</button>`}`;
 }
 
-function Clock() {
+function Clock({ say }) {
   const [off, setOff] = useState(null);
   useEffect(() => void fetch("/api/me").then((answer) => setOff((new Date(answer.headers.get("Date")) - Date.now()) / 1000), () => {}), []);
-  return off != null && html`<p>${Math.abs(off) < 3 ? "The clocks of the box and of this browser agree." : html`<b class="mistake">The box's clock is ${Math.abs(Math.round(off))} s ${off > 0 ? "ahead of" : "behind"} this browser's.</b> One of them is wrong: satellites need the right time.`}</p>`;
+  return off != null && html`<p>${Math.abs(off) < 3 ? "The clocks of the box and of this browser agree." : html`<b class="mistake">The box's clock is ${Math.abs(Math.round(off))} s ${off > 0 ? "ahead of" : "behind"} this browser's.</b> One of them is wrong: satellites need the right time.`}</p>
+    <p>A box that has reached no time server tracks nothing, before a person says that its time is right:</p>
+    <${Asks} label="The time of the box is right" question="Is the time of the box right, to a second? A satellite is elsewhere a second later." yes="It is right" onYes=${() => act(post("clock-is-right"), say)} />`;
 }
 
 function Step({ number, title, done, children, open }) {
@@ -120,8 +122,8 @@ export function Setup({ now, hello }) {
       <p class="about">Turn the rotor by hand or by its own box: the reading follows smoothly, and stands with it.</p>${some(["azimuth.sensor", "elevation.sensor", "adc"])}<//>
     <${Step} number="5" title="Calibrate the azimuth" done=${calibrated("azimuth")}><${Calibrate} axis="azimuth" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} /><${Errands} now=${now} axes=${["azimuth"]} say=${say} /><//>
     <${Step} number="6" title="Calibrate the elevation" done=${calibrated("elevation")}><${Calibrate} axis="elevation" settings=${settings} moving=${moving} say=${say} onEnd=${settings.load} /><${Errands} now=${now} axes=${["elevation"]} say=${say} /><//>
-    <${Step} number="7" title="Limits">${some(["azimuth", "elevation", "mount"], ["min_deg", "max_deg", "park_azimuth_deg", "park_elevation_deg", "flip", "horizon"])}<//>
-    <${Step} number="8" title="Place and time" done=${file?.values.station?.locator}><${Clock} />${some(["station"])}<//>
+    <${Step} number="7" title="Limits">${some(["azimuth", "elevation", "mount", "mount.forbidden"], ["min_deg", "max_deg", "park_azimuth_deg", "park_elevation_deg", "flip", "horizon", "name", "azimuth_deg", "elevation_deg"])}<//>
+    <${Step} number="8" title="Place and time" done=${file?.values.station?.locator ?? (file?.values.station ? "set" : "")}><${Clock} say=${say} />${some(["station", "sky", "sky.follow"])}<//>
     <${Step} number="9" title="Your tracking program"><${Links} ...${of} /><//>
     <${Step} number="10" title="Open it to the network"><${Network} ...${of} /><//>
     <${Step} number="11" title="All settings"><${Settings} ...${of} /><//></div>`;

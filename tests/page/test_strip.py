@@ -1,0 +1,97 @@
+"""What a person on a phone sees wherever the page is scrolled: the angles, a stop, why an order is refused."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.page.conftest import Station, pair
+from tests.page.test_dashboard import PHONE, waits_for
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Locator, Page
+
+Start = Callable[..., Station]
+Visit = Callable[..., "Page"]
+
+
+def in_sight(page: Page, what: Locator) -> bool:
+    """Whether all of it is on the screen, and above STOP."""
+    box, stop = what.bounding_box(), page.locator("#stop").bounding_box()
+    return box is not None and stop is not None and box["y"] >= 0 and box["y"] + box["height"] <= stop["y"]
+
+
+@pytest.mark.parametrize("view", ["Antenna", "Sky", "Setup", "Help", "Browsers"])
+def test_a_stop_and_its_end_are_in_sight_on_every_view_also_at_its_end(start: Start, visit: Visit, view: str) -> None:
+    station = start()
+    page = visit(station, **PHONE)
+    pair(page)
+    page.get_by_role("link", name=view).first.click()
+    page.evaluate("scrollTo(0, document.body.scrollHeight)")
+    page.keyboard.press("Escape")
+    again = page.get_by_role("button", name="Let it move again")
+    again.wait_for()
+    assert in_sight(page, again)
+    assert in_sight(page, page.locator(".troubles", has_text="Stopped by"))
+    again.click()
+    again.wait_for(state="detached")
+
+
+def test_while_a_button_is_held_the_angles_are_in_sight(start: Start, visit: Visit) -> None:
+    page = visit(start(), **PHONE)
+    pair(page)
+    button = page.get_by_role("button", name="Hold to turn CW")
+    button.scroll_into_view_if_needed()
+    page.evaluate("document.querySelector('.jogpad').scrollIntoView({block: 'center'})")
+    before = page.locator(".glance span").inner_text()
+    button.hover()
+    page.mouse.down()
+    waits_for(page, lambda: page.locator(".glance span").inner_text() != before)
+    assert in_sight(page, page.locator(".glance"))
+    page.mouse.up()
+
+
+def test_why_a_held_button_turns_nothing_is_in_sight(start: Start, visit: Visit) -> None:
+    page = visit(start(), **PHONE)
+    pair(page)
+    page.get_by_role("button", name="Mode PARK").click()
+    page.locator(".mode", has_text="It stays where it is").wait_for()
+    page.evaluate("document.querySelector('.jogpad').scrollIntoView({block: 'center'})")
+    page.get_by_role("button", name="Hold to turn CW").hover()
+    page.mouse.down()
+    said = page.locator(".strip .said", has_text="has set the mode PARK")
+    said.wait_for()
+    page.mouse.up()
+    assert in_sight(page, said)
+    assert "page#" not in said.inner_text()
+
+
+def test_a_direction_pressed_on_the_sky_is_one_press_from_there(start: Start, visit: Visit) -> None:
+    page = visit(start(), **PHONE)
+    pair(page)
+    sky = page.locator(".skyview svg")
+    sky.click(position={"x": 200, "y": 120})
+    there = page.get_by_role("button", name="Turn to")
+    there.wait_for()
+    there.click()
+    page.locator(".angles .to", has_text="to ").first.wait_for()
+
+
+def test_where_no_place_is_set_the_page_leads_to_the_step_that_sets_it(start: Start, visit: Visit) -> None:
+    page = visit(start(), **PHONE)
+    pair(page)
+    page.get_by_role("link", name="Sky").click()
+    page.get_by_text("The box does not know where it stands").wait_for()
+    page.get_by_role("link", name="Setup, step 8").first.click()
+    page.locator("summary", has_text="8. Place and time").wait_for()
+
+
+def test_a_rotor_that_counts_is_told_where_it_stands(start: Start, visit: Visit) -> None:
+    page = visit(start(kind="relay-pulse"), **PHONE)
+    pair(page)
+    page.locator("summary", has_text="Tell the box where the azimuth stands").click()
+    page.get_by_label("The azimuth stands at").fill("12")
+    page.get_by_role("button", name="It stands there").first.click()
+    waits_for(page, lambda: "12" in page.locator(".glance span").inner_text())
