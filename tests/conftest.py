@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -39,7 +40,12 @@ def pytest_configure(config: pytest.Config) -> None:
     """An example may take as long as a busy machine needs: what must be fast is measured, not guessed from one run.
 
     A search that names no number of its own tries a hundred in `make test-search`.
+
+    A shell starts what runs in its background deaf to Ctrl-C, and the programs under test would inherit that.
     """
+    for key in (signal.SIGINT, signal.SIGQUIT):
+        if signal.getsignal(key) is signal.SIG_IGN:
+            signal.signal(key, signal.default_int_handler)
     if config.pluginmanager.hasplugin("hypothesispytest"):
         from hypothesis import settings
 

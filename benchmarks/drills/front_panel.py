@@ -7,7 +7,7 @@ not know orders.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 STILL_S, STILL_AT_MOST_S = 1.0, 1.3
 """A mode switch counts when it has stood still for a second, at the next cycle."""
@@ -35,6 +35,8 @@ class FrontPanel:
         self._turn: Turned | None = None
         self._due_s = 0.0
         """When the turn has surely counted."""
+        self._released: Turned | None = None
+        """A turn that went on before it had surely counted, and may have released a stop or PARK on its way."""
         self._looked_s = 0.0
 
     @property
@@ -47,6 +49,8 @@ class FrontPanel:
 
     def turn(self, mode: str, at_s: float) -> None:
         releases = not self.pressed and self._pulled_s <= at_s
+        if self._turn is not None and self._turn.since_s <= at_s and self._turn.releases:
+            self._released = replace(self._turn, mode=self._turn.mode if self.mode == "park" else self.mode)
         self._turn, self._due_s = Turned(mode, at_s + STILL_S, releases), at_s + STILL_AT_MOST_S
 
     def press(self) -> None:
@@ -58,6 +62,10 @@ class FrontPanel:
     def look(self, now_s: float) -> Turned | None:
         """The turn that has come to count since the last look."""
         past_s, self._looked_s = now_s - self._looked_s, now_s
+        if self._released is not None:
+            released, self._released = self._released, None
+            self.mode = released.mode
+            return released
         if self._turn is None:
             return None
         if past_s > NO_TURN_S:

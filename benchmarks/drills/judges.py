@@ -80,6 +80,8 @@ class AxisCase:
     """The chip of its control box does not hear: only its supply stops it, as the master a welded relay."""
     misplaced: bool = False
     """Something may hold it where neither its limits nor its sensor say so."""
+    stalls: bool = False
+    """Its motor may have current and stand, wherever it is."""
     ran_on_s: float = 0.0
     """For how long a welded relay has turned it since the box switched that relay off."""
     patience_s: float = TRY_S
@@ -156,8 +158,10 @@ class Judges:
                 # run of a counting axis, and in a calibration, where a person watches.
                 unseen = case.counts and not case.trusted and case.pressed_s < case.patience_s / COUNTED_PERIODS
                 homes = self._orders.axes[truth.name].homes
-                met = case.misplaced and case.pressed_s < case.patience_s and case.ran_on_s < MET_S
-                excused = truth.welded and truth.at_stop and (homes or unseen or met or self._orders.attended)
+                held = (case.misplaced and truth.at_stop) or case.stalls
+                met = held and case.pressed_s < case.patience_s and case.ran_on_s < MET_S
+                on_purpose = truth.at_stop and (homes or unseen or self._orders.attended)
+                excused = truth.welded and (on_purpose or met)
                 if not excused:
                     self._accuse(BOTH_FED, truth, f"for {truth.shorted_s - case.shorted_s:.3f} s")
                 case.shorted_s = truth.shorted_s
@@ -254,7 +258,7 @@ class Judges:
         tried = case.stood_s > case.patience_s if case.counts else before_s <= START_S < case.standing_s
         # By a person who watches it: each press counts for itself.
         pressed = truth.name == self._orders.lacking and not case.shows_ends
-        if tried and not pressed:
+        if tried and not pressed and self._orders.holds(truth.name):  # what a stop winds down is no try
             case.stood_s = 0.0
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:

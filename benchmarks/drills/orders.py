@@ -31,7 +31,9 @@ TAKEN_S = 0.2
 """A program that is killed so soon after a stop may not have taken it."""
 LEASE_S = 0.5
 """So long a button on the page counts as held after its last sign."""
-AT_END, ROUND = "at the end", "round a sector"
+AT_END, ROUND, BEFORE = "at the end", "round a sector", "before a jog"
+BUTTON = f"{PAGE}, a button"
+"""Who jogs for as long as a button of the page is held."""
 STREAM_S = 12.0
 """Two aims of one sender no further apart belong to a stream, whose target moves on between them."""
 
@@ -89,6 +91,8 @@ class Orders:
         self._held_off = HeldOff()
         self._modes = False
         """A person on the page has set a mode, which may hold a storm park back."""
+        self._listed = False
+        """There may be a list to run."""
         self._button: str | None = None
         """The axis whose button is held on the page."""
         self._tracked = Tracked(self.axes, self._ranges, follows=follows, lacking=lacking)
@@ -131,7 +135,7 @@ class Orders:
 
     def links_lost(self, now_s: float) -> None:
         """No stop could arrive: what links and consoles ordered ends. A storm park goes on, and so does the panel."""
-        elsewhere = any(who in orders.goals for who in (PANEL, PAGE) for orders in self.axes.values())
+        elsewhere = any(who in orders.goals for who in (PANEL, PAGE, BUTTON) for orders in self.axes.values())
         if not self._storm and self._panel.mode == "auto" and not elsewhere:
             self._forget(now_s)
 
@@ -222,6 +226,8 @@ class Orders:
                 self._note_order(event)
 
     def _note_page(self, event: Event) -> None:
+        if event.what in ("take", "mode", "hold"):
+            self._silenced.other(event)  # a mode of its own lets a person move it at once
         match event.what:
             case "take" if self._storm or self._panel.mode != "auto" or not self._panel.settled:
                 pass  # a person at the panel whose switch is held jogs on
@@ -238,7 +244,10 @@ class Orders:
                 self._button = axis
                 if axis == self.lacking:
                     self.pressed_s = event.at_s
-                self._jog(event, axis, Goal(way=way, said_s=event.at_s, until_s=event.at_s + LEASE_S + PANEL_S))
+                if (before := self.axes[axis].goals.get(PAGE)) and not before.way:
+                    del self.axes[axis].goals[PAGE]
+                held = replace(event, who=BUTTON)
+                self._jog(held, axis, Goal(way=way, said_s=event.at_s, until_s=event.at_s + LEASE_S + PANEL_S))
             case "give-back" | "relays-checked":
                 pass
             case _:
@@ -246,17 +255,21 @@ class Orders:
 
     def _let_button_go(self, now_s: float) -> None:
         if self._button is not None:
-            for who in (PAGE, f"{PAGE} {AT_END}"):
-                if (goal := self.axes[self._button].goals.get(who)) and goal.way:
+            for who in (BUTTON, f"{BUTTON} {AT_END}"):
+                if goal := self.axes[self._button].goals.get(who):
                     goal.until_s = min(goal.until_s, now_s + PANEL_S)
         self._button = None
 
     def _jog(self, event: Event, axis: str, goal: Goal) -> None:
         """At an end of the range a person's jog is refused with the reason: what goes on may go on beside it."""
-        person = event.who in (*PEOPLE, PAGE)
+        person = event.who in (*PEOPLE, PAGE, BUTTON)
         who = f"{event.who} {AT_END}" if person and self._at_end(axis, goal.way) else event.who
         self.axes[axis].goals[who] = goal
         others = [orders.goals for name, orders in self.axes.items() if name != axis]
+        for goals in others:
+            # It silences the stream of another sender, whose latest target stays in force for the other axis.
+            streams = [other for other in goals if other != event.who and not other.endswith(BEFORE)]
+            goals.update({f"{other} {BEFORE}": replace(goals[other]) for other in streams})
         if self.goes_round and any(other.angles_deg for goals in others for other in goals.values()):
             # The other axis goes on to its target, and this one may have to make room for it.
             self.axes[axis].goals[f"{event.who} {ROUND}"] = Goal(said_s=event.at_s)
@@ -326,10 +339,11 @@ class Orders:
                 for axis in AXES:
                     self._aim(event, axis, (self._park_deg[axis],))
             case "list":  # until it runs, its first point is the target
+                self._listed = True
                 first = replace(event, args=event.args[1:3])
                 self._aim_azimuth(first, first.number(1))
                 self._aim_elevation(first, first.number(1))
-            case "run-list":
+            case "run-list" if self._listed:
                 for axis in AXES:
                     self._anywhere(event, axis)
             case "leave":

@@ -83,6 +83,8 @@ class _Play:
         self._period_s = 1 / self._config.control.rate_hz
         self._blind = False
         """The reading thread hangs."""
+        self._stand: frozenset[str] = frozenset()
+        """The axes whose readings stand still."""
         self._blind_until_s = self._jitter_until_s = self._jitter_s = 0.0
         self._stalled_s: tuple[float, float] | None = None
         """The event loop of the links stands still, from when to when; None: it runs."""
@@ -235,6 +237,9 @@ class _Play:
             self._silence.end("every")
             if event.what == "stands":
                 self._silence.end("pot-crackles")
+                self._stand = self._stand | {event.text(0)} if event.number(1) else self._stand - {event.text(0)}
+            elif event.text(0) in self._stand:
+                pass  # it shows the same angle whatever happens to it
             elif self._config.rotor.type == "relay-pot" and event.number(1) and event.text(2) in OUTSIDE:
                 self._silence.begin(f"{event.text(0)}-every:{event.number(1):.0f}", now_s)
 

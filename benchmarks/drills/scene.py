@@ -164,6 +164,8 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.deaf = True
             case "fault" if plain == "stop-early":
                 case.misplaced = True
+            case "fault" if plain == "motor-stalled" and not case.counts:
+                case.stalls = True
             case "fault" if case.counts:
                 case.trusted = False
 

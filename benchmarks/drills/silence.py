@@ -27,6 +27,8 @@ CRACKLES, GAP = ("every", "pot-crackles"), 20
 SHARED = ("adc-gone", "hung", "board-unpowered")
 """Parts that serve both axes."""
 IGNORED = "orders from"
+IN_VAIN = "presses did not move it"
+"""What stays true, and shown, of an axis that is held for another reason than at first."""
 AXES = tuple(axis.value for axis in Axis)
 PERIOD_S = 0.05
 TRACKING = "rotator.tracking"
@@ -124,7 +126,8 @@ class Silence:
             if axis.fault is not None or self._words.named_s[place] >= fault.since_s:
                 return True
             shown |= {notice.text for notice in axis.notices}
-        return not shown <= fault.before
+        held = fault.name in DRIVEN and any(text.startswith(IN_VAIN) for text in shown)
+        return held or not shown <= fault.before
 
     def _most_s(self, fault: _Lasting) -> float:
         """A contact that stands still shows nothing before three of its periods."""

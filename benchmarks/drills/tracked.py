@@ -38,7 +38,7 @@ class Tracked:
         self._rests_until_s = -math.inf
         self._heard_s: dict[str, float] = {}
         self.recognised: set[str] = set()
-        """Programs whose streams may be flown as planned."""
+        """Programs whose streams may be flown as planned, also when they go on after a stop."""
 
     def begin_anew(self) -> None:
         """The program ends, and begins with what its configuration follows."""
@@ -51,7 +51,6 @@ class Tracked:
         if self._asked_s is not None and self._asked_s < asked_before_s:
             self._asked_s = None
         self._rests_until_s = now_s + RESTS_S
-        self.recognised.clear()
 
     def note(self, event: Event, *, takes: bool) -> None:
         """`takes`: nothing known holds back an order of a link."""
@@ -64,6 +63,7 @@ class Tracked:
             case "track":
                 self._asked_s = event.at_s
                 self._before = {sender for orders in self._axes.values() for sender in orders.goals}
+                self.keep(event.at_s)
             case "recognised":
                 self._recognise(event)
             case "give-back":

@@ -81,9 +81,14 @@ class Authority:
     def mode_by(self) -> str:
         return str(self._panel or "")
 
+    @property
+    def _has_mode_of_a_person(self) -> bool:
+        """The mode was set on the page or in the terminal, and not at a panel's switch."""
+        return self._panel is not None and self._panel.link != PANEL
+
     def _end_mode_of_a_person(self) -> None:
         """What is set at no switch ends when somebody takes the antenna, or gives it back."""
-        if self._panel is not None and self._panel.link != PANEL:
+        if self._has_mode_of_a_person:
             self.mode, self._panel = Mode.AUTO, None
 
     def _set_this_mode(self, source: Source) -> bool:
@@ -104,12 +109,15 @@ class Authority:
             self.controlled_by = None
 
     def give_back(self, source: Source) -> None:
-        """A person gives it back: the next order of a program counts. Another one on the page takes it over first."""
+        """A person gives back what was taken: the next order of a program counts, unless another one's stop silences
+        it. Another person on the page takes the antenna over first."""
+        if self.held_by is None and not self._has_mode_of_a_person:
+            return
         if self.held_by not in (None, source) and source.may_be_held_off:
             return
         self._end_mode_of_a_person()
         self.held_by = None
-        self._senders.free_all()
+        self._senders.free_taken()
         self._ignored.clear()
 
     def left(self, source: Source, now_s: float) -> bool:

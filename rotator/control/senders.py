@@ -137,6 +137,12 @@ class Senders:
         self._gone.clear()
         self._takes_s.clear()
 
+    def free_taken(self) -> None:
+        """What lost the antenna to an order is silenced no longer; what a stop silenced still is."""
+        self._senders = {source: replace(sender, taken_by=None) for source, sender in self._senders.items()}
+        self._gone = {link: replace(sender, taken_by=None) for link, sender in self._gone.items()}
+        self._takes_s.clear()
+
     def left(self, source: Source, now_s: float) -> None:
         """The connection has ended. The next one on its link continues the row of orders, and is heard all the same,
         unless its program connects anew by itself: for every few orders, or in a fight."""

@@ -130,9 +130,9 @@ def test_a_held_button_that_is_heard_no_more_ends_in_its_lease(desk: Any) -> Non
     for _ in range(8):
         desk.step(held(AZ, PLUS), by=ANNA, seconds=0.15)
     assert desk.driven[AZ] is PLUS
-    desk.step(seconds=LEASE_S - 0.1)
+    desk.run(LEASE_S - 0.1)
     assert desk.driven[AZ] is PLUS
-    desk.step(seconds=0.1)
+    desk.run(0.15)
     assert desk.driven[AZ] is OFF
 
 

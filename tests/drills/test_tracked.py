@@ -112,16 +112,17 @@ def test_a_program_that_sent_before_may_go_on_while_the_plan_is_computed() -> No
     assert {"track", "rotctld"} <= script.orders.axes["azimuth"].goals.keys()
 
 
-def test_a_recognised_stream_is_flown_anywhere_until_it_is_stopped() -> None:
+def test_a_recognised_stream_is_flown_anywhere_also_when_it_goes_on_after_a_stop() -> None:
     script = Script()
     script.say("gs232b", "aim", 90.0, 20.0)
     script.say("gs232b", "recognised", ARC)
     script.say("gs232b", "aim", 91.0, 20.0)
     assert script.orders.axes["azimuth"].goals["gs232b"].angles_deg == ()
     script.say("console", "stop")
+    assert not script.orders.axes["azimuth"].goals
     script.say("console", "resume")
     script.say("gs232b", "aim", 91.0, 20.0)
-    assert script.orders.axes["azimuth"].goals["gs232b"].angles_deg
+    assert script.orders.axes["azimuth"].goals["gs232b"].angles_deg == ()
 
 
 def restart(script: Script) -> None:

@@ -17,7 +17,7 @@ from rotator.control.axis.pace import Pace
 from rotator.control.axis.reach import UNSEEN_S, lost
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import PositionedSettings
-from rotator.control.axis.stray_watch import COMING_DEG, StrayWatch
+from rotator.control.axis.stray_watch import COMING_DEG, SERVO_STRAY_DEG, STRAY_DEG, StrayWatch
 from rotator.control.axis.trend import Trend
 from rotator.control.commands import HOLD, Command, Decision, Hold, Steer
 from rotator.control.sky.mount import Range
@@ -45,7 +45,14 @@ class PositionedAxis:
         # A model jumps where it is corrected, and it does not scatter.
         fastest_dps = settings.speed_dps if settings.source is AngleSource.MEASURED else math.inf
         self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
-        self._stray = StrayWatch(settings.axis, settings.speed_dps, settings.accel_dps2, near_deg=settings.near_deg)
+        servo = settings.accel_dps2 is not None and settings.source is AngleSource.MEASURED
+        self._stray = StrayWatch(
+            settings.axis,
+            settings.speed_dps,
+            settings.accel_dps2,
+            near_deg=settings.near_deg,
+            stray_deg=SERVO_STRAY_DEG if servo else STRAY_DEG,
+        )
         self._held = HeldWatch(settings.axis, settings.speed_dps, master=settings.master)
         self._seen_s = 0.0
         """The moment of the present cycle."""

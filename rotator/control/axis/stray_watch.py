@@ -15,9 +15,10 @@ from rotator.control.axis.vain_moves import LeftBehind, VainMoves
 from rotator.control.commands import Steer
 from rotator.faults import Fault, FaultKind
 
-STRAY_DEG = 5.0
-STRAY_S = 1.7
+STRAY_DEG, STRAY_S = 5.0, 1.7
 """An axis this far from where it was sent, and not coming nearer for so long, does not follow."""
+SERVO_STRAY_DEG = 1.5
+"""A motor that holds its angle with an encoder of its own rests nearer than this, also with a loaded antenna."""
 TURNED_BACK_S = 0.4
 """An axis that has to turn back first is seen to come nearer so long after it stood: a moteus at 20°/s² from 30°/s
 takes 1.5 s and this."""
@@ -34,14 +35,23 @@ SLOW_SHARE = 0.25
 class StrayWatch:
     """`speed_dps`: of the motor; `accel_dps2`: how hard it brakes, None: it stops at once.
 
-    `near_deg`: so far beside its place it may rest.
+    `near_deg`: so far beside its place it may rest. `stray_deg`: further from it, it strays.
     """
 
-    def __init__(self, axis: Axis, speed_dps: float, accel_dps2: float | None = None, *, near_deg: float = 0.0) -> None:
+    def __init__(
+        self,
+        axis: Axis,
+        speed_dps: float,
+        accel_dps2: float | None = None,
+        *,
+        near_deg: float = 0.0,
+        stray_deg: float = STRAY_DEG,
+    ) -> None:
         self._axis = axis
+        self._stray_deg = stray_deg
         self._speed_dps = speed_dps
         self._stray_s = max(STRAY_S, speed_dps / accel_dps2 + TURNED_BACK_S) if accel_dps2 else STRAY_S
-        self._apart_deg = max(STRAY_DEG, 2.0 * near_deg)
+        self._apart_deg = max(stray_deg, 2.0 * near_deg)
         """A target that has moved so far has left its dead band, wherever in it the axis was."""
         self._latest_deg: deque[float] = deque(maxlen=MEAN_OF)
         self._sent_for_s = 0.0
@@ -52,8 +62,11 @@ class StrayWatch:
         """Where it was at that look."""
         self._nearer_deg = 0.0
         """How far, in all, it has come nearer to where it was sent."""
+        self._elsewhere_s = 0.0
+        """For how long, in all, it was sent somewhere else than where it was."""
         self._kept: deque[tuple[float, float]] = deque()
-        """Both of these of late, since it was not where it was sent."""
+        """How far it had come nearer by the latest of these seconds. A target that comes back to an axis that stands
+        shows nothing of its motor, so what was seen before still counts."""
         self._vain = VainMoves()
         self._left = LeftBehind()
         self._away_s = 0.0
@@ -86,27 +99,28 @@ class StrayWatch:
             self._sent_s = self._place_deg = None
             return None
         begins = self._sent_s is None
-        self._sent_for_s += now_s - (now_s if self._sent_s is None else self._sent_s)
+        past_s = 0.0 if self._sent_s is None else now_s - self._sent_s
+        self._sent_for_s += past_s
         self._sent_s = now_s
         ahead_deg = steered.angle_deg - angle_deg
-        near = abs(ahead_deg) < STRAY_DEG
+        near = abs(ahead_deg) < self._stray_deg
         runs_on = abs(steered.rate_dps) > SLOW_SHARE * self._speed_dps
         arrived = (near and not runs_on) or settling
-        if arrived:
+        if settling:
             self._kept.clear()
         place_deg = sum(self._latest_deg) / len(self._latest_deg)
         towards = steered.rate_dps if near and runs_on else ahead_deg
         if self._place_deg is not None:
             self._nearer_deg += (place_deg - self._place_deg) * math.copysign(1.0, towards)
         self._place_deg = place_deg
-        self._kept.append((self._sent_for_s, self._nearer_deg))
+        self._keep(past_s, arrived=arrived)
         coming_deg = max(COMING_DEG, COMING_NOISES * noise_deg)
         self._vain.see(self._sent_for_s, self._nearer_deg, coming_deg, begins=begins and not near and not settling)
         self._away_s = self._away_s if arrived else self._sent_for_s
         if begins or settling or self._sent_for_s - self._away_s > ARRIVED_S:
             self._left.begin()
         patience_s = max(self._stray_s, coming_deg / (SLOW_SHARE * self._speed_dps))
-        since_s = self._sent_for_s - patience_s
+        since_s = self._elsewhere_s - patience_s
         while len(self._kept) > 1 and self._kept[1][0] <= since_s:
             self._kept.popleft()
         left_s = self._left.seconds(
@@ -116,10 +130,18 @@ class StrayWatch:
             measured = f"it stays at {angle_deg:.1f}°, and its target has moved by more than {self._apart_deg:.1f}°"
             return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{coming_deg:.1f}° in {patience_s:.2g} s")
         comes = _rise_deg(self._kept) >= coming_deg
-        if near or comes or self._kept[0][0] > since_s:
+        if near or settling or comes or self._kept[0][0] > since_s:
             return None
         measured = f"it is at {angle_deg:.1f}°, {abs(ahead_deg):.1f}° from where it should be"
-        return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{STRAY_DEG:g}° for {patience_s:.2g} s")
+        return Fault(FaultKind.NOT_FOLLOWING, self._axis, measured, f"{self._stray_deg:g}° for {patience_s:.2g} s")
+
+    def _keep(self, past_s: float, *, arrived: bool) -> None:
+        if arrived and self._kept:
+            since_s, nearer_deg = self._kept.pop()
+            self._kept.append((since_s, max(nearer_deg, self._nearer_deg)))
+        elif not arrived:
+            self._elsewhere_s += past_s
+            self._kept.append((self._elsewhere_s, self._nearer_deg))
 
 
 def _rise_deg(kept: Iterable[tuple[float, float]]) -> float:

@@ -36,6 +36,8 @@ ABOUT_DEG = 0.5
 """What readings scatter of an axis at rest."""
 WHY_IT_TURNS = (FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF)
 """Faults that say more than the notice TURNS."""
+LAPSED_S = 1.0
+"""After a late cycle the relay stays open for so long: a busy computer would else make it chatter."""
 BLIND = Notice("a broken pot wire would look like an angle: fit end resistors")
 
 
@@ -62,6 +64,8 @@ class SwitchedAxis:
         self._gate = RelayGate(settings, self._law.motion.motors, lease_s=lease_s, placed=self._placed)
         self._astray: Fault | None = None
         """What is wrong with the motion, by the latest reading."""
+        self._lapsed_s = -math.inf
+        """When a late cycle came last: the lease had opened the relay of the motor that ran."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
         self._runs = Runs()
         self._reach = Reach(settings)
@@ -201,9 +205,11 @@ class SwitchedAxis:
 
     def _safe(self, run: Run, now_s: float, past_s: float) -> Run | Feed:
         """The run, unless a relay, a limit or the motor's heat forbids it. `past_s`: since the last one."""
-        if run.direction is Direction.OFF:
+        if past_s > self._timing.lease_s and self.driven:
+            self._lapsed_s = now_s
+        if run.direction is Direction.OFF or now_s < self._lapsed_s + LAPSED_S:
             self._gate.rests()
-            return run
+            return self._law.rest(now_s) if run.direction else run
         if (suspected := self._gate.accuse(run.direction)) is not None:
             self.fail(suspected)
         if self._condition and run.direction in self._condition.ends:

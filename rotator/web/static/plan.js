@@ -71,6 +71,7 @@ export function Followed({ paired, changed, say }) {
     <ol ref=${list}>${followed.map((one, index) => (paired ? html`<${Target} key=${one.name} one=${one} place=${index} count=${followed.length} onMove=${place} onDrag=${begin} dragged=${drag === one.name} />`
       : html`<li key=${one.name}><b>${one.target}</b><span>${one.fault || `priority ${+one.priority.toPrecision(3)}`}</span></li>`))}</ol>
     ${other && html`<p>This order is kept beside the file, which stays as it is. What somebody writes into the file later counts again. ${paired && html`<button type="button" onClick=${() => send(null)}>The file's order again</button>`}</p>`}
+    ${paired && html`<p>Another satellite: <a href="#setup">Setup, step 8</a>, <code>sky.follow</code>.</p>`}
     <p class="only-read" role="status">${told}</p></div>`;
 }
 
