@@ -220,3 +220,13 @@ def test_a_timed_list_does_not_run_on_after_a_stop_from_elsewhere(desk: Any) -> 
     desk.step(LoadTimed(1.0, ((110, None), (200, None), (300, None))), RunTimed(), by=desk.OTHER)
     desk.step(Stop(), by=desk.LINK)
     assert desk.run(10.0) == set()
+
+
+def test_after_a_late_cycle_its_relay_rests_for_a_second(desk: Any) -> None:
+    """The lease of 0.25 s has opened it. A computer that is late again and again would make it chatter."""
+    desk.step(Aim(300.0, 0.0))
+    desk.run(2.0)
+    assert desk.step(seconds=0.2)[AZ] is PLUS
+    assert desk.step(seconds=0.3)[AZ] is OFF
+    assert not desk.run(0.9)
+    assert (AZ, PLUS) in desk.run(0.3)

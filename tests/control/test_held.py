@@ -47,6 +47,21 @@ def test_a_program_s_order_counts_at_once_when_it_is_given_back(desk: Any) -> No
     assert desk.status.held_by == ""
 
 
+@pytest.mark.parametrize("taken", [False, True], ids=["not taken", "taken"])
+def test_giving_back_lifts_no_stop_of_another_program(desk: Any, *, taken: bool) -> None:
+    for _ in range(5):
+        desk.step(Aim(120.0, 20.0), by=PROGRAM)
+        desk.run(1.0)
+    if taken:
+        desk.step(Take(), by=ANNA)
+    desk.step(Stop(), by=Source("gs232a", 2))
+    desk.step(GiveBack(), by=ANNA)
+    for _ in range(3):
+        desk.step(Aim(200.0, 60.0), by=PROGRAM)
+        assert not desk.run(1.0)
+    assert "gs232a#2 has stopped the antenna" in desk.status.notices[0]
+
+
 def test_to_take_what_one_tracks_stops_nothing_and_what_a_program_moves_stops(desk: Any) -> None:
     desk.step(Aim(200.0, 60.0), by=TRACKER)
     desk.run(1.0)
