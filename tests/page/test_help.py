@@ -142,7 +142,7 @@ def test_the_log_is_copied_and_saved_as_it_is_shown(start: Start, visit: Visit) 
     with page.expect_download() as saving:
         page.get_by_role("button", name="Save").click()
     (line,) = saving.value.path().read_text().splitlines()
-    assert line.endswith("Z note    page: Anna's phone is paired")
+    assert line.endswith("Z note    the page: Anna's phone is paired")
     page.get_by_role("button", name="Copy").click()
     page.get_by_text("1 line copied").wait_for()
     page.get_by_role("searchbox").press("Control+a")
