@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-STILL_S, STILL_AT_MOST_S = 1.0, 1.3
+STILL_S, STILL_AT_MOST_S = 0.95, 1.3
 """A mode switch counts when it has stood still for a second, at the next cycle."""
 NO_TURN_S = 0.4
 """Between two looks further apart the program had no turn."""

@@ -249,7 +249,8 @@ class Judges:
         return any((angle_deg - here_deg) * truth.power > -slack_deg for angle_deg in places_deg)
 
     def _standing(self, truth: AxisTruth, case: AxisCase) -> None:
-        if not case.feels or not truth.stands or self._is_there(truth, case):
+        drives_itself = case.astray and not truth.relayed
+        if not case.feels or drives_itself or not truth.stands or self._is_there(truth, case):
             case.standing_s = case.stood_s = case.pressed_s = 0.0
             return
         before_s, case.standing_s = case.standing_s, case.standing_s + self._past_s
@@ -266,7 +267,10 @@ class Judges:
             if len(case.tries_s) > TRIES:
                 tries = f"{len(case.tries_s)} tries in {TRIES_WITHIN_S / 60:.0f} minutes"
                 self._accuse(STANDING_CURRENT, truth, tries)
-        if case.standing_s > case.patience_s + LOOK_S:
+        # A target that passed by it, on its way elsewhere, showed nothing meanwhile.
+        goals = self._orders.axes[truth.name].goals.values()
+        passes_by = not truth.relayed and any(not goal.angles_deg and not goal.way for goal in goals)
+        if case.standing_s > case.patience_s * (2.0 if passes_by else 1.0) + LOOK_S:
             self._accuse(STANDING_CURRENT, truth, f"for {case.standing_s:.2f} s")
 
     def there(self, axes: list[AxisTruth]) -> frozenset[str]:

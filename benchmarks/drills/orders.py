@@ -91,6 +91,8 @@ class Orders:
         self._held_off = HeldOff()
         self._modes = False
         """A person on the page has set a mode, which may hold a storm park back."""
+        self.sure = False
+        """A direction was ordered that nothing known held back, and nothing has ended it since."""
         self._listed = False
         """There may be a list to run."""
         self._button: str | None = None
@@ -176,6 +178,8 @@ class Orders:
             self._note_order(event)
         self._note_flights(event)
         free = not self._held and not self._storm and self._panel.mode == "auto" and self._panel.settled
+        if event.what == "aim" and event.who != PAGE:
+            self.sure = self.sure or (free and not self._held_off.perhaps)
         self._held_off.note(event, free=free)
         self._may_idle(event.at_s)
 
@@ -365,6 +369,7 @@ class Orders:
                 orders.expire(event.at_s)
 
     def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
+        self.sure = False
         self._storm = False
         self._wavering.forget()
         self._tracked.stopped(now_s, said_before_s)

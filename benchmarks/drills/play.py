@@ -155,7 +155,7 @@ class _Play:
         self._judges.look(now_s, self._world.axes)
         self._judges.count(self._world.relay_starts)
         self._sectors.look(now_s, self._world.axes)
-        ordered = any(map(self._orders.holds, self._orders.axes))
+        ordered = self._orders.sure and any(map(self._orders.holds, self._orders.axes))
         there = self._judges.there(self._world.axes)
         self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered, there=there)
 
@@ -252,6 +252,7 @@ class _Play:
                 self._blind, self._blind_until_s = True, self._now_s + seconds
                 self._silence.begin("hung", self._now_s)
             case "stalled":
+                self._box.events.tick()
                 self._stalled_s = self._now_s, self._now_s + seconds
             case "plans":
                 self._box.tracking.planner.takes_s = seconds

@@ -25,6 +25,8 @@ SLOW_DPS, SLOW_TRY_S = 2.0, 4.0
 ROUGH_S, ROUGH_TRY_S = 0.08, 3.0
 """Readings that scatter by what the motor turns in this time, and how long it then takes to see that it stands."""
 """Noise hides a slow motor: these are docs/safety.md's."""
+PRESSES_S = 0.8
+"""Each press of a motor that counts may take so long, or a part of it, to begin."""
 READINGS = ("every", "burst", "noise", "drift", "stands")
 SENSORS = ("pot-", "adc-", "contact-", "pulses-", "replies-")
 """How the simulators' names of faults of a sensor begin, without their axis."""
@@ -44,7 +46,7 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
     patience_s = TRY_S
     if source is AngleSource.COUNTED:
         slowest_dps = min(table.speed_dps, truth.full_dps)
-        patience_s = COUNTED_PERIODS * config.pulses.of(axis).spacing_deg / slowest_dps + 0.5
+        patience_s = COUNTED_PERIODS * config.pulses.of(axis).spacing_deg / slowest_dps + PRESSES_S
     elif truth.full_dps < SLOW_DPS:
         patience_s = SLOW_TRY_S
     elif sim.pot_noise_deg > ROUGH_S * truth.full_dps:

@@ -49,7 +49,8 @@ class Wavering:
         within_deg = [angle_deg for angle_deg in turns_deg if self._low_deg <= angle_deg <= self._high_deg]
         moves = self._moves(now_s, turns_deg, elevation_deg)
         may_wait = bool(beyond_deg) and (moves or now_s - self._swung_s <= REMEMBERS_S)
-        if beyond_deg:
+        # Where it shows on two turns, the antenna may have swung to the further one.
+        if beyond_deg or (near_deg and set(within_deg) - set(near_deg)):
             self._swung_s = now_s
         stays_deg = self._before_deg if overhead else ()
         self._before_deg = (*within_deg, *(beyond_deg if may_wait else ()), *stays_deg)

@@ -60,6 +60,8 @@ class PositionedAxis:
         self._pace = Pace(settings)
         self._steered: tuple[Steer, float] | None = None
         """Where the drive was sent last, and when; None: it holds."""
+        self._jogged = Direction.OFF
+        """Which way a jog sent it there."""
 
     @property
     def angle_deg(self) -> float | None:
@@ -162,6 +164,7 @@ class PositionedAxis:
             self.fail(limit_reached(self.settings.axis, blocked))
             self._goal, command = None, HOLD
         self._steered = (command, now_s) if isinstance(command, Steer) else None
+        self._jogged = self._goal.direction if isinstance(self._goal, JogGoal) else Direction.OFF
         match command:
             case Steer(place_deg, 0.0, _):
                 self._pace.sent(now_s, place_deg)
@@ -255,7 +258,7 @@ class PositionedAxis:
                 return self._jog(self._sensing.angle_deg, now_s, direction, until_s)
 
     def _jog(self, angle_deg: float, now_s: float, direction: Direction, until_s: float) -> Steer | Hold:
-        """On from where it was sent last, at its own speed, as far as its limit."""
+        """On from where this jog sent it last, at its own speed, as far as its limit; at first from where it is."""
         limits = self.settings.limits
         limit_deg = limits.max_deg if direction > 0 else limits.min_deg
         if self._steered is None and (limit_deg - angle_deg) * direction <= self.settings.near_deg:
@@ -263,7 +266,7 @@ class PositionedAxis:
             return HOLD
         # Where it can just brake, it is steered to its limit again and again: `hold` would let it come to rest beyond.
         from_deg = angle_deg
-        if self._steered is not None and not self._condition.settling:
+        if self._steered is not None and self._jogged is direction and not self._condition.settling:
             steered, steered_s = self._steered
             from_deg = steered.angle_deg + steered.rate_dps * (now_s - steered_s)
         if (limit_deg - from_deg) * direction <= self._braking_deg:

@@ -25,6 +25,8 @@ STOOD_S, UNKNOWN_STOOD_S = 1.5, 2.5
 """And so is so long in all; longer until the axis has moved once: its motor may be slower than the file says."""
 STANDING = frozenset({FaultKind.STANDS_STILL, FaultKind.END_STOP})
 """The faults of a motor that does not turn."""
+UNKNOWN_RUN_S = 0.5
+"""A shorter run says nothing of a motor that has not turned yet."""
 LEAST_RUN_S = 0.15
 """A shorter run may be over before a motor turns."""
 SETTLE_S = 0.6
@@ -99,7 +101,8 @@ class ShortRuns:
             return None
         moved_deg = max(MOVED_DEG, MOVED_NOISES * noise_deg)
         if self._run is not None:
-            self._telling_s = moved_deg / (SLOW_SHARE * self._run[2]) if self._known else math.inf
+            telling_s = moved_deg / (SLOW_SHARE * self._run[2])
+            self._telling_s = telling_s if self._known else max(telling_s, UNKNOWN_RUN_S)
         if self._stands_deg is None or abs(smoothed_deg - self._stands_deg) >= moved_deg:
             self._known = self._known or (self._stands_deg is not None and self._run is not None)
             self._stands_deg, self._runs, self._stood_s, self._moved = smoothed_deg, 0, 0.0, True

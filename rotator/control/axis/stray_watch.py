@@ -58,6 +58,8 @@ class StrayWatch:
         """For how long, in all, it was sent somewhere."""
         self._sent_s: float | None = None
         """The moment of the last look at it while it was sent somewhere."""
+        self._sent_deg = 0.0
+        """Where it was sent at that look."""
         self._place_deg: float | None = None
         """Where it was at that look."""
         self._nearer_deg = 0.0
@@ -102,6 +104,10 @@ class StrayWatch:
         past_s = 0.0 if self._sent_s is None else now_s - self._sent_s
         self._sent_for_s += past_s
         self._sent_s = now_s
+        elsewhere = not begins and abs(steered.angle_deg - self._sent_deg) > STRAY_DEG
+        self._sent_deg = steered.angle_deg
+        if elsewhere:
+            self._vain.hold()  # another move begins
         ahead_deg = steered.angle_deg - angle_deg
         near = abs(ahead_deg) < self._stray_deg
         runs_on = abs(steered.rate_dps) > SLOW_SHARE * self._speed_dps
@@ -115,7 +121,9 @@ class StrayWatch:
         self._place_deg = place_deg
         self._keep(past_s, arrived=arrived)
         coming_deg = max(COMING_DEG, COMING_NOISES * noise_deg)
-        self._vain.see(self._sent_for_s, self._nearer_deg, coming_deg, begins=begins and not near and not settling)
+        self._vain.see(
+            self._sent_for_s, self._nearer_deg, coming_deg, begins=(begins or elsewhere) and not near and not settling
+        )
         self._away_s = self._away_s if arrived else self._sent_for_s
         if begins or settling or self._sent_for_s - self._away_s > ARRIVED_S:
             self._left.begin()

@@ -121,6 +121,19 @@ def test_a_jog_goes_on_from_where_it_is_at_its_own_speed(motor: Motor) -> None:
     assert motor.angle_deg == pytest.approx(130.0, abs=1.0)
 
 
+@pytest.mark.parametrize("way", [-1, 1], ids=["minus", "plus"])
+def test_a_jog_against_a_move_begins_where_the_axis_is(motor: Motor, way: int) -> None:
+    """And not at the far target of the move, which it would first go on towards."""
+    motor.stuck, motor.angle_deg = True, 225.0
+    motor.axis.aim(AimGoal(225.0 - 150.0 * way, 1.0))
+    motor.step(0.5)
+    motor.axis.jog(Direction(way), None, motor.now_s)
+    steered = motor.step()
+    assert steered is not None
+    assert steered.rate_dps == 30.0 * way
+    assert steered.angle_deg == 225.0
+
+
 def test_a_jog_ends_at_the_limit(motor: Motor) -> None:
     motor.axis.jog(Direction.MINUS, None, 0.0)
     told = motor.step(5.0)

@@ -151,6 +151,13 @@ def test_a_target_that_came_back_to_it_gives_it_no_new_time() -> None:
     assert told[0] == pytest.approx(0.7, abs=0.11)
 
 
+def test_a_move_elsewhere_in_the_middle_of_one_is_a_try_of_its_own() -> None:
+    sent = Sent()
+    assert sent.go(1.0, 130.0) is None
+    assert sent.go(0.5, 50.0) is None
+    assert sent.watch.tries == 1
+
+
 def test_a_motor_with_an_encoder_of_its_own_is_told_nearer_to_its_place() -> None:
     assert Sent(stray_deg=1.5).go(10.0, 91.4) is None
     assert Sent(stray_deg=1.5).go(10.0, 91.6) is not None
