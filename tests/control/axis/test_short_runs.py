@@ -84,6 +84,13 @@ def test_after_that_each_further_one_is_a_fault_until_it_moves() -> None:
     assert len(bench.faults) == 4
 
 
+def test_three_runs_are_enough_for_a_motor_that_has_not_turned_yet() -> None:
+    bench = Bench(pace=0.0, known=False)
+    for _ in range(3):
+        bench.press(PLUS, 0.6, 1.0)
+    assert bench.kinds == [FaultKind.STANDS_STILL]
+
+
 def test_shorter_ones_add_up() -> None:
     bench = Bench(pace=0.0)
     for _ in range(8):
