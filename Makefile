@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests docs reference drills test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
+.PHONY: run test check tests docs reference drills test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -26,7 +26,11 @@ tests: $(VENV)/.dev
 
 # Any bytes, any orders, any files, long sweeps: every test that searches, with all its cases. `make test` tries a quarter.
 test-search: $(VENV)/.dev
-	ROTATOR_SEARCH=whole $(BIN)/pytest -n 4 --dist worksteal -m "hypothesis or search" $(TESTS)
+	ROTATOR_SEARCH=whole $(BIN)/pytest -n 4 --dist worksteal -m "hypothesis or search" tests tests/cli
+
+# Each command as a person types it: real terminals, real processes, keys and Ctrl-C; and the box on a fifth of a core.
+test-terminal: $(VENV)/.dev
+	$(BIN)/pytest -n 4 --dist worksteal tests/cli tests/scenario/test_small_machine.py
 
 # Debian's Hamlib: each of its models that can drive the box, and a dummy rotator that the box follows.
 test-hamlib: $(VENV)/.dev

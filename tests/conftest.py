@@ -20,13 +20,16 @@ collect_ignore = [] if "GS232_KERNEL" in os.environ else ["kernel"]
 
 SLOW = (
     *("page", "machines", "rotors", "flights", "calibrating/test_north.py", "cli/test_calibrate_north.py"),
-    *("foreign/test_hamlib.py", "foreign/test_rotctld_follow.py", "foreign/clients"),
+    *("foreign/test_hamlib.py", "foreign/test_rotctld_follow.py", "foreign/clients", "foreign"),
+    *("cli", "scenario/test_small_machine.py"),
     *("release/test_archives.py", "release/test_package.py", "release/test_wheel.py"),
 )
 """Tests of minutes, run only where they are named: `make test-rotors` has every kind of rotor, all its faults and whole
 passes; `make test-machines` has the five machines in real time; `make test-page` the page in Chromium; `make
-test-hamlib` every model of Hamlib that can drive the box, at Hamlib's own pace; `make test-clients` the newest Hamlib
-and other people's tracking programs; `make test-dist` builds what is handed out and tries it on three Pythons."""
+test-terminal` the commands as a person types them, and a small computer; `make test-hamlib` other programs of Debian
+and every model of Hamlib that can drive the box, at Hamlib's own pace; `make test-clients` the newest Hamlib and other
+people's tracking programs; `make test-dist` builds what is handed out and tries it on three Pythons. What lies in a
+folder named here, and is named itself, has to be asked for by its own name."""
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
