@@ -15,6 +15,12 @@ if TYPE_CHECKING:
 
 Start = Callable[..., Station]
 Visit = Callable[..., "Page"]
+STOP_FILLS_THE_FOOT = """() => {
+    const seen = visualViewport, stop = document.getElementById("stop").getBoundingClientRect();
+    const near = (one, other) => Math.abs(one - other) < 1;
+    return near(stop.left, seen.offsetLeft) && near(stop.right, seen.offsetLeft + seen.width)
+        && near(stop.bottom, seen.offsetTop + seen.height) && stop.height > 0;
+}"""
 
 
 def in_sight(page: Page, what: Locator) -> bool:
@@ -95,3 +101,25 @@ def test_a_rotor_that_counts_is_told_where_it_stands(start: Start, visit: Visit)
     page.get_by_label("The azimuth stands at").fill("12")
     page.get_by_role("button", name="It stands there").first.click()
     waits_for(page, lambda: "12" in page.locator(".glance span").inner_text())
+
+
+def test_stop_stays_in_sight_on_a_page_that_fingers_have_spread(start: Start, visit: Visit) -> None:
+    """As it does above the keyboard of a phone: that, too, leaves less of the page to be seen."""
+    page = visit(start(), **PHONE)
+    whole = page.locator("#stop").bounding_box()
+    fingers = page.context.new_cdp_session(page)
+    for scale in (2.0, 3.0, 1.0):
+        fingers.send("Emulation.setPageScaleFactor", {"pageScaleFactor": scale})
+        for corner in ("0, 0", "0, document.body.scrollHeight"):
+            page.evaluate(f"scrollTo({corner})")
+            waits_for(page, lambda: page.evaluate(STOP_FILLS_THE_FOOT))
+    assert page.locator("#stop").bounding_box() == whole
+
+
+def test_another_view_begins_at_its_top(start: Start, visit: Visit) -> None:
+    page = visit(start(), **PHONE)
+    pair(page)
+    page.evaluate("scrollTo(0, document.body.scrollHeight)")
+    page.evaluate("location.hash = 'setup'")
+    page.get_by_text("Place and time").wait_for()
+    waits_for(page, lambda: page.evaluate("scrollY") == 0)

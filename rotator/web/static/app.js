@@ -3,7 +3,7 @@ import { Live, post, read } from "/box.js";
 import { Chart } from "/chart.js";
 import { AzimuthDial, ElevationDial } from "/dials.js";
 import { Errands } from "/errands.js";
-import { Asks, JogPad, Target, ThereFromSky, Track } from "/hand.js";
+import { Asks, directionOf, JogPad, Target, ThereFromSky, Track } from "/hand.js";
 import { Help, helps } from "/help.js";
 import { Pair, Paired } from "/pairing.js";
 import { Passes } from "/passes.js";
@@ -54,7 +54,7 @@ function Antenna({ station, now, hello, fresh, say }) {
   const { azimuth, elevation } = now.status;
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
     <div class="top"><${Headline} now=${now} next=${next} /></div>
-    <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${draft} onPick=${setDraft} />
+    <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${setDraft} />
       ${paired && html`<${ThereFromSky} draft=${draft} say=${say} />`}</div>
     <section class="panel hand" aria-label="By hand">
       <${Control} now=${now} hello=${hello} paired=${paired} say=${say} />
@@ -81,7 +81,7 @@ function Page() {
   useEffect(() => {
     tell = setSeen;
     live.tell();
-    addEventListener("hashchange", () => (setView(location.hash.slice(1)), say("")));
+    addEventListener("hashchange", () => (setView(location.hash.slice(1)), say(""), scrollTo(0, 0)));
   }, []);
   useEffect(() => {
     // A box that has been started anew may have another range. It greets anew.

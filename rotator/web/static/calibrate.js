@@ -1,12 +1,14 @@
 // A calibration: what the guide of the box says, and the keys that it takes. The box stops the motor when no browser looks on.
 import { post, read } from "/box.js";
+import { keypad } from "/numbers.js";
 import { act, html, useEffect, useRef, useState } from "/ui.js";
 
 const LOOK_MS = 250;
 const TURNS = { azimuth: [["l", "◀ CCW"], ["r", "CW ▶"]], elevation: [["d", "▼ down"], ["u", "up ▲"]] };
 const ANSWERS = [["y", "Yes"], ["n", "No"], ["\r", "Read here (Enter)"], ["b", "One back"], ["f", "No more points"], ["q", "Leave, save nothing"]];
 
-export function Calibrate({ axis, settings, moving, say, onEnd }) {
+/** `least`: the lowest angle of the axis. */
+export function Calibrate({ axis, settings, least, moving, say, onEnd }) {
   const [told, setTold] = useState(null), [number, setNumber] = useState(""), lines = useRef(null);
   const running = told?.axis === axis;
   useEffect(() => {
@@ -35,7 +37,7 @@ export function Calibrate({ axis, settings, moving, say, onEnd }) {
     ${running && html`<p class="prompt" role="status"><b>${told.prompt}</b></p><p class="state">${told.state}</p>
       <div class="chips" role="group" aria-label=${`Turn the ${axis}`}>${TURNS[axis].flatMap(([key, name]) => [[key, `${name} a little`], [key.toUpperCase(), `${name} 2 s`]]).map(([key, name]) => html`<button type="button" onClick=${() => press(key)}>${name}</button>`)}
         <button type="button" onClick=${() => press("s")}>Stand still</button></div>
-      <form class="fields" onSubmit=${enter}><label>Degrees<input inputmode="decimal" autocomplete="off" value=${number} onInput=${(event) => setNumber(event.target.value)} /></label>
+      <form class="fields" onSubmit=${enter}><label>Degrees<input inputmode=${keypad(least)} autocomplete="off" value=${number} onInput=${(event) => setNumber(event.target.value)} /></label>
         <button type="submit">Enter the degrees</button></form>
       <div class="chips" role="group" aria-label="Answer">${ANSWERS.map(([key, name]) => html`<button type="button" onClick=${() => press(key)}>${name}</button>`)}</div>`}`;
 }

@@ -1,6 +1,7 @@
 // What only a person at the antenna may order: homing, and the word that relays have been looked at. Each asks first.
 import { post } from "/box.js";
 import { Asks } from "/hand.js";
+import { number, NumberField } from "/numbers.js";
 import { act, html, useState } from "/ui.js";
 
 const AXES = ["azimuth", "elevation"];
@@ -29,10 +30,10 @@ function Confirms({ now, axis, say }) {
   if (!now.status[axis].confirmable) return null;
   const confirm = (event) => {
     event.preventDefault();
-    act(post("confirm", { axis, angle_deg: Number(angle) }).then(() => setAngle("")), say);
+    act(post("confirm", { axis, angle_deg: number(angle) }).then(() => setAngle("")), say);
   };
   return html`<details><summary>Tell the box where the ${axis} stands</summary><form class="fields" onSubmit=${confirm}>
-    <label>The ${axis} stands at, in degrees<input type="number" inputmode="decimal" required step="any" value=${angle} onInput=${(event) => setAngle(event.target.value)} /></label>
+    <${NumberField} label=${`The ${axis} stands at, in degrees`} required least=${now.status[axis].min_deg} value=${angle} onInput=${setAngle} />
     <button type="submit">It stands there</button></form></details>`;
 }
 

@@ -1,4 +1,5 @@
 // One key of the file as a field, and what is typed there as a value. The loader of the box judges it, not this file.
+import { keypad, number } from "/numbers.js";
 import { html } from "/ui.js";
 
 /** How a value stands in its field. */
@@ -19,8 +20,7 @@ export function typed({ kind, choices }, text) {
   if (kind === "numbers") return list(bare);
   if (kind === "text") return bare;
   if (/^0x[0-9a-f]+$/i.test(bare)) return parseInt(bare, 16);
-  const point = bare.replace(",", ".");
-  return /^[+-]?(\d+\.?\d*|\.\d+)$/.test(point) ? Number(point) : bare;
+  return number(bare) ?? bare;
 }
 
 function list(text) {
@@ -42,14 +42,14 @@ function range({ kind, named, least, above, most, below, needed }) {
 
 /** `value`: the text in the field; `usual`: what counts where it is left out; `mistakes`: sentences of the loader. */
 export function Field({ id, of, value, usual, mistakes, changed, onInput, label }) {
-  const { key, kind, choices, unit, meaning } = of, hint = range(of), left = usual == null || usual === "" ? "not set" : `left out: ${shown(kind, usual)}`;
+  const { key, kind, choices, unit, meaning, least, above } = of, hint = range(of), left = usual == null || usual === "" ? "not set" : `left out: ${shown(kind, usual)}`;
   const about = { id, "aria-describedby": `${id}-about`, "aria-invalid": mistakes.length > 0, onInput: (event) => onInput(event.target.value) };
   const options = kind === "yes" ? ["true", "false"] : choices;
   return html`<div class=${`field ${changed ? "changed" : ""}`}>
     <label for=${id}>${label ?? key}${unit && html` <small>(${unit})</small>`}</label>
     ${options ? html`<select ...${about} value=${value}><option value="">${left}</option>${options.map((each) => html`<option value=${String(each)}>${each}</option>`)}</select>`
       : kind === "texts" || kind === "numbers" ? html`<textarea ...${about} rows=${Math.min(8, value.split("\n").length + 1)} placeholder=${left.replaceAll("\n", " ")} spellcheck="false" value=${value}></textarea>`
-      : html`<input ...${about} inputmode=${kind === "number" || kind === "whole" ? "decimal" : "text"} autocomplete="off" spellcheck="false" placeholder=${left} value=${value} />`}
+      : html`<input ...${about} inputmode=${kind === "number" || kind === "whole" ? keypad(least ?? above) : "text"} autocomplete="off" spellcheck="false" placeholder=${left} value=${value} />`}
     <p class="about" id=${`${id}-about`}>${plain(meaning)}${hint && ` (${hint})`}</p>
     ${mistakes.map((each) => html`<p class="mistake" role="alert">${each}</p>`)}</div>`;
 }

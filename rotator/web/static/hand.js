@@ -1,5 +1,6 @@
 // By hand: buttons that turn the antenna while they are held, a target to point at or track, places that are kept, park.
 import { post } from "/box.js";
+import { number, NumberField } from "/numbers.js";
 import { act, html, useEffect, useRef, useState } from "/ui.js";
 
 const TURNS = [["up", "Up", "▲"], ["ccw", "CCW", "◀"], ["cw", "CW", "▶"], ["down", "Down", "▼"]];
@@ -46,36 +47,41 @@ function kept() {
   }
 }
 
+/** The direction in degrees that a draft stands for; null: it is not whole yet. */
+export function directionOf(draft) {
+  const found = (draft ?? []).map(number);
+  return found.length && !found.includes(null) ? found : null;
+}
+
+const pointAt = ([azimuth_deg, elevation_deg], say) => act(post("point", { azimuth_deg, elevation_deg }), say);
+
+/** `draft`: azimuth and elevation as a person has typed or pressed them; null: neither yet. */
 export function Target({ station, draft, setDraft, say }) {
   const [presets, setPresets] = useState(kept);
-  const [az, el] = draft ?? ["", ""];
+  const [az, el] = draft ?? ["", ""], there = directionOf(draft);
   const keep = (list) => (setPresets(list), localStorage.setItem("presets", JSON.stringify(list)));
   const point = (event) => {
     event.preventDefault();
-    act(post("point", { azimuth_deg: Number(az), elevation_deg: Number(el) }), say);
+    pointAt(directionOf(draft), say);
   };
-  const number = (text) => (text === "" ? "" : Number(text));
   return html`<form class="aim" onSubmit=${point}>
     <div class="fields">
-      <label>Azimuth<input type="number" inputmode="decimal" required step="any" min="-180" max=${Math.max(360, station.azimuth.max_deg)}
-        value=${az} onInput=${(event) => setDraft([number(event.target.value), el])} /></label>
-      <label>Elevation<input type="number" inputmode="decimal" required step="any" min=${station.elevation.min_deg} max=${Math.max(90, station.elevation.max_deg)}
-        value=${el} onInput=${(event) => setDraft([az, number(event.target.value)])} /></label>
+      <${NumberField} label="Azimuth" required least=${station.azimuth.min_deg} value=${az} onInput=${(text) => setDraft([text, el])} />
+      <${NumberField} label="Elevation" required least=${station.elevation.min_deg} value=${el} onInput=${(text) => setDraft([az, text])} />
       <button type="submit" class="go">Point there</button>
     </div>
     <div class="chips" role="group" aria-label="Kept places">
       ${presets.map(([name, atAz, atEl], index) => html`<span class="chip"><button type="button" onClick=${() => setDraft([atAz, atEl])}>${name}</button>
         ${index >= PRESETS.length && html`<button type="button" aria-label=${`Forget ${name}`} onClick=${() => keep(presets.filter((_, each) => each !== index))}>×</button>`}</span>`)}
-      ${draft && az !== "" && el !== "" && html`<button type="button" class="quiet" onClick=${() => keep([...presets, [`${az}° / ${el}°`, az, el]])}>keep ${az}° / ${el}°</button>`}
+      ${there && html`<button type="button" class="quiet" onClick=${() => keep([...presets, [there.map((each) => `${each}°`).join(" / "), ...there]])}>keep ${there[0]}° / ${there[1]}°</button>`}
     </div>
   </form>`;
 }
 
 /** A direction that was pressed on the sky: the next step stands there, too. */
 export function ThereFromSky({ draft, say }) {
-  const [az, el] = draft ?? ["", ""];
-  if (az === "" || el === "") return null;
-  return html`<p><button type="button" class="go" onClick=${() => act(post("point", { azimuth_deg: Number(az), elevation_deg: Number(el) }), say)}>Turn to ${az}°, ${el}°</button></p>`;
+  const there = directionOf(draft);
+  return there && html`<p><button type="button" class="go" onClick=${() => pointAt(there, say)}>Turn to ${there[0]}°, ${there[1]}°</button></p>`;
 }
 
 export function Track({ now, known, say }) {

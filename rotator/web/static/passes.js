@@ -4,6 +4,7 @@ import { post, read } from "/box.js";
 import { Elements } from "/elements.js";
 import { Flown } from "/flown.js";
 import { Track } from "/hand.js";
+import { number, NumberField } from "/numbers.js";
 import { Followed, PlanTable } from "/plan.js";
 import { act, html, useEffect, useRef, useState } from "/ui.js";
 
@@ -59,14 +60,14 @@ function usePasses(say) {
 }
 
 export function Passes({ now: box, station, paired }) {
-  const [least, setLeast] = useState(10), [said, say] = useState(""), [fault, tellFault] = useState(""), [now, setNow] = useState(() => new Date()), [rows, setRows] = useState(ROWS);
+  const [leastDeg, setLeastDeg] = useState("10"), [said, say] = useState(""), [fault, tellFault] = useState(""), [now, setNow] = useState(() => new Date()), [rows, setRows] = useState(ROWS);
   const [passes, waits, again] = usePasses(tellFault);
   useEffect(() => {
     const tick = setInterval(() => setNow(new Date()), 5000);
     return () => clearInterval(tick);
   }, []);
   const track = (target) => act(post("track", { target }), say), tracks = box.status.tracks;
-  const shown = (passes ?? []).filter((pass) => pass.max_el_deg >= least && !(pass.los && new Date(pass.los) < now));
+  const shown = (passes ?? []).filter((pass) => pass.max_el_deg >= (number(leastDeg) ?? 0) && !(pass.los && new Date(pass.los) < now));
   return html`<div class="views"><section class="log"><h2>Track</h2>
     <p><span role="status">${tracks ? html`Tracks <b>${tracks.name}</b>` : STATES[box.tracking] ?? `Tracking has ${box.tracking}`}</span>${tracks && html`, ${box.rise_or_set}`}</p>
     ${paired && html`<div class="chips" role="group" aria-label="Track">
@@ -81,7 +82,7 @@ export function Passes({ now: box, station, paired }) {
       <p role="status">${waits ? "The box computes passes and plan …" : ""}</p></section>
     <section class="log passes"><h2>Passes of the next day</h2>
     <p>Error: how far a satellite may be off, from the age of its elements.</p>
-    <label>Passes that reach, in degrees<input type="number" min="0" max="90" value=${least} onInput=${(event) => setLeast(Number(event.target.value))} /></label>
+    <${NumberField} label="Passes that reach, in degrees" least="0" value=${leastDeg} onInput=${setLeastDeg} />
     <p class="said" role="status">${station.where ? fault : html`The box does not know where it stands: <a href="#setup">Setup, step 8</a>.`}</p>
     ${shown.length > 0 && html`<table><thead><tr><th scope="col">satellite</th><th scope="col">rises</th><th scope="col" class="wide">at</th>
       <th scope="col" class="wide">for</th><th scope="col">highest</th><th scope="col" class="wide">from, to</th><th scope="col">error</th><th scope="col">track</th></tr></thead>

@@ -70,6 +70,21 @@
     press(document.getElementById("stop"));
   }
 
+  // A phone's keyboard lies over the foot of the page, and fingers may spread the page: STOP stays in what is seen of it.
+  function intoSight() {
+    var stop = document.getElementById("stop"), seen = window.visualViewport;
+    if (stop === null) return;
+    stop.style.left = stop.style.right = stop.style.bottom = "0";
+    var whole = stop.getBoundingClientRect();
+    stop.style.left = Math.max(0, seen.offsetLeft - whole.left) + "px";
+    stop.style.right = Math.max(0, whole.right - seen.offsetLeft - seen.width) + "px";
+    stop.style.bottom = Math.max(0, whole.bottom - seen.offsetTop - seen.height) + "px";
+  }
+
+  if (window.visualViewport) {
+    window.visualViewport.addEventListener("resize", intoSight);
+    window.visualViewport.addEventListener("scroll", intoSight);
+  }
   document.addEventListener("pointerdown", onPress, true);
   document.addEventListener("click", onPress, true);
   document.addEventListener("keydown", function (event) {
