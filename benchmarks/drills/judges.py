@@ -80,6 +80,8 @@ class AxisCase:
     """The chip of its control box does not hear: only its supply stops it, as the master a welded relay."""
     misplaced: bool = False
     """Something may hold it where neither its limits nor its sensor say so."""
+    beside_deg: float = 0.0
+    """How far a control box may turn to stand where its drifted sensor said it was when it was to hold."""
     stalls: bool = False
     """Its motor may have current and stand, wherever it is."""
     ran_on_s: float = 0.0
@@ -97,6 +99,9 @@ class AxisCase:
     """On an axis that counts, short runs in vain count together: so long of them is a try."""
     shorted_s: float = 0.0
     tries_s: deque[float] = field(default_factory=deque)
+
+    def beside_s(self, full_dps: float) -> float:
+        return self.beside_deg / full_dps + START_S if self.beside_deg else 0.0
 
     @property
     def deaf_s(self) -> float:
@@ -196,6 +201,7 @@ class Judges:
 
     def _unordered(self, truth: AxisTruth, case: AxisCase) -> None:
         winds_down_s = STOP_S + LOOK_S + (0.0 if truth.relayed else truth.coasts_s) + case.deaf_s
+        winds_down_s += case.beside_s(truth.full_dps)
         excused = self._now_s < self.excused_until_s or case.astray
         if self._now_s > self.unattended_s + LEASE_S + winds_down_s and self.ends_at_once and not excused:
             self._accuse(AFTER_STOP, truth, f"driven {self._now_s - self.unattended_s:.2f} s after the last lease")
@@ -235,7 +241,7 @@ class Judges:
             case.away_s = 0.0
             return
         case.away_s += self._past_s
-        if case.away_s > max(AWAY_S, case.deaf_s) + LOOK_S:
+        if case.away_s > max(AWAY_S, case.deaf_s) + case.beside_s(truth.full_dps) + LOOK_S:
             angles_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
             nearest_deg = min(angles_deg, key=lambda angle_deg: abs(angle_deg - here_deg))
             measured = f"for {case.away_s:.2f} s, at {here_deg:.1f}°, the target is {nearest_deg:.1f}°"
@@ -281,13 +287,13 @@ class Judges:
     def _is_there(self, truth: AxisTruth, case: AxisCase) -> bool:
         """Whether a control box of its own drives it where the box sees it arrived: nothing shows the current.
 
-        Round a sector it is sent to places that no order names.
+        Round a sector, or for a pass, it is sent to places that no order names.
         """
         near_deg, here_deg = case.tolerance_deg + case.slack_deg, truth.shaft_deg + case.shift_deg
         goals = self._orders.axes[truth.name].goals.values()
         places_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
         there = self.goes_round or any(abs(place_deg - here_deg) < near_deg for place_deg in places_deg)
-        return not truth.relayed and there
+        return not truth.relayed and (there or abs(truth.sent_deg - truth.shaft_deg) < near_deg)
 
     def _accuse(self, judge: str, truth: AxisTruth, measured: str) -> None:
         if (judge, truth.name) not in self._told:

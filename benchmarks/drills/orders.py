@@ -407,10 +407,14 @@ class Orders:
     def _aim_elevation(self, event: Event, elevation_deg: float) -> None:
         span = self._ranges["elevation"]
         shifted_deg = self._shifts.shifted("elevation", elevation_deg)
-        self._aim(event, "elevation", tuple(angle for each in shifted_deg for angle in span.elevations_deg(each)))
+        angles_deg = tuple(angle for each in shifted_deg for angle in span.elevations_deg(each))
+        before = self.axes["elevation"].goals.get(event.who)
+        if before and event.what == "aim" and event.number(0) > TURN_DEG:
+            angles_deg = (*angles_deg, *before.angles_deg) if before.angles_deg else ()
+        self._aim(event, "elevation", angles_deg)
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
-        """Beyond north an angle may be refused, as by a unit of 360°: then the older order stays in force."""
+        """Beyond north an order may be refused, as by a unit of 360°: then the older one stays in force, for both axes."""
         turns_deg = [
             angle_deg
             for shifted_deg in self._shifts.shifted("azimuth", event.number(0))

@@ -150,7 +150,8 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.misplaced = True
                 case.slack_deg += abs(event.number(2))
                 # A control box follows its own pot: where the other one drifts, it is held beside its place.
-                case.feels = case.feels and config.rotor.type != "digipot"
+                if config.rotor.type == "digipot":
+                    case.feels, case.beside_deg = False, abs(event.number(2))
             case "stands" | "burst" if config.rotor.type == "digipot" and event.args[-1] in (1.0, "last"):
                 # A stop sends the box to where its sensor stood.
                 case.trusted, case.astray = False, True

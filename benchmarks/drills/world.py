@@ -47,6 +47,8 @@ class AxisTruth:
     shorted_s: float = 0.0
     told_dps: float = math.inf
     """How fast a motor that follows a set point is told to turn; infinite: it is told no speed."""
+    sent_deg: float = math.nan
+    """Where a control box was sent; not a number: no such box drives it."""
     relayed: bool = False
     """Relays of the box itself feed its motor."""
 
@@ -145,6 +147,7 @@ def _see_relays(truth: AxisTruth, motor: SimMotor, coil: int) -> None:
 
 def _see_box(truth: AxisTruth, box: SimBox) -> None:
     _see_motor(truth, box.motor)
+    truth.sent_deg = box.chip.share() * box.spec.full_deg
     truth.coil = truth.power
 
 

@@ -8,11 +8,14 @@ from __future__ import annotations
 from hw.ports import Direction
 from rotator.control.axis.observed_motion import ObservedMotion, Window
 from rotator.control.axis.run_watch import endless
+from rotator.control.axis.trend import Slope
 from rotator.faults import Fault, FaultKind
 
 STANDING = Window(1.4, 1.5, 4.0)
 STANDING_SHARE, SLOW_STANDING_SHARES = 0.25, (0.5, 0.4)
 """Slower than this share of the reference speed is standing; of a slow axis before, and after, it has turned."""
+WHOLE_RUN_S, CLEAR_ERRORS = 1.6, 3.0
+"""After so long a run that has not moved the axis may be clear, though the noise asks for a longer look."""
 WRONG_WAY = Window(0.4, 0.65, 3.0)
 WRONG_WAY_SHARE = 0.5
 """This share of the reference speed backwards is the wrong way."""
@@ -43,7 +46,7 @@ class DrivenWatch:
         reference_dps = seen.reference_dps
         slow_dps = SLOW_STANDING_SHARES[seen.shown_dps is not None] * reference_dps
         limit_dps = max(STANDING_SHARE * reference_dps, min(STANDING_SHARE, slow_dps))
-        slope = seen.speed(at_s, STANDING, limit_dps / 4.5)
+        slope = seen.speed(at_s, STANDING, limit_dps / 4.5) or self._clearly(at_s, limit_dps)
         if slope is None:
             return None
         speed_dps = slope.speed_dps * direction
@@ -59,6 +62,13 @@ class DrivenWatch:
             return Fault(FaultKind.END_STOP, seen.axis, measured, f"{end_deg:g}°, which must lie before the stop")
         measured = f"its motor runs {way}, but the angle stays at {angle_deg:.1f}° ({slope.speed_dps + 0.0:.2f}°/s)"
         return Fault(FaultKind.STANDS_STILL, seen.axis, measured, f"at least {limit_dps:.2g}°/s after 2 s")
+
+    def _clearly(self, at_s: float, limit_dps: float) -> Slope | None:
+        """The speed of a run that, looked at whole, is slower than the limit for certain."""
+        slope = self._seen.whole_run(at_s, WHOLE_RUN_S)
+        if slope is None or slope.speed_dps * self._seen.relays.direction + CLEAR_ERRORS * slope.rough_dps >= limit_dps:
+            return None
+        return slope
 
     def _endless(self, at_s: float) -> Fault | None:
         seen, relays = self._seen, self._seen.relays

@@ -98,6 +98,11 @@ class ObservedMotion:
         # A first run that has not convinced yet is looked at whole: there is nothing else to go by.
         return self.trend.slope(at_s - width_s if shown or not relays.direction else from_s)
 
+    def whole_run(self, at_s: float, least_s: float) -> Slope | None:
+        """The speed since the motor of the present run was due to turn; None: that is not `least_s` ago yet."""
+        from_s = max(self.relays.since_s + RELAY_S + self.relays.motor.lag_s, self.trend.since_s)
+        return self.trend.slope(from_s) if at_s - from_s >= least_s else None
+
     def name(self, direction: Direction) -> str:
         """The direction in a person's words: clockwise, down."""
         return WAYS[self.axis, direction]
