@@ -48,10 +48,15 @@ def pointing(status: Status) -> Way | None:
 
 
 def aimed_at(status: Status) -> Way | None:
-    """Where it should point: each axis at its target, or where it rests without one. None: no axis has a target."""
+    """Where it should point: each axis at its target, or where it rests without one. None: no axis has a target.
+
+    In a planned pass the satellite itself: there a target is the place where the axis comes to rest next.
+    """
     azimuth, elevation = status.azimuth, status.elevation
     if azimuth.target_deg is None and elevation.target_deg is None:
         return None
+    if status.flown and status.wanted_azimuth_deg is not None and status.wanted_elevation_deg is not None:
+        return direction(status.wanted_azimuth_deg, status.wanted_elevation_deg)
     azimuth_deg, elevation_deg = (
         axis.points_deg if axis.target_deg is None else axis.target_deg + axis.correction_deg
         for axis in (azimuth, elevation)

@@ -12,7 +12,7 @@ from typing import Any
 
 from aiohttp import web
 
-from rotator.orders import Jog, Source, Stop
+from rotator.orders import Jog, Release, Source, Stop
 from rotator.protocols.methods import METHODS, Method
 from rotator.protocols.operating import Operating
 from rotator.protocols.session import Box, Tracking
@@ -124,13 +124,18 @@ class Api:
         holding = None if who is None else Holding(self._live.pictures, self._jogging(request))
         await self._live.serve(
             socket,
-            hello(who),
+            hello(who) | {"box": box(self._behind.station, self._behind.status())},
             holding,
-            lambda: self._entrance.reading_open or self._entrance.who(request) is not None,
+            lambda: self._is_still(who, request),
             stop=lambda: self._as(self._entrance.who(request)).do(Stop(latch=True)),
             host=machine(request.remote or ""),
         )
         return socket
+
+    def _is_still(self, who: Paired | None, request: web.Request) -> bool:
+        """Whether this browser is who it was. One that is paired no more comes back, to look on where it may."""
+        now = self._entrance.who(request)
+        return (now and now.number) == (who and who.number) and (now is not None or self._entrance.reading_open)
 
     def _jogging(self, request: web.Request) -> Callable[[Jog], str]:
         def order(jog: Jog) -> str:
@@ -167,10 +172,17 @@ class Api:
             who = self._entrance.who(request) if method.free else self._entrance.must_be_paired(request)
             # A stop counts whatever its body says.
             command = method.command({} if method.free else await values_of(request))
+            if isinstance(command, Release) and self._has_stopped_since(request):
+                return error(412, "it has been stopped again meanwhile: look at it, and press once more")
             refused = self._as(who).do(command)
             return error(409, self._behind.scene.said(refused)) if refused else web.json_response({"ok": True})
 
         return answer
+
+    def _has_stopped_since(self, request: web.Request) -> bool:
+        """Whether a stop has overtaken this request, which names those that its sender has seen (`If-Match`)."""
+        seen = request.headers.get("If-Match")
+        return seen is not None and seen != f'"{self._behind.scene.stops}"'
 
     def _as(self, who: Paired | None) -> Operating:
         number = who.number if who else 0

@@ -76,7 +76,7 @@ def build_page(
     """
     host, port = address(config.page.listen)
     lines, wire_log = LogLines(), WireLog(tap)
-    scene = Scene(lambda: loop.status, lcd, wires, pairings.named, lambda: tracking.tracker.state)
+    scene = Scene(lambda: loop.status, lcd, wires, pairings.named, lambda: tracking.tracker.state, utc=time.time)
     recorder = Recorder()
 
     def hear(_source: Source, order: Order) -> None:

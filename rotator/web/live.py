@@ -26,6 +26,8 @@ TAKES_S = 5.0
 LONGEST_SIGN = 256
 MOST_SIGNS_PER_S = 40
 MOST_WATCHERS = 80
+Answer = dict[str, str | int]
+USAGE = 'send {"hold": "cw", "press": 1, "n": NUMBER OF THE PICTURE} or {"let_go": true}, or {"stop": true}'
 
 
 class Live:
@@ -125,27 +127,28 @@ class Live:
             now_s = self._clock()
             second, signs = (second, signs + 1) if int(now_s) == second else (int(now_s), 1)
             if message.data.replace(" ", "") == '{"stop":true}':
-                refused = stop()
+                answer: Answer = {"refused": stop()}
             elif signs > MOST_SIGNS_PER_S:
                 return
             else:
-                refused = _act(message.data, holding, now_s)
-            if refused:
-                await socket.send_str(json.dumps({"refused": refused}))
+                answer = _act(message.data, holding, now_s)
+            if answer["refused"]:
+                await socket.send_str(json.dumps(answer))
 
 
-def _act(text: str, holding: Holding | None, now_s: float) -> str:
-    """Returns why not; empty: done."""
+def _act(text: str, holding: Holding | None, now_s: float) -> Answer:
+    """Returns why not, and which press it was; empty: done."""
     try:
         sign = json.loads(text)
     except ValueError:
-        return "that is no JSON"
+        return {"refused": "that is no JSON"}
     match sign:
         case {"let_go": True}:
             if holding is not None:
                 holding.let_go()
-            return ""
+            return {"refused": ""}
         case {"hold": str() as turn, "press": int() as press, "n": int() as picture} if turn in TURNS:
-            return holding.sign(turn, press, picture, now_s) if holding else "this browser is not paired"
+            refused = holding.sign(turn, press, picture, now_s) if holding else "this browser is not paired"
+            return {"refused": refused, "press": press}
         case _:
-            return 'send {"hold": "cw", "press": 1, "n": NUMBER OF THE PICTURE} or {"let_go": true}, or {"stop": true}'
+            return {"refused": USAGE}

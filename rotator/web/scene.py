@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from math import isnan, nan
 from typing import Any
 
@@ -17,7 +17,7 @@ from hw.ports import Axis, Direction
 from rotator import __version__
 from rotator.control.sky.mount import Mount
 from rotator.links.wire import Wire
-from rotator.orders import TRACKER, Fly
+from rotator.orders import TRACKER, Fly, Stop
 from rotator.protocols.status_object import as_object
 from rotator.spoken import spoken
 from rotator.status import AxisStatus, Status, Trust
@@ -28,6 +28,7 @@ KEPT_S, EVERY_S = 600, 1.0
 """The strip chart and the trail go back so far, with a point so often."""
 LAST_BYTES = 24
 MOST_POINTS = 180
+ZENITH_DEG, TURN_DEG = 90.0, 360.0
 ITSELF = "the box itself"
 _PAGE = re.compile(r"\bpage(?:#(\d+))?\b")
 _LAMPS = {Axis.AZIMUTH: ("cw", "ccw"), Axis.ELEVATION: ("up", "down")}
@@ -68,10 +69,18 @@ def box(station: Station, status: Status) -> dict[str, Any]:
     }
 
 
+@dataclass(frozen=True, slots=True)
+class _Path:
+    key: str
+    name: str
+    points: list[Way]
+
+
 class Scene:
     """`status`: the latest. `lcd`: the rows of the display, a code covered.
 
     `named`: the name of a paired browser by its number. `tracks`: `off`, `planning`, `tracking`, or `ended: ` and why.
+    `utc`: seconds since 1970 by the box's clock.
     """
 
     def __init__(
@@ -81,28 +90,37 @@ class Scene:
         wires: Sequence[Wire],
         named: Callable[[int], str],
         tracks: Callable[[], str],
+        *,
+        utc: Callable[[], float],
     ) -> None:
         self._status = status
         self._lcd = lcd
         self._wires = wires
         self._named = named
         self._tracks = tracks
+        self._utc = utc
         self._past: deque[tuple[float, ...]] = deque(maxlen=int(KEPT_S / EVERY_S))
-        self._path: tuple[str, list[Way]] = ("", [])
+        self._path = _Path("", "", [])
+        self._flights = 0
+        self.stops = 0
+        """How often a person has stopped it since the start of the program."""
 
     def note_order(self, order: object) -> None:
         """Of every order: a flight has the path of the pass. Called from any thread."""
+        if isinstance(order, Stop) and order.latch:
+            self.stops += 1
         if isinstance(order, Fly):
             step = max(1, len(order.path) // MOST_POINTS)
             points = [(round(az, 1), round(el, 1)) for _, az, el in order.path[::step]]
-            self._path = (order.name, points)
+            self._flights += 1
+            self._path = _Path(f"{self._flights} {order.name}", order.name, points)
 
     def note(self) -> None:
         """One more point of the past."""
         status = self._status()
         row = [status.at_s]
-        for axis in (status.azimuth, status.elevation):
-            row += [_number(axis.points_deg), _number(_target(axis))]
+        for axis, aim_deg in zip((status.azimuth, status.elevation), _aims(status), strict=True):
+            row += [_number(axis.points_deg), _number(aim_deg)]
         self._past.append((*row, _number(off_deg(status))))
 
     def past(self) -> dict[str, Any]:
@@ -114,9 +132,8 @@ class Scene:
         }
 
     def path(self) -> dict[str, Any]:
-        """The pass that is flown, or that the antenna waits for: its directions."""
-        name, points = self._path
-        return {"name": name, "points": points}
+        """The pass that is flown, or that the antenna waits for: its directions. `key`: no other flight has it."""
+        return asdict(self._path)
 
     def now(self) -> dict[str, Any]:
         """All that may change from one moment to the next."""
@@ -140,7 +157,9 @@ class Scene:
             "starts": _starts(status),
             "tracking": self._tracks(),
             "rise_or_set": words.rise_or_set(flown, status.at_s) if flown else "",
-            "path": self._path[0] if flown and flown.name == self._path[0] else "",
+            "path": self._path.key if flown and flown.name == self._path.name else "",
+            "stops": self.stops,
+            "utc_s": round(self._utc(), 2),
             "lamps": {name: lamp for axis in Axis for name, lamp in _lamps(axis, status.axis(axis)).items()},
             "lcd": list(self._lcd()),
             "mover": told.controlled_by,
@@ -176,6 +195,18 @@ _MOODS = {words.GOOD: "good", words.PLAIN: "plain", words.WARNS: "warns", words.
 
 def _target(axis: AxisStatus) -> float | None:
     return None if axis.target_deg is None else axis.target_deg + axis.correction_deg
+
+
+def _aims(status: Status) -> tuple[float | None, float | None]:
+    """Where each axis should point, on its own scale: in a planned pass the satellite, on the turn of the antenna."""
+    azimuth, elevation = status.azimuth, status.elevation
+    there = aimed_at(status) if status.flown else None
+    if there is None or azimuth.points_deg is None or elevation.points_deg is None:
+        return _target(azimuth), _target(elevation)
+    azimuth_deg, elevation_deg = there
+    if elevation.points_deg > ZENITH_DEG:
+        azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
+    return azimuth_deg + TURN_DEG * round((azimuth.points_deg - azimuth_deg) / TURN_DEG), elevation_deg
 
 
 def _starts(status: Status) -> int | None:

@@ -83,9 +83,9 @@ def test_the_keyboard_alone_points_and_turns(start: Start, visit: Visit) -> None
     headline(page, "ON TARGET")
     page.get_by_role("button", name="Hold to turn CW", exact=True).focus()
     page.keyboard.down("Space")
-    page.locator(".lamps .on", has_text="CW").wait_for()
+    page.locator(".front .lamps .on", has_text="CW").wait_for()
     page.keyboard.up("Space")
-    page.locator(".lamps .on").wait_for(state="detached")
+    page.locator(".front .lamps .on").wait_for(state="detached")
 
 
 def test_a_question_takes_the_keys_and_gives_them_back(start: Start, visit: Visit) -> None:

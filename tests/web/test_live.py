@@ -136,9 +136,42 @@ def test_who_is_revoked_while_a_button_is_held_turns_nothing_more(page_box: Star
             async with live(box) as browser:
                 await browser.holds("up", lambda: box.world.drives() == (0, 1))
                 assert (await box.post("revoke", {"number": me["number"]}))[0] == 200
-                await browser.holds("up", lambda: bool(browser.refused))
+                with pytest.raises(aiohttp.WSMessageTypeError):  # the box ends the connection
+                    await browser.holds("up", lambda: False)
                 await box.until(lambda: box.world.drives() == OFF)
-                assert "paired no more" in browser.refused[0]
+            async with live(box) as browser:
+                assert browser.told["hello"]["paired"] is False
+                await browser.holds("up", lambda: bool(browser.refused))
+                assert browser.refused == ["this browser is not paired"]
+                assert box.world.drives() == OFF
+
+    asyncio.run(main())
+
+
+def test_who_is_revoked_by_another_may_look_on_and_its_page_comes_back(page_box: Start) -> None:
+    async def main() -> None:
+        async with page_box() as box:
+            me = await box.pair()
+            async with live(box) as browser:
+                await box.pair("another browser")
+                assert (await box.post("revoke", {"number": me["number"]}))[0] == 200
+                with pytest.raises(aiohttp.WSMessageTypeError):
+                    while True:
+                        await browser.look()
+
+    asyncio.run(main())
+
+
+def test_a_refusal_says_which_press_it_means(page_box: Start) -> None:
+    """A short press is over when the answer comes, and the next one may have begun."""
+
+    async def main() -> None:
+        async with page_box() as box, live(box) as browser:
+            await browser.hold("cw", press=7)
+            answer: dict[str, Any] = {}
+            while "refused" not in answer:
+                answer = json.loads(await asyncio.wait_for(browser.socket.receive_str(), PATIENCE_S))
+            assert answer == {"refused": "this browser is not paired", "press": 7}
 
     asyncio.run(main())
 

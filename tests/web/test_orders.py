@@ -15,6 +15,7 @@ import pytest
 from rotator.protocols.methods import METHODS
 from rotator.protocols.status_object import as_object
 from tests.web.conftest import OFF, Box, page_of
+from tests.web.test_live import live
 
 Start = Callable[..., AbstractAsyncContextManager[Box]]
 
@@ -223,3 +224,27 @@ async def at_the_console(folder: Path, line: str) -> list[str]:
     finally:
         writer.close()
         await asyncio.gather(writer.wait_closed(), return_exceptions=True)
+
+
+def test_a_late_resume_does_not_undo_a_stop_that_its_sender_has_not_seen(page_box: Start) -> None:
+    """A request may hang in the air for seconds, and a stop overtakes it: it names the stops that it knows."""
+
+    async def main() -> None:
+        async with page_box() as box:
+            await box.pair()
+            assert (await box.post("stop"))[0] == 200
+            await box.until(lambda: bool(box.status.latched))
+            async with live(box) as browser:
+                seen = {"If-Match": f'"{browser.told["now"]["stops"]}"'}
+            assert (await box.post("stop"))[0] == 200
+            async with live(box) as browser:
+                newer = {"If-Match": f'"{browser.told["now"]["stops"]}"'}
+            assert newer != seen
+            status, told = await box.post("resume", headers=seen)
+            assert status == 412
+            assert box.status.latched
+            assert "stopped again" in told["error"]
+            assert (await box.post("resume", headers=newer))[0] == 200
+            await box.until(lambda: not box.status.latched)
+
+    asyncio.run(main())

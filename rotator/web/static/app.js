@@ -10,25 +10,18 @@ import { Passes } from "/passes.js";
 import { Control, Front, Headline, Links, Mode, Notes, Strip } from "/panels.js";
 import { Setup } from "/setup.js";
 import { Sky } from "/sky.js";
-import { act, html, render, useEffect, useState } from "/ui.js";
+import { act, html, render, useEffect, useEvery, useState } from "/ui.js";
 
 const PAST_MS = 5000, NEXT_MS = 20_000, COMPUTES_MS = 2000;
-let tell = () => {};
+let tell = () => {}, version;
 const live = new Live((seen) => tell(seen));
 
-function usePast(name) {
+/** What has been, and the path of the flight with this key; an empty key: there is none. */
+function usePast(key) {
   const [past, setPast] = useState([]), [path, setPath] = useState(null);
-  useEffect(() => {
-    const load = () => !document.hidden && read("past").then((told) => setPast(told.rows), () => {});
-    load();
-    const timer = setInterval(load, PAST_MS);
-    return () => clearInterval(timer);
-  }, []);
-  useEffect(() => {
-    setPath(null);
-    if (name) read("path").then((told) => told.name === name && setPath(told), () => {});
-  }, [name]);
-  return [past, path];
+  useEvery(PAST_MS, async () => document.hidden || setPast((await read("past")).rows));
+  useEvery(PAST_MS, async () => key && path?.key !== key && setPath(await read("path")), [key, path]);
+  return [past, path?.key === key ? path : null];
 }
 
 /** The next pass, with its path; null: there is none, or it is not computed yet. */
@@ -53,7 +46,7 @@ function Antenna({ station, now, hello, fresh, say }) {
   const paired = hello.paired;
   const { azimuth, elevation } = now.status;
   return html`<main class=${`board ${fresh ? "" : "old"}`}>
-    <div class="top"><${Headline} now=${now} next=${next} /></div>
+    <div class="top"><${Headline} now=${now} hello=${hello} next=${next} /></div>
     <div class="panel sky-panel"><${Sky} station=${station} now=${now} past=${past} path=${path} next=${next} draft=${directionOf(draft)} onPick=${setDraft} />
       ${paired && html`<${ThereFromSky} draft=${draft} say=${say} />`}</div>
     <section class="panel hand" aria-label="By hand">
@@ -76,32 +69,39 @@ function Antenna({ station, now, hello, fresh, say }) {
 
 const VIEWS = [["", "Antenna"], ["sky", "Sky"], ["setup", "Setup"], ["doctor", "Help"], ["paired", "Browsers"]];
 
+/** The view that the address names; of one that is not known the first. */
+function shownView() {
+  const hash = location.hash.slice(1);
+  return helps(hash) || VIEWS.some(([each]) => each === hash) ? hash : "";
+}
+
 function Page() {
-  const [seen, setSeen] = useState({ now: null }), [station, setStation] = useState(null), [view, setView] = useState(location.hash.slice(1)), [said, say] = useState("");
+  const [seen, setSeen] = useState({ now: null }), [view, setView] = useState(shownView), [said, say] = useState("");
   useEffect(() => {
     tell = setSeen;
     live.tell();
-    addEventListener("hashchange", () => (setView(location.hash.slice(1)), say(""), scrollTo(0, 0)));
+    addEventListener("hashchange", () => (setView(shownView()), say(""), scrollTo(0, 0)));
   }, []);
+  const { now, hello, fresh, old, locked } = seen, station = hello?.box;
   useEffect(() => {
-    // A box that has been started anew may have another range. It greets anew.
-    if (seen.fresh) read("box").then(setStation, () => {});
-  }, [seen.fresh, seen.hello]);
-  const { now, hello, fresh, old } = seen;
+    // The box has been updated meanwhile: this page is the older one's.
+    if (station) version ??= station.version;
+    if (station && station.version !== version) location.reload();
+  }, [station]);
   return html`<header>
       <h1>rotator</h1>
       ${now?.status.simulated && html`<strong class="sim">SIM<span> simulated: nothing real turns</span></strong>`}
       <nav aria-label="Views">${VIEWS.map(([hash, name]) => html`<a href=${`#${hash}`} aria-current=${view === hash || (hash === "doctor" && helps(view)) ? "page" : null}>${name}</a>`)}</nav>
-      <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? (hello.paired ? hello.name : "looking") : now ? "no connection" : "connecting …"}</span>${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
+      <p class=${`connection ${fresh ? "" : "lost"}`}><span role="status">${fresh ? (hello.paired ? hello.name : "looking") : locked ? "not paired" : now ? "no connection" : "connecting …"}</span>${now && !fresh && `: this is ${Math.round(old / 1000)} s old`}</p>
     </header>
     ${now && html`<${Strip} now=${now} paired=${hello.paired} fresh=${fresh} beside=${view === ""} said=${said} say=${say} />`}
-    ${now && station && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} say=${say} />`}
-    ${now && station && view === "sky" && html`<main><${Passes} now=${now} station=${station} paired=${hello.paired} /></main>`}
+    ${now && view === "" && html`<${Antenna} station=${station} now=${now} hello=${hello} fresh=${fresh} say=${say} />`}
+    ${now && view === "sky" && html`<main><${Passes} now=${now} station=${station} hello=${hello} say=${say} /></main>`}
     ${now && helps(view) && html`<${Help} view=${view} now=${now} hello=${hello} onPaired=${() => live.connect()} />`}
     ${now && (view === "setup" || view === "paired") && html`<main>${!hello.paired ? html`<${Pair} onPaired=${() => live.connect()} />`
-      : view === "setup" ? html`<${Setup} now=${now} hello=${hello} live=${live} />`
+      : view === "setup" ? html`<${Setup} now=${now} hello=${hello} say=${say} />`
       : html`<${Paired} hello=${hello} onChange=${() => live.connect()} />`}</main>`}
-    ${!(now && station) && html`<main class="wait"><p>Looking for the box …</p></main>`}`;
+    ${!now && html`<main class="wait">${locked ? html`<${Pair} locked onPaired=${() => live.connect()} />` : html`<p>Looking for the box …</p>`}</main>`}`;
 }
 
 render(html`<${Page} />`, document.getElementById("app"));

@@ -18,9 +18,12 @@ async function told(answer) {
   return found;
 }
 
+/** Let it move again. A stop that has come since this picture counts more, also where this request takes longer. */
+export const resume = (now) => post("resume", {}, { "If-Match": `"${now.stops}"` });
+
 /** Ask the box for something. Throws an Error with the box's own sentence. */
-export const post = (path, values) =>
-  asked(path, { headers: { "Content-Type": "application/json" }, body: JSON.stringify(values ?? {}), keepalive: true, signal: within(5000) });
+export const post = (path, values, headers) =>
+  asked(path, { headers: { "Content-Type": "application/json", ...headers }, body: JSON.stringify(values ?? {}), keepalive: true, signal: within(5000) });
 
 /** Send a file. The box may take a while to check it. */
 export const send = (path, file) => asked(path, { body: file, signal: within(60_000) });
@@ -58,13 +61,21 @@ export async function read(path) {
   return told(answer);
 }
 
-/** The live connection. `changed` is called with {now, hello, fresh} at each picture, and when pictures stop coming. */
+let boxAheadMs = 0;
+
+/** The time by the box's clock, in ms since 1970: a phone's own may be wrong, and all that the box tells is by its own. */
+export const boxTime = () => Date.now() + boxAheadMs;
+
+/** The live connection. `changed` is called with {now, hello, fresh, old, locked} at each picture, and when pictures stop
+    coming. `locked`: the box shows itself to paired browsers alone, and this one is none. */
 export class Live {
   constructor(changed) {
     this.changed = changed;
     this.picture = null;
     this.hello = null;
     this.held = null;
+    this.latest = null;
+    this.locked = false;
     this.number = 0;
     this.press = 0;
     this.seen = 0;
@@ -97,13 +108,16 @@ export class Live {
     socket.onmessage = (event) => {
       const told = JSON.parse(event.data);
       if (told.refused) {
-        this.ended(told.refused);
+        // A short press may be over by now: its reason counts all the same, and no older one ends a new press.
+        if (told.press === this.press && !this.ended(told.refused)) this.latest?.(told.refused);
         return;
       }
       if (!told.now) return;
       if (told.hello) this.hello = told.hello;
       this.number = told.n;
       this.picture = told.now;
+      this.locked = false;
+      boxAheadMs = told.now.utc_s * 1000 - Date.now();
       this.seen = this.heard = performance.now();
       this.patience = SILENT_MS;
       this.tell();
@@ -111,7 +125,16 @@ export class Live {
     socket.onclose = () => {
       this.ended(LOST);
       this.again = setTimeout(() => this.connect(), AGAIN_MS);
+      this.askWhy();
     };
+  }
+
+  /** A WebSocket that is refused does not say why. */
+  async askWhy() {
+    const answer = await fetch("/api/status", { signal: within(5000) }).catch(() => null);
+    this.locked = answer?.status === 401;
+    if (this.locked) this.picture = null;
+    this.tell();
   }
 
   get fresh() {
@@ -128,7 +151,7 @@ export class Live {
   }
 
   tell() {
-    this.changed({ now: this.picture, hello: this.hello, fresh: this.fresh, old: performance.now() - this.seen });
+    this.changed({ now: this.picture, hello: this.hello, fresh: this.fresh, old: performance.now() - this.seen, locked: this.locked });
   }
 
   send(sign) {
@@ -144,7 +167,7 @@ export class Live {
       return;
     }
     this.press += 1;
-    this.held = ended;
+    this.held = this.latest = ended;
     const sign = () => this.send({ hold: turn, press: this.press, n: this.number });
     sign();
     this.signs = setInterval(sign, SIGN_MS);

@@ -1,7 +1,7 @@
 // A calibration: what the guide of the box says, and the keys that it takes. The box stops the motor when no browser looks on.
 import { post, read } from "/box.js";
 import { keypad } from "/numbers.js";
-import { act, html, useEffect, useRef, useState } from "/ui.js";
+import { act, html, useEffect, useEvery, useRef, useState } from "/ui.js";
 
 const LOOK_MS = 250;
 const TURNS = { azimuth: [["l", "◀ CCW"], ["r", "CW ▶"]], elevation: [["d", "▼ down"], ["u", "up ▲"]] };
@@ -11,16 +11,7 @@ const ANSWERS = [["y", "Yes"], ["n", "No"], ["\r", "Read here (Enter)"], ["b", "
 export function Calibrate({ axis, settings, least, moving, say, onEnd }) {
   const [told, setTold] = useState(null), [number, setNumber] = useState(""), lines = useRef(null);
   const running = told?.axis === axis;
-  useEffect(() => {
-    let gone = false;
-    const look = () => read("calibration").then((now) => {
-      if (gone) return;
-      setTold((before) => (before?.axis && !now.axis && onEnd(), now));
-    }, () => {});
-    look();
-    const timer = setInterval(look, LOOK_MS);
-    return () => ((gone = true), clearInterval(timer));
-  }, []);
+  useEvery(LOOK_MS, () => read("calibration").then((now) => setTold((before) => (before?.axis && !now.axis && onEnd(), now))));
   const count = told?.lines.length ?? 0;
   useEffect(() => lines.current?.scrollTo(0, lines.current.scrollHeight), [count]);
   const press = (keys) => act(post("calibration/press", { keys }), say);

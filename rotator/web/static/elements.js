@@ -1,6 +1,6 @@
 // The elements of satellites: which files there are and how old, what is fetched, and a file that is sent to the box.
 import { post, read, send } from "/box.js";
-import { act, html, useEffect, useState } from "/ui.js";
+import { act, html, useEvery, useState } from "/ui.js";
 
 const EVERY_MS = 10_000, READ_MS = 1500, MOST_BYTES = 2_000_000;
 
@@ -16,11 +16,7 @@ function Fetched({ one }) {
 export function Elements({ paired, changed }) {
   const [told, setTold] = useState(null), [said, say] = useState(""), [kept, keep] = useState(""), [sends, setSends] = useState(false);
   const load = () => read("elements").then(setTold, () => {});
-  useEffect(() => {
-    load();
-    const timer = setInterval(load, EVERY_MS);
-    return () => clearInterval(timer);
-  }, []);
+  useEvery(EVERY_MS, load);
   const after = () => (changed(), load(), setTimeout(load, READ_MS));
   const take = (event) => {
     const [file] = event.target.files;

@@ -1,6 +1,6 @@
 // The passes that the box has flown: how far it was off, and a picture of each to keep.
 import { read } from "/box.js";
-import { html, useEffect, useState } from "/ui.js";
+import { html, useEvery, useState } from "/ui.js";
 
 const EVERY_MS = 15_000;
 const time = (seconds) => new Date(seconds * 1000).toLocaleString(undefined, { dateStyle: "short", timeStyle: "short" });
@@ -8,12 +8,7 @@ const time = (seconds) => new Date(seconds * 1000).toLocaleString(undefined, { d
 /** `tracked`: a change of what is tracked may mean that a pass is over. */
 export function Flown({ tracked }) {
   const [flown, setFlown] = useState([]), [shown, show] = useState(null);
-  useEffect(() => {
-    const load = () => read("flown").then((told) => setFlown(told.flown), () => {});
-    load();
-    const timer = setInterval(load, EVERY_MS);
-    return () => clearInterval(timer);
-  }, [tracked]);
+  useEvery(EVERY_MS, () => read("flown").then((told) => setFlown(told.flown)), [tracked]);
   const told = (pass) => `off by ${pass.rms_deg.toFixed(1)}° rms, ${pass.max_deg.toFixed(1)}° at worst${pass.relay_starts == null ? "" : `, ${pass.relay_starts} motor starts`}`;
   return html`<section class="log flown"><h2>Passes flown</h2>
     ${!flown.length && html`<p>When the box has flown a pass that it knows, its picture is here.</p>`}

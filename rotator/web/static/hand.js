@@ -3,14 +3,16 @@ import { post } from "/box.js";
 import { number, NumberField } from "/numbers.js";
 import { act, html, useEffect, useRef, useState } from "/ui.js";
 
+const CLICK_S = 0.5;
 const TURNS = [["up", "Up", "▲"], ["ccw", "CCW", "◀"], ["cw", "CW", "▶"], ["down", "Down", "▼"]];
 const PRESETS = [["North", 0, 0], ["East", 90, 0], ["South", 180, 0], ["West", 270, 0]];
 
 function HeldButton({ live, turn, name, arrow, say }) {
-  const [held, setHeld] = useState(false);
+  const [held, setHeld] = useState(false), pressed = useRef(false);
   const press = (event) => {
     event.preventDefault();
     if (event.button > 0 || event.repeat) return;
+    pressed.current = true;
     if (event.pointerId !== undefined) event.currentTarget.setPointerCapture?.(event.pointerId);
     event.currentTarget.focus();
     say("");
@@ -20,8 +22,13 @@ function HeldButton({ live, turn, name, arrow, say }) {
   };
   const leave = () => live.letGo();
   const key = (event) => (event.key === " " || event.key === "Enter") && press(event);
+  // A screen reader, or a spoken command, sends a click and no press: it turns for a moment.
+  const click = (event) => {
+    if (!pressed.current && event.detail === 0) act(post("jog", { turn, seconds: CLICK_S }), say);
+    pressed.current = false;
+  };
   return html`<button type="button" class=${`jog ${turn} ${held ? "held" : ""}`} aria-label=${`Hold to turn ${name}`}
-    onPointerDown=${press} onLostPointerCapture=${leave} onKeyDown=${key} onBlur=${leave} onContextMenu=${(event) => event.preventDefault()}>
+    onPointerDown=${press} onLostPointerCapture=${leave} onKeyDown=${key} onClick=${click} onBlur=${leave} onContextMenu=${(event) => event.preventDefault()}>
     <span aria-hidden="true">${arrow}</span><small>${name}</small></button>`;
 }
 
@@ -41,7 +48,8 @@ export function JogPad({ live, say }) {
 
 function kept() {
   try {
-    return JSON.parse(localStorage.getItem("presets")) ?? PRESETS;
+    const list = JSON.parse(localStorage.getItem("presets"));
+    return Array.isArray(list) ? list : PRESETS;
   } catch {
     return PRESETS;
   }

@@ -17,7 +17,7 @@ export function Help({ view, now, hello, onPaired }) {
     <nav aria-label="Help">${Object.entries(VIEWS).map(([hash, name]) => html`<a href=${`#${hash}`} aria-current=${view === hash ? "page" : null}>${name}</a>`)}</nav>
     ${!open && html`<${Pair} onPaired=${onPaired} />`}
     ${view === "doctor" && html`<${Doctor} />`}
-    ${open && view === "wires" && html`<${Wires} links=${now.links} />`}
+    ${open && view === "wires" && html`<${Wires} hello=${hello} links=${now.links} />`}
     ${open && view === "files" && html`<${Files} />`}
     ${open && view === "log" && html`<${Log} />`}
   </main>`;

@@ -1,6 +1,6 @@
 // The log of the box: what has happened, the latest first, with a filter; what is shown can be copied and saved.
 import { read } from "/box.js";
-import { act, html, useEffect, useState } from "/ui.js";
+import { html, useEvery, useState } from "/ui.js";
 
 const EVERY_MS = 2000, RANKS = { note: "all", warning: "warnings and errors", error: "errors" };
 
@@ -29,12 +29,7 @@ function save(text) {
 
 export function Log() {
   const [lines, setLines] = useState([]), [words, setWords] = useState(""), [rank, setRank] = useState("note"), [said, say] = useState(""), [copied, setCopied] = useState("");
-  useEffect(() => {
-    const load = () => act(read("log").then((told) => setLines(told.lines)), say);
-    load();
-    const timer = setInterval(load, EVERY_MS);
-    return () => clearInterval(timer);
-  }, []);
+  useEvery(EVERY_MS, () => read("log").then((told) => (setLines(told.lines), say("")), (fault) => say(fault.message)));
   const order = Object.keys(RANKS), wanted = words.toLowerCase();
   const shown = lines.filter((line) => order.indexOf(line.rank) >= order.indexOf(rank) && line.text.toLowerCase().includes(wanted));
   return html`<section class="log"><h2>Log</h2>

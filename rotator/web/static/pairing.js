@@ -9,7 +9,8 @@ function guess() {
   return `${browser === "Edg" ? "Edge" : browser} on ${what}`.trim();
 }
 
-export function Pair({ onPaired }) {
+/** `locked`: the box shows itself to paired browsers alone. */
+export function Pair({ onPaired, locked }) {
   const [open, setOpen] = useState(false), [code, setCode] = useState(""), [name, setName] = useState(guess), [said, say] = useState("");
   const begin = () => act(post("pair/begin").then(() => setOpen(true)), say);
   const enter = (event) => {
@@ -17,7 +18,7 @@ export function Pair({ onPaired }) {
     act(post("pair", { code, name }).then(onPaired), say);
   };
   return html`<section class="pair" aria-label="Pair this browser">
-    <p>You can look, and stop. To move the antenna, pair this browser once.</p>
+    <p>${locked ? "This box shows itself to paired browsers alone. You can stop it. To look, and to move the antenna," : "You can look, and stop. To move the antenna,"} pair this browser once.</p>
     ${!open && html`<button type="button" class="go" onClick=${begin}>Pair this browser</button>`}
     ${open && html`<form onSubmit=${enter}>
       <p>The box shows six digits on its display for two minutes. Without a display: <code>rotator pair</code></p>

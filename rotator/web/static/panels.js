@@ -1,14 +1,14 @@
 // The parts of the box as it stands: what it does, who moves it, its display, its relays, its links, what is wrong.
-import { post } from "/box.js";
+import { boxTime, post, resume } from "/box.js";
 import { act, degrees, html } from "/ui.js";
 
 function minutes(text) {
-  const left = Math.max(0, Math.round((new Date(text) - Date.now()) / 60_000));
+  const left = Math.max(0, Math.round((new Date(text) - boxTime()) / 60_000));
   return left < 60 ? `${left} min` : `${Math.floor(left / 60)} h ${String(left % 60).padStart(2, "0")} min`;
 }
 
-export function Headline({ now, next }) {
-  const { tracks } = now.status;
+export function Headline({ now, hello, next }) {
+  const { tracks } = now.status, who = mover(now, hello);
   return html`<section class=${`headline ${now.mood}`} aria-label="What the box does">
     <div role="status"><h2>${now.headline}</h2></div>
     <dl class="angles">
@@ -19,14 +19,18 @@ export function Headline({ now, next }) {
       ${now.off_deg != null && html`<span>off by <b>${now.off_deg.toFixed(1)}°</b></span>`}
       ${tracks && html`<span>${tracks.name} <b>${now.rise_or_set}</b></span>`}
       ${next && next.name !== tracks?.name && html`<span>next ${next.name} <b>in ${minutes(next.aos)}</b>, ${Math.round(next.max_el_deg)}° high${next.plan?.flown ? "" : ", not in a plan"}</span>`}
+      <span>moved by <b>${who}</b></span>
       ${now.starts != null && now.off_deg != null && html`<span><b>${now.starts}</b> motor starts in this pass</span>`}
     </p>
+    <${Lamps} now=${now} again />
   </section>`;
 }
 
+const mover = (now, hello) => (!now.mover ? "nobody" : now.status.moved_by === hello.source ? "this browser" : now.mover);
+
 export function Control({ now, hello, paired, say }) {
   const { status } = now, mine = status.held_by === hello.source;
-  const who = now.mover ? (status.moved_by === hello.source ? "this browser" : now.mover) : "nobody";
+  const who = mover(now, hello);
   const holder = mine ? "this browser" : now.holder;
   return html`<div class="control">
     <p>${who === holder ? html`Moved and held by <b>${who}</b>` : html`Moved by <b>${who}</b>${status.held_by && html`, held by <b>${holder}</b>`}`}</p>
@@ -67,7 +71,7 @@ export function Strip({ now, paired, fresh, beside, said, say }) {
 function Troubles({ now, paired, say }) {
   const faults = [now.status.azimuth.fault, now.status.elevation.fault].filter(Boolean);
   if (!now.stopper && !faults.length) return null;
-  const resume = html`<button type="button" class="go" disabled=${!paired} onClick=${() => act(post("resume"), say)}>
+  const resume = html`<button type="button" class="go" disabled=${!paired} onClick=${() => act(resume(now), say)}>
     ${now.stopper ? "Let it move again" : "Repaired: go on"}</button>`;
   return html`<section class="troubles" role="alert" aria-label="What is wrong">
     ${faults.map((fault) => html`<p><b>${fault.act_now ? "Act now" : "Fault"}:</b> ${fault.text}</p>`)}
@@ -84,12 +88,16 @@ export function Notes({ now }) {
 
 const LAMPS = [["ccw", "CCW"], ["cw", "CW"], ["down", "DOWN"], ["up", "UP"]];
 
+/** `again`: a second time, where a narrow screen shows the front of the box further down. */
+function Lamps({ now, again }) {
+  return html`<ul class=${`lamps ${again ? "again" : ""}`} aria-label="Relays" aria-hidden=${again ? "true" : null}>${LAMPS.map(([lamp, name]) => html`<li class=${now.lamps[lamp]}>
+    <i aria-hidden="true"></i>${name}<span class="only-read"> relay ${now.lamps[lamp]}</span></li>`)}</ul>`;
+}
+
 export function Front({ now }) {
   return html`<section class="front" aria-label="The front of the box">
     <pre class="lcd" aria-label="Display">${now.lcd.join("\n")}</pre>
-    <ul class="lamps" aria-label="Relays">${LAMPS.map(([lamp, name]) => html`<li class=${now.lamps[lamp]}>
-      <i aria-hidden="true"></i>${name}<span class="only-read"> relay ${now.lamps[lamp]}</span></li>`)}</ul>
-  </section>`;
+    <${Lamps} now=${now} /></section>`;
 }
 
 export function Links({ now }) {

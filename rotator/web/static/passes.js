@@ -1,6 +1,6 @@
 // The sky of the next day: what to track by a press, which satellite rises when and how high, and how far its elements
 // may be off.
-import { post, read } from "/box.js";
+import { boxTime, post, read } from "/box.js";
 import { Elements } from "/elements.js";
 import { Flown } from "/flown.js";
 import { Track } from "/hand.js";
@@ -59,11 +59,11 @@ function usePasses(say) {
   return [passes, waits, () => again.current()];
 }
 
-export function Passes({ now: box, station, paired }) {
-  const [leastDeg, setLeastDeg] = useState("10"), [said, say] = useState(""), [fault, tellFault] = useState(""), [now, setNow] = useState(() => new Date()), [rows, setRows] = useState(ROWS);
+export function Passes({ now: box, station, hello, say }) {
+  const { paired } = hello, [leastDeg, setLeastDeg] = useState("10"), [fault, tellFault] = useState(""), [now, setNow] = useState(boxTime), [rows, setRows] = useState(ROWS);
   const [passes, waits, again] = usePasses(tellFault);
   useEffect(() => {
-    const tick = setInterval(() => setNow(new Date()), 5000);
+    const tick = setInterval(() => setNow(boxTime()), 5000);
     return () => clearInterval(tick);
   }, []);
   const track = (target) => act(post("track", { target }), say), tracks = box.status.tracks;
@@ -75,9 +75,9 @@ export function Passes({ now: box, station, paired }) {
       <button type="button" onClick=${() => track("plan")}>Follow the plan</button>
       <button type="button" onClick=${() => track("off")}>Track nothing</button></div>
       <${Track} now=${box} known=${station.where} say=${say} />`}
-    <p class="said" role="alert">${said}</p></section>
+    </section>
     <section class="log"><h2>The plan</h2>
-      <${Followed} paired=${paired} changed=${again} say=${say} />
+      <${Followed} hello=${hello} paired=${paired} changed=${again} say=${say} />
       ${passes && html`<div class=${waits ? "old" : ""}><${PlanTable} passes=${passes} /></div>`}
       <p role="status">${waits ? "The box computes passes and plan …" : ""}</p></section>
     <section class="log passes"><h2>Passes of the next day</h2>

@@ -1,6 +1,6 @@
 // What the box follows, in the order that counts, and the plan of the next day that comes of it. The order is dragged by
 // a finger or a mouse, moved by the arrow keys, or by the two buttons of each row.
-import { post, read } from "/box.js";
+import { boxTime, post, read } from "/box.js";
 import { act, html, useEffect, useRef, useState } from "/ui.js";
 
 const ROWS = 10;
@@ -25,11 +25,11 @@ function Target({ one, place, count, onMove, onDrag, dragged }) {
     <button type="button" aria-label=${`${one.target} down`} disabled=${place === count - 1} onClick=${() => onMove(place, place + 1)}>▼</button></li>`;
 }
 
-/** `changed`: the plan is another one now. */
-export function Followed({ paired, changed, say }) {
+/** `changed`: the plan is another one now. `hello`: another one after each start of the box, with another file perhaps. */
+export function Followed({ hello, paired, changed, say }) {
   const [followed, setFollowed] = useState([]), [drag, setDrag] = useState(null), [told, tell] = useState(""), list = useRef(null), shown = useRef([]);
   const load = () => act(read("followed").then((answer) => setFollowed(answer.followed)), say);
-  useEffect(load, []);
+  useEffect(load, [hello]);
   shown.current = followed;
   const send = (order) => act(post("followed", { order }).then(changed).finally(load), say);
   const place = (from, to) => {
@@ -45,7 +45,7 @@ export function Followed({ paired, changed, say }) {
     event.currentTarget.focus();
     const before = followed, name = before[from].name;
     setDrag(name);
-    const rows = () => [...list.current.querySelectorAll("li")];
+    const rows = () => [...(list.current?.querySelectorAll("li") ?? [])];
     const move = (at) => {
       const over = rows().findIndex((row) => at.clientY < row.getBoundingClientRect().bottom);
       const now = shown.current.findIndex((one) => one.name === name), to = over < 0 ? before.length - 1 : over;
@@ -82,7 +82,7 @@ function how({ flown, set_off: leaves, wait_az_deg: az, over_the_top: over, lost
 
 export function PlanTable({ passes }) {
   const [rows, setRows] = useState(ROWS);
-  const planned = passes.filter((pass) => pass.plan && !(pass.los && new Date(pass.los) < new Date()));
+  const planned = passes.filter((pass) => pass.plan && !(pass.los && new Date(pass.los) < boxTime()));
   if (!planned.length) return null;
   const from = (pass) => pass.plan.from ?? pass.aos, until = (pass) => pass.plan.until ?? pass.los;
   return html`<table class="plan"><thead><tr><th scope="col">from</th><th scope="col" class="wide">until</th><th scope="col">satellite</th><th scope="col" class="wide">highest</th><th scope="col">the antenna</th></tr></thead>

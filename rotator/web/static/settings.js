@@ -25,14 +25,13 @@ export async function back(run) {
   throw new Error("the box does not answer at this address any more: it may have another one now");
 }
 
-/** The settings of the box and the tables of its file. `change`: has them written, and the box started anew. */
-export function useSettings(say) {
+/** The settings of the box and the tables of its file. `change`: has them written, and the box started anew. `hello`: of
+    the connection, another one after each start of the box: somebody else may have written the file. */
+export function useSettings(say, hello) {
   const [file, setFile] = useState(null), [tables, setTables] = useState(null), [busy, setBusy] = useState("");
   const load = () => act(whole("settings").then(setFile), say);
-  useEffect(() => {
-    load();
-    act(whole("settings/form").then((told) => setTables(told.tables)), say);
-  }, []);
+  useEffect(() => void act(whole("settings/form").then((told) => setTables(told.tables)), say), []);
+  useEffect(() => void (busy || load()), [hello]);
   const change = async (path, values) => {
     setBusy("The box starts anew …");
     try {
@@ -119,7 +118,7 @@ export function Proposed({ diff, moving, onWrite, onLeave }) {
 export function Settings({ settings, now, say, only, keys }) {
   const { file, busy, change, load } = settings, within = only ? `step-${only.join("-")}` : "set";
   const tables = useMemo(() => settings.tables?.filter((table) => !only || only.includes(name(table.path))), [settings.tables]);
-  const [draft, setDraft] = useState({}), [words, setWords] = useState(""), [proposed, propose] = useState(null);
+  const [draft, setDraft] = useState({}), [forgotten, setForgotten] = useState(0), [words, setWords] = useState(""), [proposed, propose] = useState(null);
   const mistakes = proposed?.mistakes ?? [], changes = useMemo(() => (file ? changesOf(draft, tables, file.values) : []), [draft, file]);
   useEffect(() => (propose(null), undefined), [draft]);
   if (!file || !tables) return html`<p>Reading the file …</p>`;
@@ -134,14 +133,14 @@ export function Settings({ settings, now, say, only, keys }) {
     ${!only && html`<p>All that <code>${file.file}</code> can say. A field that is left empty is not in the file.</p>
       <label>Find a setting<input type="search" value=${words} onInput=${(event) => setWords(event.target.value)} /></label>`}
     <div class=${`actions ${only ? "after" : ""}`}><button type="button" class="go" disabled=${!changes.length || busy !== ""} onClick=${check}>${changes.length ? `See ${changes.length === 1 ? "the change" : `${changes.length} changes`}` : "Nothing is changed"}</button>
-      ${changes.length > 0 && html`<button type="button" onClick=${() => (setDraft({}), load())}>Forget ${changes.length === 1 ? "it" : "them"}</button>`}
+      ${changes.length > 0 && html`<button type="button" onClick=${() => (setDraft({}), setForgotten(forgotten + 1), load())}>Forget ${changes.length === 1 ? "it" : "them"}</button>`}
       <span role="status">${busy || (mistakes.length > 0 && `${mistakes.length} to mend`)}</span></div>
     ${mistakes.filter((each) => !placed(each)).map((each) => html`<p class="mistake" role="alert">${each.text}</p>`)}
     ${proposed && !mistakes.length && (proposed.diff.length ? html`<${Proposed} diff=${proposed.diff} moving=${now.status.moving} onWrite=${write} onLeave=${() => propose(null)} />` : html`<p role="status">Nothing changes.</p>`)}
     ${tables.filter((table) => table.keys.some((of) => find(table, of))).map((table) => {
       const bad = wrong(table), touched = Object.keys(draft).some((text) => same(JSON.parse(text).filter((part) => typeof part === "string").slice(0, table.path.length), table.path));
       return html`<details key=${name(table.path)} open=${!!wanted || !!only || bad > 0 || undefined}><summary><b>${name(table.path)}</b> ${plain(table.meaning)}${touched && html` <i>changed</i>`}${bad > 0 && html` <b class="mistake">${bad} wrong</b>`}</summary>
-        <div class="keys">${table.many ? html`<${ListTable} table=${table} ...${use} />` : html`<${Keys} table=${table} place=${table.path} ...${use} />`}</div></details>`;
+        <div class="keys">${table.many ? html`<${ListTable} key=${`${file.digest} ${forgotten}`} table=${table} ...${use} />` : html`<${Keys} table=${table} place=${table.path} ...${use} />`}</div></details>`;
     })}
   </section>`;
 }

@@ -61,7 +61,11 @@ function Sensor({ now, axis, at }) {
 /** A link, and whether its program has just been heard. */
 function Heard({ link, program }) {
   const first = useRef(link.count), [at, setAt] = useState(0);
-  useEffect(() => void (link.count !== first.current && (first.current = link.count, setAt(performance.now()))), [link.count]);
+  useEffect(() => {
+    // A box that has been started anew counts from the beginning.
+    if (link.count > first.current) setAt(performance.now());
+    first.current = link.count;
+  }, [link.count]);
   const just = at && performance.now() - at < JUST_MS, who = program || "A program";
   const said = ASKS.test(link.heard) ? `${who} has ${just ? "just " : ""}asked for the position` : `${who} has ${just ? "just " : ""}sent`;
   return html`<li class=${just ? "just" : ""}><b>${link.name}</b> ${link.where} <span role="status">${link.heard ? html`${said}: <code>${link.heard}</code>` : "nothing heard yet"}</span></li>`;
@@ -108,13 +112,12 @@ function Step({ number, title, done, children, open }) {
   return html`<details class="step" open=${shown} onToggle=${(event) => show(event.currentTarget.open)}><summary><b>${number}. ${title}</b> <small>${done}</small></summary>${shown && html`<div>${children}</div>`}</details>`;
 }
 
-export function Setup({ now, hello }) {
-  const [said, say] = useState(""), settings = useSettings(say);
+export function Setup({ now, hello, say }) {
+  const settings = useSettings(say, hello);
   const { file } = settings, of = { settings, now, say }, moving = now.status.moving, needs = (axis) => now.status[axis].missing;
   const calibrated = (axis) => (needs(axis).length ? `needs ${needs(axis).join(", ")}` : "done");
   const some = (tables, keys) => html`<${Settings} ...${of} only=${tables} keys=${keys} />`;
   return html`<div class="setup"><h2>Setup</h2><p>From top to bottom for a new box; each step may be left out, and done again.${settings.busy && html` <b role="status">${settings.busy}</b>`}</p>
-    <p class="said" role="status">${said}</p>
     <${Step} number="1" title="Which rotor" done=${file?.values.rotor?.type}><${Rotor} ...${of} /><//>
     <${Step} number="2" title="Wiring" done=${file?.values.rotor?.hardware === "pi" ? "on this Pi" : "simulated"}><${Wiring} settings=${settings} say=${say} /><//>
     <${Step} number="3" title="Try each relay"><${Relays} now=${now} hello=${hello} say=${say} />${some(["relays"])}<//>

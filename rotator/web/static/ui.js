@@ -1,4 +1,5 @@
 // The template language and the hooks, from the vendored libraries, in one place.
+import { useEffect } from "/vendor/hooks.mjs";
 import { h, render } from "/vendor/preact.mjs";
 import htm from "/vendor/htm.mjs";
 
@@ -8,7 +9,21 @@ export const html = htm.bind(h);
 
 export const degrees = (angle, digits = 1) => (angle == null ? "---" : `${angle.toFixed(digits)}°`);
 
-/** A button that does something at the box, and says under itself why it does not. */
+let acts = 0;
+
+/** A button that does something at the box, and says why it does not. What was pressed last has the last word. */
 export function act(promise, say) {
-  promise.then(() => say(""), (fault) => say(fault.message));
+  const mine = (acts += 1);
+  promise.then(() => mine === acts && say(""), (fault) => say(fault.message));
+}
+
+/** Load it now, and again so long after each answer: a slow box never has two such questions of this page to answer. */
+export function useEvery(ms, load, changed = []) {
+  useEffect(() => {
+    let timer, gone = false;
+    const next = () => gone || (timer = setTimeout(once, ms));
+    const once = () => load().then(next, next);
+    once();
+    return () => ((gone = true), clearTimeout(timer));
+  }, changed);
 }

@@ -10,14 +10,15 @@ function row(line, key) {
   return { key, line, link: PEER.exec(line)?.[1] ?? "", remark: line.replace(/^# /, "") };
 }
 
-/** Calls `heard` with the lines of the box and how many are missing before them, until the returned function is called. */
-function watch(heard, lost) {
-  let socket, again, gone = false, from = "";
+/** Calls `heard` with the lines of the box and how many are missing before them, until the returned function is called.
+    `upto.current`: the last line that was heard. */
+function watch(upto, heard, lost) {
+  let socket, again, gone = false;
   const connect = () => {
-    socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/wires${from}`);
+    socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/wires${upto.current === null ? "" : `?after=${upto.current}`}`);
     socket.onmessage = (event) => {
       const told = JSON.parse(event.data);
-      from = `?after=${told.upto}`;
+      upto.current = told.upto;
       heard(told.lines, told.missed);
     };
     socket.onclose = () => {
@@ -30,14 +31,16 @@ function watch(heard, lost) {
   return () => {
     gone = true;
     clearTimeout(again);
+    socket.onmessage = null;
     socket.close();
   };
 }
 
-export function Wires({ links }) {
+/** `hello`: another one after each loss of the connection: a cable that is pulled closes no WebSocket. */
+export function Wires({ hello, links }) {
   const [rows, setRows] = useState([]), [link, setLink] = useState(""), [paused, setPaused] = useState(false), [waiting, setWaiting] = useState(0), [said, say] = useState("");
-  const held = useRef([]), stopped = useRef(false), count = useRef(0), end = useRef(null);
-  useEffect(() => watch((lines, missed) => {
+  const held = useRef([]), stopped = useRef(false), count = useRef(0), end = useRef(null), upto = useRef(null);
+  useEffect(() => watch(upto, (lines, missed) => {
     say("");
     const gap = missed ? [`# ${missed} lines left out here: this browser reads too slowly`] : [];
     const more = [...gap, ...lines].map((line) => row(line, count.current++));
@@ -47,7 +50,7 @@ export function Wires({ links }) {
     }
     held.current = [...held.current, ...more].slice(-MOST_ROWS);
     setWaiting((number) => number + more.length);
-  }, () => say("no connection to the box: trying again")), []);
+  }, () => say("no connection to the box: trying again")), [hello]);
   const pause = () => {
     stopped.current = !paused;
     setPaused(!paused);
