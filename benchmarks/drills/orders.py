@@ -414,7 +414,7 @@ class Orders:
         self._aim(event, "elevation", angles_deg)
 
     def _aim_azimuth(self, event: Event, elevation_deg: float) -> None:
-        """Beyond north an order may be refused, as by a unit of 360°: then the older one stays in force, for both axes."""
+        """Beyond north an order may be refused, as by a unit of 360°: the older one then stays, for both axes."""
         turns_deg = [
             angle_deg
             for shifted_deg in self._shifts.shifted("azimuth", event.number(0))

@@ -156,8 +156,7 @@ def test_who_is_revoked_by_another_may_look_on_and_its_page_comes_back(page_box:
                 await box.pair("another browser")
                 assert (await box.post("revoke", {"number": me["number"]}))[0] == 200
                 with pytest.raises(aiohttp.WSMessageTypeError):
-                    while True:
-                        await browser.look()
+                    await browser.holds("up", lambda: False)
 
     asyncio.run(main())
 

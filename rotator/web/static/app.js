@@ -104,4 +104,6 @@ function Page() {
     ${!now && html`<main class="wait">${locked ? html`<${Pair} locked onPaired=${() => live.connect()} />` : html`<p>Looking for the box …</p>`}</main>`}`;
 }
 
-render(html`<${Page} />`, document.getElementById("app"));
+const app = document.getElementById("app");
+app.replaceChildren();
+render(html`<${Page} />`, app);

@@ -71,12 +71,12 @@ export function Strip({ now, paired, fresh, beside, said, say }) {
 function Troubles({ now, paired, say }) {
   const faults = [now.status.azimuth.fault, now.status.elevation.fault].filter(Boolean);
   if (!now.stopper && !faults.length) return null;
-  const resume = html`<button type="button" class="go" disabled=${!paired} onClick=${() => act(resume(now), say)}>
+  const again = html`<button type="button" class="go" disabled=${!paired} onClick=${() => act(resume(now), say)}>
     ${now.stopper ? "Let it move again" : "Repaired: go on"}</button>`;
   return html`<section class="troubles" role="alert" aria-label="What is wrong">
     ${faults.map((fault) => html`<p><b>${fault.act_now ? "Act now" : "Fault"}:</b> ${fault.text}</p>`)}
     ${now.stopper && html`<p><b>Stopped by ${now.stopper}.</b> Nothing moves until a person lets it.</p>`}
-    ${!now.stopper && now.passes ? html`<p>This ends by itself when the cause is gone.</p>` : resume}
+    ${!now.stopper && now.passes ? html`<p>This ends by itself when the cause is gone.</p>` : again}
     ${!paired && html`<small>for a paired browser</small>`}
   </section>`;
 }
