@@ -191,6 +191,9 @@ class Status:
     def axis(self, axis: Axis) -> AxisStatus:
         return self.azimuth if axis is Axis.AZIMUTH else self.elevation
 
+    def wanted_deg(self, axis: Axis) -> float | None:
+        return self.wanted_azimuth_deg if axis is Axis.AZIMUTH else self.wanted_elevation_deg
+
     @property
     def latch(self) -> Latch | None:
         """What has to survive the end of the program; None: nothing is latched."""

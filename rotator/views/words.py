@@ -66,7 +66,18 @@ def headline(status: Status) -> tuple[str, str]:
         return "TURNING", GOOD
     if status.flown is not None and status.flown.begin_s > status.at_s:
         return f"WAITS FOR {status.flown.name}", GOOD
-    return ("ON TARGET", GOOD) if off_deg(status) is not None else ("AT REST", PLAIN)
+    return _at_rest(status)
+
+
+def _at_rest(status: Status) -> tuple[str, str]:
+    """An axis that had an order and lost it, as by a fault that has been repaired, does not point where it was sent."""
+    if off_deg(status) is None:
+        return "AT REST", PLAIN
+    lost = [axis for axis in Axis if status.axis(axis).target_deg is None and status.wanted_deg(axis) is not None]
+    if not lost:
+        return "ON TARGET", GOOD
+    there = next(axis for axis in Axis if axis not in lost)
+    return f"{there.value.upper()} ON TARGET, {lost[0].value.upper()} AT REST", PLAIN
 
 
 def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:

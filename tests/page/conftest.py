@@ -103,13 +103,13 @@ def code_at_the_box(page: Page) -> str:
 def start(tmp_path: Path) -> Iterator[Callable[..., Station]]:
     """Starts the program. `more`: text for the end of its file; `words`: of the command line.
 
-    `kind`: another rotor, of its usual speed.
+    `kind`: another rotor, of its usual speed. `page`: further keys of its page.
     """
     started: list[subprocess.Popen[bytes]] = []
 
-    def run(more: str = "", *words: str, kind: str = "") -> Station:
+    def run(more: str = "", *words: str, kind: str = "", page: str = "") -> Station:
         port = free_port()
-        text = file_with_page(tmp_path, port, f'[sim]\nworld = "{tmp_path}/world"\n{more}')
+        text = file_with_page(tmp_path, port, f'[sim]\nworld = "{tmp_path}/world"\n{more}', page)
         if kind:
             text = text.replace("[rotor]", f'[rotor]\ntype = "{kind}"').replace(FAST_ROTOR, "")
         (tmp_path / "r.toml").write_text(text, encoding="utf-8")
@@ -132,7 +132,7 @@ def until_it_answers(station: Station) -> None:
     deadline_s = time.monotonic() + START_S
     while time.monotonic() < deadline_s:
         try:
-            with urllib.request.urlopen(f"{station.url}/api/status", timeout=5.0) as answer:
+            with urllib.request.urlopen(f"{station.url}/api/me", timeout=5.0) as answer:
                 assert answer.status == 200
                 return
         except (urllib.error.URLError, ConnectionError):
@@ -143,11 +143,11 @@ def until_it_answers(station: Station) -> None:
 
 @pytest.fixture
 def visit(browser: Browser) -> Iterator[Callable[..., Page]]:
-    """Opens the page in a browser of its own. A mistake of the page's own scripts fails the test."""
+    """Opens the page in a browser of its own, until it `shows` this. A mistake of the page's own scripts fails."""
     contexts = []
     mistakes: list[str] = []
 
-    def go(station: Station, **how: object) -> Page:
+    def go(station: Station, shows: str = ".headline", **how: object) -> Page:
         context = browser.new_context(**how)  # type: ignore[arg-type]
         context.set_default_timeout(PATIENCE_MS)
         contexts.append(context)
@@ -157,7 +157,7 @@ def visit(browser: Browser) -> Iterator[Callable[..., Page]]:
         foreign: list[str] = []
         page.on("request", lambda request: foreign.append(request.url) if station.url not in request.url else None)
         page.goto(station.url)
-        page.locator(".headline").wait_for()
+        page.locator(shows).first.wait_for()
         assert foreign == []
         return page
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.page.conftest import PATIENCE_MS, START_S, Station, code_at_the_box, headline, pair
+from tests.page.conftest import PATIENCE_MS, START_S, Station, headline, pair
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -36,36 +36,6 @@ def test_a_visitor_sees_the_antenna_and_may_stop_it_alone(start: Start, visit: V
     page.locator("#stop").click()
     headline(page, "STOPPED by the page")
     assert page.get_by_role("button", name="Let it move again").is_disabled()
-
-
-def test_pairing_by_the_code_that_the_box_shows_and_no_page(start: Start, visit: Visit) -> None:
-    station = start()
-    page = visit(station)
-    page.get_by_role("button", name="Pair this browser").click()
-    page.get_by_text("PAIR CODE").wait_for()
-    assert "PAIR CODE ******" in page.locator(".lcd").inner_text()
-    code = code_at_the_box(page)
-    page.get_by_label("Code").fill(f"{(int(code) + 1) % 1_000_000:06d}")
-    page.get_by_role("button", name="Pair", exact=True).click()
-    page.get_by_text("that is not the code on the display; 4 tries left").wait_for()
-    page.get_by_label("Code").fill(code)
-    page.get_by_role("button", name="Pair", exact=True).click()
-    page.get_by_role("button", name="Point there").wait_for()
-    page.reload()
-    page.get_by_role("button", name="Point there").wait_for()
-
-
-def test_who_is_revoked_may_look_on(start: Start, visit: Visit) -> None:
-    station = start()
-    page = visit(station)
-    pair(page, "lost phone")
-    page.get_by_role("link", name="Browsers").click()
-    page.get_by_text("lost phone", exact=True).first.wait_for()
-    page.get_by_role("button", name="Unpair lost phone").click()
-    page.get_by_role("button", name="Pair this browser").wait_for()
-    page.get_by_role("link", name="Antenna").click()
-    page.locator(".headline").wait_for()
-    assert page.get_by_role("button", name="Point there").count() == 0
 
 
 @pytest.mark.parametrize("how", [{}, PHONE], ids=["wide", "phone"])
@@ -129,12 +99,35 @@ def test_stop_works_by_key_while_a_question_is_open(start: Start, visit: Visit) 
     headline(page, "AT REST")
 
 
-def test_a_fault_is_told_with_its_remedy_and_cleared(start: Start, visit: Visit) -> None:
+def test_a_fault_is_told_with_its_remedy(start: Start, visit: Visit) -> None:
     station = start("", "--fault", "azimuth-pot-open@8")
     page = visit(station)
     pair(page)
     page.locator(".troubles", has_text="Check the pot's wires and its supply").wait_for()
     headline(page, "FAULT")
+
+
+@pytest.mark.parametrize("how", [{}, PHONE], ids=["wide", "phone"])
+def test_a_fault_that_needs_a_person_is_cleared_and_the_antenna_moves_again(
+    start: Start, visit: Visit, how: dict[str, object]
+) -> None:
+    station = start("", "--fault", "azimuth-motor-stalled@0")
+    page = visit(station, **how)
+    looks_on = visit(station)
+    pair(page)
+    page.get_by_label("Azimuth", exact=True).fill("90")
+    page.get_by_label("Elevation", exact=True).fill("40")
+    page.get_by_role("button", name="Point there").click()
+    headline(page, "FAULT")
+    page.locator(".troubles", has_text="azimuth").wait_for()
+    assert looks_on.get_by_role("button", name="Repaired: go on").is_disabled()
+    page.get_by_role("button", name="Repaired: go on").click()
+    page.locator(".troubles").wait_for(state="detached")
+    headline(page, "ELEVATION ON TARGET, AZIMUTH AT REST")
+    page.get_by_label("Azimuth", exact=True).fill("0")
+    page.get_by_role("button", name="Point there").click()
+    headline(page, "ON TARGET")
+    assert station.points(0.0, 40.0)
 
 
 def test_the_box_tracks_what_the_page_asks_for(start: Start, visit: Visit) -> None:

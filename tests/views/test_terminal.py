@@ -93,8 +93,17 @@ def test_a_list_says_at_which_point_it_is() -> None:
 
 
 def test_on_target() -> None:
-    there = replace(STATUS, azimuth=replace(AZIMUTH, angle_deg=234.6, drive=Direction.OFF, moving=False))
-    assert "ON TARGET" in show(there)
+    azimuth = replace(AZIMUTH, angle_deg=234.6, drive=Direction.OFF, moving=False)
+    there = replace(STATUS, azimuth=azimuth, elevation=replace(ELEVATION, angle_deg=24.8, target_deg=25.0))
+    assert "ON TARGET SAT" in words(show(there))
+
+
+def test_an_axis_that_has_lost_its_order_is_not_on_target() -> None:
+    """As after a fault that a person has acknowledged: only the other axis goes on."""
+    lost = replace(AZIMUTH, target_deg=None, drive=Direction.OFF, moving=False)
+    there = replace(ELEVATION, angle_deg=24.8, target_deg=25.0)
+    picture = words(show(replace(STATUS, azimuth=lost, elevation=there)))
+    assert "ELEVATION ON TARGET, AZIMUTH AT REST" in picture
 
 
 def test_motor_starts_in_this_pass_where_relays_start_them() -> None:

@@ -8,7 +8,7 @@ function minutes(text) {
 }
 
 export function Headline({ now, hello, next }) {
-  const { tracks } = now.status, who = mover(now, hello);
+  const { tracks, azimuth, elevation } = now.status, who = mover(now, hello);
   return html`<section class=${`headline ${now.mood}`} aria-label="What the box does">
     <div role="status"><h2>${now.headline}</h2></div>
     <dl class="angles">
@@ -16,6 +16,7 @@ export function Headline({ now, hello, next }) {
       <div><dt>elevation</dt><dd>${degrees(now.elevation_deg)}</dd><dd class="to">${now.elevation_target_deg != null ? `to ${degrees(now.elevation_target_deg)}` : " "}</dd></div>
     </dl>
     <p class="facts">
+      ${azimuth.missing.length + elevation.missing.length > 0 && html`<span>a new box begins with <a href="#setup">Setup</a></span>`}
       ${now.off_deg != null && html`<span>off by <b>${now.off_deg.toFixed(1)}°</b></span>`}
       ${tracks && html`<span>${tracks.name} <b>${now.rise_or_set}</b></span>`}
       ${next && next.name !== tracks?.name && html`<span>next ${next.name} <b>in ${minutes(next.aos)}</b>, ${Math.round(next.max_el_deg)}° high${next.plan?.flown ? "" : ", not in a plan"}</span>`}
@@ -104,5 +105,5 @@ export function Links({ now }) {
   return html`<section class="links"><h2>Links</h2><ul>
     ${now.links.map((link) => html`<li class=${link.out ? "out" : ""}><b>${link.name}</b> <span>${link.where}</span>
       <span class="state">${link.state}</span>${link.heard && html`<code>${link.heard}</code>`}</li>`)}
-    ${!now.links.length && html`<li>The file has no [[link]]: no program can connect.</li>`}</ul></section>`;
+    ${!now.links.length && html`<li>The file has no [[link]]: no program can connect. <a href="#setup">Setup, step 9</a></li>`}</ul></section>`;
 }
