@@ -1,6 +1,6 @@
 // The parts of the box as it stands: what it does, who moves it, its display, its relays, its links, what is wrong.
 import { boxTime, post, resume } from "/box.js";
-import { act, degrees, html } from "/ui.js";
+import { act, degrees, html, useEffect, useState } from "/ui.js";
 
 function minutes(text) {
   const left = Math.max(0, Math.round((new Date(text) - boxTime()) / 60_000));
@@ -20,21 +20,23 @@ export function Headline({ now, hello, next }) {
       ${now.off_deg != null && html`<span>off by <b>${now.off_deg.toFixed(1)}°</b></span>`}
       ${tracks && html`<span>${tracks.name} <b>${now.rise_or_set}</b></span>`}
       ${next && next.name !== tracks?.name && html`<span>next ${next.name} <b>in ${minutes(next.aos)}</b>, ${Math.round(next.max_el_deg)}° high${next.plan?.flown ? "" : ", not in a plan"}</span>`}
-      <span>moved by <b>${who}</b></span>
+      ${who && html`<span>moved by <b>${who}</b></span>`}
       ${now.starts != null && now.off_deg != null && html`<span><b>${now.starts}</b> motor starts in this pass</span>`}
     </p>
     <${Lamps} now=${now} again />
   </section>`;
 }
 
-const mover = (now, hello) => (!now.mover ? "nobody" : now.status.moved_by === hello.source ? "this browser" : now.mover);
+/** Whose orders move the antenna; empty: there is no order. */
+const mover = (now, hello) => (now.mover && now.status.moved_by === hello.source ? "this browser" : now.mover);
 
 export function Control({ now, hello, paired, say }) {
   const { status } = now, mine = status.held_by === hello.source;
   const who = mover(now, hello);
   const holder = mine ? "this browser" : now.holder;
   return html`<div class="control">
-    <p>${who === holder ? html`Moved and held by <b>${who}</b>` : html`Moved by <b>${who}</b>${status.held_by && html`, held by <b>${holder}</b>`}`}</p>
+    <p>${who && who === holder ? html`Moved and held by <b>${who}</b>`
+      : html`${who ? html`Moved by <b>${who}</b>` : "No orders"}${holder && html`, held by <b>${holder}</b>`}`}</p>
     ${paired && !mine && html`<button type="button" onClick=${() => act(post("take"), say)}>
       ${now.holder || now.mover ? `Take over from ${now.holder || who}` : "Take the antenna"}</button>`}
     ${paired && status.held_by && html`<button type="button" onClick=${() => act(post("give-back"), say)}>Give it back to the programs</button>`}
@@ -45,7 +47,7 @@ const MODES = {
   auto: ["AUTO", () => "Programs and the plan move the antenna."],
   manual: ["MANUAL", (who) => `Only ${who} points and turns it.`],
   jog: ["JOG", (who) => `Only buttons that ${who} holds turn it.`],
-  park: ["PARK", () => "It stays where it is: nobody moves it."],
+  park: ["PARK", () => "It stays where it is."],
 };
 
 /** A box with a mode switch of its own shows where it stands; without one the page is the switch. */
@@ -58,10 +60,18 @@ export function Mode({ now, hello, paired, say }) {
 }
 
 /** Over every view, also one that is scrolled: where the antenna points, what stopped it, why an order has no effect.
-    `beside`: the headline is on this view, too. */
+    `beside`: the headline is on this view, too, and as long as it is in sight it says enough. */
 export function Strip({ now, paired, fresh, beside, said, say }) {
+  const [inSight, setInSight] = useState(false);
+  useEffect(() => {
+    if (!beside) return undefined;
+    const watch = new IntersectionObserver((seen) => setInSight(seen.at(-1).isIntersecting));
+    watch.observe(document.querySelector(".headline"));
+    return () => watch.disconnect();
+  }, [beside]);
   const quiet = beside && !said && !now.stopper && !now.status.azimuth.fault && !now.status.elevation.fault;
-  return html`<section class=${`strip ${beside ? "beside" : ""} ${quiet ? "quiet" : ""}`} aria-label="Where the antenna points">
+  const shown = quiet ? (inSight ? "idle" : "afloat") : "";
+  return html`<section class=${`strip ${beside ? "beside" : ""} ${shown}`} aria-label="Where the antenna points">
     <p class=${`glance ${now.mood} ${fresh ? "" : "old"}`} aria-hidden=${beside ? "true" : null}><b>${now.headline}</b>
       <span>${degrees(now.azimuth_deg)} / ${degrees(now.elevation_deg)}</span></p>
     <${Troubles} now=${now} paired=${paired} say=${say} />
