@@ -1,4 +1,4 @@
-"""Who may give orders, as a person meets it: the code, a name that is unpaired, a pairing that has ended, a closed box."""
+"""Who may give orders, as a person meets it: the code, an unpaired phone, a pairing that has ended, a closed box."""
 
 from __future__ import annotations
 
