@@ -32,6 +32,7 @@ class Number:
     least: float
     most: float
     meaning: str
+    example: float
 
     def read(self, value: object) -> float:
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not self.least <= value <= self.most:
@@ -50,6 +51,10 @@ class Choice:
     words: tuple[str, ...]
     meaning: str
 
+    @property
+    def example(self) -> str:
+        return self.words[0]
+
     def read(self, value: object) -> str:
         if not isinstance(value, str) or value not in self.words:
             raise WrongValuesError(f"{self.name} must be one of {', '.join(self.words)}")
@@ -65,6 +70,7 @@ class Words:
 
     name: str
     meaning: str
+    example: str
 
     def read(self, value: object) -> str:
         if not isinstance(value, str) or not 0 < len(value.strip()) <= LONGEST_TARGET or not value.isprintable():
@@ -102,9 +108,11 @@ class Method:
 
 
 _AXIS = Choice("axis", tuple(axis.value for axis in Axis), "the axis")
-_AZIMUTH = Number("azimuth_deg", *SENT_DEG[Axis.AZIMUTH], "clockwise from true north; above 360: a turn of the overlap")
-_ELEVATION = Number("elevation_deg", *SENT_DEG[Axis.ELEVATION], "above the horizon")
-_ANGLE = Number("angle_deg", *SENT_DEG[Axis.AZIMUTH], "where the axis stands, in true degrees")
+_AZIMUTH = Number(
+    "azimuth_deg", *SENT_DEG[Axis.AZIMUTH], "clockwise from true north; above 360: a turn of the overlap", 200
+)
+_ELEVATION = Number("elevation_deg", *SENT_DEG[Axis.ELEVATION], "above the horizon", 30)
+_ANGLE = Number("angle_deg", *SENT_DEG[Axis.AZIMUTH], "where the axis stands, in true degrees", 0)
 _TURN = Choice("turn", tuple(TURNS), "clockwise, counter-clockwise, up or down")
 
 METHODS = (
@@ -123,7 +131,7 @@ METHODS = (
         "jog",
         "Turn for this time",
         lambda turn, seconds: Jog(*TURNS[turn], seconds),
-        (_TURN, Number("seconds", 0.05, LONGEST_JOG_S, "how long")),
+        (_TURN, Number("seconds", 0.05, LONGEST_JOG_S, "how long", 0.5)),
     ),
     Method(
         "pulse",
@@ -136,7 +144,7 @@ METHODS = (
         "track",
         "Track a satellite, the Sun, the Moon, a star, a locator; `plan`: those of the configuration; `off`: nothing",
         Track,
-        (Words("target", "its name, as `rotator track` takes it"),),
+        (Words("target", "its name, as `rotator track` takes it", "Moon"),),
     ),
     Method("clock-is-right", "You have seen that the box's clock is right: `track` needs it", ClockIsRight),
     Method("home", "Find the low end stop of an axis that counts pulses", lambda axis: Home(Axis(axis)), (_AXIS,)),

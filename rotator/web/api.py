@@ -19,17 +19,19 @@ from rotator.protocols.session import Box, Tracking
 from rotator.protocols.status_object import as_object
 from rotator.status import Status
 from rotator.store.paired import Paired
-from rotator.web import assets, openapi
+from rotator.web import assets, openapi, scene_schema
+from rotator.web.api_page import api_page
 from rotator.web.connections import Connections, machine
 from rotator.web.doors import Doors
 from rotator.web.entrance import Entrance, add_headers, error, source_of, values_of
 from rotator.web.holding import Holding
-from rotator.web.live import LONGEST_SIGN, Live
+from rotator.web.live import LONGEST_SIGN, MESSAGES, Live
 from rotator.web.logs import LogLines
 from rotator.web.pairing import Pairings
 from rotator.web.pairing_api import PairingApi, hello
-from rotator.web.route import MOST_BODY, Handler, Route, get
+from rotator.web.route import FREE, MOST_BODY, PAIRED, READING, Handler, Route, get, live
 from rotator.web.scene import Scene, Station, box
+from rotator.web.schema import component
 
 Group = Callable[[Entrance], Sequence[Route]]
 """Routes that know who asks."""
@@ -71,33 +73,42 @@ class Api:
         routes = [
             *self._reads(),
             *PairingApi(self._entrance, self._behind.pairings, self._behind.utc).routes(),
-            *(Route("POST", f"/api/{each.name}", self._order(each), openapi.order(each)) for each in METHODS),
+            *(openapi.order(each, self._order(each)) for each in METHODS),
             *(route for group in self._behind.groups for route in group(self._entrance)),
         ]
-        description = openapi.description(routes)
 
         async def describe(_request: web.Request) -> web.StreamResponse:
             return web.json_response(description)
 
+        itself = ("This description, as OpenAPI 3.1", {"type": "object"})
+        routes.append(get("/api/openapi.json", describe, itself, access=FREE))
+        description = openapi.description(routes)
+        self._assets["/api"] = self._assets["/api/"] = assets.packed(assets.HTML, api_page(description).encode())
         self._entrance.most_body = {route.path: route.most_body for route in routes}
         app = web.Application(middlewares=[self._entrance.guarded], client_max_size=MOST_BODY)
         app.on_response_prepare.append(add_headers)
-        for route in (*routes, Route("GET", "/api/openapi.json", describe), Route("GET", "/{path:.*}", self._asset)):
+        for route in routes:
             app.router.add_route(route.method, route.path, route.serve)
+        app.router.add_route("GET", "/{path:.*}", self._asset)
         return app
 
     # --- what is read
 
     def _reads(self) -> Sequence[Route]:
         behind = self._behind
-        status = {"$ref": "#/components/schemas/status"}
+        status = "The status, as `rotator where --json` prints it", component("status")
+        station = "What does not change while the box runs: ranges, beam, horizon, sectors", scene_schema.BOX
+        past = "The last ten minutes, a row each second; null: there was none", scene_schema.PAST
+        path = "The pass that is flown or waited for, as directions", scene_schema.PATH
+        log = "The latest lines of the log, the latest first", scene_schema.LOG
+        pictures = "A WebSocket: ten pictures of the box a second, STOP, and a button that is held", MESSAGES
         return (
-            get("/api/status", self._read(lambda: as_object(behind.status())), openapi.STATUS, status),
-            get("/api/box", self._read(lambda: box(behind.station, behind.status())), openapi.BOX),
-            get("/api/past", self._read(behind.scene.past), "The last ten minutes, a row each second"),
-            get("/api/path", self._read(behind.scene.path), "The pass that is flown or waited for, as directions"),
-            get("/api/log", self._log, "The latest lines of the log", paired=True),
-            get("/api/live", self._serve_live, "A WebSocket: ten pictures of the box a second"),
+            get("/api/status", self._read(lambda: as_object(behind.status())), status),
+            get("/api/box", self._read(lambda: box(behind.station, behind.status())), station),
+            get("/api/past", self._read(behind.scene.past), past),
+            get("/api/path", self._read(behind.scene.path), path),
+            get("/api/log", self._log, log, access=PAIRED),
+            live("/api/live", self._serve_live, pictures, access=READING, query={}, more={}),
         )
 
     def _read(self, make: Callable[[], Mapping[str, object]]) -> Handler:

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 FOLDER = Path(__file__).with_name("static")
+HTML = "text/html; charset=utf-8"
 _TYPES = {
-    ".html": "text/html; charset=utf-8",
+    ".html": HTML,
     ".css": "text/css; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
     ".mjs": "text/javascript; charset=utf-8",
@@ -48,9 +49,11 @@ def load(folder: Path = FOLDER) -> dict[str, Asset]:
     found = {}
     for file in sorted(folder.rglob("*")):
         if file.suffix in _TYPES:
-            plain = file.read_bytes()
-            packed = gzip.compress(plain, 9, mtime=0)
-            tag = f'"{hashlib.sha256(plain).hexdigest()[:16]}"'
-            found[f"/{file.relative_to(folder).as_posix()}"] = Asset(_TYPES[file.suffix], plain, packed, tag)
+            found[f"/{file.relative_to(folder).as_posix()}"] = packed(_TYPES[file.suffix], file.read_bytes())
     found["/"] = found["/index.html"]
     return found
+
+
+def packed(kind: str, plain: bytes) -> Asset:
+    tag = f'"{hashlib.sha256(plain).hexdigest()[:16]}"'
+    return Asset(kind, plain, gzip.compress(plain, 9, mtime=0), tag)

@@ -17,15 +17,26 @@ from aiohttp import web
 from rotator.backup import CHECKS, CONFIGURATION, MOST_BYTES, Backup, BackupError, check, pack, stage
 from rotator.config import toml_text
 from rotator.config.model import Config
-from rotator.web.box_file import BoxFile
+from rotator.protocols.methods import WrongValuesError
+from rotator.web.box_file import ANEW, BoxFile
 from rotator.web.entrance import Entrance, RefusedError, bytes_of, error
 from rotator.web.help_api import download
-from rotator.web.route import PAIRED, REFUSED, Handler, Route, get
+from rotator.web.route import PAIRED, Route, get, post, refusals
+from rotator.web.schema import TEXT, ZIP, in_address, list_of, object_of, the
 
 log = logging.getLogger(__name__)
 
 MOST_ROWS = 400
 """Of the difference: a page shows no more."""
+_LOOK = object_of(
+    {
+        "made": the("the day and time", TEXT),
+        "program": the("the version that made it", TEXT),
+        "rotor": TEXT,
+        "files": list_of(TEXT),
+        "diff": the("the lines of the configuration that change", list_of(TEXT)),
+    }
+)
 
 
 class BackupApi:
@@ -38,20 +49,17 @@ class BackupApi:
         self._utc = utc
 
     def routes(self) -> Sequence[Route]:
-        return (
-            get("/api/backup", self._save, "A zip with the configuration and what the box has learnt", paired=True),
-            self._takes_zip("/api/restore/check", self._look, "What a backup would change; nothing is written"),
-            self._takes_zip(
-                "/api/restore", self._restore, "Restore a backup: the box starts anew with it. `?stop=true` if it moves"
-            ),
+        save, look = ("A zip with the configuration and what the box has learnt", ZIP), "What a backup would change"
+        restore, stop = (
+            "Restore a backup: the box starts anew with it",
+            {"stop": in_address("`true`: though the antenna moves, which stops", "true")},
         )
-
-    @staticmethod
-    def _takes_zip(path: str, serve: Handler, summary: str) -> Route:
-        body = {"required": True, "content": {"application/zip": {"schema": {"type": "string", "format": "binary"}}}}
-        answers = {"200": {"description": "done"}, "4XX": REFUSED}
-        described = {"summary": summary, **PAIRED, "responses": answers, "requestBody": body}
-        return Route("POST", path, serve, described, most_body=MOST_BYTES)
+        takes: dict[str, Any] = {"most_body": MOST_BYTES, "more": refusals(422)}
+        return (
+            get("/api/backup", self._save, save, access=PAIRED, more=refusals(409)),
+            post("/api/restore/check", self._look, look, ZIP, answer=_LOOK, **takes),
+            post("/api/restore", self._restore, restore, ZIP, answer=ANEW, query=stop, **takes),
+        )
 
     async def _save(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
@@ -73,7 +81,10 @@ class BackupApi:
     async def _restore(self, request: web.Request) -> web.StreamResponse:
         who = self._entrance.must_be_paired(request)
         path, data = self._file.path, await bytes_of(request, MOST_BYTES)
-        self._file.may_stop(stops=request.query.get("stop") == "true")
+        stop = request.query.get("stop", "false")
+        if stop not in ("true", "false"):
+            raise WrongValuesError("?stop= must be true or false")
+        self._file.may_stop(stops=stop == "true")
         try:
             await asyncio.to_thread(stage, path, data)
         except BackupError as reason:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import secrets
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -23,6 +23,7 @@ from rotator.runtime.anew import Anew
 from rotator.setup.plan import SetupError
 from rotator.status import Status
 from rotator.web.entrance import RefusedError
+from rotator.web.schema import TEXT, YES, object_of, the
 
 ANSWERED_S = 0.3
 """The answer is out after this time: then the box ends, and the page with it."""
@@ -31,6 +32,9 @@ NO_FILE = (
     "`rotator run --config rotator.toml` runs it"
 )
 MOVES = "the antenna moves, and the new start stops it: send stop = true"
+STOP = {"stop": the("true: though the antenna moves, which stops", YES)}
+"""A value of each request that has the box start anew."""
+ANEW = object_of({"ok": {"const": True}, "run": the("of the box that ends: after the start it is another one", TEXT)})
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +75,14 @@ class BoxFile:
         """The box starts anew as soon as this answer is out. `sets_up`: an axis that is calibrated then."""
         asyncio.get_running_loop().call_later(ANSWERED_S, lambda: self.anew.ask(self.status(), sets_up))
         return {"ok": True, "run": self.run}
+
+
+def stop_of(others: Mapping[str, object]) -> bool:
+    """The value `stop`, the only one beside those of the request itself. Raises WrongValuesError."""
+    stop = others.get("stop", False)
+    if set(others) - {"stop"} or not isinstance(stop, bool):
+        raise WrongValuesError("stop must be true or false, and there is no other value here")
+    return stop
 
 
 @contextmanager

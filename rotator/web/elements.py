@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +21,29 @@ from rotator.tracking.file_reader import FileReader
 from rotator.tracking.known_sky import KnownSky
 from rotator.web.entrance import Entrance, bytes_of, error, values_of
 from rotator.web.route import Route, get, post
+from rotator.web.schema import ELEMENTS, NUMBER, TEXT, WHOLE, YES, body_of, in_address, list_of, object_of, or_null, the
 
 Told = dict[str, Any]
 LONGEST_NAME = 200
+_FILE = object_of(
+    {
+        "name": TEXT,
+        "uploaded": the("it was sent, and can be removed", YES),
+        "satellites": WHOLE,
+        "newest_days": the("the age of its elements", or_null(NUMBER)),
+        "oldest_days": or_null(NUMBER),
+    }
+)
+_FETCH = object_of(
+    {
+        "address": TEXT,
+        "trouble": the("why the latest try failed; empty: it did not; null: not tried yet", or_null(TEXT)),
+        "good_s": the("seconds since it was good", or_null(WHOLE)),
+        "satellites": WHOLE,
+        "again_s": the("seconds until the next try", or_null(WHOLE)),
+    }
+)
+_TOLD = object_of({"satellites": WHOLE, "files": list_of(_FILE), "faults": list_of(TEXT), "fetch": list_of(_FETCH)})
 
 
 class ElementFiles:
@@ -73,7 +92,7 @@ class ElementFiles:
         async def remove(request: web.Request) -> web.StreamResponse:
             entrance.must_be_paired(request)
             match await values_of(request):
-                case {"name": str() as name}:
+                case {"name": str() as name, **others} if not others:
                     pass
                 case _:
                     raise WrongValuesError('send {"name": "the name in /api/elements"}')
@@ -85,11 +104,16 @@ class ElementFiles:
             self._changed()
             return web.json_response({"ok": True})
 
-        summary = "A file of elements as the body, its name as ?name=: taken whole or not at all"
+        summary, kept = "Send a file of elements: taken whole or not at all", object_of({"name": the("as kept", TEXT)})
+        name, forget = (
+            {"name": in_address("of the file", "mine.txt")},
+            body_of({"name": TEXT}, example={"name": "mine.txt"}),
+        )
+        ages = "The files and addresses of elements, and how old these are", _TOLD
         return (
-            get("/api/elements", told, "The files and addresses of elements, and how old these are"),
-            replace(post("/api/elements", take, summary), most_body=MOST_BYTES),
-            post("/api/elements/remove", remove, "Forget a file that was sent", {"name": {"type": "string"}}),
+            get("/api/elements", told, ages),
+            post("/api/elements", take, summary, ELEMENTS, answer=kept, most_body=MOST_BYTES, query=name),
+            post("/api/elements/remove", remove, "Forget a file that was sent", forget),
         )
 
     async def close(self) -> None:

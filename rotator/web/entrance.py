@@ -21,6 +21,7 @@ from rotator.web.pairing import LASTS_S, NotPairedError, Pairings
 from rotator.web.route import MOST_BODY, Handler
 
 COOKIE = "rotator"
+_TOO_LONG = "this request has a body of at most {} bytes"
 
 
 class RefusedError(Exception):
@@ -45,8 +46,13 @@ class Entrance:
                 return error(403, refused)
             most = self.most_body.get(request.path, MOST_BODY)
             if request.content_length is not None and request.content_length > most:
-                return error(413, f"this request has a body of at most {most} bytes")
+                return error(413, _TOO_LONG.format(most))
             return await handler(request)
+        except web.HTTPMethodNotAllowed:
+            return error(405, f"there is no {request.method} {request.path[:60]!a}: /api/ lists all there is")
+        except web.HTTPBadRequest:
+            # The library's own: it says it of a WebSocket alone.
+            return error(400, f"{request.path} is a WebSocket: ask for it as one")
         except web.HTTPException as answer:
             return error(answer.status, answer.reason)
         except NotPairedError as reason:
@@ -122,7 +128,7 @@ async def bytes_of(request: web.Request, most: int) -> bytes:
     async for piece in request.content.iter_any():
         body += piece
         if len(body) > most:
-            raise web.HTTPRequestEntityTooLarge(most, len(body))
+            raise web.HTTPRequestEntityTooLarge(most, len(body), reason=_TOO_LONG.format(most))
     return bytes(body)
 
 

@@ -24,11 +24,29 @@ from rotator.store.flown import FlownPass, FlownPasses, picture_name
 from rotator.views.pass_svg import Flown, draw
 from rotator.web.entrance import Entrance
 from rotator.web.recorder import Record, Recorder
-from rotator.web.route import Route, get
+from rotator.web.route import Route, get, refusals
+from rotator.web.schema import NUMBER, SVG, TEXT, WHOLE, in_address, list_of, object_of, or_null, the
 
 log = logging.getLogger(__name__)
 
 LOOK_S = 0.1
+_FLOWN = object_of(
+    {
+        "flown": list_of(
+            object_of(
+                {
+                    "file": the("the name of its picture", TEXT),
+                    "name": TEXT,
+                    "begin_utc_s": the("seconds since 1970", NUMBER),
+                    "end_utc_s": NUMBER,
+                    "rms_deg": the("the error", NUMBER),
+                    "max_deg": the("the largest error", NUMBER),
+                    "relay_starts": or_null(WHOLE),
+                }
+            )
+        )
+    }
+)
 _STYLE = re.compile(r"<style>(.*?)</style>", re.DOTALL)
 
 
@@ -71,8 +89,14 @@ class FlownPictures:
             )
 
         return (
-            get("/api/flown", listed, "The last passes that were flown, the latest first"),
-            get("/api/flown/picture", picture, "The picture of one of them as SVG; its name as ?file="),
+            get("/api/flown", listed, ("The last passes that were flown, the latest first", _FLOWN)),
+            get(
+                "/api/flown/picture",
+                picture,
+                ("The picture of one of them", SVG),
+                query={"file": in_address("its name, as in /api/flown", "20260401-101500-iss.svg")},
+                more=refusals(400, 404),
+            ),
         )
 
     async def run(self) -> None:

@@ -15,16 +15,34 @@ from aiohttp import web
 from rotator.web.computed import Computed, of_the_program
 from rotator.web.entrance import Entrance, computed, error
 from rotator.web.redaction import Redaction
-from rotator.web.route import Route, get
-from rotator.web.wire_watch import MOST_WATCHERS, WireWatch
+from rotator.web.route import COMPUTING, PAIRED, Route, get, live, refusals
+from rotator.web.schema import NUMBER, TEXT, WHOLE, YES, ZIP, in_address, list_of, object_of, or_null, the
+from rotator.web.wire_watch import MESSAGES, MOST_WATCHERS, WireWatch
 from rotator.web.wires import WireLog
 
 DOCTOR_KEPT_S = 5.0
 LONGEST_NUMBER = 18
-WIRES = "A WebSocket: the lines of `rotator monitor`; `?after=` the `upto` of the last message"
+WIRES = "A WebSocket: the bytes of the links, in the lines of `rotator monitor`"
 DIAGNOSTICS = "A zip with what another person needs to see what is wrong, without secrets"
 WITH_FAULTS = (0, 1, 2)
 """The exit codes of `rotator doctor` that has printed its report."""
+_CHECK = object_of(
+    {
+        "name": TEXT,
+        "ok": the("null: left out", or_null(YES)),
+        "found": TEXT,
+        "advice": the("with ok true: a warning", or_null(TEXT)),
+    }
+)
+REPORT = object_of(
+    {
+        "version": the("of this form", WHOLE),
+        "rotator": the("the program's version", TEXT),
+        "ok": the("nothing is to be repaired", YES),
+        "checks": list_of(_CHECK),
+        "at_s": the("seconds since 1970", NUMBER),
+    }
+)
 
 
 def doctor(
@@ -51,10 +69,11 @@ class HelpApi:
         self._watch = WireWatch(wires)
 
     def routes(self) -> Sequence[Route]:
+        after = {"after": in_address("the `upto` of the last message that you have", "480")}
         return (
-            get("/api/doctor", self._examine, "The checks of `rotator doctor --json`; 202: ask again"),
-            get("/api/diagnostics", self._diagnose, DIAGNOSTICS, paired=True),
-            get("/api/wires", self._serve_wires, WIRES, paired=True),
+            get("/api/doctor", self._examine, ("The checks of `rotator doctor --json`", REPORT), more=COMPUTING),
+            get("/api/diagnostics", self._diagnose, (DIAGNOSTICS, ZIP), access=PAIRED),
+            live("/api/wires", self._serve_wires, (WIRES, MESSAGES), access=PAIRED, query=after, more=refusals(409)),
         )
 
     async def _examine(self, request: web.Request) -> web.StreamResponse:
@@ -83,4 +102,4 @@ class HelpApi:
 def download(packed: bytes, name: str) -> web.Response:
     """A zip that the browser keeps as a file."""
     headers = {"Content-Disposition": f'attachment; filename="{name}"'}
-    return web.Response(body=packed, content_type="application/zip", headers=headers)
+    return web.Response(body=packed, content_type=ZIP["contentMediaType"], headers=headers)

@@ -16,7 +16,7 @@ from typing import Any
 from aiohttp import WSMsgType, web
 
 from rotator.protocols.panel_words import TURNS
-from rotator.web.holding import Holding, Pictures
+from rotator.web.holding import LEASE_S, Holding, Pictures
 
 log = logging.getLogger(__name__)
 
@@ -28,6 +28,32 @@ MOST_SIGNS_PER_S = 40
 MOST_WATCHERS = 80
 Answer = dict[str, str | int]
 USAGE = 'send {"hold": "cw", "press": 1, "n": NUMBER OF THE PICTURE} or {"let_go": true}, or {"stop": true}'
+MESSAGES = f"""The box sends ten times a second:
+
+    {{"n": 1234, "now": {{…}}}}
+
+`n` is the number of the picture, `now` is a `picture`. The first message has `hello` too,
+which is what /api/me answers:
+
+    {{"hello": {{…}}, "n": 1233, "now": {{…}}}}
+
+You may send, each as a text, {MOST_SIGNS_PER_S} a second:
+
+    {{"stop": true}}
+
+stops everything, and needs no pairing. This needs one:
+
+    {{"hold": "cw", "press": 1, "n": 1234}}
+
+A motor turns (cw, ccw, up or down) while you send this every 0.1 s. `press` counts your presses: one more each time.
+`n` is the picture that you have seen last: where it is older than {LEASE_S:g} s, nothing turns.
+
+    {{"let_go": true}}
+
+The button is held no more. The end of the WebSocket says the same. What is not done the box answers, with the press that it concerns:
+
+    {{"refused": "the connection is too slow to turn the antenna by hand", "press": 1}}
+"""
 
 
 class Live:

@@ -1,6 +1,6 @@
 """The description of the API, as OpenAPI 3.1: made from the same tables as the API itself.
 
-Knows JSON schemas. Does not know how a request is served.
+Knows what all routes have in common: who may ask, the errors, the status. Does not know how a request is served.
 """
 
 from __future__ import annotations
@@ -11,88 +11,69 @@ from typing import Any
 from rotator import __version__
 from rotator.protocols.methods import Method
 from rotator.protocols.status_object import AXIS_FIELDS, FAULT_FIELDS, FIELDS, FLOWN_FIELDS, Field
-from rotator.web.route import OPEN, PAIRED, REFUSED, Route, json_of, object_of
+from rotator.web.route import FREE, PAIRED, REFUSED, Handler, Route, post
+from rotator.web.scene_schema import PICTURE
+from rotator.web.schema import NUMBER, TEXT, YES, Schema, body_of, component, list_of, object_of, or_null, the
 
-STATUS = "The status, as `rotator where --json` prints it"
-BOX = "What does not change while the box runs: ranges, beam, horizon, sectors"
-_ERROR = {"$ref": "#/components/schemas/error"}
-_SELF = {"get": {"summary": "This description", **OPEN, "responses": {"200": {"description": "This description"}}}}
-_KINDS: dict[str, Any] = {
-    "text": {"type": "string"},
-    "text or null": {"type": ["string", "null"]},
-    "number": {"type": "number"},
-    "number or null": {"type": ["number", "null"]},
-    "true or false": {"type": "boolean"},
-    "list of text": {"type": "array", "items": {"type": "string"}},
-    "object": {"type": "object"},
-    "object or null": {"type": ["object", "null"]},
+ABOUT = (
+    "What the page does, for programs. An order needs a token: `rotator pair --token NAME` at the box prints one; send "
+    "it as `Authorization: Bearer TOKEN`. `stop` needs none. Reading needs one only where the file says "
+    '`[page] reading = "paired"`. A value that is not described is refused with a sentence. The console and MQTT have '
+    "the same orders, with the same names and values."
+)
+_KINDS: dict[str, Schema] = {
+    "text": TEXT,
+    "text or null": or_null(TEXT),
+    "number": NUMBER,
+    "number or null": or_null(NUMBER),
+    "true or false": YES,
+    "list of text": list_of(TEXT),
 }
 _OBJECTS = {"azimuth": "axis", "elevation": "axis", "tracks": "tracks", "fault": "fault"}
 
 
 def description(routes: Sequence[Route]) -> dict[str, Any]:
-    paths: dict[str, dict[str, Any]] = {"/api/openapi.json": _SELF}
+    paths: dict[str, dict[str, Any]] = {}
     for route in routes:
-        if route.described:
-            paths.setdefault(route.path, {})[route.method.lower()] = route.described
+        paths.setdefault(route.path, {})[route.method.lower()] = route.described
     return {
         "openapi": "3.1.0",
-        "info": {
-            "title": "rotator",
-            "version": __version__,
-            "description": (
-                "What the page does, for programs. Reading is open. Orders need a token: `rotator pair --token NAME` "
-                "at the box prints one; send it as `Authorization: Bearer TOKEN`. `stop` needs none."
-            ),
-        },
+        "info": {"title": "rotator", "version": __version__, "description": ABOUT},
+        "externalDocs": {"description": "The same for a person to read", "url": "/api/"},
         "paths": paths,
         "components": {
             "securitySchemes": {
-                "token": {"type": "http", "scheme": "bearer"},
-                "browser": {"type": "apiKey", "in": "cookie", "name": "rotator"},
+                "token": {"type": "http", "scheme": "bearer", "description": "of a program: `rotator pair --token`"},
+                "browser": {"type": "apiKey", "in": "cookie", "name": "rotator", "description": "of a paired browser"},
             },
-            "responses": {
-                "refused": {
-                    "description": "refused, and why",
-                    "content": json_of({"$ref": "#/components/schemas/error"}),
-                }
-            },
+            "responses": REFUSED,
             "schemas": {
-                "error": object_of({"error": {"type": "string", "description": "why, in a sentence"}}),
+                "error": object_of({"error": the("why, in a sentence", TEXT)}),
                 "status": _fields(FIELDS),
                 "axis": _fields(AXIS_FIELDS),
                 "fault": _fields(FAULT_FIELDS),
                 "tracks": _fields(FLOWN_FIELDS),
+                "picture": PICTURE,
             },
         },
     }
 
 
-def order(method: Method) -> dict[str, Any]:
-    """The description of an order's route."""
+def order(method: Method, serve: Handler) -> Route:
+    """The route of an order."""
     values = {value.name: value.schema() for value in method.values}
-    done: dict[str, Any] = {
-        "operationId": method.name,
-        "summary": method.meaning,
-        **(OPEN if method.free else PAIRED),
-        "responses": {
-            "200": {"description": "done, or begun", "content": json_of(object_of({"ok": {"const": True}}))},
-            "4XX": REFUSED,
-        },
-    }
-    if values:
-        body = {**object_of(values), "additionalProperties": False}
-        done["requestBody"] = {"required": True, "content": json_of(body)}
-    return done
+    body = body_of(values, example={value.name: value.example for value in method.values}) if values else None
+    route = post(f"/api/{method.name}", serve, method.meaning, body, access=FREE if method.free else PAIRED)
+    route.described["operationId"] = method.name
+    return route
 
 
-def _fields(fields: Sequence[Field[Any]]) -> dict[str, Any]:
-    schemas = {}
-    for field in fields:
-        schema = _KINDS[field.kind]
-        if field.name in _OBJECTS:
-            schema = {"$ref": f"#/components/schemas/{_OBJECTS[field.name]}"}
-            if field.kind == "object or null":
-                schema = {"oneOf": [schema, {"type": "null"}]}
-        schemas[field.name] = {"description": field.meaning, **schema}
-    return object_of(schemas)
+def _fields(fields: Sequence[Field[Any]]) -> Schema:
+    return object_of({field.name: the(field.meaning, _field(field)) for field in fields})
+
+
+def _field(field: Field[Any]) -> Schema:
+    if field.name not in _OBJECTS:
+        return _KINDS[field.kind]
+    named = component(_OBJECTS[field.name])
+    return or_null(named) if field.kind.endswith("or null") else named

@@ -11,10 +11,38 @@ from typing import Any
 
 from rotator.config.station import NO_PLACE
 from rotator.web.computed import Computed, of_the_program
+from rotator.web.schema import NUMBER, TEXT, YES, object_of, or_null, the
 
 KEPT_S = 1200.0
 MOST = 300
 HOURS = 24
+_MOMENT = the("with its time zone; null: not within this day", or_null(TEXT))
+_PLANNED = object_of(
+    {
+        "set_off": the("when the antenna goes there", or_null(TEXT)),
+        "from": or_null(TEXT),
+        "until": or_null(TEXT),
+        "wait_az_deg": or_null(NUMBER),
+        "wait_el_deg": or_null(NUMBER),
+        "over_the_top": or_null(YES),
+        "lost_s": the("of the pass, to turns of the antenna", or_null(NUMBER)),
+        "flown": YES,
+        "reason": the("why it is left out, or not flown whole", or_null(TEXT)),
+    }
+)
+PASS = object_of(
+    {
+        "name": TEXT,
+        "aos": _MOMENT,
+        "los": _MOMENT,
+        "tca": the("when it is highest", TEXT),
+        "aos_az_deg": or_null(NUMBER),
+        "los_az_deg": or_null(NUMBER),
+        "max_el_deg": NUMBER,
+        "expected_error_deg": NUMBER,
+        "plan": the("null: not in the plan", or_null(_PLANNED)),
+    }
+)
 
 
 def command(path: Path) -> tuple[str, ...]:

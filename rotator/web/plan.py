@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from datetime import datetime
 from typing import Any
 
@@ -23,8 +22,9 @@ from rotator.store.priorities import Priorities
 from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.ranking import ranked
 from rotator.web.entrance import Entrance, computed, error, values_of
-from rotator.web.passes import Passes
-from rotator.web.route import Route, get, post
+from rotator.web.passes import PASS, Passes
+from rotator.web.route import COMPUTING, Route, get, post
+from rotator.web.schema import NUMBER, TEXT, body_of, list_of, object_of, the
 
 Told = dict[str, Any]
 LONGEST_ORDER = 16_384
@@ -32,6 +32,25 @@ LEAST_DEG = 10.0
 """Without a plan the next pass is the next that rises so high."""
 POINTS = 40
 """Of the path of the next pass."""
+_POINTS = the("azimuth and elevation", list_of(list_of(NUMBER, 2)))
+_NEXT = the(
+    "Empty: there is none",
+    {**object_of({}, PASS["properties"] | {"points": _POINTS}), "dependentRequired": {"name": PASS["required"]}},
+)
+_FOLLOWED = object_of(
+    {
+        "name": the("as in the file", TEXT),
+        "target": the("its own name", TEXT),
+        "priority": NUMBER,
+        "written": the("the priority of the file", NUMBER),
+        "least_deg": the("lower passes are not flown", NUMBER),
+        "fault": the("why it is not known; empty: it is", TEXT),
+    }
+)
+_ORDER = body_of(
+    {"order": {"type": ["array", "null"], "items": TEXT, "description": "each name once; null: as the file says"}},
+    example={"order": None},
+)
 
 
 class Plan:
@@ -72,24 +91,23 @@ class Plan:
         async def order(request: web.Request) -> web.StreamResponse:
             entrance.must_be_paired(request)
             match await values_of(request, LONGEST_ORDER):
-                case {"order": list() as names}:
+                case {"order": list() as names, **others} if not others:
                     reason = await asyncio.to_thread(self.reorder, names)
-                case {"order": None}:
+                case {"order": None, **others} if not others:
                     reason = await asyncio.to_thread(self.as_written)
                 case _:
                     raise WrongValuesError('send {"order": ["ISS", "SO-50"]}, or {"order": null} for that of the file')
             self._changed()
             return error(409, reason) if reason else web.json_response({"ok": True})
 
-        names = {"type": ["array", "null"], "items": {"type": "string"}, "description": "null: as the file says"}
-        put = post(
-            "/api/followed", order, "What is followed in a new order: what stands first counts most", {"order": names}
-        )
+        day = "The passes of the next day, as `rotator sky passes --json`", object_of({"passes": list_of(PASS)})
+        all_of_it = object_of({"followed": list_of(_FOLLOWED)})
+        anew = "What is followed in a new order: what stands first counts most"
         return (
-            get("/api/passes", passes, "The passes of the next day, as `rotator sky passes --json`; 202: ask again"),
-            get("/api/next", upcoming, "The next pass, with its path; 202: ask again"),
-            get("/api/followed", followed, "What the file follows, the highest priority first"),
-            replace(put, most_body=LONGEST_ORDER),
+            get("/api/passes", passes, day, more=COMPUTING),
+            get("/api/next", upcoming, ("The next pass, with its path", _NEXT), more=COMPUTING),
+            get("/api/followed", followed, ("What the file follows, the highest priority first", all_of_it)),
+            post("/api/followed", order, anew, _ORDER, most_body=LONGEST_ORDER),
         )
 
     # --- what is followed

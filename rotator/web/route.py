@@ -1,24 +1,38 @@
 """One route of the API: its path, who serves it, how long its body may be, and its description as OpenAPI 3.1.
 
-Each group of routes stands in a file of its own, and describes itself with the words here. Knows JSON schemas. Does not
+Each group of routes stands in a file of its own, and describes itself with the words here and in `schema`. Does not
 know any single route.
 """
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass
 
 from aiohttp import web
 
+from rotator.web.schema import Schema, component, object_of
+
 MOST_BODY = 4096
+JSON = "application/json"
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
-Schema = dict[str, Any]
 
 PAIRED: Schema = {"security": [{"token": []}, {"browser": []}]}
-OPEN: Schema = {"security": []}
-REFUSED: Schema = {"$ref": "#/components/responses/refused"}
+READING: Schema = {"security": [{}, {"token": []}, {"browser": []}]}
+"""Everyone may, unless the file says `[page] reading = "paired"`."""
+FREE: Schema = {"security": []}
+OK: Schema = object_of({"ok": {"const": True}})
+
+REFUSALS: Mapping[int, str] = {
+    400: "the request has not this form; the sentence says what to send",
+    401: "not paired, or paired no more",
+    403: "asked under a name that is not the box's, or by another site's page; or the pairing does not succeed",
+    404: "there is no such thing",
+    409: "understood, and the box as it stands does not do it",
+    413: "the body is too long",
+    422: "the file that was sent has a mistake",
+}
+"""Every answer with such a number is an `error`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,34 +41,80 @@ class Route:
     """`GET` or `POST`."""
     path: str
     serve: Handler
-    described: Schema = field(default_factory=dict)
-    """Empty: it is not for programs."""
+    described: Schema
     most_body: int = MOST_BODY
     """Bytes."""
 
 
-def get(path: str, serve: Handler, summary: str, schema: Schema | None = None, *, paired: bool = False) -> Route:
-    """A question. `paired`: only paired browsers and programs may ask it."""
-    answer: Schema = {"description": summary}
-    if schema is not None:
-        answer["content"] = json_of(schema)
-    described = {"summary": summary, **(PAIRED if paired else OPEN), "responses": {"200": answer, "4XX": REFUSED}}
-    return Route("GET", path, serve, described)
+def get(
+    path: str,
+    serve: Handler,
+    answer: tuple[str, Schema],
+    *,
+    access: Schema = READING,
+    query: Schema | None = None,
+    more: Schema | None = None,
+) -> Route:
+    """A question. `answer`: what it is, and its schema. `query`: values of the address. `more`: further answers."""
+    answers = {"200": answered(*answer), **(more or {})}
+    summary, _ = answer
+    return Route("GET", path, serve, _described(summary, access, answers, query))
 
 
-def post(path: str, serve: Handler, summary: str, values: Schema | None = None, *, paired: bool = True) -> Route:
-    """A request that does something. `values`: the schemas of its values."""
-    body: Schema = {}
-    if values:
-        body["requestBody"] = {"required": True, "content": json_of(object_of(values))}
-    answers = {"200": {"description": "done"}, "4XX": REFUSED}
-    described = {"summary": summary, **(PAIRED if paired else OPEN), "responses": answers, **body}
-    return Route("POST", path, serve, described)
+def live(path: str, serve: Handler, answer: tuple[str, str], *, access: Schema, query: Schema, more: Schema) -> Route:
+    """A WebSocket. OpenAPI has no words for its messages: `answer` says them to a person, after its summary."""
+    summary, messages = answer
+    answers = {"101": {"description": "the WebSocket is open"}, **refusals(400), **more}
+    return Route("GET", path, serve, {**_described(summary, access, answers, query), "description": messages})
 
 
-def object_of(properties: Schema) -> Schema:
-    return {"type": "object", "properties": properties, "required": list(properties)}
+def post(
+    path: str,
+    serve: Handler,
+    summary: str,
+    body: Schema | None = None,
+    *,
+    answer: Schema = OK,
+    access: Schema = PAIRED,
+    most_body: int = MOST_BODY,
+    query: Schema | None = None,
+    more: Schema | None = None,
+) -> Route:
+    """A request that does something. `body`, `answer`: their schemas. `query` and `more` as of `get`."""
+    answers = {"200": answered("done", answer), **refusals(400, 409, 413), **(more or {})}
+    described = _described(summary, access, answers, query)
+    if body is not None:
+        described["requestBody"] = {
+            "required": "required" not in body or bool(body["required"]),
+            "content": _content(body),
+        }
+    return Route("POST", path, serve, described, most_body)
 
 
-def json_of(schema: Schema) -> Schema:
-    return {"application/json": {"schema": schema}}
+def _described(summary: str, access: Schema, answers: Schema, query: Schema | None) -> Schema:
+    refused = refusals(403) if access is FREE else refusals(401, 403)
+    described: Schema = {"summary": summary, **access, "responses": dict(sorted({**answers, **refused}.items()))}
+    if query:
+        described["parameters"] = [{"name": name, "in": "query", "schema": schema} for name, schema in query.items()]
+    return described
+
+
+def answered(summary: str, schema: Schema) -> Schema:
+    return {"description": summary, "content": _content(schema)}
+
+
+def _content(schema: Schema) -> Schema:
+    return {schema.get("contentMediaType", JSON): {"schema": schema}}
+
+
+def refusals(*numbers: int) -> Schema:
+    return {str(number): {"$ref": f"#/components/responses/{number}"} for number in numbers}
+
+
+COMPUTING: Schema = {
+    "202": answered("it is computed: ask again", object_of({"computing": {"const": True}})),
+    **refusals(409),
+}
+"""The further answers of what takes a while."""
+REFUSED: Schema = {str(number): answered(why, component("error")) for number, why in REFUSALS.items()}
+"""Each of them once, for all routes."""

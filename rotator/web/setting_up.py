@@ -22,12 +22,38 @@ from rotator.protocols.methods import WrongValuesError
 from rotator.protocols.reference.programs import PROGRAMS
 from rotator.setup.answered import Asked, as_they_stand, asked
 from rotator.setup.machine import this_machine
-from rotator.web.box_file import BoxFile
+from rotator.web.box_file import ANEW, STOP, BoxFile, stop_of
 from rotator.web.entrance import Entrance, RefusedError, values_of
-from rotator.web.route import Route, get, post
+from rotator.web.route import PAIRED, Route, get, post, refusals
+from rotator.web.schema import TEXT, WHOLE, YES, body_of, choice, list_of, object_of, or_null, the
+from rotator.web.settings import ANSWERS, texts_of
 
 log = logging.getLogger(__name__)
 
+_QUESTION = object_of(
+    {
+        "name": TEXT,
+        "text": TEXT,
+        "help": TEXT,
+        "choices": list_of(object_of({"answer": TEXT, "words": TEXT})),
+        "open": the("other answers than the choices may be typed", YES),
+        "answer": the("as given, else the offered one", TEXT),
+        "mistake": the("why it is no answer; empty: it is", TEXT),
+    }
+)
+_WIRING = object_of(
+    {
+        "kind": TEXT,
+        "pins": list_of(object_of({"gpio": WHOLE, "key": TEXT})),
+        "chips": list_of(object_of({"bus": WHOLE, "address": WHOLE, "name": TEXT})),
+        "active": the("the level that closes a relay", or_null(TEXT)),
+    }
+)
+_PROGRAM = object_of({"name": TEXT, "protocols": list_of(TEXT), "where": TEXT, "settings": TEXT})
+_GUIDE = object_of(
+    {"axis": the("null: nothing is calibrated; the lines are of the last one", or_null(TEXT)), "lines": list_of(TEXT)},
+    {"prompt": TEXT, "state": TEXT, "turns": the("the motor turns: ask each second, or it stops", YES)},
+)
 _KEYS = re.compile(r"[-+0-9.,ynfbqrludRLUDs? \r]{1,16}")
 _LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)")
 """A link of a page in the documentation: the box has its words alone."""
@@ -42,24 +68,32 @@ class SettingUpApi:
         self._calibration = calibration
 
     def routes(self) -> Sequence[Route]:
-        axis = {"axis": {"type": "string", "enum": [axis.value for axis in Axis]}}
-        keys = {"keys": {"type": "string", "description": "as in `rotator calibrate`: r, l, u, d, y, n, a number …"}}
+        axis = body_of({"axis": choice(*(axis.value for axis in Axis))}, STOP, example={"axis": "azimuth"})
+        pressed = the(
+            "as in `rotator calibrate`: r, l, u, d, y, n, a number …", {**TEXT, "pattern": f"^{_KEYS.pattern}$"}
+        )
+        keys = body_of({"keys": pressed}, example={"keys": "r"})
+        answers = body_of({"answers": ANSWERS}, example={"answers": {}})
+        lead = object_of({"questions": list_of(_QUESTION)})
+        pins = "What is wired to which pin and chip", _WIRING
+        programs = "Tracking programs and what to set in each", object_of({"programs": list_of(_PROGRAM)})
+        guide = "What the calibration says and asks", _GUIDE
         questions = "The questions of `rotator config --ask` that these answers lead to"
         calibrate = "Start anew with this axis as never set up, to calibrate it"
         return (
-            post("/api/setup/questions", self._questions, questions, {"answers": {"type": "object"}}),
-            get("/api/setup/wiring", self._wiring, "What is wired to which pin and chip", paired=True),
-            get("/api/setup/programs", self._programs, "Tracking programs and what to set in each", paired=True),
-            post("/api/calibrate", self._calibrate, calibrate, axis),
-            get("/api/calibration", self._guide, "What the calibration says and asks", paired=True),
+            post("/api/setup/questions", self._questions, questions, answers, answer=lead),
+            get("/api/setup/wiring", self._wiring, pins, access=PAIRED, more=refusals(409)),
+            get("/api/setup/programs", self._programs, programs, access=PAIRED),
+            post("/api/calibrate", self._calibrate, calibrate, axis, answer=ANEW),
+            get("/api/calibration", self._guide, guide, access=PAIRED),
             post("/api/calibration/press", self._press, "Press keys in the calibration", keys),
         )
 
     async def _questions(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
         match await values_of(request):
-            case {"answers": dict() as answers, **others} if not others:
-                pass
+            case {"answers": dict() as sent, **others} if not others:
+                answers = texts_of(sent)
             case _:
                 raise WrongValuesError('send {"answers": {}}')
         config = (await self._file.settings()).config
@@ -94,15 +128,15 @@ class SettingUpApi:
     async def _calibrate(self, request: web.Request) -> web.StreamResponse:
         who = self._entrance.must_be_paired(request)
         match await values_of(request):
-            case {"axis": "azimuth" | "elevation" as name, **others} if set(others) <= {"stop"}:
-                axis = Axis(name)
+            case {"axis": "azimuth" | "elevation" as name, **others}:
+                axis, stops = Axis(name), stop_of(others)
             case _:
                 raise WrongValuesError('send {"axis": "azimuth"}, or elevation')
         try:
             axis_guide(await self._config(), axis)
         except HardwareError as reason:
             raise RefusedError(str(reason)) from None
-        self._file.may_stop(stops=others.get("stop") is True)
+        self._file.may_stop(stops=stops)
         log.warning("page: %s calibrates the %s: the box starts anew for that", who.name, name)
         return web.json_response(self._file.begin_anew(axis))
 
@@ -114,13 +148,14 @@ class SettingUpApi:
 
     async def _press(self, request: web.Request) -> web.StreamResponse:
         self._entrance.must_be_paired(request)
-        if self._calibration is None:
-            raise RefusedError("no axis is being calibrated now")
         match await values_of(request):
             case {"keys": str() as keys, **others} if not others and _KEYS.fullmatch(keys):
-                self._calibration.press(keys)
+                pass
             case _:
                 raise WrongValuesError('send {"keys": "r"}: the keys of `rotator calibrate`')
+        if self._calibration is None:
+            raise RefusedError("no axis is being calibrated now")
+        self._calibration.press(keys)
         return web.json_response({"ok": True})
 
     async def _config(self) -> Config:

@@ -22,9 +22,23 @@ from rotator.protocols.methods import WrongValuesError
 from rotator.setup.answered import fresh
 from rotator.setup.network import open_to
 from rotator.setup.questions import network
-from rotator.web.box_file import BoxFile
+from rotator.web.box_file import ANEW, STOP, BoxFile, stop_of
 from rotator.web.entrance import Entrance, computed, values_of
-from rotator.web.route import Route, Schema, get, post
+from rotator.web.route import COMPUTING, PAIRED, Route, answered, get, post, refusals
+from rotator.web.schema import (
+    ANY,
+    NUMBER,
+    TEXT,
+    YES,
+    Schema,
+    body_of,
+    choice,
+    list_of,
+    object_of,
+    or_null,
+    table_of,
+    the,
+)
 
 log = logging.getLogger(__name__)
 
@@ -32,17 +46,55 @@ ANSWERS_S = 2.0
 """A browser asks again after this time for what is still computed."""
 MOST_BODY = 65_536
 _FORM = 'send {"digest": "…", "changes": [{"place": ["azimuth", "max_deg"], "value": 450}]}'
-_VALUES: Schema = {
-    "digest": {"type": "string", "description": "of the text that the change starts from, as /api/settings has it"},
-    "changes": {
-        "type": "array",
-        "description": "keys and their new values; null takes a key out. Or `open_to`: a network that may use rotctld",
-        "items": {
-            "type": "object",
-            "properties": {"place": {"type": "array", "items": {"type": ["string", "integer"]}}, "value": {}},
-        },
-    },
+_DIGEST = the("of the text that the change starts from, as /api/settings has it", TEXT)
+_PLACE = list_of({"type": ["string", "integer"]})
+_CHANGE = object_of({"place": the("a table and its key", _PLACE), "value": the("null takes the key out", ANY)})
+_CHANGES = the("keys and their new values", list_of({**_CHANGE, "additionalProperties": False}))
+ANSWERS = the("by the names in /api/setup/questions", table_of(TEXT))
+_NETWORK = the("the network that may use rotctld, as 192.168.1.0/24", TEXT)
+_BODY: Schema = {
+    "oneOf": [
+        body_of(
+            {"digest": _DIGEST, "changes": _CHANGES},
+            STOP,
+            example={"digest": "…", "changes": [{"place": ["azimuth", "max_deg"], "value": 450}]},
+        ),
+        body_of({"digest": _DIGEST, "answers": ANSWERS}, STOP, example={"digest": "…", "answers": {"rotor": "g5500"}}),
+        body_of({"digest": _DIGEST, "open_to": _NETWORK}, STOP, example={"digest": "…", "open_to": "192.168.1.0/24"}),
+    ]
 }
+_MISTAKE = object_of({"text": TEXT, "places": the("the keys that it is about", list_of(_PLACE))})
+_SHOWN = {"diff": the("the lines that change", list_of(TEXT)), "mistakes": list_of(_MISTAKE)}
+_SETTINGS = object_of(
+    {
+        "file": the("its path", TEXT),
+        "run": the("after each start another one", TEXT),
+        "digest": the("of its text", TEXT),
+        "values": the("what it says", {"type": "object"}),
+        "in_force": the("all keys as the file leads to them; null: it has a mistake", or_null({"type": "object"})),
+        "refused": the("why the file of the latest start was not used", TEXT),
+    }
+)
+_KEY = object_of(
+    {
+        "key": TEXT,
+        "kind": choice("yes", "whole", "number", "numbers", "text", "texts", "choice"),
+        "meaning": TEXT,
+        "needed": YES,
+    },
+    {
+        "choices": list_of({"type": ["string", "integer"]}),
+        "named": TEXT,
+        "unit": TEXT,
+        "least": NUMBER,
+        "above": NUMBER,
+        "most": NUMBER,
+        "below": NUMBER,
+    },
+)
+_TABLE = object_of(
+    {"path": list_of(TEXT), "many": the("there may be some of it", YES), "meaning": TEXT, "keys": list_of(_KEY)}
+)
 
 
 class SettingsApi:
@@ -53,19 +105,21 @@ class SettingsApi:
         self._form: asyncio.Task[list[dict[str, Any]]] | None = None
 
     def routes(self) -> Sequence[Route]:
-        restart = "Stop, and start anew; while the antenna moves only with stop = true"
+        restart = "Stop, and start anew"
         checked, written = (
             "What a change of the file would be, and its mistakes",
             "Write a change, and start anew with it",
         )
-        check = post("/api/settings/check", self._check, checked, _VALUES)
-        write = post("/api/settings/write", self._write, written, _VALUES)
+        says = "What the file says, and what is in force", _SETTINGS
+        keys = "All tables and keys of the file", object_of({"tables": list_of(_TABLE)})
+        wrong = {"422": answered("it has mistakes", object_of({"error": TEXT, **_SHOWN}))}
+        sent: dict[str, Any] = {"body": _BODY, "most_body": MOST_BODY}
         return (
-            get("/api/settings", self._read, "What the file says, and what is in force", paired=True),
-            get("/api/settings/form", self._forms, "All tables and keys of the file; 202: ask again", paired=True),
-            Route("POST", check.path, check.serve, check.described, MOST_BODY),
-            Route("POST", write.path, write.serve, write.described, MOST_BODY),
-            post("/api/restart", self._restart, restart),
+            get("/api/settings", self._read, says, access=PAIRED, more=refusals(409)),
+            get("/api/settings/form", self._forms, keys, access=PAIRED, more=COMPUTING),
+            post("/api/settings/check", self._check, checked, answer=object_of(_SHOWN), **sent),
+            post("/api/settings/write", self._write, written, answer=ANEW, more=wrong, **sent),
+            post("/api/restart", self._restart, restart, body_of({}, STOP, example={"stop": True}), answer=ANEW),
         )
 
     async def _read(self, request: web.Request) -> web.StreamResponse:
@@ -105,22 +159,30 @@ class SettingsApi:
 
     async def _restart(self, request: web.Request) -> web.StreamResponse:
         who = self._entrance.must_be_paired(request)
-        self._file.may_stop(stops=(await values_of(request)).get("stop") is True)
+        self._file.may_stop(stops=stop_of(await values_of(request)))
         log.warning("page: %s has the box start anew", who.name)
         return web.json_response(self._file.begin_anew())
 
     async def _proposal(self, request: web.Request) -> tuple[Proposal, bool]:
         """The change that is asked for, and whether it may stop the antenna."""
         match await values_of(request, MOST_BODY):
-            case {"digest": str() as begun, "changes": [*sent], **more} if set(more) <= {"stop"}:
+            case {"digest": str() as begun, "changes": [*sent], **more}:
                 make = partial(edited, changes=_changes(sent))
-            case {"digest": str() as begun, "answers": dict() as answers, **more} if set(more) <= {"stop"}:
-                make = partial(fresh, answers=answers, path=self._file.path, today=self._today())
-            case {"digest": str() as begun, "open_to": str() as allow, **more} if set(more) <= {"stop"}:
+            case {"digest": str() as begun, "answers": dict() as answers, **more}:
+                make = partial(fresh, answers=texts_of(answers), path=self._file.path, today=self._today())
+            case {"digest": str() as begun, "open_to": str() as allow, **more}:
                 make = partial(_opened, allow=allow)
             case _:
                 raise WrongValuesError(_FORM)
-        return await self._file.propose(begun, make), more.get("stop") is True
+        stops = stop_of(more)
+        return await self._file.propose(begun, make), stops
+
+
+def texts_of(answers: dict[str, object]) -> dict[str, str]:
+    """Raises WrongValuesError."""
+    if wrong := next((name for name, answer in answers.items() if not isinstance(answer, str)), None):
+        raise WrongValuesError(f"the answer {wrong[:40]!a} must be a text")
+    return {name: str(answer) for name, answer in answers.items()}
 
 
 def _opened(text: str, allow: str) -> str:

@@ -19,6 +19,14 @@ EVERY_S = 0.2
 TAKES_S = 15.0
 """A browser that takes a message in no less than this is dropped."""
 MOST_WATCHERS = 8
+MESSAGES = """The box sends, as soon as there are new lines:
+
+    {"lines": ["…", "…"], "upto": 480, "missed": 0}
+
+`lines` are as `rotator monitor` prints them, the oldest first. `upto` is the number of the line after them: after a
+lost connection ask for `?after=480`. `missed`: so many lines before these are gone. You send
+nothing: the box closes then.
+"""
 
 
 class WireWatch:

@@ -1,0 +1,140 @@
+"""The API as a page to read, made from its description: each request with its body, a line for curl, and its answers.
+
+Plain HTML without a script, so that it is there when nothing else is. Knows OpenAPI as `route` writes it. Does not know
+any single request.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+from collections.abc import Iterator
+from html import escape
+from typing import Any
+
+from rotator.web.route import JSON
+from rotator.web.schema import Schema
+
+_PAGE = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>rotator: the API</title><link rel="icon" href="/icon.svg"><link rel="stylesheet" href="/style.css"></head>
+<body><main class="api"><h1>The API of this box</h1><p>{about}</p>
+<pre>BOX=http://127.0.0.1:8232
+TOKEN=$(rotator pair --token NAME)</pre>
+<p>The same for programs: <a href="/api/openapi.json">openapi.json</a>. <a href="/">The page of the box</a></p>
+{requests}<h2>Answers that others have in them</h2>
+{components}<h2>Refusals</h2><p>Each is <code>{{"error": "why, in a sentence"}}</code></p><ul>{refusals}</ul>
+</main></body></html>
+"""
+_WORDS = {"string": "text", "integer": "whole number", "boolean": "true or false", "object": "{…}"}
+
+
+def api_page(described: dict[str, Any]) -> str:
+    parts = described["components"]
+    return _PAGE.format(
+        about=_text(described["info"]["description"]),
+        requests="".join(
+            _request(way.upper(), path, one) for path, ways in described["paths"].items() for way, one in ways.items()
+        ),
+        components="".join(
+            f'<section id="{name}"><h3>{name}</h3>{_form(schema)}</section>'
+            for name, schema in parts["schemas"].items()
+        ),
+        refusals="".join(
+            f"<li>{number}: {_text(one['description'])}</li>" for number, one in parts["responses"].items()
+        ),
+    )
+
+
+def _request(way: str, path: str, one: dict[str, Any]) -> str:
+    """One section."""
+    needs = {0: "needs no token", 2: "needs a token", 3: "reading"}[len(one["security"])]
+    told = [f"<h3>{way} {path}</h3><p>{_text(one['summary'])} <small>{needs}</small></p>"]
+    for each in one.get("parameters", ()):
+        told.append(f"<p><code>?{each['name']}=</code> {_text(each['description'])}</p>")
+    if "description" in one:
+        told.append("".join(_paragraph(part) for part in one["description"].strip().split("\n\n")))
+    else:
+        told.append(f"<pre>{escape(_curl(way, path, one))}</pre>")
+    body = one.get("requestBody", {}).get("content", {})
+    told += [f"<p>Send:</p>{_content(kind, media)}" for kind, media in body.items()]
+    for number, answer in one["responses"].items():
+        for kind, media in answer.get("content", {}).items():
+            told.append(f"<p>{number}, {_text(answer['description'])}:</p>{_content(kind, media)}")
+    refused = [number for number, answer in one["responses"].items() if "$ref" in answer]
+    told.append(f"<p><small>refuses with {', '.join(refused)}</small></p>")
+    return f"<section>{''.join(told)}</section>\n"
+
+
+def _curl(way: str, path: str, one: dict[str, Any]) -> str:
+    words = ["curl", *(["-X POST"] if way == "POST" and "requestBody" not in one else [])]
+    if one["security"] and {} not in one["security"]:
+        words.append('-H "Authorization: Bearer $TOKEN"')
+    for kind, media in one.get("requestBody", {}).get("content", {}).items():
+        if kind == JSON:
+            example = next(_forms(media["schema"]))["examples"][0]
+            words.append(f"-d {shlex.quote(json.dumps(example, ensure_ascii=False))}")
+        else:
+            words.append("--data-binary @FILE")
+    asked = "&".join(f"{each['name']}={each['name'].upper()}" for each in one.get("parameters", ()))
+    words.append(f'"$BOX{path}{"?" if asked else ""}{asked}"')
+    return " ".join(words)
+
+
+def _content(kind: str, media: dict[str, Any]) -> str:
+    if kind != JSON:
+        return f"<pre>a file, {kind}</pre>"
+    return "<p>or</p>".join(_form(schema) for schema in _forms(media["schema"]))
+
+
+def _forms(schema: Schema) -> Iterator[Schema]:
+    yield from schema.get("oneOf", [schema])
+
+
+def _form(schema: Schema) -> str:
+    return f"<pre>{_kind(schema)}</pre>"
+
+
+def _kind(schema: Schema, indent: str = "") -> str:
+    """What a value is, in words; an object and a list line by line."""
+    match schema:
+        case {"$ref": str() as where}:
+            name = where.rpartition("/")[2]
+            return f'<a href="#{name}">{name}</a>'
+        case {"const": value}:
+            return json.dumps(value)
+        case {"enum": [*words]}:
+            return " or ".join(escape(json.dumps(word)) for word in words)
+        case {"oneOf": [*schemas]}:
+            return " or ".join(_kind(each, indent) for each in schemas)
+        case {"type": [kind, "null"]}:
+            return f"{_kind({**schema, 'type': kind}, indent)} or null"
+        case {"type": [*kinds]}:
+            return " or ".join(_WORDS.get(kind, kind) for kind in kinds)
+        case {"type": "array", "items": items}:
+            return f"[{_kind(items, indent)}, …]"
+        case {"type": "object", "properties": properties}:
+            inner = f"{indent}  "
+            rows = (_row(name, each, inner, schema) for name, each in properties.items())
+            return "{\n" + "".join(rows) + indent + "}"
+        case {"type": str() as kind}:
+            bounds = f" {schema['minimum']:g} to {schema['maximum']:g}" if "maximum" in schema else ""
+            return _WORDS.get(kind, kind) + bounds
+        case _:
+            return "any value"
+
+
+def _row(name: str, schema: Schema, indent: str, parent: Schema) -> str:
+    meaning = schema.get("description", "")
+    if name not in parent["required"]:
+        meaning = f"may be missing{': ' if meaning else ''}{meaning}"
+    return f'{indent}"{name}": {_kind(schema, indent)}{"  <i>" + _text(meaning) + "</i>" if meaning else ""}\n'
+
+
+def _paragraph(text: str) -> str:
+    return f"<pre>{escape(text.strip())}</pre>" if text.startswith("    ") else f"<p>{_text(text)}</p>"
+
+
+def _text(text: str) -> str:
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", escape(text, quote=False))
