@@ -1,0 +1,1 @@
+"""Fifty browsers at once: `python -m benchmarks.page`."""

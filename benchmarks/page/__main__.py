@@ -1,0 +1,118 @@
+"""Fifty browsers at once: run `python -m benchmarks.page`, with `--seconds`, `--browsers` and `--stops`.
+
+Measures the box for a minute beside a pass: alone, with the browsers, alone again; after each minute some stops, by `S`
+on a program's link and by STOP on the page. Prints the table of docs/page.md, with the promised limit beside each
+figure. The exit code is 1 where one is missed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import json
+import statistics
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from benchmarks.page.box import Figures, measured_box
+from benchmarks.page.chromium import CHROMIUM, in_chromium
+from rotator.web import assets
+
+LATE_MS, CORE_PERCENT, PAINT_MS, PACKED_KIB = 10.0, 15.0, 500.0, 100.0
+MORE_MS, WORST_MORE_MS = 1.0, LATE_MS
+"""So much later a stop may come with the browsers: the median, and the worst."""
+MORE_MIB = 2.0
+"""So much more memory the box may hold once they have gone."""
+LEAST_HZ = 9.5
+"""Fewer pictures than these are not ten a second."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    name: str
+    limit: str
+    told: tuple[str, ...]
+    """Before, with the browsers, after."""
+    kept: bool
+
+    def __str__(self) -> str:
+        return " | ".join((self.name, self.limit, *self.told)).rstrip("| ")
+
+
+def rows_of(phases: Sequence[Figures]) -> list[Row]:
+    before, during, after = phases
+
+    def each(show: Callable[[Figures], str]) -> tuple[str, ...]:
+        return tuple(show(phase) for phase in phases)
+
+    late = max(phase.late_p99_ms for phase in phases)
+    return [
+        Row("loop late, p99, ms", f"{LATE_MS:g}", each(lambda its: f"{its.late_p99_ms:.1f}"), late <= LATE_MS),
+        Row(
+            "of a core, %",
+            f"{CORE_PERCENT:g}",
+            each(lambda its: f"{its.core_percent:.0f}"),
+            during.core_percent <= CORE_PERCENT,
+        ),
+        stops_row("`S`", each(lambda its: told(its.link_ms)), before.link_ms, during.link_ms),
+        stops_row("STOP", each(lambda its: told(its.page_ms)), before.page_ms, during.page_ms),
+        Row(
+            "memory, MiB",
+            f"+{MORE_MIB:g}",
+            each(lambda its: f"{its.memory_mib:.1f}"),
+            after.memory_mib <= before.memory_mib + MORE_MIB,
+        ),
+    ]
+
+
+def stops_row(name: str, shown: tuple[str, ...], before_ms: list[float], during_ms: list[float]) -> Row:
+    soon = statistics.median(during_ms) <= statistics.median(before_ms) + MORE_MS
+    kept = soon and max(during_ms) <= max(before_ms) + WORST_MORE_MS
+    return Row(f"{name} to relay, ms", f"+{MORE_MS:g} (+{WORST_MORE_MS:g})", shown, kept)
+
+
+def told(values_ms: list[float]) -> str:
+    return f"{statistics.median(values_ms):.1f} ({max(values_ms):.1f})"
+
+
+async def crowd_of(url: str, browsers: int) -> asyncio.subprocess.Process:
+    pipe = asyncio.subprocess.PIPE
+    command = (sys.executable, "-m", "benchmarks.page.browsers", url, str(browsers))
+    return await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe)
+
+
+async def main(browsers: int, lasts_s: float, stops: int) -> int:
+    with tempfile.TemporaryDirectory() as folder:
+        async with measured_box(folder, 3.0 * (lasts_s + 4.0 * stops) + 60.0) as box:
+            before = await box.figures(lasts_s, stops)
+            crowd = await crowd_of(box.url, browsers)
+            during = await box.figures(lasts_s, stops)
+            out, _ = await crowd.communicate()
+            after = await box.figures(lasts_s, stops)
+            rows = rows_of((before, during, after))
+            if CHROMIUM.exists():
+                paints_ms, touches_ms = await in_chromium(box)
+                paint = Row("first paint, ms", f"{PAINT_MS:g}", (told(paints_ms),), max(paints_ms) <= PAINT_MS)
+                rows += [paint, Row("finger to relay, ms", "", (told(touches_ms),), kept=True)]
+    packed_kib = sum(len(asset.packed) for path, asset in assets.load().items() if path != "/") / 1024
+    rows.append(Row("page packed, KiB", f"{PACKED_KIB:g}", (f"{packed_kib:.0f}",), packed_kib <= PACKED_KIB))
+    print(f"median (worst) | limit | alone | {browsers} browsers | after\n--|--|--|--|--", *rows, sep="\n")
+    heard: dict[str, Any] = json.loads(out)
+    print(f"each browser got {heard['rate_hz']:.2f} pictures a second or more; all got {heard['answers']} answers")
+    missed = [row.name for row in rows if not row.kept]
+    missed += [f"a browser: {fault}" for fault in heard["failed"]]
+    missed += ["ten pictures a second"] if heard["rate_hz"] < LEAST_HZ else []
+    print(*(f"missed: {name}" for name in missed), sep="\n")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--browsers", type=int, default=50)
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--stops", type=int, default=20)
+    given = parser.parse_args()
+    sys.exit(asyncio.run(main(given.browsers, given.seconds, given.stops)))

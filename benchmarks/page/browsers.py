@@ -1,0 +1,103 @@
+"""A crowd of browsers: `python -m benchmarks.page.browsers URL COUNT`. They leave when its standard input ends.
+
+Each is a machine of its own. It asks for what `rotator/web/static/app.js` asks for, and as often: the files of the
+page, ten pictures a second, what the box is, the past, the next pass, the path of what is tracked. At last prints JSON:
+the fewest pictures a second that one of them got, how many answers came, and what failed. Does not know the box.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import random
+import sys
+import time
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any
+
+import aiohttp
+
+from rotator.web import assets
+
+COMES_WITHIN_S = 5.0
+PAST_S, NEXT_S, COMPUTES_S = 5.0, 20.0, 2.0
+"""As in app.js."""
+
+
+@dataclass
+class Browser:
+    http: aiohttp.ClientSession
+    pictures: list[float] = field(default_factory=list)
+    """The moment of each."""
+    answers: int = 0
+    failed: list[str] = field(default_factory=list)
+
+    async def visit(self) -> None:
+        """The whole page, then its requests, until cancelled."""
+        await asyncio.sleep(random.random() * COMES_WITHIN_S)
+        for path in assets.load():
+            await self._read(path)
+        async with asyncio.TaskGroup() as requests:
+            requests.create_task(self._look())
+            requests.create_task(self._again("/api/past", PAST_S))
+            requests.create_task(self._again("/api/next", NEXT_S))
+
+    async def _look(self) -> None:
+        tracked = ""
+        async with self.http.ws_connect("/api/live") as live:
+            await self._read("/api/box")
+            async for message in live:
+                self.pictures.append(time.monotonic())
+                path = json.loads(message.data)["now"]["path"]
+                if path != tracked:
+                    tracked = path
+                    await self._read("/api/path")
+        self.failed.append(f"the live connection ended: {live.close_code}")
+
+    async def _again(self, path: str, every_s: float) -> None:
+        while True:
+            status = await self._read(path)
+            await asyncio.sleep(COMPUTES_S if status == 202 else every_s)
+
+    async def _read(self, path: str) -> int:
+        try:
+            async with self.http.get(path) as answer:
+                await answer.read()
+        except aiohttp.ClientError as fault:
+            self.failed.append(f"{path}: {fault}")
+            return 0
+        if not answer.ok:
+            self.failed.append(f"{path}: {answer.status}")
+        self.answers += 1
+        return answer.status
+
+    def rate_hz(self) -> float:
+        return (len(self.pictures) - 1) / (self.pictures[-1] - self.pictures[0]) if len(self.pictures) > 1 else 0.0
+
+
+async def one(url: str, number: int, leave: asyncio.Event) -> Browser:
+    connector = aiohttp.TCPConnector(local_addr=(f"127.0.1.{number}", 0))
+    async with aiohttp.ClientSession(url, connector=connector) as http:
+        browser = Browser(http)
+        visit = asyncio.create_task(browser.visit())
+        await leave.wait()
+        visit.cancel()
+        with suppress(asyncio.CancelledError):
+            await visit
+    return browser
+
+
+async def main(url: str, count: int) -> dict[str, Any]:
+    leave = asyncio.Event()
+    asyncio.get_running_loop().add_reader(sys.stdin, leave.set)
+    crowd = await asyncio.gather(*(one(url, number + 1, leave) for number in range(count)))
+    return {
+        "rate_hz": min(browser.rate_hz() for browser in crowd),
+        "answers": sum(browser.answers for browser in crowd),
+        "failed": [fault for browser in crowd for fault in browser.failed],
+    }
+
+
+if __name__ == "__main__":
+    print(json.dumps(asyncio.run(main(sys.argv[1], int(sys.argv[2])))))
