@@ -52,7 +52,8 @@ def _request(way: str, path: str, one: dict[str, Any]) -> str:
     needs = {0: "needs no token", 2: "needs a token", 3: "reading"}[len(one["security"])]
     told = [f"<h3>{way} {path}</h3><p>{_text(one['summary'])} <small>{needs}</small></p>"]
     for each in one.get("parameters", ()):
-        told.append(f"<p><code>?{each['name']}=</code> {_text(each['description'])}</p>")
+        name = f"?{each['name']}=" if each["in"] == "query" else f"{each['name']}:"
+        told.append(f"<p><code>{name}</code> {_text(each['description'])}</p>")
     if "description" in one:
         told.append("".join(_paragraph(part) for part in one["description"].strip().split("\n\n")))
     else:
@@ -77,7 +78,8 @@ def _curl(way: str, path: str, one: dict[str, Any]) -> str:
             words.append(f"-d {shlex.quote(json.dumps(example, ensure_ascii=False))}")
         else:
             words.append("--data-binary @FILE")
-    asked = "&".join(f"{each['name']}={each['name'].upper()}" for each in one.get("parameters", ()))
+    named = [each["name"] for each in one.get("parameters", ()) if each["in"] == "query"]
+    asked = "&".join(f"{name}={name.upper()}" for name in named)
     words.append(f'"$BOX{path}{"?" if asked else ""}{asked}"')
     return " ".join(words)
 

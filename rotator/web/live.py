@@ -27,13 +27,13 @@ LONGEST_SIGN = 256
 MOST_SIGNS_PER_S = 40
 MOST_WATCHERS = 80
 Answer = dict[str, str | int]
-USAGE = 'send {"hold": "cw", "press": 1, "n": NUMBER OF THE PICTURE} or {"let_go": true}, or {"stop": true}'
+USAGE = "that is none of the texts that /api/ names under /api/live"
 MESSAGES = f"""The box sends ten times a second:
 
     {{"n": 1234, "now": {{…}}}}
 
-`n` is the number of the picture, `now` is a `picture`. The first message has `hello` too,
-which is what /api/me answers:
+`n` is the number of the picture, `now` is a `picture`. The first message has `hello` too, which is what /api/me
+answers, and in it `box`, which is what /api/box answers:
 
     {{"hello": {{…}}, "n": 1233, "now": {{…}}}}
 
@@ -50,7 +50,8 @@ A motor turns (cw, ccw, up or down) while you send this every 0.1 s. `press` cou
 
     {{"let_go": true}}
 
-The button is held no more. The end of the WebSocket says the same. What is not done the box answers, with the press that it concerns:
+The button is held no more. The end of the WebSocket says the same. What is not done the box answers; with the press,
+where it concerns one:
 
     {{"refused": "the connection is too slow to turn the antenna by hand", "press": 1}}
 """

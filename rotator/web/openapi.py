@@ -11,9 +11,21 @@ from typing import Any
 from rotator import __version__
 from rotator.protocols.methods import Method
 from rotator.protocols.status_object import AXIS_FIELDS, FAULT_FIELDS, FIELDS, FLOWN_FIELDS, Field
-from rotator.web.route import FREE, PAIRED, REFUSED, Handler, Route, post
+from rotator.web.route import FREE, PAIRED, REFUSED, Handler, Route, post, refusals
 from rotator.web.scene_schema import PICTURE
-from rotator.web.schema import NUMBER, TEXT, YES, Schema, body_of, component, list_of, object_of, or_null, the
+from rotator.web.schema import (
+    NUMBER,
+    TEXT,
+    YES,
+    Schema,
+    body_of,
+    component,
+    in_address,
+    list_of,
+    object_of,
+    or_null,
+    the,
+)
 
 ABOUT = (
     "What the page does, for programs. An order needs a token: `rotator pair --token NAME` at the box prints one; send "
@@ -28,6 +40,11 @@ _KINDS: dict[str, Schema] = {
     "number or null": or_null(NUMBER),
     "true or false": YES,
     "list of text": list_of(TEXT),
+}
+SINCE = {
+    "If-Match": in_address(
+        "in quotes, `stops` of the picture that you saw: a stop that has come since then counts. May be missing", '"3"'
+    )
 }
 _OBJECTS = {"azimuth": "axis", "elevation": "axis", "tracks": "tracks", "fault": "fault"}
 
@@ -63,7 +80,9 @@ def order(method: Method, serve: Handler) -> Route:
     """The route of an order."""
     values = {value.name: value.schema() for value in method.values}
     body = body_of(values, example={value.name: value.example for value in method.values}) if values else None
-    route = post(f"/api/{method.name}", serve, method.meaning, body, access=FREE if method.free else PAIRED)
+    access, since = FREE if method.free else PAIRED, method.name == "resume"
+    headers, more = (SINCE, refusals(412)) if since else ({}, {})
+    route = post(f"/api/{method.name}", serve, method.meaning, body, access=access, headers=headers, more=more)
     route.described["operationId"] = method.name
     return route
 

@@ -29,6 +29,7 @@ REFUSALS: Mapping[int, str] = {
     403: "asked under a name that is not the box's, or by another site's page; or the pairing does not succeed",
     404: "there is no such thing",
     409: "understood, and the box as it stands does not do it",
+    412: "it has changed since the picture that the request names",
     413: "the body is too long",
     422: "the file that was sent has a mistake",
 }
@@ -78,11 +79,12 @@ def post(
     access: Schema = PAIRED,
     most_body: int = MOST_BODY,
     query: Schema | None = None,
+    headers: Schema | None = None,
     more: Schema | None = None,
 ) -> Route:
     """A request that does something. `body`, `answer`: their schemas. `query` and `more` as of `get`."""
     answers = {"200": answered("done", answer), **refusals(400, 409, 413), **(more or {})}
-    described = _described(summary, access, answers, query)
+    described = _described(summary, access, answers, query, headers)
     if body is not None:
         described["requestBody"] = {
             "required": "required" not in body or bool(body["required"]),
@@ -91,11 +93,18 @@ def post(
     return Route("POST", path, serve, described, most_body)
 
 
-def _described(summary: str, access: Schema, answers: Schema, query: Schema | None) -> Schema:
+def _described(
+    summary: str, access: Schema, answers: Schema, query: Schema | None, headers: Schema | None = None
+) -> Schema:
     refused = refusals(403) if access is FREE else refusals(401, 403)
     described: Schema = {"summary": summary, **access, "responses": dict(sorted({**answers, **refused}.items()))}
-    if query:
-        described["parameters"] = [{"name": name, "in": "query", "schema": schema} for name, schema in query.items()]
+    places = {"query": query or {}, "header": headers or {}}
+    if any(places.values()):
+        described["parameters"] = [
+            {"name": name, "in": place, "description": schema["description"], "schema": schema}
+            for place, schemas in places.items()
+            for name, schema in schemas.items()
+        ]
     return described
 
 

@@ -37,7 +37,13 @@ PAST: Schema = object_of(
         ),
     }
 )
-PATH: Schema = object_of({"name": TEXT, "points": the("azimuth and elevation", list_of(_PAIR))})
+PATH: Schema = object_of(
+    {
+        "key": the("no other flight has it", TEXT),
+        "name": TEXT,
+        "points": the("azimuth and elevation", list_of(_PAIR)),
+    }
+)
 LOG: Schema = object_of(
     {
         "lines": list_of(
@@ -79,7 +85,9 @@ PICTURE: Schema = object_of(
         "starts": the("of the relays", or_null(WHOLE)),
         "tracking": the("off, planning, tracking, or ended: and why", TEXT),
         "rise_or_set": TEXT,
-        "path": the("empty, or the name of the pass that /api/path has", TEXT),
+        "path": the("empty, or the key of the flight that /api/path has", TEXT),
+        "stops": the("how often a person has stopped it since the program began", WHOLE),
+        "utc_s": the("the box's clock, in seconds since 1970", NUMBER),
         "lamps": the("of the relays", object_of({turn: choice("on", "off", "doubted") for turn in TURNS})),
         "lcd": the("the rows of the display", list_of(TEXT)),
         "mover": the("whose orders move the antenna, by name", TEXT),

@@ -49,7 +49,7 @@ def object_of(needed: Schema, optional: Schema | None = None) -> Schema:
 
 
 def in_address(meaning: str, example: str) -> Schema:
-    """A value behind the `?` of an address."""
+    """A value behind the `?` of an address, or in a header."""
     return {**TEXT, "description": meaning, "examples": [example]}
 
 

@@ -50,6 +50,11 @@ class Described:
         if kind == JSON:
             self.valid(answer["content"][kind]["schema"], json.loads(body))
 
+    def answers(self, path: str, value: object) -> None:
+        """Whether this is what a GET of this path may say."""
+        one = self.document["paths"][path]["get"]
+        self.valid(one["responses"]["200"]["content"][JSON]["schema"], value)
+
     def valid(self, schema: Mapping[str, Any], value: object) -> None:
         """What is not described is wrong too."""
         whole = closed({**schema, "components": self.document["components"]})
