@@ -90,7 +90,7 @@ async def main(browsers: int, lasts_s: float, stops: int) -> int:
             before = await box.figures(lasts_s, stops)
             crowd = await crowd_of(box.url, browsers)
             during = await box.figures(lasts_s, stops)
-            out, _ = await crowd.communicate()
+            out, _ = await crowd.communicate(b"")
             after = await box.figures(lasts_s, stops)
             rows = rows_of((before, during, after))
             if CHROMIUM.exists():

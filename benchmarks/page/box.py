@@ -105,8 +105,9 @@ class MeasuredBox:
         command = (sys.executable, "-m", "rotator", "tell", "--config", str(self._config), "track", NAME)
         asked = await asyncio.create_subprocess_exec(*command, stdout=asyncio.subprocess.DEVNULL)
         assert await asked.wait() == 0, "the box tracks it"
-        while self._app.loop.status.flown is None:
-            await asyncio.sleep(LOOK_S)
+        async with asyncio.timeout(PATIENCE_S):
+            while self._app.loop.status.flown is None:
+                await asyncio.sleep(LOOK_S)
 
     async def _stop_ms(self, way: str) -> float:
         await self.turns()

@@ -23,7 +23,7 @@ _PAGE = """<!doctype html>
 <pre>BOX=http://127.0.0.1:8232
 TOKEN=$(rotator pair --token NAME)</pre>
 <p>The same for programs: <a href="/api/openapi.json">openapi.json</a>. <a href="/">The page of the box</a></p>
-{requests}<h2>Answers that others have in them</h2>
+<h2>Requests</h2>{requests}<h2>Answers that others have in them</h2>
 {components}<h2>Refusals</h2><p>Each is <code>{{"error": "why, in a sentence"}}</code></p><ul>{refusals}</ul>
 </main></body></html>
 """
@@ -48,9 +48,9 @@ def api_page(described: dict[str, Any]) -> str:
 
 
 def _request(way: str, path: str, one: dict[str, Any]) -> str:
-    """One section."""
-    needs = {0: "needs no token", 2: "needs a token", 3: "reading"}[len(one["security"])]
-    told = [f"<h3>{way} {path}</h3><p>{_text(one['summary'])} <small>{needs}</small></p>"]
+    """One of them, to unfold."""
+    needs = "needs a token" if _needs_token(one) else ""
+    told = [f"<summary><b>{way} {path}</b> {_text(one['summary'])} <small>{needs}</small></summary>"]
     for each in one.get("parameters", ()):
         name = f"?{each['name']}=" if each["in"] == "query" else f"{each['name']}:"
         told.append(f"<p><code>{name}</code> {_text(each['description'])}</p>")
@@ -62,15 +62,20 @@ def _request(way: str, path: str, one: dict[str, Any]) -> str:
     told += [f"<p>Send:</p>{_content(kind, media)}" for kind, media in body.items()]
     for number, answer in one["responses"].items():
         for kind, media in answer.get("content", {}).items():
-            told.append(f"<p>{number}, {_text(answer['description'])}:</p>{_content(kind, media)}")
+            which = "" if number == "200" else f", {_text(answer['description'])}"
+            told.append(f"<p>{number}{which}:</p>{_content(kind, media)}")
     refused = [number for number, answer in one["responses"].items() if "$ref" in answer]
     told.append(f"<p><small>refuses with {', '.join(refused)}</small></p>")
-    return f"<section>{''.join(told)}</section>\n"
+    return f"<details>{''.join(told)}</details>\n"
+
+
+def _needs_token(one: dict[str, Any]) -> bool:
+    return bool(one["security"]) and {} not in one["security"]
 
 
 def _curl(way: str, path: str, one: dict[str, Any]) -> str:
     words = ["curl", *(["-X POST"] if way == "POST" and "requestBody" not in one else [])]
-    if one["security"] and {} not in one["security"]:
+    if _needs_token(one):
         words.append('-H "Authorization: Bearer $TOKEN"')
     for kind, media in one.get("requestBody", {}).get("content", {}).items():
         if kind == JSON:
@@ -114,6 +119,8 @@ def _kind(schema: Schema, indent: str = "") -> str:
             return f"{_kind({**schema, 'type': kind}, indent)} or null"
         case {"type": [*kinds]}:
             return " or ".join(_WORDS.get(kind, kind) for kind in kinds)
+        case {"type": "array", "items": items, "minItems": length}:
+            return f"[{', '.join([_kind(items, indent)] * length)}]"
         case {"type": "array", "items": items}:
             return f"[{_kind(items, indent)}, …]"
         case {"type": "object", "properties": properties}:

@@ -54,6 +54,11 @@ def test_axe_finds_nothing(start: Start, visit: Visit, light: str) -> None:
     page.get_by_role("link", name="Browsers").click()
     page.get_by_text("Paired browsers").wait_for()
     assert violations(page) == [], "browsers"
+    page.get_by_role("link", name="the API").click()
+    page.locator("summary", has_text="/api/point").click()
+    page.get_by_text("clockwise from true north").wait_for()
+    assert violations(page) == [], "the API"
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), "the API"
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -41,6 +41,6 @@ export function Paired({ hello, onChange }) {
     <ul>${all.map((one) => html`<li><b>${one.name}</b>${one.number === hello.number && " (this one)"}
       <span>paired ${days(one.since_s)}, seen ${days(one.seen_s)}</span>
       <button type="button" onClick=${() => revoke(one.number)} aria-label=${`Unpair ${one.name}`}>Unpair</button></li>`)}</ul>
-    <p>A program gets a token: <code>rotator pair --token NAME</code>. What it may ask: <a href="/api/openapi.json">openapi.json</a></p>
+    <p>A program gets a token: <code>rotator pair --token NAME</code>. What it may ask: <a href="/api/">the API</a></p>
     <p class="said" role="status">${said}</p></section>`;
 }
