@@ -39,7 +39,7 @@ elements = ["{folder}/made.json"]
 SITE = Site(52.52, 13.375, 0.0)
 NAME = "MADE"
 LOOK_S = 0.02
-PATIENCE_S = 10.0
+PATIENCE_S = 60.0
 HAND = Source("console")
 
 

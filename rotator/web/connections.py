@@ -70,20 +70,28 @@ class Connections:
                 self._drop(one)
 
     def admit(self, transport: asyncio.Transport) -> bool:
-        """A new connection. Where all places are taken, another one goes: of the machine that has most, the oldest."""
+        """A new connection. Where all places are taken, another one goes."""
         peer = transport.get_extra_info("peername")
         host = str(peer[0]) if peer else ""
         if not self._lets_in(host):
             return False
         if len(self._open) >= MOST:
-            most, _ = Counter(one.host for one in self._open.values()).most_common(1)[0]
-            theirs = [one for one in self._open.values() if one.host == most]
-            young_s = self._clock() - YOUNG_S
-            self._drop(min(theirs, key=lambda one: (one.live, one.opened_s > young_s, one.asks, one.since_s)))
+            self._drop(self._least_needed())
         transport.set_write_buffer_limits(high=UNREAD_BYTES)
         now_s = self._clock()
         self._open[transport] = _Open(transport, machine(host), now_s, now_s)
         return True
+
+    def _least_needed(self) -> _Open:
+        """Of the machine that has most, the oldest. One that is live, or whose request may be under way, goes last.
+
+        Without that a crowd of machines with a connection each would push out a person who has two.
+        """
+        young_s = self._clock() - YOUNG_S
+        still = [one for one in self._open.values() if not one.live] or list(self._open.values())
+        found = [one for one in still if one.opened_s <= young_s] or still
+        most, _ = Counter(one.host for one in found).most_common(1)[0]
+        return min((one for one in found if one.host == most), key=lambda one: (one.asks, one.since_s))
 
     def begin(self, transport: asyncio.BaseTransport | None) -> None:
         """A request has come."""

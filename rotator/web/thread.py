@@ -28,8 +28,10 @@ PAGE_THREAD = "page"
 JOIN_S = 2.0
 UNSENT_BYTES = 16_384
 KEEP_S = 5.0
-WAITING = 64
+WAITING = 128
 """Connections that the kernel keeps until they are taken."""
+AT_ONCE = 16
+"""New connections at a time: so few that in a flood each is read before others need its place."""
 
 
 class Kept(Protocol):
@@ -136,7 +138,11 @@ class PageThread:
         await runner.setup()
         server = runner.server
         assert server is not None, "a runner that is set up has a server"
-        listening = await self._loop.create_server(lambda: Connection(connections, server()), sock=self._socket)
+        listening = await self._loop.create_server(
+            lambda: Connection(connections, server()), sock=self._socket, backlog=AT_ONCE
+        )
+        # The event loop has set the queue to as few as it takes at once.
+        self._socket.listen(WAITING)
         works = [
             connections.watch(),
             live.run(),

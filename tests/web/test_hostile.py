@@ -3,18 +3,29 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import socket
+import sys
 from collections.abc import Callable
 from contextlib import AbstractAsyncContextManager
+from itertools import pairwise
 from typing import Any, cast
 
 import aiohttp
 import pytest
 
 from rotator.web.connections import ANSWER_S, MOST, SILENT_S, Connections, machine
+from rotator.web.live import EVERY_S, TAKES_S
 from tests.web.conftest import OFF, PATIENCE_S, Box
 
 Start = Callable[..., AbstractAsyncContextManager[Box]]
-POINT = {"azimuth_deg": 200, "elevation_deg": 60}
+POINT, AWAY = {"azimuth_deg": 200, "elevation_deg": 60}, {"azimuth_deg": 90, "elevation_deg": 30}
+FILLED = 40
+"""So many pictures at most fill the queues of a reader that takes none."""
+UPGRADE = (
+    "GET /api/live HTTP/1.1\r\nHost: {host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+    "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n\r\n"
+)
 
 
 @pytest.mark.parametrize(
@@ -141,22 +152,57 @@ def test_a_body_without_end_is_cut_off(page_box: Start, path: bytes, body: bytes
     asyncio.run(main())
 
 
-def test_a_crowd_of_half_open_connections_keeps_nobody_from_stop(page_box: Start) -> None:
+def test_ten_thousand_half_open_requests_keep_nobody_from_stop(page_box: Start) -> None:
+    """As from 250 machines. A person looks on, and presses STOP while they come and when all have come."""
+
     async def main() -> None:
-        async with page_box() as box:
+        async with page_box() as box, box.http.ws_connect(f"{box.url}/api/live") as live:
             await box.pair()
-            await box.post("point", POINT)
-            await box.until(lambda: box.world.drives() != OFF)
-            crowd = [await asyncio.open_connection(*_place(box)) for _ in range(2 * MOST)]
+            pipe = asyncio.subprocess.PIPE
+            command = (sys.executable, "-m", "tests.web.flood", str(_place(box)[1]), "10000")
+            flood = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe)
+            assert flood.stdout is not None
             try:
-                for _, writer in crowd:
-                    writer.write(b"POST /api/point HTTP/1.1\r\nHost: 127.0.0.1\r\nX-Slow: ")
-                async with aiohttp.ClientSession() as person:
-                    assert (await Box(box.app, box.world, box.url, person, box.anew).post("stop"))[0] == 200
-                await box.until(lambda: box.world.drives() == OFF)
+                for said, aim in ((b"under way\n", POINT), (b"all have come\n", AWAY)):
+                    async with asyncio.timeout(PATIENCE_S):
+                        assert await flood.stdout.readline() == said
+                    await press(box, "resume")
+                    await press(box, "point", aim)
+                    await box.until(lambda: box.world.drives() != OFF)
+                    await press(box, "stop")
+                    await box.until(lambda: box.world.drives() == OFF)
             finally:
-                for _, writer in crowd:
-                    writer.close()
+                await flood.communicate(b"")
+            async with asyncio.timeout(PATIENCE_S):
+                while "STOPPED" not in (await live.receive_json())["now"]["headline"]:
+                    pass
+
+    asyncio.run(main())
+
+
+async def press(box: Box, path: str, values: object = None) -> None:
+    """On a new connection, as a browser has one for each press under way."""
+    async with aiohttp.ClientSession(cookie_jar=box.http.cookie_jar) as person:
+        assert (await Box(box.app, box.world, box.url, person, box.anew).post(path, values))[0] == 200
+
+
+def test_a_reader_that_takes_nothing_is_dropped_and_the_others_see_on(page_box: Start) -> None:
+    """Its own queue is as short as its system lets it be."""
+
+    async def main() -> None:
+        async with page_box() as box, box.http.ws_connect(f"{box.url}/api/live") as looker:
+            slow = socket.socket()
+            slow.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1)
+            slow.connect(_place(box))
+            slow.sendall(UPGRADE.format(host=box.url.removeprefix("http://")).encode())
+            numbers = [(await looker.receive_json())["n"] for _ in range(FILLED + int(TAKES_S / EVERY_S))]
+            assert max(b - a for a, b in pairwise(numbers)) < FILLED, "no picture waits for the slow one"
+            # One that is still served would get pictures for ever.
+            reader, writer = await asyncio.open_connection(sock=slow)
+            async with asyncio.timeout(PATIENCE_S):
+                with contextlib.suppress(ConnectionError):
+                    await reader.read()
+            writer.close()
 
     asyncio.run(main())
 
@@ -244,6 +290,21 @@ def test_a_connection_whose_request_is_under_way_is_spared() -> None:
     crowd.come()
     assert not stop.aborted
     assert sum(each.aborted for each in old) == 1
+
+
+def test_a_crowd_of_machines_with_a_connection_each_pushes_out_no_person_who_has_two() -> None:
+    crowd = Crowd()
+    looks_on, idle = crowd.come("192.168.1.9"), crowd.come("192.168.1.9")
+    crowd.connections.live(looks_on)
+    for number in range(MOST):
+        crowd.come(f"10.0.0.{number}")
+    crowd.now_s += 5.0
+    stop = crowd.come("192.168.1.9")
+    for number in range(MOST - 2):
+        crowd.come(f"10.0.1.{number}")
+    assert not looks_on.aborted
+    assert idle.aborted
+    assert not stop.aborted
 
 
 def _place(box: Box) -> tuple[str, int]:
