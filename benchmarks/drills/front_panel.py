@@ -61,15 +61,17 @@ class FrontPanel:
 
     def look(self, now_s: float) -> Turned | None:
         """The turn that has come to count since the last look."""
-        past_s, self._looked_s = now_s - self._looked_s, now_s
+        looked_s, self._looked_s = self._looked_s, now_s
         if self._released is not None:
             released, self._released = self._released, None
             self.mode = released.mode
             return released
         if self._turn is None:
             return None
-        if past_s > NO_TURN_S:
-            self._due_s += past_s
+        # Of a time without a turn only what came after the switch was moved counts.
+        missed_s = now_s - max(looked_s, self._turn.since_s - STILL_S)
+        if missed_s > NO_TURN_S:
+            self._due_s += missed_s
         if now_s < self._due_s:
             return None
         turn, self._turn = self._turn, None

@@ -74,6 +74,8 @@ class AxisCase:
     feels: bool = True
     """Whether anything comes back from this axis: a modelled one cannot know that it stands."""
     counts: bool = False
+    blind: bool = False
+    """The contact that it counts by is stuck: nothing shows that a welded relay turns it."""
     shows_ends: bool = False
     """Limit switches show its ends, also where it was never set up."""
     deaf: bool = False
@@ -98,6 +100,8 @@ class AxisCase:
     stood_s: float = 0.0
     """On an axis that counts, short runs in vain count together: so long of them is a try."""
     shorted_s: float = 0.0
+    winds_down_s: float = 0.0
+    """Until then current may flow that a stop winds down: that is no try."""
     tries_s: deque[float] = field(default_factory=deque)
 
     def beside_s(self, full_dps: float) -> float:
@@ -148,8 +152,9 @@ class Judges:
         self._past_s, self._now_s = now_s - self._now_s, now_s
         if self._orders.acknowledged_s != self._acknowledged_s:
             self._acknowledged_s = self._orders.acknowledged_s
-            for case in self.cases:
+            for truth, case in zip(axes, self.cases, strict=True):
                 case.beyond_s = case.standing_s = 0.0  # the next order is another try, also where current flows on
+                case.winds_down_s = now_s if truth.relayed else now_s + truth.coasts_s + START_S
         if self._orders.released_s != self._released_s:
             self._released_s = self._orders.released_s
             for case in self.cases:
@@ -216,7 +221,7 @@ class Judges:
 
     def _welded(self, truth: AxisTruth, case: AxisCase) -> None:
         turns = abs(truth.speed_dps) >= GOING_SHARE * truth.full_dps
-        if truth.coil or not truth.power or not self._master or not turns:
+        if truth.coil or not truth.power or not self._master or not turns or case.blind:
             case.welded_s = 0.0
             return
         case.welded_s += self._past_s
@@ -265,7 +270,8 @@ class Judges:
         tried = case.stood_s > case.patience_s if case.counts else before_s <= START_S < case.standing_s
         # By a person who watches it: each press counts for itself.
         pressed = truth.name == self._orders.lacking and not case.shows_ends
-        if tried and not pressed and self._orders.holds(truth.name):  # what a stop winds down is no try
+        winds_down = self._now_s < case.winds_down_s
+        if tried and not pressed and not winds_down and self._orders.holds(truth.name):
             case.stood_s = 0.0
             case.tries_s.append(self._now_s)
             while case.tries_s[0] < self._now_s - TRIES_WITHIN_S:

@@ -98,11 +98,14 @@ class Orders:
         self._button: str | None = None
         """The axis whose button is held on the page."""
         self._tracked = Tracked(self.axes, self._ranges, follows=follows, lacking=lacking)
-        self._wavering = Wavering(ranges[0].low_deg, ranges[0].high_deg)
+        self._wavering: dict[str, Wavering] = {}
+        """By the sender, and of all of them: a sender whose orders have no effect hides no target that moves."""
         self.heard = 0
         """How many orders there have been."""
         self._storm = self._storms = False
         """A person has asked for a storm park; it holds for certain."""
+        self._parked = False
+        """What is latched is a storm park from before a restart: it is not driven on, but may be ordered anew."""
         self._stopped_s = math.inf
         """When a person last stopped it, or parked it before a storm."""
         self._shifts = Shifts()
@@ -127,8 +130,10 @@ class Orders:
     def forget_all(self, now_s: float) -> None:
         """The program ends, and all orders with it. A stop that it had time to take goes on in the new one."""
         stopped = (self.latched or self._storms) and now_s - self._stopped_s > TAKEN_S
+        parked = stopped and not self.latched
         self._forget(now_s)
         self._release(now_s)
+        self._parked = parked and not self.latched
         self.latched = self.latched or stopped
         self._shifts = Shifts()
         self._held_off.forget()
@@ -201,11 +206,13 @@ class Orders:
         match event.what:
             case "stop" | "let-go":
                 self._forget(event.at_s)
-                self.latched, self._stopped_s = True, event.at_s
+                self.latched, self._stopped_s, self._parked = True, event.at_s, False
                 self.acknowledged_s = event.at_s
             case "resume":
                 self._release(event.at_s)
             case "storm":
+                if self._parked and self._panel.mode != "park":
+                    self.latched = self._parked = False
                 if not self._held:
                     # An antenna that must be homed first cannot park: what goes on then goes on.
                     if not self._counts:
@@ -224,7 +231,7 @@ class Orders:
                 homes = any(orders.homes for orders in self.axes.values())
                 if self._confirms and not self._storm and not homes and not turned:
                     self._end(event.text(0), event.at_s)
-            case _ if self._storm and not self._counts:
+            case _ if self._storms:
                 pass  # a storm park holds every other order back
             case _:
                 self._note_order(event)
@@ -298,6 +305,8 @@ class Orders:
                 axis, way = WAYS[event.text(0)]
                 self._anywhere(event, axis)
                 self._shifts.press(axis, way)
+                if axis == "elevation" and self._may_shift_over_top():
+                    self._anywhere(event, "azimuth")
 
     def _note_order(self, event: Event) -> None:
         match event.what:
@@ -355,7 +364,7 @@ class Orders:
 
     def _release(self, now_s: float) -> None:
         self.latched, self._storm = self._panel.pressed, False
-        self._storms = False
+        self._storms = self._parked = False
         self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
 
@@ -371,7 +380,8 @@ class Orders:
     def _forget(self, now_s: float, said_before_s: float = math.inf) -> None:
         self.sure = False
         self._storm = False
-        self._wavering.forget()
+        for wavering in self._wavering.values():
+            wavering.forget()
         self._tracked.stopped(now_s, said_before_s)
         for axis in self.axes:
             self._end(axis, now_s, said_before_s)
@@ -404,6 +414,11 @@ class Orders:
         over = any(angle_deg > ZENITH_DEG for goal in goals for angle_deg in goal.angles_deg)
         return over or self._ranges["azimuth"].flips or self._over_top()
 
+    def _may_shift_over_top(self) -> bool:
+        goals = self.axes["elevation"].goals.values()
+        angles_deg = [angle_deg for goal in goals for angle_deg in goal.angles_deg]
+        return any(max(self._shifts.shifted("elevation", angle_deg)) > ZENITH_DEG for angle_deg in angles_deg)
+
     def _aim_elevation(self, event: Event, elevation_deg: float) -> None:
         span = self._ranges["elevation"]
         shifted_deg = self._shifts.shifted("elevation", elevation_deg)
@@ -420,7 +435,10 @@ class Orders:
             for shifted_deg in self._shifts.shifted("azimuth", event.number(0))
             for angle_deg in self._ranges["azimuth"].turns_deg(shifted_deg, elevation_deg)
         ]
-        span, ends_deg = self._ranges["azimuth"], self._wavering.ends(event.at_s, turns_deg, elevation_deg)
+        span = self._ranges["azimuth"]
+        watched = [self._wavering.setdefault(who, Wavering(span.low_deg, span.high_deg)) for who in ("", event.who)]
+        found_deg = {end_deg for each in watched for end_deg in each.ends(event.at_s, turns_deg, elevation_deg)}
+        ends_deg = tuple(found_deg)
         angles_deg = tuple(angle for angle in turns_deg if span.low_deg - 1.0 <= angle <= span.high_deg + 1.0)
         before = self.axes["azimuth"].goals.get(event.who)
         if before and (event.number(0) > TURN_DEG or not angles_deg):

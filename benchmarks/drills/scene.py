@@ -171,6 +171,9 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
                 case.stalls = True
             case "fault" if case.counts:
                 case.trusted = False
+                case.blind = case.blind or plain.startswith("contact-stuck")
+            case "clear" if plain.startswith("contact-stuck"):
+                case.blind = False
 
 
 def begins_anew(config: Config, cases: tuple[AxisCase, AxisCase], truths: list[AxisTruth]) -> None:

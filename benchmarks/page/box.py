@@ -76,7 +76,7 @@ class MeasuredBox:
         core_percent = 100.0 * (_used_s() - used_s) / (now_s - begin_s)
         link_ms, page_ms = [[await self._stop_ms(way) for _ in range(stops)] for way in ("S", "POST")]
         late_p99_ms = statistics.quantiles(late_ms.values(), n=100)[98]
-        return Figures(late_p99_ms, core_percent, link_ms, page_ms, _memory_mib())
+        return Figures(late_p99_ms, core_percent, link_ms, page_ms, memory_mib())
 
     async def turns(self) -> None:
         """The antenna turns, far from any target."""
@@ -158,6 +158,6 @@ def _used_s() -> float:
     return sum(each.ru_utime + each.ru_stime for each in used)
 
 
-def _memory_mib() -> float:
+def memory_mib() -> float:
     pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
     return pages * resource.getpagesize() / 2**20

@@ -96,6 +96,6 @@ class SimServoRotor(SimRotor):
         return table
 
     def _dip(self) -> None:
-        """Interrupt the board's supply, which resets the chip."""
-        self.board.supply = False
-        self.board.supply = True
+        """Interrupt the board's supply, which resets the chip. A board without supply stays so."""
+        before, self.board.supply = self.board.supply, False
+        self.board.supply = before

@@ -16,8 +16,12 @@ from rotator.status import Latch
 AGREE_DEG = 4.0
 LET_GO_S = 0.5
 """A jog switch that is held sends orders closer together than this: a stop ends them until it was let go."""
+KNOB_S = 1.0
+"""A knob's order comes within this after the knob was turned: one that follows a stop sooner began before it."""
 MOST_SHOWN = 4
 """So many ignored sources are named at a time, the latest first."""
+SWITCH_HELD = "a stop came while the jog switch was held: release the switch first"
+KNOB_TURNED = "a stop came while the knob was turned: turn it again"
 
 
 class Authority:
@@ -36,7 +40,7 @@ class Authority:
         self._panel: Source | None = None
         """Who switched to this mode: the panel, or a person. In MANUAL and JOG nobody else moves the antenna."""
         self._held_on_s = -math.inf
-        """When the panel's jog switch last sent an order, held on since before a stop."""
+        """When somebody else last stopped it, or the panel's jog switch, held on since then, sent an order."""
         self._senders = Senders(agree_deg)
         self._ignored: dict[str, tuple[str, float]] = {}
         """By the name of a source: why its latest order had no effect, and when that was. The latest is the last."""
@@ -139,7 +143,7 @@ class Authority:
         """
         self._senders.note(source, now_s, aims)
         if not self.allows(source, now_s, deed, homing=homing):
-            if source == self._panel and self._holds_on(now_s):
+            if source == self._panel and self.mode is Mode.JOG and self._holds_on(now_s):
                 self._held_on_s = now_s
             return False
         self._senders.take(source, now_s)
@@ -165,7 +169,8 @@ class Authority:
         return tuple(f"orders from {name} are ignored: {why}" for name, why in reversed(lately[-MOST_SHOWN:]))
 
     def _holds_on(self, now_s: float) -> bool:
-        return self.mode is Mode.JOG and now_s - self._held_on_s < LET_GO_S
+        """Whether what a person does at the panel began before the stop: in each mode its own parts count."""
+        return now_s - self._held_on_s < (LET_GO_S if self.mode is Mode.JOG else KNOB_S)
 
     def _holds(self, source: Source, now_s: float) -> dict[State, str]:
         """The states that hold the antenna back from `source`, the strongest first, and the words for each."""
@@ -178,7 +183,7 @@ class Authority:
         if not at_panel and (state := at_mode(self.mode, own=own)):
             held[state] = mode_words(self.mode, self.mode_by)
         if at_panel and self._holds_on(now_s):
-            held[State.SILENCED] = "a stop came while the jog switch was held: release the switch first"
+            held[State.SILENCED] = SWITCH_HELD if self.mode is Mode.JOG else KNOB_TURNED
         if self.held_by is not None and self.held_by != source and source.may_be_held_off:
             held[State.HELD] = f"{self.held_by} holds the antenna until it is given back there"
         # A stop that comes over a link does not silence the person at the panel for longer.

@@ -6,6 +6,9 @@ boxes: `hw.drives.control_box` does.
 
 from __future__ import annotations
 
+import math
+from collections import deque
+
 from hw.drives.digipot import ASTRAY_DEG, DigipotDrive
 from hw.ports import AngleSensor, Axis
 from rotator.control.axis.calibration_table import Calibration
@@ -20,8 +23,11 @@ ASSUMED = Notice("angle not certain until the rotor has had time for a full trav
 UNFED = Notice("its control box has no supply while the other axis has a fault", "BOX OFF")
 NEAR_DEG = 10.0
 """No control box turns its rotor further from one reading to the next."""
-MOVED_READINGS = 20
-"""A place further off is believed when so many readings in a row have shown it: a spark on the wire lasts less long."""
+FIRST_READINGS = 5
+"""The first place is believed when so many readings, and most of all, have shown it."""
+MOVED_READINGS, LATEST_READINGS = 20, 27
+"""A place further off is believed when so many of the latest readings have shown it: a spark on the wire lasts less
+long, and a crackling wiper shows other places in between."""
 
 
 class BoxRotor(PositionedRotor):
@@ -81,22 +87,22 @@ class FollowedBox:
         self._healthy = healthy
         self._place_deg: float | None = None
         """Where the model was put last."""
-        self._before_deg = 0.0
-        self._alike = 0
-        """So many readings in a row have shown about the same place."""
+        self._latest_deg: deque[float] = deque(maxlen=LATEST_READINGS)
+        """What the latest readings have shown; not a number: no place."""
 
     def read(self) -> float:
         """The sensor's reading, in the sensor's own unit; the model takes over its place. Raises HardwareError."""
         raw = self._sensor.read()
-        if not self._healthy.low_raw <= raw <= self._healthy.high_raw:
-            self._alike = 0
-        elif self._believable(angle_deg := self._calibration.degrees(raw)):
+        healthy = self._healthy.low_raw <= raw <= self._healthy.high_raw
+        angle_deg = self._calibration.degrees(raw) if healthy else math.nan
+        self._latest_deg.append(angle_deg)
+        if healthy and self._believable(angle_deg):
             self._place_deg = angle_deg
             self._drive.found(self._axis, angle_deg)
         return raw
 
     def _believable(self, angle_deg: float) -> bool:
-        self._alike = self._alike + 1 if abs(angle_deg - self._before_deg) <= NEAR_DEG else 1
-        self._before_deg = angle_deg
-        near = self._place_deg is None or abs(angle_deg - self._place_deg) <= NEAR_DEG
-        return near or self._alike >= MOVED_READINGS
+        alike = sum(abs(other_deg - angle_deg) <= NEAR_DEG for other_deg in self._latest_deg)
+        if self._place_deg is None:
+            return alike >= FIRST_READINGS and 2 * alike > len(self._latest_deg)
+        return abs(angle_deg - self._place_deg) <= NEAR_DEG or alike >= MOVED_READINGS

@@ -341,6 +341,18 @@ def test_a_jog_switch_held_through_a_stop_counts_again_when_it_was_let_go(let_go
     assert authority.may_move(PANEL, now_s + let_go_s) is (let_go_s > 0.5)
 
 
+@pytest.mark.parametrize(("rests_s", "counts"), [(0.8, False), (1.1, True)])
+def test_a_knob_that_was_turned_before_a_stop_moves_nothing_after_it(rests_s: float, counts: bool) -> None:
+    """Its order comes when it has stood for a second, on a busy computer later still."""
+    authority = Authority()
+    authority.switch(PANEL, Mode.MANUAL)
+    authority.stopped(Source("gs232b", 1), 10.0, latch=False)
+    assert authority.may_move(PANEL, 10.0 + rests_s) is counts
+    if not counts:
+        (why,) = authority.ignored(10.0 + rests_s)
+        assert why == "orders from panel are ignored: a stop came while the knob was turned: turn it again"
+
+
 def test_the_panel_s_own_stop_does_not_silence_its_switch() -> None:
     authority = Authority()
     authority.switch(PANEL, Mode.JOG)

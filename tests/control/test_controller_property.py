@@ -13,6 +13,7 @@ from rotator.control.axis.goals import LONGEST_WAIT_S, UNCALIBRATED_JOG_S
 from rotator.control.commands import Place
 from rotator.faults import Missing
 from rotator.orders import (
+    CONSOLE,
     Aim,
     AxisPlan,
     Calibrate,
@@ -169,9 +170,9 @@ class Rules:
                 self.latched = self.storm = False
 
     def _may_park(self, source: Source) -> bool:
-        """Neither another's stop nor the panel's switch is opened by a storm park."""
-        at_panel = source == self._panel and self._mode in (Mode.MANUAL, Mode.JOG)
-        return (self.storm or not self.latched) and (self._mode is Mode.AUTO or at_panel)
+        """A storm park opens neither another's stop nor the panel's switch. All at the console are one person."""
+        own = source == self._panel or source.link == CONSOLE == self._panel.link
+        return (self.storm or not self.latched) and (self._mode is Mode.AUTO or (own and self._mode is Mode.MANUAL))
 
     def check_driven(self, desk: Any) -> None:
         for axis, run in desk.runs.items():

@@ -14,7 +14,7 @@ from rotator.control.axis.sensing import Window
 from rotator.control.commands import Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import FaultKind
-from rotator.rotors.boxes import ASSUMED, UNFED, BoxRotor, FollowedBox
+from rotator.rotors.boxes import ASSUMED, FIRST_READINGS, MOVED_READINGS, UNFED, BoxRotor, FollowedBox
 from rotator.rotors.servos import ServoRotor
 from tests.rotors.journal import Journal
 
@@ -116,11 +116,16 @@ class Pot:
         return self.reading
 
 
+def followed(drive: Journal, pot: Pot) -> FollowedBox:
+    return FollowedBox(cast(DigipotDrive, drive), EL, pot, HALF_TURN, Window(0.02, 0.98))
+
+
 def test_a_sensor_beside_a_model_corrects_it_and_is_what_is_read(drive: Journal) -> None:
     pot = Pot()
-    sensor = FollowedBox(
-        cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))), Window(0.02, 0.98)
-    )
+    sensor = followed(drive, pot)
+    for _ in range(FIRST_READINGS - 1):
+        assert sensor.read() == 0.5
+    assert drive.models == {}
     assert sensor.source is AngleSource.MEASURED
     assert sensor.read() == 0.5
     assert drive.models == {EL: 90.0}
@@ -135,11 +140,10 @@ def test_a_sensor_beside_a_model_corrects_it_and_is_what_is_read(drive: Journal)
 
 def test_a_model_is_put_elsewhere_only_by_readings_that_stay(drive: Journal) -> None:
     pot = Pot()
-    sensor = FollowedBox(
-        cast(DigipotDrive, drive), EL, pot, Calibration(((0.0, 0.0), (1.0, 180.0))), Window(0.02, 0.98)
-    )
-    sensor.read()
-    for pot.reading in (0.9, 0.1, 0.9) * 20 + (0.9,) * 18:
+    sensor = followed(drive, pot)
+    for _ in range(FIRST_READINGS):
+        sensor.read()
+    for pot.reading in (0.9, 0.1) * 20 + (0.1,) * 7 + (0.9,) * (MOVED_READINGS - 1):
         sensor.read()
     assert drive.models == {EL: 90.0}, "sparks on the wire"
     sensor.read()
@@ -147,3 +151,16 @@ def test_a_model_is_put_elsewhere_only_by_readings_that_stay(drive: Journal) -> 
     for pot.reading in (0.86, 0.82, 0.78):
         sensor.read()
     assert drive.models == {EL: pytest.approx(140.4)}, "and turns from there"
+
+
+@pytest.mark.parametrize("every", [7, 8, 16, 32])
+@pytest.mark.parametrize("first", range(8))
+def test_a_crackling_wiper_puts_no_model_elsewhere_also_at_the_start(drive: Journal, every: int, first: int) -> None:
+    """Else the supply, switched on for the other axis, would turn this one there."""
+    pot = Pot()
+    sensor = followed(drive, pot)
+    for number in range(200):
+        pot.reading = 0.3 if number % every == first % every else 0.5
+        sensor.read()
+        assert drive.models in ({}, {EL: 90.0})
+    assert drive.models == {EL: 90.0}

@@ -115,8 +115,11 @@ class RelayGate:
         return (*self._watch.notices, *doubted, *waits)
 
     def _passes_doubt(self, direction: Direction) -> bool:
-        """Whether the opposite relay is only in doubt, and a person watches who has driven the axis to its stop."""
-        if isinstance(self._watch, RunWatch) and self._watch.turns:
+        """Whether the opposite relay is only in doubt, and a person watches who has driven the axis to its stop.
+
+        The look at the supply alone comes first: a person may not have seen what it shows.
+        """
+        if self._watch.looks or (isinstance(self._watch, RunWatch) and self._watch.turns):
             return False
         plus, minus = self.trusts
         return self._settings.attended and (minus if direction > 0 else plus) is Trust.DOUBTED

@@ -78,6 +78,16 @@ def test_a_person_who_watches_passes_a_doubt_and_no_other_does(trusts: Trusts, w
     assert len(a_gate.notices(11.0)) == int(attended)
 
 
+def test_a_person_who_watches_passes_a_doubt_only_after_the_look_at_the_supply_alone() -> None:
+    """After a restart: with the supply on for the other axis a welded relay turns this one already."""
+    a_gate = gate(trusts=(DOUBTED, OPEN), attended=True, look=True, master=True)
+    run = Run(MINUS, 11.3)
+    assert isinstance(a_gate.passed(run, 10.0), Feed)
+    assert a_gate.accuse(MINUS) is not None
+    now_s = stood(a_gate, 10.0, 2.0)
+    assert a_gate.passed(run, now_s) is run
+
+
 @pytest.mark.parametrize("trusts", [(WELDED, OPEN), (OPEN, WELDED)])
 def test_a_welded_relay_passes_neither(trusts: Trusts) -> None:
     a_gate = gate(trusts=trusts, attended=True)
