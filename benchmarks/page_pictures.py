@@ -7,6 +7,7 @@ says.
 
 from __future__ import annotations
 
+import socket
 import subprocess
 import sys
 import tempfile
@@ -20,7 +21,7 @@ from benchmarks.sky_now import as_json, rises_in, satellite, sets_in
 from rotator.orbits.earth import Site
 from rotator.orbits.satellite import Satellite
 
-PORT = 18_232
+PORT, ROTCTLD = 18_232, 14_533
 URL = f"http://127.0.0.1:{PORT}"
 CONFIG = f"""
 [rotor]
@@ -50,7 +51,7 @@ protocol = "gs232b"
 pty = "run/gs232"
 [[link]]
 protocol = "rotctld"
-tcp = "127.0.0.1:14533"
+tcp = "127.0.0.1:{ROTCTLD}"
 [page]
 listen = "127.0.0.1:{PORT}"
 """
@@ -61,7 +62,7 @@ START_S, PATIENCE_MS = 60.0, 120_000
 UP_S, BEFORE_S = 240.0, 12.0
 """So long the tracked satellite is up, and so long it takes until it is tracked."""
 SITE = Site(52.52, 13.375, 0.0)
-VIEWS = {"sky": 1400, "setup": 0, "log": 900, "paired": 900}
+VIEWS = {"sky": 1400, "setup": 0, "doctor": 1100, "wires": 900, "log": 900, "files": 900, "paired": 900, "api": 900}
 """By the name in the address: how high the window is; 0: as high as the screen."""
 WHOLE = 1260
 """So high is the Antenna view with its chart in a wide window."""
@@ -112,7 +113,7 @@ def _each(browser: Any, into: Path, paired: Any, view: str, high: int) -> None:
             shown: Any = {"color_scheme": light, "storage_state": paired, **size, "viewport": viewport}
             page = browser.new_context(**shown).new_page()
             page.set_default_timeout(PATIENCE_MS)
-            page.goto(f"{URL}/#{view}")
+            page.goto(f"{URL}/api/" if view == "api" else f"{URL}/#{view}")
             match view:
                 case "":
                     page.locator(".plot canvas").wait_for(state="attached")
@@ -121,6 +122,13 @@ def _each(browser: Any, into: Path, paired: Any, view: str, high: int) -> None:
                     page.locator(".plan td").first.wait_for()
                 case "setup":
                     _unfold(page)
+                case "doctor":
+                    page.locator(".doctor li").first.wait_for()
+                case "wires":
+                    _ask_on_a_link(page)
+                case "api":
+                    page.locator("summary", has_text="POST /api/point").click()
+                    page.locator("summary", has_text="POST /api/point").scroll_into_view_if_needed()
             page.wait_for_timeout(1500)
             if page.locator(".troubles").count():
                 raise RuntimeError(f"the box has a fault: {page.locator('.troubles').inner_text()}")
@@ -134,6 +142,15 @@ def _unfold(page: Any) -> None:
     page.get_by_label("park_azimuth_deg").wait_for()
     page.locator(".wiring svg").wait_for()
     page.locator(".step > summary", has_text="Which rotor").scroll_into_view_if_needed()
+
+
+def _ask_on_a_link(page: Any) -> None:
+    """As a tracking program does: without that the wires have nothing to show."""
+    page.get_by_role("region", name="Bytes of the links").wait_for()
+    with socket.create_connection(("127.0.0.1", ROTCTLD)) as program:
+        for line in (b"p\n", b"P 201.0 30.0\n", b"p\n"):
+            program.sendall(line)
+            program.recv(200)
 
 
 def main(into: Path) -> None:

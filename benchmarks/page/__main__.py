@@ -24,7 +24,7 @@ from rotator.web import assets
 LATE_MS, CORE_PERCENT, PAINT_MS, PACKED_KIB = 10.0, 15.0, 500.0, 100.0
 MORE_MS, WORST_MORE_MS = 1.0, LATE_MS
 """So much later a stop may come with the browsers: the median, and the worst."""
-STAY_S = 8.0
+STAY_S = 5.0
 """For so long each of the crowds stays that come and go for the sake of memory."""
 MORE_MIB = 1.0
 """So much more memory the box may hold after as many crowds again: the first ones fill what is kept of the past."""
@@ -75,10 +75,22 @@ def told(values_ms: list[float]) -> str:
     return f"{statistics.median(values_ms):.1f} ({max(values_ms):.1f})"
 
 
-async def crowd_of(url: str, browsers: int) -> asyncio.subprocess.Process:
+async def begin(url: str, browsers: int) -> asyncio.subprocess.Process:
+    """Returns when all of them look on."""
     pipe = asyncio.subprocess.PIPE
     command = (sys.executable, "-m", "benchmarks.page.browsers", url, str(browsers))
-    return await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe)
+    crowd = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe)
+    assert crowd.stdout is not None
+    assert await crowd.stdout.readline() == b"all are here\n"
+    return crowd
+
+
+async def end(crowd: asyncio.subprocess.Process) -> dict[str, Any]:
+    """They leave, and tell what they have got."""
+    # Some bytes, even none: without them Python 3.11 leaves the pipe open, and the crowd stays.
+    out, _ = await crowd.communicate(b"")
+    found: dict[str, Any] = json.loads(out)
+    return found
 
 
 async def memory_row(box: MeasuredBox, browsers: int, crowds: int) -> Row:
@@ -86,11 +98,11 @@ async def memory_row(box: MeasuredBox, browsers: int, crowds: int) -> Row:
     held_mib = []
     for _ in range(2):
         for _ in range(crowds):
-            crowd = await crowd_of(box.url, browsers)
+            crowd = await begin(box.url, browsers)
             await asyncio.sleep(STAY_S)
-            await crowd.communicate(b"")
+            await end(crowd)
         held_mib.append(memory_mib())
-    told_mib = "", f"{held_mib[0]:.1f}, {held_mib[1]:.1f}"
+    told_mib = "", "", f"{held_mib[0]:.1f}, {held_mib[1]:.1f}"
     kept = held_mib[1] <= held_mib[0] + MORE_MIB
     return Row(f"memory after {crowds}, {2 * crowds} more such crowds, MiB", f"+{MORE_MIB:g}", told_mib, kept)
 
@@ -99,9 +111,9 @@ async def main(browsers: int, lasts_s: float, stops: int, crowds: int) -> int:
     with tempfile.TemporaryDirectory() as folder:
         async with measured_box(folder, 3.0 * (lasts_s + 4.0 * stops) + 60.0) as box:
             before = await box.figures(lasts_s, stops)
-            crowd = await crowd_of(box.url, browsers)
+            crowd = await begin(box.url, browsers)
             during = await box.figures(lasts_s, stops)
-            out, _ = await crowd.communicate(b"")
+            heard = await end(crowd)
             after = await box.figures(lasts_s, stops)
             rows = [*rows_of((before, during, after)), await memory_row(box, browsers, crowds)]
             if CHROMIUM.exists():
@@ -111,7 +123,6 @@ async def main(browsers: int, lasts_s: float, stops: int, crowds: int) -> int:
     packed_kib = sum(len(asset.packed) for path, asset in assets.load().items() if path != "/") / 1024
     rows.append(Row("page packed, KiB", f"{PACKED_KIB:g}", (f"{packed_kib:.0f}",), packed_kib <= PACKED_KIB))
     print(f"median (worst) | limit | alone | {browsers} browsers | after\n--|--|--|--|--", *rows, sep="\n")
-    heard: dict[str, Any] = json.loads(out)
     print(f"each browser got {heard['rate_hz']:.2f} pictures a second or more; all got {heard['answers']} answers")
     missed = [row.name for row in rows if not row.kept]
     missed += [f"a browser: {fault}" for fault in heard["failed"]]

@@ -1,8 +1,9 @@
 """A crowd of browsers: `python -m benchmarks.page.browsers URL COUNT`. They leave when its standard input ends.
 
 Each is a machine of its own. It asks for what `rotator/web/static/app.js` asks for, and as often: the files of the
-page, ten pictures a second, what the box is, the past, the next pass, the path of what is tracked. At last prints JSON:
-the fewest pictures a second that one of them got, how many answers came, and what failed. Does not know the box.
+page, ten pictures a second, what the box is, the past, the next pass, the path of what is tracked. Says when all are
+here; at last prints JSON: the fewest pictures a second that one of them got, how many answers came, and what failed.
+Does not know the box.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import json
 import random
 import sys
 import time
-from contextlib import suppress
+from contextlib import AsyncExitStack
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -33,6 +34,9 @@ class Browser:
     answers: int = 0
     failed: list[str] = field(default_factory=list)
 
+    here: asyncio.Event = field(default_factory=asyncio.Event)
+    """It has got its first picture, or nothing at all."""
+
     async def visit(self) -> None:
         """The whole page, then its requests, until cancelled."""
         await asyncio.sleep(random.random() * COMES_WITHIN_S)
@@ -44,16 +48,25 @@ class Browser:
             requests.create_task(self._again("/api/next", NEXT_S))
 
     async def _look(self) -> None:
+        try:
+            async with self.http.ws_connect("/api/live") as live:
+                await self._read("/api/box")
+                await self._pictures_of(live)
+            self.failed.append(f"the live connection ended: {live.close_code}")
+        except aiohttp.ClientError as fault:
+            self.failed.append(f"the live connection: {fault}")
+        finally:
+            self.here.set()
+
+    async def _pictures_of(self, live: aiohttp.ClientWebSocketResponse) -> None:
         tracked = ""
-        async with self.http.ws_connect("/api/live") as live:
-            await self._read("/api/box")
-            async for message in live:
-                self.pictures.append(time.monotonic())
-                path = json.loads(message.data)["now"]["path"]
-                if path != tracked:
-                    tracked = path
-                    await self._read("/api/path")
-        self.failed.append(f"the live connection ended: {live.close_code}")
+        async for message in live:
+            self.pictures.append(time.monotonic())
+            self.here.set()
+            path = json.loads(message.data)["now"]["path"]
+            if path != tracked:
+                tracked = path
+                await self._read("/api/path")
 
     async def _again(self, path: str, every_s: float) -> None:
         while True:
@@ -76,26 +89,28 @@ class Browser:
         return (len(self.pictures) - 1) / (self.pictures[-1] - self.pictures[0]) if len(self.pictures) > 1 else 0.0
 
 
-async def one(url: str, number: int, leave: asyncio.Event) -> Browser:
-    connector = aiohttp.TCPConnector(local_addr=(f"127.0.1.{number}", 0))
-    async with aiohttp.ClientSession(url, connector=connector) as http:
-        browser = Browser(http)
-        visit = asyncio.create_task(browser.visit())
-        await leave.wait()
-        visit.cancel()
-        with suppress(asyncio.CancelledError):
-            await visit
-    return browser
+def session(url: str, number: int) -> aiohttp.ClientSession:
+    return aiohttp.ClientSession(url, connector=aiohttp.TCPConnector(local_addr=(f"127.0.1.{number}", 0)))
 
 
 async def main(url: str, count: int) -> dict[str, Any]:
     leave = asyncio.Event()
     asyncio.get_running_loop().add_reader(sys.stdin, leave.set)
-    crowd = await asyncio.gather(*(one(url, number + 1, leave) for number in range(count)))
+    async with AsyncExitStack() as sessions:
+        crowd = [Browser(await sessions.enter_async_context(session(url, 1 + number))) for number in range(count)]
+        visits = [asyncio.create_task(browser.visit()) for browser in crowd]
+        for browser in crowd:
+            await browser.here.wait()
+        print("all are here", flush=True)
+        await leave.wait()
+        for visit in visits:
+            visit.cancel()
+        ended = await asyncio.gather(*visits, return_exceptions=True)
     return {
         "rate_hz": min(browser.rate_hz() for browser in crowd),
         "answers": sum(browser.answers for browser in crowd),
-        "failed": [fault for browser in crowd for fault in browser.failed],
+        "failed": [fault for browser in crowd for fault in browser.failed]
+        + [repr(fault) for fault in ended if not isinstance(fault, asyncio.CancelledError)],
     }
 
 

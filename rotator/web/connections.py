@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import cast
 
-MOST = 128
+MOST = 256
 SILENT_S = 8.0
 """So long a connection may ask nothing, at its beginning too."""
 ANSWER_S = 20.0
