@@ -148,7 +148,7 @@ def _ask_on_a_link(page: Any) -> None:
     """As a tracking program does: without that the wires have nothing to show."""
     page.get_by_role("region", name="Bytes of the links").wait_for()
     with socket.create_connection(("127.0.0.1", ROTCTLD)) as program:
-        for line in (b"p\n", b"P 201.0 30.0\n", b"p\n"):
+        for line in (b"_\n", b"p\n", b"p\n"):
             program.sendall(line)
             program.recv(200)
 
