@@ -27,17 +27,6 @@ def waits_for(page: Page, met: Callable[[], bool]) -> None:
     raise AssertionError("it does not come")
 
 
-def test_a_visitor_sees_the_antenna_and_may_stop_it_alone(start: Start, visit: Visit) -> None:
-    station = start()
-    page = visit(station)
-    assert page.locator(".sim").is_visible()
-    assert "SIM A:000" in page.locator(".lcd").inner_text()
-    assert page.get_by_role("button", name="Point there").count() == 0
-    page.locator("#stop").click()
-    headline(page, "STOPPED by the page")
-    assert page.get_by_role("button", name="Let it move again").is_disabled()
-
-
 @pytest.mark.parametrize("how", [{}, PHONE], ids=["wide", "phone"])
 def test_a_press_on_the_sky_names_a_target_and_the_antenna_arrives(
     start: Start, visit: Visit, how: dict[str, object]

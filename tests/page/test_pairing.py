@@ -1,4 +1,4 @@
-"""Who may give orders, as a person meets it: the code, an unpaired phone, a pairing that has ended, a closed box."""
+"""Who may give orders, as a person meets it: an unpaired phone, a pairing that has ended, a closed box."""
 
 from __future__ import annotations
 
@@ -18,23 +18,6 @@ if TYPE_CHECKING:
 Start = Callable[..., Station]
 Visit = Callable[..., "Page"]
 CLOSED = 'reading = "paired"\n'
-
-
-def test_pairing_by_the_code_that_the_box_shows_and_no_page(start: Start, visit: Visit) -> None:
-    station = start()
-    page = visit(station)
-    page.get_by_role("button", name="Pair this browser").click()
-    page.get_by_text("PAIR CODE").wait_for()
-    assert "PAIR CODE ******" in page.locator(".lcd").inner_text()
-    code = code_at_the_box(page)
-    page.get_by_label("Code").fill(f"{(int(code) + 1) % 1_000_000:06d}")
-    page.get_by_role("button", name="Pair", exact=True).click()
-    page.get_by_text("that is not the code on the display; 4 tries left").wait_for()
-    page.get_by_label("Code").fill(code)
-    page.get_by_role("button", name="Pair", exact=True).click()
-    page.get_by_role("button", name="Point there").wait_for()
-    page.reload()
-    page.get_by_role("button", name="Point there").wait_for()
 
 
 def test_who_is_revoked_may_look_on(start: Start, visit: Visit) -> None:
