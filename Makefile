@@ -20,9 +20,11 @@ check: $(VENV)/.dev
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 
-# More at once than there are cores, for many tests wait for a foreign program's own pauses.
+# More at once than there are cores, for many tests wait for a foreign program's own pauses. The browser gets a process
+# of its own: its driver keeps an event loop running, in which no test of the server could start one.
 tests: $(VENV)/.dev
 	$(BIN)/pytest -n 3 --dist worksteal $(TESTS)
+	$(if $(TESTS),,$(BIN)/pytest -n 2 tests/page/test_first_look.py)
 
 # Any bytes, any orders, any files, long sweeps: every test that searches, with all its cases. `make test` tries a quarter.
 test-search: $(VENV)/.dev

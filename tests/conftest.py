@@ -18,8 +18,6 @@ PASSES = sorted(SHIPPED.glob("*.csv"))
 collect_ignore = [] if "GS232_KERNEL" in os.environ else ["kernel"]
 """Tests that need a kernel of their own run in it: `make test-kernel`."""
 
-QUICK = ("page/test_first_look.py",)
-"""Tests in a slow folder that are short enough to run always."""
 SLOW = (
     *("page", "machines", "rotors", "flights", "calibrating/test_north.py", "cli/test_calibrate_north.py"),
     *("foreign/test_hamlib.py", "foreign/test_rotctld_follow.py", "foreign/clients", "foreign"),
@@ -36,8 +34,6 @@ folder named here, and is named itself, has to be asked for by its own name."""
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     here = Path(__file__).parent
-    if any((here / name).is_relative_to(collection_path) for name in QUICK):
-        return None
     slow = [here / name for name in SLOW if collection_path.is_relative_to(here / name)]
     named = [Path(argument.split("::")[0]).resolve() for argument in config.args]
     return True if slow and not any(name.is_relative_to(slow[0]) for name in named) else None

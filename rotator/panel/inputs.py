@@ -8,8 +8,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass
-from itertools import pairwise
-from statistics import fmean, median
+from statistics import median
 
 from hw.ports import Axis, Direction
 from rotator.orders import Mode
@@ -27,12 +26,15 @@ LAG_S = 0.1
 """A turn shows in the median so much later."""
 LEAST_READINGS = 10
 """A knob that was read less often in STILL_S is not known to stand."""
-NOISES = 4.0
-"""And neither does it turn by so many times what its readings scatter from one to the next."""
-SMALLEST = 0.8
-"""The scatter is the mean of this share of the steps, the smallest: the others may be sparks."""
+NOISES = 1.8
+"""And neither does it turn by so many times what its readings scatter."""
+USUAL = 0.6
+"""The scatter is the largest of this share of the bends, the smallest: the others may be sparks. A bend is how far a
+reading is off the line through its neighbours: a steady turn has none."""
 SPREADS = 1.5
 """It rests elsewhere only by so many times the spread that its readings had at rest."""
+DRIFT = 1e-5
+"""From one reading to the next, a fiftieth of its turn in a minute and a half, where it rests drifts with the warmth."""
 MIDDLE = 0.1
 """The spread is that of the readings without this share of the lowest and of the highest."""
 SPREAD_KEPT = 0.99
@@ -163,6 +165,8 @@ class Knob:
         self._turned_to = 0.0
         """Where it was when it was last seen to turn, at `_turned_s`."""
         self._turned_s = math.inf
+        self._turned = False
+        """Whether it was seen to turn since it rested last."""
         self._spread = 0.0
         """What its readings spread by at rest, lately."""
 
@@ -190,18 +194,28 @@ class Knob:
         least = max(COUNT, NOISES * _scatter(shares)) + _ROUNDING
         place = median(shares[-SPARK_READINGS:])
         turns = abs(place - self._turned_to) > least
+        if not turns and self.still(now_s):
+            turns = self._turned_unseen(shares, least)
         if turns:
-            self._turned_to, self._turned_s = place, now_s
-        elif self.still(now_s):
-            self._rests(shares, least)
+            self._turned_to, self._turned_s, self._turned = place, now_s, True
         return turns and self.rest is not None
 
-    def _rests(self, shares: list[float], least: float) -> None:
-        """What has only scattered, or sparked for long, is where it was: the place of its last rest stays."""
-        self._spread = max(self._spread * SPREAD_KEPT, _spread(shares))
-        place, least = median(shares), max(least, SPREADS * self._spread)
-        if self.rest is None or abs(place - self.rest) > least:
+    def _turned_unseen(self, shares: list[float], least: float) -> bool:
+        """Where it rests. What has only scattered, or sparked for long, is where it was: the place of its last rest
+        stays. What is elsewhere has been turned, also where it turned so slowly or with so many sparks that no reading
+        showed it."""
+        self._spread = max(self._spread * SPREAD_KEPT, _spread(shares[:-SPARK_READINGS]))
+        place = median(shares)
+        off = 0.0 if self.rest is None else place - self.rest
+        elsewhere = abs(off) > max(least, SPREADS * self._spread)
+        if elsewhere and not self._turned:
+            return True
+        if self.rest is None or elsewhere:
             self.rest = place
+        elif not self._turned:
+            self.rest += min(max(off, -DRIFT), DRIFT)
+        self._turned = False
+        return False
 
     def _wrong(self, reading: float | None) -> str:
         low, high = self._wiring.lowest, self._wiring.highest
@@ -209,9 +223,11 @@ class Knob:
 
 
 def _scatter(shares: list[float]) -> float:
-    """The mean step from one reading to the next, without the largest."""
-    steps = sorted(abs(after - before) for before, after in pairwise(shares))
-    return fmean(steps[: math.ceil(SMALLEST * len(steps))]) if steps else 0.0
+    """How far a reading usually is off the line through its neighbours, sparks left out."""
+    bends = sorted(
+        abs(before - 2.0 * at + after) for before, at, after in zip(shares, shares[1:], shares[2:], strict=False)
+    )
+    return bends[math.ceil(USUAL * len(bends)) - 1] if bends else 0.0
 
 
 def _spread(shares: list[float]) -> float:
