@@ -34,7 +34,7 @@ reading is off the line through its neighbours: a steady turn has none."""
 SPREADS = 1.5
 """It rests elsewhere only by so many times the spread that its readings had at rest."""
 DRIFT = 1e-5
-"""From one reading to the next, a fiftieth of its turn in a minute and a half, where it rests drifts with the warmth."""
+"""Where it rests may drift by so much from one reading to the next, as its wire warms: 1.2 % of its turn in a minute."""
 MIDDLE = 0.1
 """The spread is that of the readings without this share of the lowest and of the highest."""
 SPREAD_KEPT = 0.99

@@ -13,6 +13,9 @@ from dataclasses import dataclass
 from rotator.control.sky.angles import ZENITH_DEG, turn_deg
 from rotator.control.sky.pointing_model import PERFECT, PointingModel
 
+_EITHER_WAY_DEG = 1.0
+"""A target that passes the zenith may do so on either side, where its azimuth turns so nearly by half a turn: orders
+come in whole degrees."""
 _ROUNDS = 2
 """The azimuth that fits a resting elevation is found to 0.1° in so many rounds, with terms up to 5°."""
 
@@ -118,11 +121,17 @@ class Mount:
         self, azimuth_deg: float, elevation_deg: float, from_azimuth_deg: float, *, flipped: bool
     ) -> tuple[float, float]:
         """Axis angles for a direction, going on from an azimuth the short way, over the top or not; limits not yet
-        applied, for a way may lead beyond them."""
+        applied, for a way may lead beyond them. Half a turn is as short both ways: then the range decides."""
         if flipped:
             azimuth_deg, elevation_deg = azimuth_deg + 180.0, 180.0 - elevation_deg
         azimuth_deg, elevation_deg = self._angles(azimuth_deg, elevation_deg)
-        return from_azimuth_deg + turn_deg(from_azimuth_deg, azimuth_deg), elevation_deg
+        turned_deg = turn_deg(from_azimuth_deg, azimuth_deg)
+        there_deg = from_azimuth_deg + turned_deg
+        if abs(turned_deg) >= 180.0 - _EITHER_WAY_DEG:
+            other_deg = there_deg - math.copysign(360.0, turned_deg)
+            if self.azimuth.holds(other_deg) and not self.azimuth.holds(there_deg):
+                there_deg = other_deg
+        return there_deg, elevation_deg
 
     def places(self, azimuth_deg: float, elevation_deg: float) -> list[tuple[float, float, bool]]:
         """Every place at which the axes point in that direction, and whether it is over the top."""

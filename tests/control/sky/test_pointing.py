@@ -79,6 +79,22 @@ def test_fifty_orders_a_second_cost_little_more_than_one() -> None:
     assert cost_s(0.02) < 50 * cost_s(1.0)
 
 
+@pytest.mark.parametrize("on_sky", [True, False])
+@pytest.mark.parametrize(("rises_deg", "sets_deg"), [(0.0, 180.0), (0.0, 180.0 + 1e-9), (0.0, 181.0), (360.0, 180.0)])
+def test_a_target_straight_overhead_is_followed_to_the_other_side(
+    rises_deg: float, sets_deg: float, on_sky: bool
+) -> None:
+    """Its azimuth turns by half a turn at once: the way round that leads beyond the range would wait at its end."""
+    rotor = Pointing(Mount(azimuth=Range(0.0, 360.0), elevation=Range(0.0, 180.0)), 4.0, 4.0, on_sky=on_sky)
+    for second in range(20):
+        up_deg = 70.0 + 2.0 * second
+        aim = Aim(rises_deg, up_deg) if up_deg < 90.0 else Aim(sets_deg, 180.0 - up_deg)
+        rotor.aim(float(second), aim, 30.0, 20.0)
+    goals = rotor.look_ahead(19.1, SPEEDS, had_path=True)
+    assert goals is not None
+    assert goals[0].target_deg == pytest.approx(sets_deg, abs=2.0)
+
+
 def test_high_up_a_tolerance_on_the_sky_is_more_degrees_of_azimuth(pointing: Pointing) -> None:
     azimuth, elevation = pointing.aim(0.0, Aim(100.0, 60.0), 50.0, 60.0)
     assert elevation is not None
