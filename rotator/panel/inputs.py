@@ -34,7 +34,7 @@ reading is off the line through its neighbours: a steady turn has none."""
 SPREADS = 1.5
 """It rests elsewhere only by so many times the spread that its readings had at rest."""
 DRIFT = 1e-5
-"""Where it rests may drift by so much from one reading to the next, as its wire warms: 1.2 % of its turn in a minute."""
+"""Where it rests drifts by so much from one reading to the next, as a wire warms: 1.2 % of its turn in a minute."""
 MIDDLE = 0.1
 """The spread is that of the readings without this share of the lowest and of the highest."""
 SPREAD_KEPT = 0.99
