@@ -45,12 +45,15 @@ class DigipotDrive:
         enable: OutputLines | None = None,
     ) -> None:
         self._clock = clock
+        self._started_s = clock()
         self._enable = enable
         self._powered = False
         self._astray_deg: dict[Axis, float] = {}
         """How far each axis turned otherwise than its step says, when its supply was cut for that."""
         self.barred = False
         """The supply stays off, whatever is aimed at, until `restore`."""
+        self._unseen: set[Axis] = set()
+        """The axes whose sensor has shown no place yet."""
         self._refresh_s = 0.0
         self._boxes = {
             Axis.AZIMUTH: ControlBox("azimuth box", *azimuth, clock()),
@@ -72,7 +75,7 @@ class DigipotDrive:
                 self._stop(box)
                 return
             box.scale.check(angle_deg)
-            if box.deaf or self.barred:
+            if box.deaf or self.barred or self._somewhere():
                 return
             box.order(angle_deg)
             self._feed(box, now_s)
@@ -151,6 +154,17 @@ class DigipotDrive:
             self._advance()
             return self._boxes[axis].angle_deg
 
+    def measured(self, axis: Axis) -> None:
+        """A sensor is going to say where this axis is, by `found`. The boxes get no supply before it has: a box with
+        supply turns to its chip's step, and nothing else says which step means its place."""
+        with self._changed:
+            self._unseen.add(axis)
+
+    def unseen_s(self) -> float:
+        """For so long since the start there has been no supply, because a sensor has shown no place. 0: all have."""
+        with self._changed:
+            return self._clock() - self._started_s if self._somewhere() else 0.0
+
     def found(self, axis: Axis, angle_deg: float) -> None:
         """The rotor was measured at `angle_deg` now; the model goes on from there.
 
@@ -158,6 +172,7 @@ class DigipotDrive:
         again, and then loses its supply until `restore`.
         """
         with self._changed:
+            self._unseen.discard(axis)
             box = self._boxes[axis]
             box.found(angle_deg, self._advance())
             if not self._powered:
@@ -182,6 +197,10 @@ class DigipotDrive:
     def resolution_deg(self, axis: Axis) -> float:
         """One step of the chip, in degrees on the rotor's scale."""
         return self._boxes[axis].resolution_deg
+
+    def _somewhere(self) -> bool:
+        """Whether a box could turn from a place that its sensor has not shown. Without the relay it has supply."""
+        return bool(self._unseen) and self._enable is not None
 
     def _advance(self) -> float:
         now_s = self._clock()

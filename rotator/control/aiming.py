@@ -30,7 +30,7 @@ class Aiming:
         self._axes = axes
         self._azimuth, self._elevation = axes[Axis.AZIMUTH], axes[Axis.ELEVATION]
         self._pointing = pointing
-        self._nudges = Nudges()
+        self._nudges = Nudges(self._mount.elevation.max_deg)
         self._round = GoingRound(mount, axes)
         self._asked: Aim | None = None
         """The order in force, without the nudges; None: there is none."""

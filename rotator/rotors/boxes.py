@@ -21,6 +21,9 @@ from rotator.rotors.positioned import PositionedRotor
 
 ASSUMED = Notice("angle not certain until the rotor has had time for a full travel")
 UNFED = Notice("its control box has no supply while the other axis has a fault", "BOX OFF")
+UNSEEN = Notice("no supply for the control boxes before each sensor has shown where its axis is", "BOX OFF")
+UNSEEN_S = 2.0
+"""A sensor that is well shows it sooner."""
 NEAR_DEG = 10.0
 """No control box turns its rotor further from one reading to the next."""
 FIRST_READINGS = 5
@@ -48,12 +51,17 @@ class BoxRotor(PositionedRotor):
     def condition(self, axis: Axis) -> Condition:
         astray_deg, barred = self._boxes.astray_deg(axis), self._boxes.barred
         measured = f"it turned {astray_deg:.1f}° otherwise than its control box was told"
+        unseen_s = self._boxes.unseen_s()
         assumed = None if self._boxes.position_known(axis) else ASSUMED
+        if barred and not astray_deg:
+            notice: Notice | None = UNFED
+        else:
+            notice = UNSEEN if unseen_s > UNSEEN_S else assumed
         return Condition(
             fault=turns_by_itself(axis, measured, f"{ASTRAY_DEG:g}°", master=True) if astray_deg else None,
             latched=True,
-            notice=UNFED if barred and not astray_deg else assumed,
-            settling=barred,
+            notice=notice,
+            settling=barred or unseen_s > 0.0,
             ends=self._ends(axis),
         )
 
@@ -89,6 +97,7 @@ class FollowedBox:
         """Where the model was put last."""
         self._latest_deg: deque[float] = deque(maxlen=LATEST_READINGS)
         """What the latest readings have shown; not a number: no place."""
+        drive.measured(axis)
 
     def read(self) -> float:
         """The sensor's reading, in the sensor's own unit; the model takes over its place. Raises HardwareError."""

@@ -20,6 +20,9 @@ class Journal:
         self.wrong: dict[Axis, str] = {}
         self.barred = False
         self.turned_deg: dict[Axis, float] = {}
+        self.sensors: set[Axis] = set()
+        self.blind_s = 0.0
+        """How long a sensor has shown no place since the start."""
 
     def aim(self, axis: Axis, angle_deg: float, rate_dps: float, until_s: float) -> None:
         self.said.append(f"{axis.value} {angle_deg:g} at {rate_dps:g} until {until_s:g}")
@@ -68,6 +71,12 @@ class Journal:
 
     def finish(self) -> None:
         self.said.append("finish")
+
+    def measured(self, axis: Axis) -> None:
+        self.sensors.add(axis)
+
+    def unseen_s(self) -> float:
+        return self.blind_s
 
     def found(self, axis: Axis, angle_deg: float) -> None:
         self.models[axis] = angle_deg

@@ -14,7 +14,7 @@ from rotator.control.axis.sensing import Window
 from rotator.control.commands import Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import FaultKind
-from rotator.rotors.boxes import ASSUMED, FIRST_READINGS, MOVED_READINGS, UNFED, BoxRotor, FollowedBox
+from rotator.rotors.boxes import ASSUMED, FIRST_READINGS, MOVED_READINGS, UNFED, UNSEEN, UNSEEN_S, BoxRotor, FollowedBox
 from rotator.rotors.servos import ServoRotor
 from tests.rotors.journal import Journal
 
@@ -62,6 +62,16 @@ def test_a_box_that_turned_otherwise_than_told_is_a_fault_and_the_other_has_no_s
     box.cut()
     box.restore()
     assert drive.said == ["cut", "restore"]
+
+
+def test_before_a_sensor_has_shown_its_place_neither_box_is_late_and_soon_it_is_said_why(
+    box: BoxRotor, drive: Journal
+) -> None:
+    for drive.blind_s, notice in ((0.5, None), (UNSEEN_S + 0.1, UNSEEN)):
+        for axis in Axis:
+            assert (box.condition(axis).notice, box.condition(axis).settling) == (notice, True)
+    drive.blind_s = 0.0
+    assert (box.condition(AZ).notice, box.condition(AZ).settling) == (None, False)
 
 
 def test_until_a_servo_has_had_time_for_its_jump_it_settles(servos: ServoRotor, drive: Journal) -> None:
@@ -123,6 +133,7 @@ def followed(drive: Journal, pot: Pot) -> FollowedBox:
 def test_a_sensor_beside_a_model_corrects_it_and_is_what_is_read(drive: Journal) -> None:
     pot = Pot()
     sensor = followed(drive, pot)
+    assert drive.sensors == {EL}
     for _ in range(FIRST_READINGS - 1):
         assert sensor.read() == 0.5
     assert drive.models == {}

@@ -8,13 +8,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hw.ports import Axis
+from rotator.control.sky.angles import ZENITH_DEG
 from rotator.orders import Aim
 
 FULL_TURN_DEG = 360.0
 
 
 class Nudges:
-    def __init__(self) -> None:
+    """`highest_deg`: the upper end of the elevation axis."""
+
+    def __init__(self, highest_deg: float = ZENITH_DEG) -> None:
+        self._highest_deg = highest_deg
         self._deg = dict.fromkeys(Axis, 0.0)
 
     def set(self, axis: Axis, offset_deg: float) -> None:
@@ -27,11 +31,15 @@ class Nudges:
         return self._deg[axis]
 
     def applied(self, asked: Aim) -> Aim:
-        """The order, shifted. An azimuth up to 360° stays on the circle; a larger one names the turn of the overlap."""
+        """The order, shifted. An azimuth up to 360° stays on the circle; a larger one names the turn of the overlap.
+
+        No shift of the elevation leads past the zenith where the axis ends there: azimuth would turn to the other side.
+        """
         azimuth_deg, elevation_deg = asked.azimuth_deg, asked.elevation_deg
         if azimuth_deg is not None and (by_deg := self._deg[Axis.AZIMUTH]):
             names_turn = azimuth_deg > FULL_TURN_DEG
             azimuth_deg = azimuth_deg + by_deg if names_turn else (azimuth_deg + by_deg) % FULL_TURN_DEG
         if elevation_deg is not None:
-            elevation_deg += self._deg[Axis.ELEVATION]
+            ends_deg = max(elevation_deg, ZENITH_DEG, self._highest_deg)
+            elevation_deg = min(elevation_deg + self._deg[Axis.ELEVATION], ends_deg)
         return replace(asked, azimuth_deg=azimuth_deg, elevation_deg=elevation_deg)

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.control.sky.nudges import Nudges
 from rotator.orders import Aim, AxisPlan, Fly, Jog, Mode, Nudge, Park, Release, SetMode, Source, Step, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
@@ -34,6 +35,15 @@ def test_what_is_asked_for_already_moves_by_as_much_at_once(desk: Any) -> None:
     assert targets(desk) == (120.0, 60.0), "set, not added up"
     desk.step(Nudge(AZ, 0.0), by=PANEL)
     assert targets(desk) == (100.0, 60.0)
+
+
+@pytest.mark.parametrize(("highest_deg", "goes_deg"), [(90.0, 90.0), (180.0, 95.0)])
+def test_at_the_zenith_it_turns_no_antenna_to_the_other_side(highest_deg: float, goes_deg: float) -> None:
+    """Raised by 5° beyond the axis's end, 67° and 90° would be 247° and 85°: half a turn of azimuth for 5°."""
+    nudges = Nudges(highest_deg)
+    nudges.set(EL, 5.0)
+    assert nudges.applied(Aim(67.0, 90.0)) == Aim(67.0, goes_deg)
+    assert nudges.applied(Aim(67.0, 80.0)) == Aim(67.0, 85.0)
 
 
 @pytest.mark.parametrize(("asked_deg", "by_deg", "goes_deg"), [(355.0, 10.0, 5.0), (2.0, -5.0, 357.0)])

@@ -263,6 +263,31 @@ def test_then_neither_an_aim_nor_a_stop_of_either_box_gives_it_supply_again_befo
     assert bench.antenna(EL) == pytest.approx(80.0, abs=BAND_DEG)
 
 
+@pytest.mark.parametrize("stands_deg", [10.0, 30.0, 80.0])
+def test_no_box_has_supply_before_each_sensor_has_shown_where_its_axis_is(stands_deg: float) -> None:
+    """Else the elevation, without an order, would turn to where the file says that it stands."""
+    bench = Bench()
+    motor = bench.rotor.elevation.motor
+    motor.shaft_deg = motor.boom_deg = stands_deg
+    bench.drive.measured(EL)
+    bench.follow(AZ, 90.0, 3.0)
+    assert bench.rotor.antenna() == (40.0, stands_deg)
+    assert bench.drive.unseen_s() == pytest.approx(3.0, abs=0.1)
+    bench.drive.found(EL, stands_deg)
+    assert bench.drive.unseen_s() == 0.0
+    bench.follow(AZ, 90.0, 30.0)
+    assert bench.antenna(AZ) == pytest.approx(90.0, abs=BAND_DEG)
+    assert bench.antenna(EL) == pytest.approx(stands_deg, abs=BAND_DEG)
+
+
+def test_without_a_relay_the_boxes_have_supply_and_need_not_wait_for_a_sensor() -> None:
+    bench = Bench(relay=False)
+    bench.drive.measured(EL)
+    assert bench.drive.unseen_s() == 0.0
+    bench.follow(AZ, 90.0, 40.0)
+    assert bench.antenna(AZ) == pytest.approx(90.0, abs=BAND_DEG)
+
+
 def test_a_cut_without_a_relay_is_none() -> None:
     bench = Bench(relay=False)
     assert not bench.drive.cut()
