@@ -23,8 +23,10 @@ check: $(VENV)/.dev
 # More at once than there are cores, for many tests wait for a foreign program's own pauses. The browser gets a process
 # of its own: its driver keeps an event loop running, in which no test of the server could start one.
 tests: $(VENV)/.dev
-	$(BIN)/pytest -n 3 --dist worksteal $(TESTS)
-	$(if $(TESTS),,$(BIN)/pytest -n 2 tests/page/test_first_look.py)
+	@failed=0; set -x; \
+	$(BIN)/pytest -n 3 --dist worksteal $(TESTS) || failed=1; \
+	$(if $(TESTS),,$(BIN)/pytest -n 2 tests/page/test_first_look.py || failed=1;) \
+	exit $$failed
 
 # Any bytes, any orders, any files, long sweeps: every test that searches, with all its cases. `make test` tries a quarter.
 test-search: $(VENV)/.dev
@@ -45,8 +47,10 @@ test-clients: $(VENV)/.dev
 
 # Every kind of rotor: one contract, every fault by name, finding north; then twelve real passes on each.
 test-rotors: $(VENV)/.dev
-	$(BIN)/pytest -n 3 --dist worksteal tests/rotors tests/calibrating/test_north.py tests/cli/test_calibrate_north.py
-	$(BIN)/pytest -n 2 --dist loadfile tests/flights
+	@failed=0; set -x; \
+	$(BIN)/pytest -n 3 --dist worksteal tests/rotors tests/calibrating/test_north.py tests/cli/test_calibrate_north.py || failed=1; \
+	$(BIN)/pytest -n 2 --dist loadfile tests/flights || failed=1; \
+	exit $$failed
 
 # The five machines as their builders have them, in real time: processes, threads, files, clients, power cuts.
 test-machines: $(VENV)/.dev

@@ -142,19 +142,34 @@ def test_a_wire_gone_bad_is_told_and_heals(bench: Bench, mishap: str) -> None:
 
 
 def test_unplugged_for_50_ms_it_goes_on_and_the_log_tells_it(bench: Bench, caplog: pytest.LogCaptureFixture) -> None:
+    """A try counts where this machine gave every thread its turn: held up for longer, an adapter is as good as away."""
     wait_for(bench.reaches(AZ, 2.0))
     complaints: set[str] = set()
-    for _ in range(2):
+    counted = 0
+    for _ in range(10):
         wait_for(lambda: bench.reaches(AZ, 60.0)() or bench.world.antenna()[0] > 12.0)
         bench.world.inject("adapter-unplugged")
+        away_s = time.monotonic()
         threading.Event().wait(0.05)
         bench.world.clear("adapter-unplugged")
-        back_s = time.monotonic() + 0.5
-        while time.monotonic() < back_s:
-            bench.aim(AZ, 2.0)  # raises nothing while the controller carries out its last order
-            complaints.add(bench.complaint(AZ))
+        heard: set[str] = set()
+        looked_s, held_up_s = away_s, 0.0
+        while looked_s < away_s + 0.55:
+            try:
+                bench.aim(AZ, 2.0)  # raises nothing while the controller carries out its last order
+                heard.add(bench.complaint(AZ))
+            except HardwareError as error:
+                heard.add(str(error))
             threading.Event().wait(0.01)
+            now_s = time.monotonic()
+            looked_s, held_up_s = now_s, max(held_up_s, now_s - looked_s)
         wait_for(bench.reaches(AZ, 2.0))
+        if held_up_s < 0.1:
+            counted += 1
+            complaints |= heard
+        if counted == 2:
+            break
+    assert counted == 2, "this machine was too busy ten times"
     assert complaints == {""}
     assert bench.drive.faults() == {}
     assert "azimuth: moteus answers again, after 0." in caplog.text
