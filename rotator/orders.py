@@ -19,8 +19,8 @@ class Aim:
     """Point there. An axis that is None keeps what it was doing.
 
     Azimuth above 360 names the turn of the overlap; elevation above 90 is an antenna flipped by the program that sends
-    it. Not `engaged`: show the target, but stop the motors. `place`: rest there; without it the orders of a stream are
-    points of a path, which the antenna follows between them.
+    it. Not `engaged`: show the target, but stop the motors. `place`: rest there, and one coordinate alone is the axis's
+    own angle; without it the orders of a stream are points of a path, which the antenna follows between them.
     """
 
     azimuth_deg: float | None

@@ -78,6 +78,8 @@ class AxisCase:
     """The contact that it counts by is stuck: nothing shows that a welded relay turns it."""
     shows_ends: bool = False
     """Limit switches show its ends, also where it was never set up."""
+    repeats: bool = False
+    """Its sensor repeats one reading: what else is wrong with it does not show."""
     deaf: bool = False
     """The chip of its control box does not hear: only its supply stops it, as the master a welded relay."""
     misplaced: bool = False

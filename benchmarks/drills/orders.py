@@ -294,7 +294,7 @@ class Orders:
             case "stop":
                 self._panel.pull(event.at_s)
             case "knob":
-                turned = self.axes if self._shows_over_top or self.goes_round else (event.text(0),)
+                turned = self.axes if self.goes_round else (event.text(0),)
                 for axis in turned:
                     self._anywhere(event, axis)
             case "jog" if self._panel.mode == "jog" and self._panel.settled:

@@ -140,6 +140,8 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
     if plain in ("board-dips", "chip-dips", "power-cycled"):
         judges.excused_until_s = event.at_s + DIP_S
     for case in mine:
+        if event.what == "stands":
+            case.repeats = bool(event.number(1))
         match event.what:
             case "noise":
                 case.slack_deg += NOISE_SIGMAS * event.number(1)

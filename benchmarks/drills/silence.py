@@ -135,9 +135,10 @@ class Silence:
         waits = case.counts and (fault.name in DRIVEN or fault.name.startswith("relay-welded"))
         return max(SILENT_S, case.patience_s) if waits else SILENT_S
 
-    @staticmethod
-    def _to_be_seen(fault: _Lasting, truth: AxisTruth, *, ordered: bool, there: frozenset[str]) -> bool:
-        if fault.name in (*AT_ONCE, *CRACKLES):
+    def _to_be_seen(self, fault: _Lasting, truth: AxisTruth, *, ordered: bool, there: frozenset[str]) -> bool:
+        if fault.name in CRACKLES:
+            return not self._cases[fault.axis].repeats
+        if fault.name in AT_ONCE:
             return True
         if fault.name in ORDERED:
             return ordered

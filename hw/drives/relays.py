@@ -65,6 +65,8 @@ class RelayBank:
         self._master_until_s: float | None = None
         self._feeding = False
         """The motors have their supply so that a relay that did not open shows itself."""
+        self._fed_until_s = float("-inf")
+        """So long an axis is looked at with its supply alone."""
         self._motors = {axis: _Motor() for axis in Axis}
         self._cut = False
         self._lock = threading.Condition()
@@ -96,7 +98,23 @@ class RelayBank:
                     self._feeding = True
                     self._renew()
                     self._lines.set({MASTER: True})
-                    self._master_until_s = max(self._master_until_s or 0.0, min(until_s, now_s + LONGEST_LEASE_S))
+                    self._fed_until_s = min(until_s, now_s + LONGEST_LEASE_S)
+                    self._master_until_s = max(self._master_until_s or 0.0, self._fed_until_s)
+            finally:
+                self._plan()
+
+    def unfeed(self, axis: Axis) -> None:
+        """Open the relays of `axis`, and switch the motors' supply off unless the other motor runs, or is looked at.
+
+        The supply comes back with the next motor that runs. Raises HardwareError.
+        """
+        with self._lock:
+            now_s = self._clock()
+            try:
+                self._open(axis, now_s)
+                if self._master_until_s is not None and self._idle() and now_s >= self._fed_until_s:
+                    self._lines.set({MASTER: False})
+                    self._master_until_s, self._feeding = None, False
             finally:
                 self._plan()
 

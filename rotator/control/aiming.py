@@ -51,6 +51,8 @@ class Aiming:
 
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
+        if asked.place and None in (asked.azimuth_deg, asked.elevation_deg):
+            self._name_by_axes()
         wanted = self._pointing.wanted
         asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
         aim = self._nudges.applied(asked)
@@ -72,6 +74,14 @@ class Aiming:
             self.forget((Axis.ELEVATION,))
             self._round.aim(Axis.ELEVATION, self._pointing.raise_to(aim.elevation_deg, self._azimuth.angle_deg or 0.0))
             self._asked, self._asked_s = asked, now_s
+
+    def _name_by_axes(self) -> None:
+        """Name the direction in force by the axes' own angles: over the top the elevation is then above 90°."""
+        azimuth_deg, elevation_deg = self._places()
+        wanted = self._pointing.wanted
+        if azimuth_deg is None or elevation_deg is None or None in (wanted.azimuth_deg, wanted.elevation_deg):
+            return
+        self._pointing.wanted = replace(wanted, azimuth_deg=azimuth_deg, elevation_deg=elevation_deg)
 
     def _end_flight(self) -> None:
         """Another order takes its place: an axis that this one does not name stays at its target."""

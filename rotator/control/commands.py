@@ -40,9 +40,14 @@ class Hold:
     """Decelerate and stay there."""
 
 
-HOLD = Hold()
+@dataclass(frozen=True, slots=True)
+class Unfed:
+    """Drive nothing, and keep no supply on for it: a relay of this axis may not have opened."""
 
-Command = Run | Feed | Steer | Hold
+
+HOLD, UNFED = Hold(), Unfed()
+
+Command = Run | Feed | Unfed | Steer | Hold
 
 
 @dataclass(frozen=True, slots=True)

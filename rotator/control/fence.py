@@ -12,7 +12,7 @@ from dataclasses import replace
 from hw.ports import Axis, Direction
 from rotator.control.axis.port import ControlledAxis
 from rotator.control.axis.reach import START_S
-from rotator.control.commands import HOLD, Command, Feed, Hold, Run, Steer
+from rotator.control.commands import HOLD, Command, Feed, Hold, Run, Steer, Unfed
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.sectors import UNKNOWN, Box, kept, may_sweep
 from rotator.faults import Notice
@@ -129,7 +129,7 @@ def _moves(command: Command) -> bool:
     match command:
         case Run(direction):
             return direction is not Direction.OFF
-        case Hold() | Feed():
+        case Hold() | Feed() | Unfed():
             return False
         case _:
             return True

@@ -201,7 +201,7 @@ class Panel:
 
     def _knob_orders(self, now_s: float, turned: set[Axis], status: Status, *, free: bool) -> list[Order]:
         """One order for the knobs that rest elsewhere than before, when all of them rest; the other axis keeps its
-        target.
+        target. A knob turns its own axis alone, also where the antenna is over the top.
         """
         if not free or self._mode is not Mode.MANUAL:
             self._turned = {}
@@ -217,7 +217,9 @@ class Panel:
             if rest is not None and rest != self._turned[axis]
         }
         self._turned = {}
-        return [Aim(angles_deg.get(Axis.AZIMUTH), angles_deg.get(Axis.ELEVATION))] if angles_deg else []
+        if not angles_deg:
+            return []
+        return [Aim(angles_deg.get(Axis.AZIMUTH), angles_deg.get(Axis.ELEVATION), place=True)]
 
     def _remarks(self) -> list[Order]:
         """A knob's broken wire, when it begins and when it ends."""

@@ -20,7 +20,7 @@ from rotator.rotors.common import BlockedDirections, no_switches
 from rotator.rotors.positioned import PositionedRotor
 
 ASSUMED = Notice("angle not certain until the rotor has had time for a full travel")
-UNFED = Notice("its control box has no supply while the other axis has a fault", "BOX OFF")
+UNFED = Notice("no supply for the control boxes until the fault is acknowledged", "BOX OFF")
 UNSEEN = Notice("no supply for the control boxes before each sensor has shown where its axis is", "BOX OFF")
 UNSEEN_S = 2.0
 """A sensor that is well shows it sooner."""

@@ -11,7 +11,7 @@ from dataclasses import replace
 from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, Axis, Direction
 from rotator.control.axis.sensing import Condition
-from rotator.control.commands import Command, Feed, Run
+from rotator.control.commands import Command, Feed, Run, Unfed
 from rotator.rotors.common import BlockedDirections, GuardedRotor, no_switches
 
 
@@ -30,6 +30,9 @@ class RelayRotor(GuardedRotor):
                 return self.bank.drive(axis, direction, until_s)
             case Feed(until_s):
                 self.bank.feed(axis, until_s)
+                return Direction.OFF
+            case Unfed():
+                self.bank.unfeed(axis)
                 return Direction.OFF
             case _:
                 raise AssertionError("relays take directions only")

@@ -55,6 +55,19 @@ def test_of_two_turns_the_nearer_one_is_taken(
     assert targets(desk) == pytest.approx((target_deg, 10.0))
 
 
+@pytest.mark.parametrize("order", [Aim(200.0, 150.0), Aim(20.0, 150.0)])
+def test_a_knob_turns_its_own_axis_alone_also_where_the_antenna_goes_over_the_top(desk: Any, order: Aim) -> None:
+    desk.step(order)
+    stays_deg = targets(desk)[0]
+    for knob_deg in (40.0, 120.0, 0.0, 89.0, 180.0, 9.0):
+        desk.step(Aim(None, knob_deg, place=True), by=PANEL)
+        assert targets(desk) == pytest.approx((stays_deg, knob_deg))
+    desk.step(Aim(300.0, None, place=True), by=PANEL)
+    assert targets(desk) == pytest.approx((300.0, 9.0))
+    shown = desk.status
+    assert (shown.wanted_azimuth_deg, shown.wanted_elevation_deg) == pytest.approx((300.0, 9.0))
+
+
 def test_before_the_azimuth_has_been_read_the_first_turn_is_taken(new_desk: Any) -> None:
     desk = new_desk(at=(430.0, 10.0))
     desk.instead[AZ] = None

@@ -61,7 +61,7 @@ def test_knobs_send_the_antenna_in_manual() -> None:
         desk.sim.turn_knob("azimuth", tenth / 10)
         assert desk.waits(0.2) == []
     assert desk.needles() == pytest.approx((0.5, 0.25), abs=0.004)
-    assert desk.waits(1.2) == [Aim(cast(Any, pytest.approx(180.0, abs=0.5)), None)]
+    assert desk.waits(1.2) == [Aim(cast(Any, pytest.approx(180.0, abs=0.5)), None, place=True)]
     assert desk.needles() == pytest.approx((0.25, 0.25), abs=0.004)
 
 

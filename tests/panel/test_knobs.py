@@ -92,4 +92,4 @@ def test_a_turn_is_followed_within_seconds_whatever_the_noise(
 
 def test_a_small_turn_of_a_quiet_knob_counts_too() -> None:
     person = at_rest(0.5)
-    assert person.waits(1.2, azimuth_knob=0.506) == [Aim(about(RANGE_DEG * 0.506), None)]
+    assert person.waits(1.2, azimuth_knob=0.506) == [Aim(about(RANGE_DEG * 0.506), None, place=True)]

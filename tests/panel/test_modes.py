@@ -136,21 +136,21 @@ def test_in_manual_the_knobs_show_on_the_meters_and_send_the_rotors_a_second_aft
         assert person.sees(azimuth_knob=turned / 20, elevation_knob=turned / 10) == []
     assert person.act.meters == {AZ: 0.45, EL: 0.9}
     assert person.waits(0.95) == []
-    assert person.sees() == [Aim(about(162.0), about(162.0))]
+    assert person.sees() == [Aim(about(162.0), about(162.0), place=True)]
     assert person.act.meters == {AZ: 0.25, EL: 0.25}
     assert person.waits(5.0) == []
 
 
 def test_a_knob_that_was_not_turned_leaves_its_axis_where_it_is() -> None:
     person = at_the_panel(MANUAL)
-    assert person.waits(2.0, elevation_knob=0.5) == [Aim(None, about(90.0))]
+    assert person.waits(2.0, elevation_knob=0.5) == [Aim(None, about(90.0), place=True)]
 
 
 def test_both_knobs_must_have_stopped() -> None:
     person = at_the_panel(MANUAL)
     assert person.waits(0.8, azimuth_knob=0.5) == []
     assert person.waits(0.95, elevation_knob=0.5) == []
-    assert person.waits(0.1) == [Aim(about(180.0), about(90.0))]
+    assert person.waits(0.1) == [Aim(about(180.0), about(90.0), place=True)]
 
 
 def test_jitter_of_one_count_is_ignored() -> None:
@@ -158,7 +158,7 @@ def test_jitter_of_one_count_is_ignored() -> None:
     for _ in range(50):
         assert person.sees(azimuth_knob=1 / 255) == person.sees(azimuth_knob=0.0) == []
     assert person.waits(3.0, azimuth_knob=0.0) == []
-    assert person.waits(2.0, azimuth_knob=2 / 255) == [Aim(about(360 * 2 / 255), None)]
+    assert person.waits(2.0, azimuth_knob=2 / 255) == [Aim(about(360 * 2 / 255), None, place=True)]
 
 
 def test_a_knob_turned_before_the_mode_was_set_orders_nothing() -> None:

@@ -57,5 +57,5 @@ def test_while_calibrating_switches_and_knobs_move_nothing() -> None:
 def test_a_full_scale_that_was_kept_makes_the_knob_s_end_the_axis_s_end() -> None:
     person = Person(Panel(PanelSettings(), {AZ: 0.8}))
     person.waits(2.0, mode_bits=MANUAL)
-    assert person.waits(2.0, azimuth_knob=0.8) == [Aim(about(360.0), None)]
+    assert person.waits(2.0, azimuth_knob=0.8) == [Aim(about(360.0), None, place=True)]
     assert person.waits(2.0, azimuth_knob=0.9) == []  # it cannot be further than at its end

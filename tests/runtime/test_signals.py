@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Iterator
 
 import pytest
 
@@ -25,13 +26,24 @@ with SignalThread(lambda: os._exit(7)):
 """A lock that the main thread takes twice: it waits for itself for ever, and no signal wakes it."""
 
 
+@pytest.fixture(autouse=True)
+def closed_terminal_counts() -> Iterator[None]:
+    """Also where the tests themselves were started with nohup, which their programs would inherit."""
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    yield
+    signal.signal(signal.SIGHUP, before)
+
+
 @pytest.mark.parametrize("signum", ENDINGS)
 def test_the_main_thread_is_stuck(signum: signal.Signals) -> None:
     with subprocess.Popen([sys.executable, "-c", STUCK], stdout=subprocess.PIPE) as stuck:
         assert stuck.stdout is not None
         assert stuck.stdout.readline() == b"ready\n"
         stuck.send_signal(signum)
-        assert stuck.wait(PATIENCE_S) == 7
+        try:
+            assert stuck.wait(PATIENCE_S) == 7
+        finally:
+            stuck.kill()
 
 
 def test_each_signal_calls_and_nothing_is_left_behind() -> None:

@@ -166,6 +166,28 @@ def test_a_relay_that_lets_go_again_is_trusted_after_one_run() -> None:
     mast.close()
 
 
+@EACH_AXIS
+def test_a_weld_that_a_standing_sensor_hides_is_without_supply_after_two_seconds(axis: Axis) -> None:
+    """Its relay welds in a run that was too short for a fault; the readings, which stand, show neither."""
+    mast = Mast(MASTER)
+    mast.run(1.0)
+    mast.world.inject(f"{axis.value}-pot-stuck")
+    mast.order(Jog(axis, PLUS))
+    mast.run(1.2)  # for half a second it is looked at first
+    mast.world.inject(f"{axis.value}-relay-welded-{'cw' if axis is AZ else 'up'}")
+    mast.run(0.8)
+    mast.order(Stop())
+    mast.run(2.0)
+    stands_deg = mast.world.antenna()
+    mast.run(8.0)
+    assert mast.world.antenna() == pytest.approx(stands_deg, abs=0.5)
+    assert mast.status.faults == ()
+    mast.order(Jog(EL if axis is AZ else AZ, PLUS, 2.0))
+    mast.run(6.0)
+    assert not mast.world.azimuth.motor.supply
+    mast.close()
+
+
 # --- what is said
 
 

@@ -72,6 +72,8 @@ class ContactWatch:
         """For how long relays were closed since the contact last changed."""
         self.turns = False
         """The contact has changed though the relays are off, and it has not been silent since."""
+        self._settled = False
+        """The contact has been silent for long enough since the latest run."""
         self._ran_since = {PLUS: False, MINUS: False}
         """Whether a relay has been closed again since it was doubted."""
 
@@ -94,6 +96,11 @@ class ContactWatch:
         """The relay of the latest run is off, and has not been seen open yet."""
         return self._driven is Direction.OFF and self._trust.get(self._last) is Trust.UNSEEN
 
+    @property
+    def unsure(self) -> bool:
+        """A relay may be closed, and the contact has been silent for so long that it will not show that any more."""
+        return self._settled and Trust.DOUBTED in self.trusts
+
     def checked(self) -> None:
         """A person has looked at both relays: they are open."""
         self._trust, self._blind_s, self.turns = {PLUS: Trust.OPEN, MINUS: Trust.OPEN}, 0.0, False
@@ -112,7 +119,7 @@ class ContactWatch:
             if self._trust[direction] is Trust.OPEN:
                 self._trust[direction] = Trust.UNSEEN
             self._moments_s.clear()
-            self._turned_back, self._late_changes = False, 0
+            self._turned_back, self._settled, self._late_changes = False, False, 0
             self._ran_since[direction] = True
         self._driven, self._since_s = direction, now_s
 
@@ -126,7 +133,7 @@ class ContactWatch:
             self._turned_back = self._turned_back or went_back or again_ahead
         self._angle_deg, self._ahead = angle_deg, condition.ahead
         if changed:
-            self._changed_s, self._blind_s = at_s, 0.0
+            self._changed_s, self._blind_s, self._settled = at_s, 0.0, False
         if self._driven is not Direction.OFF:
             if changed:
                 self._moments_s.append(at_s)
@@ -180,7 +187,7 @@ class ContactWatch:
                 self._trust[way] = Trust.UNSEEN
 
     def _note_standing(self, condition: Condition) -> None:
-        self.looked, self.turns, self._late_changes = True, False, 0
+        self.looked, self._settled, self.turns, self._late_changes = True, True, False, 0
         ahead = BOTH_WAYS if condition.lost or self.homing else condition.ahead
         if self._turned_back and not self.homing and self._room_deg < UNSURE_PERIODS * self._period_deg:
             ahead -= {self._last}

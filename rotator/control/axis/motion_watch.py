@@ -62,6 +62,11 @@ class MotionWatch:
         """Nothing has been seen of the axis yet."""
         return not self._opening.looked
 
+    @property
+    def unsure(self) -> bool:
+        """A relay may be closed, and the readings will not show that any more."""
+        return self._opening.unsure
+
     def driven(self, now_s: float, direction: Direction) -> None:
         """What the relays do from now on."""
         was = self._seen.relays

@@ -104,6 +104,12 @@ class OpeningWatch:
         """Where the axis stands, for a person."""
         return f" stands at {self._place_deg:.1f}°" if self._latest and self._placed else ""
 
+    @property
+    def unsure(self) -> bool:
+        """A relay may be closed, and the axis has stood for so long that its readings will not show that any more."""
+        stood = self._rested_s is not None and self._seen_s - self._rested_s >= self._doubts_after_s
+        return stood and not {Trust.DOUBTED, Trust.WELDED}.isdisjoint(self.trusts)
+
     def waits(self, direction: Direction) -> bool:
         """Whether that relay stays open, because the readings have not yet shown that its opposite is open."""
         if not self.looked or self._trust[Direction(-direction)] is not Trust.OPEN:

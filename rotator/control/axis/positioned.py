@@ -15,6 +15,7 @@ from rotator.control.axis.goals import JogGoal, jog, limit_reached
 from rotator.control.axis.held_watch import HeldWatch
 from rotator.control.axis.pace import Pace
 from rotator.control.axis.reach import UNSEEN_S, lost
+from rotator.control.axis.relay_trust import unstoppable
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import COMING_DEG, SERVO_STRAY_DEG, STRAY_DEG, StrayWatch
@@ -134,6 +135,9 @@ class PositionedAxis:
         reported = reading.condition.fault
         cause = unbelievable if reading.condition.latched else reported or unbelievable
         found = reported or unbelievable or self._turning(now_s) or self._straying(now_s)
+        if found is not None and found.kind is FaultKind.NOT_FOLLOWING and self.settings.master:
+            # A control box that does not follow may not hear, and then no stop reaches it either.
+            found = unstoppable(found, master=True)
         # A move that was too short to show anything counts with the one that shows it.
         vain = self._stray.tries if found is not None and found.kind is FaultKind.NOT_FOLLOWING else 0
         if self._faults.note(found, now_s, cause=cause, tries=int(self.driven) + vain):

@@ -55,6 +55,11 @@ class RelayGate:
     def waiting(self) -> bool:
         return self._waits_s < math.inf
 
+    @property
+    def unsure(self) -> bool:
+        """A relay of this axis may be closed, and only its supply, which the box can switch, is sure to stop it."""
+        return self._settings.master and self._watch.unsure
+
     def see(self, at_s: float, reading: float, condition: Condition) -> Fault | None:
         """What is wrong with the motion: a fault, or None."""
         return self._watch.see(at_s, reading, condition)

@@ -77,6 +77,11 @@ class RunWatch:
         return not self._contact.looked
 
     @property
+    def unsure(self) -> bool:
+        """A relay may be closed, and the contact will not show that any more."""
+        return self._contact.unsure
+
+    @property
     def turns(self) -> bool:
         """The axis turns though its relays are off."""
         return self._contact.turns

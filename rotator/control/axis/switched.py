@@ -24,7 +24,7 @@ from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
 from rotator.control.axis.vain_presses import IN_VAIN, VainPresses
 from rotator.control.axis.weld_watch import TURNS
-from rotator.control.commands import Command, Decision, Feed, Run, Steer
+from rotator.control.commands import UNFED, Command, Decision, Feed, Run, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
@@ -196,7 +196,9 @@ class SwitchedAxis:
         self._decided_s = now_s
         begun = isinstance(self._goal, HomeGoal) and self._goal.homing.begun
         self._gate.homes(homing=begun, failed=self.fault is not None)
-        run = self._safe(self._wish(now_s), now_s, past_s)
+        run: Command = self._safe(self._wish(now_s), now_s, past_s)
+        if isinstance(run, Run) and run.direction is Direction.OFF and self._gate.unsure:
+            run = UNFED
         if isinstance(self._goal, HomeGoal) and self._goal.homing.homed:
             homed_deg = self._goal.homing.home_deg
             self._goal = None

@@ -76,12 +76,16 @@ class WeldWatch:
     def _turning(self, at_s: float) -> Fault | None:
         seen, motor_dps = self._seen, self._motor_dps
         limit_dps = (TURNING_SHARE if self._knows_speed else NOTICED_SHARE) * motor_dps
-        slope = seen.speed(at_s, TURNING, limit_dps / 6.0) or self._clearly(at_s)
+        exact = seen.speed(at_s, TURNING, limit_dps / 6.0)
+        slope = exact or self._clearly(at_s)
         if slope is None:
             return None
         speed_dps = abs(slope.speed_dps)
-        if speed_dps < max(NOTICED_SHARE * motor_dps, 6.0 * slope.rough_dps):
+        if exact and speed_dps < max(NOTICED_SHARE * motor_dps, 6.0 * slope.rough_dps):
             self._rested, self._fast_s = True, math.inf
+            return None
+        if self._rested and speed_dps < 6.0 * slope.rough_dps:
+            self._fast_s = math.inf  # noise alone may look like this once in a while: it is at rest still
             return None
         self._noticed_s = at_s
         if speed_dps < limit_dps:

@@ -2,8 +2,8 @@
 
 An antenna over the top has its boom on the other side: its elevation axis stands at 150° while it points 30° high. An
 order for one coordinate then changes both axes; so it does on a mount that leans. Where the mount stands upright and
-the antenna is not over the top, and cannot go there, the order moves one axis; so does an elevation above 90°. Knows
-directions and the mount. Knows nothing of goals, motors or time.
+the antenna is not over the top, and cannot go there, the order moves one axis; so does an elevation above 90°, and so
+does a knob of the panel. Knows directions and the mount. Knows nothing of goals, motors or time.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def joined(mount: Mount, aim: Aim, wanted: Pair, axes: Pair) -> Aim:
 
     `wanted`: the direction in force, as ordered; `axes`: where the axes go, or stand, on their own scale.
     """
-    if (aim.azimuth_deg is None) is (aim.elevation_deg is None):
+    if (aim.azimuth_deg is None) is (aim.elevation_deg is None) or aim.place:
         return aim
     axis_azimuth_deg, axis_elevation_deg = axes
     if axis_azimuth_deg is None or axis_elevation_deg is None:

@@ -125,8 +125,9 @@ class Pointing:
         moving = self._track.moving(now_s)
         if self._way is not None and moving:
             # The antenna stays on its way, wherever it is now.
-            self._way = self._way_on(direction(aim.azimuth_deg, aim.elevation_deg), self._way, azimuth_deg)
-            self._swings.forgo()
+            before, there = self._way, direction(aim.azimuth_deg, aim.elevation_deg)
+            self._way = self._way_on(there, before, azimuth_deg)
+            self._note_no_swing(now_s, before, self._way.azimuth_deg)
         elif not again:
             flipped = self._mount.model.over_the_top(axis_elevation_deg)
             self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped), azimuth_deg)
@@ -216,11 +217,18 @@ class Pointing:
         kept_deg = self._way_on(there, self._way, azimuth_deg).azimuth_deg
         swings = way.flipped is not self._way.flipped or abs(way.azimuth_deg - kept_deg) > HALF_TURN_DEG
         if not swings:
-            self._swings.forgo()
+            self._note_no_swing(now_s, self._way, kept_deg)
         wavers = abs(kept_deg - self._way.azimuth_deg) <= WAVERS_DEG
         if self._way.flipped and not way.flipped and not self._mount.flip:
             wavers = False  # over the top only for an order that names it
         return Way(kept_deg, self._way.flipped) if swings and wavers and not self._swings.may_begin(now_s) else way
+
+    def _note_no_swing(self, now_s: float, before: Way, azimuth_deg: float) -> None:
+        """The way goes on without a swing; where a swing has begun, it may be broken off."""
+        if abs(azimuth_deg - before.azimuth_deg) > HALF_TURN_DEG:
+            self._swings.turn_back(now_s)
+        else:
+            self._swings.forgo()
 
     def _standing(self, now_s: float, *, settled: bool) -> Goals:
         """Goals for the last order, on the way chosen. For a target that has settled beyond the end of its turn the

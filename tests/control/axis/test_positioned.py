@@ -28,6 +28,8 @@ class Motor:
         missing: tuple[Missing, ...] = (),
         source: AngleSource = AngleSource.MEASURED,
         accel_dps2: float | None = None,
+        *,
+        master: bool = False,
     ) -> None:
         self.axis = PositionedAxis(
             PositionedSettings(
@@ -40,6 +42,7 @@ class Motor:
                 missing=missing,
                 source=source,
                 accel_dps2=accel_dps2,
+                master=master,
             ),
             lease_s=LEASE_S,
         )
@@ -221,6 +224,17 @@ def test_missing_readings_do_not_hide_that_it_does_not_follow(motor: Motor, each
     assert motor.axis.fault is not None
     assert motor.axis.fault.kind is FaultKind.NOT_FOLLOWING
     assert motor.now_s - began_s < STRAY_S + 2 * STEP_S * each
+
+
+@pytest.mark.parametrize("master", [False, True])
+def test_where_it_does_not_follow_it_may_not_hear_a_stop_either_and_loses_its_supply(master: bool) -> None:
+    motor = Motor(master=master)
+    motor.stuck = True
+    motor.axis.aim(AimGoal(235.0, 1.0))
+    motor.step(2.0 * STRAY_S)
+    assert motor.axis.fault is not None
+    assert motor.axis.fault.cut is master
+    assert ("has switched the motors' supply off" in str(motor.axis.fault)) is master
 
 
 def test_a_missing_reading_is_ridden_out_and_starts_nothing(motor: Motor) -> None:

@@ -15,7 +15,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.sensing import Condition, Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched import SwitchedAxis
-from rotator.control.commands import Feed, Run
+from rotator.control.commands import Feed, Run, Unfed
 from rotator.control.sky.mount import Range
 from rotator.control.sky.pointing import AimGoal
 from rotator.faults import Missing
@@ -177,5 +177,8 @@ class WeldWorld:
                 self._relays.open(self.now_s)
                 kept_s = max(self._relays.supplied_until_s or 0.0, until_s)
                 self._relays.supply(on=True, now_s=self.now_s, until_s=kept_s)
+            case Unfed():
+                self._relays.open(self.now_s)
+                self._relays.supply(on=False, now_s=self.now_s)
             case _:
                 self._relays.open(self.now_s)

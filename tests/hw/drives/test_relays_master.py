@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.drives.relays import MASTER_LINGER_S
-from tests.hw.drives.relay_bench import AZ, MASTER_PIN, PLUS, Bench
+from tests.hw.drives.relay_bench import AZ, EL, MASTER_PIN, PLUS, Bench
 
 
 def test_the_master_closes_with_the_first_motor_and_lingers_after_the_last() -> None:
@@ -33,3 +33,37 @@ def test_a_correction_within_the_linger_does_not_click_the_master() -> None:
         bench.run(AZ, PLUS, 0.2)
         bench.clock.sleep(MASTER_LINGER_S - 0.1)
     assert [edge.level for edge in bench.gpio.edges if edge.offset == MASTER_PIN] == [True]
+
+
+def test_without_its_supply_a_relay_that_may_be_closed_turns_nothing() -> None:
+    bench = Bench(master=True)
+    bench.run(AZ, PLUS, 0.5)
+    bench.bank.unfeed(AZ)
+    assert bench.on() == set()
+    assert bench.bank.due_s() is None
+    assert bench.drive(AZ, PLUS) is PLUS
+    assert bench.on() == {"azimuth_cw", "master"}
+    bench.bank.unfeed(AZ)
+    assert bench.on() == set()
+
+
+def test_the_supply_stays_for_the_other_motor_while_it_runs_or_is_looked_at() -> None:
+    bench = Bench(master=True)
+    bench.drive(EL, PLUS)
+    bench.bank.unfeed(AZ)
+    assert bench.on() == {"elevation_up", "master"}
+    bench.clock.sleep(0.3)
+    bench.bank.feed(EL, bench.clock() + 0.25)
+    bench.bank.unfeed(AZ)
+    assert bench.on() == {"master"}
+    bench.clock.sleep(0.26)
+    assert bench.on() == {"master"}, "it lingers after the run"
+    bench.bank.unfeed(AZ)
+    assert bench.on() == set()
+
+
+def test_without_a_master_there_is_none_to_switch_off() -> None:
+    bench = Bench()
+    bench.drive(AZ, PLUS)
+    bench.bank.unfeed(AZ)
+    assert bench.on() == set()
