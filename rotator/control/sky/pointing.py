@@ -114,7 +114,7 @@ class Pointing:
         self._planned_s = None
         if aim.elevation_deg is None or axis_elevation_deg is None:
             self._track.clear()
-            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped=False), azimuth_deg)
+            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped=False))
             nearest_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
             # The antenna may still be on its way down from an order before.
             heights_deg = (elevation_deg,) if kept_deg is None else (elevation_deg, kept_deg)
@@ -125,12 +125,14 @@ class Pointing:
         moving = self._track.moving(now_s)
         if self._way is not None and moving:
             # The antenna stays on its way, wherever it is now.
-            before, there = self._way, direction(aim.azimuth_deg, aim.elevation_deg)
-            self._way = self._way_on(there, before, azimuth_deg)
-            self._note_no_swing(now_s, before, self._way.azimuth_deg)
+            flown_deg, _ = self._mount.on_the_way(
+                *direction(aim.azimuth_deg, aim.elevation_deg), self._way.azimuth_deg, flipped=self._way.flipped
+            )
+            self._way = Way(flown_deg, self._way.flipped)
+            self._swings.forgo()
         elif not again:
             flipped = self._mount.model.over_the_top(axis_elevation_deg)
-            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped), azimuth_deg)
+            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped))
         return self._standing(now_s, settled=not moving)
 
     def park(self) -> Goals:
@@ -195,40 +197,20 @@ class Pointing:
         may_flip = (self.wanted.elevation_deg or 0.0) <= ZENITH_DEG
         self._way = best_way(self._mount, directions, self._way, speeds, may_flip=may_flip)
 
-    def _way_on(self, there: tuple[float, float], way: Way, azimuth_deg: float) -> Way:
-        """Where the way goes on to. Where it leads beyond the end of the range, and the antenna has not yet come near
-        that end, it may be nearer to the target itself than to the end, at which it would only wait."""
-        flown_deg, _ = self._mount.on_the_way(*there, way.azimuth_deg, flipped=way.flipped)
-        if not self._mount.azimuth.holds(flown_deg):
-            straight_deg, _ = self._mount.on_the_way(*there, azimuth_deg, flipped=way.flipped)
-            waits_deg = self._mount.azimuth.nearest(flown_deg)
-            if self._mount.azimuth.holds(straight_deg) and abs(straight_deg - azimuth_deg) < abs(
-                waits_deg - azimuth_deg
-            ):
-                return Way(straight_deg, way.flipped)
-        return Way(flown_deg, way.flipped)
-
-    def _calm_way(self, now_s: float, aim: Aim, way: Way, azimuth_deg: float) -> Way:
+    def _calm_way(self, now_s: float, aim: Aim, way: Way) -> Way:
         """The way to a new order; where only a swing right round leads there, and swings must wait, the present one."""
         assert aim.azimuth_deg is not None
         if self._way is None or aim.azimuth_deg > FULL_TURN_DEG:  # the sender names the overlap
             return way
         there = direction(aim.azimuth_deg, aim.elevation_deg or 0.0)
-        kept_deg = self._way_on(there, self._way, azimuth_deg).azimuth_deg
+        kept_deg, _ = self._mount.on_the_way(*there, self._way.azimuth_deg, flipped=self._way.flipped)
         swings = way.flipped is not self._way.flipped or abs(way.azimuth_deg - kept_deg) > HALF_TURN_DEG
         if not swings:
-            self._note_no_swing(now_s, self._way, kept_deg)
+            self._swings.forgo()
         wavers = abs(kept_deg - self._way.azimuth_deg) <= WAVERS_DEG
         if self._way.flipped and not way.flipped and not self._mount.flip:
             wavers = False  # over the top only for an order that names it
         return Way(kept_deg, self._way.flipped) if swings and wavers and not self._swings.may_begin(now_s) else way
-
-    def _note_no_swing(self, now_s: float, before: Way, azimuth_deg: float) -> None:
-        """The way goes on without a swing; where a swing has begun, it may be broken off."""
-        if abs(azimuth_deg - before.azimuth_deg) > HALF_TURN_DEG:
-            self._swings.turn_back(now_s)
-        else:
-            self._swings.forgo()
 
     def _standing(self, now_s: float, *, settled: bool) -> Goals:
         """Goals for the last order, on the way chosen. For a target that has settled beyond the end of its turn the

@@ -36,17 +36,9 @@ class Swings:
         if not self.due(now_s):
             return False
         self._since_s = None
-        self._lengthen()
+        self._wait_s = min(max(2.0 * self._wait_s, FIRST_WAIT_S), LONGEST_WAIT_S)
         return True
 
     def forgo(self) -> None:
         """The target asks for no swing any more."""
         self._since_s = None
-
-    def turn_back(self, now_s: float) -> None:
-        """A swing is broken off, for the target is where it was before it: the next one waits for longer."""
-        self._asked_s, self._since_s = now_s, None
-        self._lengthen()
-
-    def _lengthen(self) -> None:
-        self._wait_s = min(max(2.0 * self._wait_s, FIRST_WAIT_S), LONGEST_WAIT_S)
