@@ -47,6 +47,7 @@ from rotator.runtime.anew import Anew
 from rotator.runtime.autosave import Autosave
 from rotator.runtime.client import Client
 from rotator.runtime.closing import Part, closing
+from rotator.runtime.dead_threads import dead_threads
 from rotator.runtime.display import DisplayThread
 from rotator.runtime.engine import Engine, process_end
 from rotator.runtime.event_watch import EventWatch
@@ -180,6 +181,10 @@ class App:
 
     async def run(self, stop: asyncio.Event) -> None:
         """Run until `stop` is set. Raises LinkError, HardwareError, or the exception that ended the control thread."""
+        with dead_threads(self.loop.fail):
+            await self._run(stop)
+
+    async def _run(self, stop: asyncio.Event) -> None:
         async with closing(self._parts()) as failures:
             motion_ended = await self._start()
             self._tasks.append(asyncio.create_task(stop.wait(), name="stop"))

@@ -12,6 +12,7 @@ import logging
 import os
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import serial
@@ -85,17 +86,21 @@ class SerialLink:
         # Set only once: over rfc2217:// every change of a setting is a negotiation with the other end.
         port.timeout = URL_POLL_S
 
+        def arrive(what: bytes | str) -> None:
+            with suppress(RuntimeError):  # the event loop has ended meanwhile
+                loop.call_soon_threadsafe(arrivals.put_nowait, what)
+
         def listen() -> None:
             while not leaving.is_set():
                 try:
                     data = port.read(1)
                     # `in_waiting` bytes can be read at once. A timeout of None would make `read` wait for ever.
                     data += port.read(port.in_waiting) if data else b""
-                except (serial.SerialException, OSError, ValueError) as fault:
-                    loop.call_soon_threadsafe(arrivals.put_nowait, str(fault))
+                except (serial.SerialException, OSError, TypeError, ValueError) as fault:  # TypeError: closed meanwhile
+                    arrive(str(fault))
                     return
                 if data:
-                    loop.call_soon_threadsafe(arrivals.put_nowait, data)
+                    arrive(data)
 
         conversation = Conversation(self._session(), self.wire, lambda reply: _write(port, reply))
         thread = threading.Thread(target=listen, name=self.wire.name, daemon=True)

@@ -6,7 +6,7 @@ import asyncio
 import os
 import socket
 import threading
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 from typing import Any
@@ -14,9 +14,9 @@ from typing import Any
 import pytest
 
 from firmware_sim.rotors.relay_pot import SimRelayPotRotor
-from hw.ports import AngleSensor, AngleSource, Axis
+from hw.ports import AngleSensor, AngleSource, Axis, CharacterDisplay, HardwareError
 from hw.safety.guard import GUARD_THREAD
-from rotator.app import App
+from rotator.app import App, open_station
 from rotator.config.load import parse, shipped
 from rotator.config.model import Config
 from rotator.links.wire import LinkError
@@ -324,4 +324,42 @@ def test_a_bug_in_the_control_thread_switches_off_and_is_told(config: Config, tm
     with pytest.raises(ZeroDivisionError, match="a bug in a driver"):
         asyncio.run(talk(app))
     assert world.relay_starts == 1, "the motor did run"
+    check_all_gone(app)
+
+
+class FailsToShow:
+    """A display whose driver has a bug that shows once the motors run."""
+
+    def __init__(self, display: CharacterDisplay, world: SimRelayPotRotor) -> None:
+        self._display = display
+        self._world = world
+
+    def reset(self) -> None:
+        self._display.reset()
+
+    def show(self, rows: Sequence[str]) -> None:
+        if self._world.drives() != OFF:
+            raise KeyError("a bug in the display's driver")
+        self._display.show(rows)
+
+
+def test_so_does_a_bug_in_any_other_thread(config: Config, tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """A display that shows old angles for ever is worse than a box that starts anew."""
+
+    async def talk(app: App) -> None:
+        task = asyncio.create_task(app.run(asyncio.Event()))
+        await links_open(app, task)
+        async with terminal(tmp_path / "gs232") as line:
+            line.send(b"R\r")
+            await asyncio.wait_for(task, PATIENCE_S)
+
+    station = open_station(config)
+    world: Any = station.world
+    assert station.display is not None
+    station.display = FailsToShow(station.display, world)
+    app = App(config, station=station)
+    with pytest.raises(HardwareError, match="the thread 'display' has ended by a mistake of the program"):
+        asyncio.run(talk(app))
+    assert world.relay_starts == 1, "the motor did run"
+    assert "a bug in the display's driver" in caplog.text
     check_all_gone(app)

@@ -114,7 +114,7 @@ class Pointing:
         self._planned_s = None
         if aim.elevation_deg is None or axis_elevation_deg is None:
             self._track.clear()
-            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped=False))
+            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped=False), azimuth_deg)
             nearest_deg = self._mount.azimuth.nearest(self._way.azimuth_deg)
             # The antenna may still be on its way down from an order before.
             heights_deg = (elevation_deg,) if kept_deg is None else (elevation_deg, kept_deg)
@@ -132,7 +132,7 @@ class Pointing:
             self._swings.forgo()
         elif not again:
             flipped = self._mount.model.over_the_top(axis_elevation_deg)
-            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped))
+            self._way = self._calm_way(now_s, aim, Way(axis_azimuth_deg, flipped), azimuth_deg)
         return self._standing(now_s, settled=not moving)
 
     def park(self) -> Goals:
@@ -197,20 +197,28 @@ class Pointing:
         may_flip = (self.wanted.elevation_deg or 0.0) <= ZENITH_DEG
         self._way = best_way(self._mount, directions, self._way, speeds, may_flip=may_flip)
 
-    def _calm_way(self, now_s: float, aim: Aim, way: Way) -> Way:
-        """The way to a new order; where only a swing right round leads there, and swings must wait, the present one."""
+    def _calm_way(self, now_s: float, aim: Aim, way: Way, azimuth_deg: float) -> Way:
+        """The way to a new order; where only a swing right round leads there, and swings must wait, the present one.
+        A swing that has only begun is broken off, when that is nearer."""
         assert aim.azimuth_deg is not None
         if self._way is None or aim.azimuth_deg > FULL_TURN_DEG:  # the sender names the overlap
             return way
         there = direction(aim.azimuth_deg, aim.elevation_deg or 0.0)
         kept_deg, _ = self._mount.on_the_way(*there, self._way.azimuth_deg, flipped=self._way.flipped)
-        swings = way.flipped is not self._way.flipped or abs(way.azimuth_deg - kept_deg) > HALF_TURN_DEG
-        if not swings:
+        turns_over = way.flipped is not self._way.flipped
+        if not turns_over and abs(way.azimuth_deg - kept_deg) <= HALF_TURN_DEG:
             self._swings.forgo()
+            return way
         wavers = abs(kept_deg - self._way.azimuth_deg) <= WAVERS_DEG
         if self._way.flipped and not way.flipped and not self._mount.flip:
             wavers = False  # over the top only for an order that names it
-        return Way(kept_deg, self._way.flipped) if swings and wavers and not self._swings.may_begin(now_s) else way
+        if not wavers or self._swings.may_begin(now_s):
+            return way
+        waits_deg = self._mount.azimuth.nearest(kept_deg)
+        if not turns_over and abs(way.azimuth_deg - azimuth_deg) < abs(waits_deg - azimuth_deg):
+            self._swings.break_off()
+            return way
+        return Way(kept_deg, self._way.flipped)
 
     def _standing(self, now_s: float, *, settled: bool) -> Goals:
         """Goals for the last order, on the way chosen. For a target that has settled beyond the end of its turn the

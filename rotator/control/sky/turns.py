@@ -36,9 +36,17 @@ class Swings:
         if not self.due(now_s):
             return False
         self._since_s = None
-        self._wait_s = min(max(2.0 * self._wait_s, FIRST_WAIT_S), LONGEST_WAIT_S)
+        self._lengthen()
         return True
 
     def forgo(self) -> None:
         """The target asks for no swing any more."""
         self._since_s = None
+
+    def break_off(self) -> None:
+        """The target is back where it was before the swing began: the next one waits for longer."""
+        self._since_s = None
+        self._lengthen()
+
+    def _lengthen(self) -> None:
+        self._wait_s = min(max(2.0 * self._wait_s, FIRST_WAIT_S), LONGEST_WAIT_S)

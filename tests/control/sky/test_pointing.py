@@ -95,6 +95,27 @@ def test_a_target_straight_overhead_is_followed_to_the_other_side(
     assert goals[0].target_deg == pytest.approx(sets_deg, abs=2.0)
 
 
+@pytest.mark.parametrize("stands_deg", [190.0, 250.0, 335.0])
+@pytest.mark.parametrize("stray_s", [0.2, 1.0, 3.0])
+def test_after_one_stray_order_the_antenna_goes_back_the_short_way(stray_s: float, stands_deg: float) -> None:
+    """It has begun to unwind towards 68°; 345° is nearer then than the end of the range, where it would wait."""
+    rotor = Pointing(Mount(azimuth=Range(0.0, 360.0), elevation=Range(0.0, 90.0)), 4.0, 4.0)
+    for second in range(40):
+        rotor.aim(float(second), Aim(345.0, 6.0), 345.0, 6.0)
+    rotor.aim(40.0, Aim(68.0, 82.0), 345.0, 6.0)
+    azimuth, _ = rotor.aim(40.0 + stray_s, Aim(345.0, 6.0), stands_deg, 30.0)
+    assert azimuth.target_deg == 345.0
+
+
+def test_a_target_across_the_end_is_waited_for_at_the_end_that_is_near() -> None:
+    rotor = Pointing(Mount(azimuth=Range(0.0, 360.0), elevation=Range(0.0, 90.0)), 4.0, 4.0)
+    for second in range(8):
+        azimuth, _ = rotor.aim(
+            float(second), Aim((8.0 - 2.0 * second) % 360.0, 20.0), max(8.0 - 2.0 * second, 0.0), 20.0
+        )
+        assert azimuth.target_deg == max(8.0 - 2.0 * second, 0.0)
+
+
 def test_high_up_a_tolerance_on_the_sky_is_more_degrees_of_azimuth(pointing: Pointing) -> None:
     azimuth, elevation = pointing.aim(0.0, Aim(100.0, 60.0), 50.0, 60.0)
     assert elevation is not None
@@ -194,11 +215,18 @@ def test_one_order_across_north_is_obeyed_at_once() -> None:
     assert pointing.aim(30.0, Aim(10.0, 20.0), 350.0, 20.0)[0].target_deg == 10.0
 
 
-def test_a_target_that_goes_back_and_stays_is_met_a_little_later() -> None:
+def test_a_target_that_goes_back_while_the_antenna_is_still_near_is_met_at_once() -> None:
     pointing = Pointing(Mount(Range(0.0, 360.0), Range(0.0, 90.0)), 4.0, 4.0)
     for now_s, azimuth_deg in ((0.0, 350.0), (30.0, 10.0)):
         pointing.aim(now_s, Aim(azimuth_deg, 20.0), 350.0, 20.0)
-    assert pointing.aim(31.0, Aim(350.0, 20.0), 340.0, 20.0)[0].target_deg == 0.0, "the end next to it"
+    assert pointing.aim(31.0, Aim(350.0, 20.0), 340.0, 20.0)[0].target_deg == 350.0
+
+
+def test_a_target_that_goes_back_and_stays_when_the_antenna_is_nearer_to_the_end_is_met_a_little_later() -> None:
+    pointing = Pointing(Mount(Range(0.0, 360.0), Range(0.0, 90.0)), 4.0, 4.0)
+    for now_s, azimuth_deg in ((0.0, 350.0), (30.0, 10.0)):
+        pointing.aim(now_s, Aim(azimuth_deg, 20.0), 350.0, 20.0)
+    assert pointing.aim(31.0, Aim(350.0, 20.0), 100.0, 20.0)[0].target_deg == 0.0, "the end next to it"
     assert pointing.look_ahead(33.9, SPEEDS, had_path=False) is None
     goals = pointing.look_ahead(34.1, SPEEDS, had_path=False)
     assert goals is not None
