@@ -10,6 +10,7 @@ import random
 from benchmarks.drills.arcs import draw_arc
 from benchmarks.drills.boxes import BOTH, KINDS, ROTORS, Mast, draw_mast
 from benchmarks.drills.browser import draw_browser
+from benchmarks.drills.mounts import mounted
 from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
 from benchmarks.drills.stories import stories
 
@@ -24,7 +25,7 @@ def draw(seed: str, kind: str = "") -> Drill:
     """`kind`: of the rotor; empty: any."""
     chance = random.Random(seed)
     rotor = KINDS[kind] if kind else chance.choice(ROTORS)
-    mast = draw_mast(chance, rotor)
+    mast = mounted(random.Random(f"{seed} mount"), draw_mast(chance, rotor))
     if chance.random() < STORIES:
         told, ends_s = stories(chance, mast, lambda: _trouble(chance, mast))
         return _drill(mast, ends_s, told, seed)

@@ -1,0 +1,61 @@
+"""How a mast was put up: where its scale begins, how far it may turn, how exactly it is to point, where it parks.
+
+Draws keys of the configuration by a chance of its own, so that a box with the same seed is else the same. Does not know
+what happens to it.
+"""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from typing import Any
+
+from benchmarks.drills.boxes import BOTH, Mast
+
+SHARE = 0.4
+"""So many of the boxes are not mounted as the shipped file has it."""
+CLEAR_DEG = 6.0
+"""The antenna stands so far inside its range at the start."""
+
+
+def mounted(chance: random.Random, mast: Mast) -> Mast:
+    """The same box on a mast that somebody has put up otherwise."""
+    if chance.random() >= SHARE:
+        return mast
+    tables: dict[str, Any] = {**mast.tables, **{axis: dict(mast.tables.get(axis, {})) for axis in BOTH}}
+    mount = dict(tables.get("mount", {}))
+    if chance.random() < 0.5:  # a stop in the south, a mast that was clamped a little beside north
+        tables["azimuth"]["offset_deg"] = chance.choice((180.0, -180.0, 90.0, -90.0, round(chance.uniform(-30, 30), 1)))
+    if chance.random() < 0.3:
+        tables["elevation"]["offset_deg"] = round(chance.uniform(-6.0, 6.0), 1)
+    if mast.rotor.kind in ("relay-pot", "digipot"):
+        for axis, at_deg, top_deg in zip(BOTH, mast.start_deg, mast.top_deg, strict=True):
+            if chance.random() < 0.3:
+                _narrow(chance, tables[axis], at_deg, top_deg)
+            if chance.random() < 0.3:
+                tables[axis]["tolerance_deg"] = chance.choice((1.0, 2.0, 8.0))
+    if mast.rotor.relays:
+        if chance.random() < 0.3:
+            mount["tolerance"] = "axis"
+        if chance.random() < 0.3:
+            for axis in BOTH:
+                tables[axis] |= {"longest_run_s": chance.choice((20.0, 60.0)), "rest_s": chance.choice((10.0, 60.0))}
+    if chance.random() < 0.3 and "forbidden" not in mount:
+        low_deg, high_deg = _range(tables["azimuth"], mast.top_deg[0])
+        mount["park_azimuth_deg"] = round(chance.uniform(low_deg, min(high_deg, 450.0)))
+        low_deg, high_deg = _range(tables["elevation"], mast.top_deg[1])
+        mount["park_elevation_deg"] = round(chance.uniform(low_deg, high_deg))
+    if mount:
+        tables["mount"] = mount
+    return replace(mast, tables=tables)
+
+
+def _narrow(chance: random.Random, table: dict[str, Any], at_deg: float, top_deg: float) -> None:
+    """A tree, a wall: less than the rotor could turn. Where it stands is inside."""
+    low_deg = max(0.0, min(round(chance.uniform(0.0, 40.0)), at_deg - CLEAR_DEG))
+    high_deg = min(top_deg, max(round(top_deg - chance.uniform(0.0, 60.0)), at_deg + CLEAR_DEG))
+    table |= {"min_deg": low_deg, "max_deg": high_deg}
+
+
+def _range(table: dict[str, Any], top_deg: float) -> tuple[float, float]:
+    return table.get("min_deg", 0.0), table.get("max_deg", top_deg)
