@@ -109,7 +109,7 @@ def build_page(
         site = build_site(config.station)
         place = (site.latitude_deg, site.longitude_deg) if site else None
         tolerances_deg = config.azimuth.tolerance_deg, config.elevation.tolerance_deg
-        passes = Passes(command(path) if path and site else None, time.monotonic)
+        passes = Passes(command(path) if path and site else None, time.monotonic, tracking.known_elements)
 
         def plan_again() -> None:
             passes.forget()

@@ -51,9 +51,16 @@ def command(path: Path) -> tuple[str, ...]:
 
 
 class Passes:
-    """`words`: the command; None: the box knows no place. `clock` gives seconds."""
+    """`words`: the command; None: the box knows no place. `clock` gives seconds.
 
-    def __init__(self, words: Sequence[str] | None, clock: Callable[[], float]) -> None:
+    `elements`: what the box knows of the satellites, the same object until something of it is new.
+    """
+
+    def __init__(
+        self, words: Sequence[str] | None, clock: Callable[[], float], elements: Callable[[], object] = lambda: None
+    ) -> None:
+        self._elements = elements
+        self._computed_for = elements()
         self._computed = (
             Computed(words, clock, named="the passes", kept_s=KEPT_S, shaped=lambda rows: {"passes": rows[:MOST]})
             if words
@@ -65,6 +72,7 @@ class Passes:
         """Those that were computed last, though they may be old: new ones are computed then. None: there were none."""
         if self._computed is None:
             return []
+        self._look()
         latest = self._computed.latest()
         return None if latest is None else latest.get("passes", [])
 
@@ -80,4 +88,12 @@ class Passes:
 
     def told(self) -> dict[str, Any] | None:
         """`passes`, or `error`, why there are none. None: ask again, for they are computed now."""
+        self._look()
         return self._computed.told() if self._computed else {"error": NO_PLACE}
+
+    def _look(self) -> None:
+        """Fetched elements, or a file that was copied there, change the passes too."""
+        elements = self._elements()
+        if elements is not self._computed_for:
+            self._computed_for = elements
+            self.forget()

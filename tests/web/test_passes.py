@@ -66,6 +66,25 @@ def test_they_are_kept_for_a_while(tmp_path: Path) -> None:
     asyncio.run(main())
 
 
+def test_new_elements_change_them(tmp_path: Path) -> None:
+    """Also those that the box has fetched by itself, or that a person has copied there."""
+    counts = tmp_path / "counts"
+    words = (sys.executable, "-c", f"open({str(counts)!r}, 'a').write('x'); print('[]')")
+    known: list[object] = [()]
+
+    async def main() -> None:
+        passes = Passes(words, lambda: 0.0, lambda: known[0])
+        await computed(passes)
+        assert passes.told() is not None, "nothing is new"
+        known[0] = ("ISS",)
+        assert passes.told() is None
+        await computed(passes)
+        assert passes.latest == []
+        assert counts.read_text() == "xx"
+
+    asyncio.run(main())
+
+
 @pytest.mark.parametrize(
     ("words", "error"),
     [
