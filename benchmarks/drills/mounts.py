@@ -30,7 +30,7 @@ def mounted(chance: random.Random, mast: Mast) -> Mast:
         tables["elevation"]["offset_deg"] = round(chance.uniform(-6.0, 6.0), 1)
     if mast.rotor.kind in ("relay-pot", "digipot"):
         for axis, at_deg, top_deg in zip(BOTH, mast.start_deg, mast.top_deg, strict=True):
-            if chance.random() < 0.3:
+            if chance.random() < 0.3 and "forbidden" not in mount:
                 _narrow(chance, tables[axis], at_deg, top_deg)
             if chance.random() < 0.3:
                 tables[axis]["tolerance_deg"] = chance.choice((1.0, 2.0, 8.0))
