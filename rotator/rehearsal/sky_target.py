@@ -25,6 +25,9 @@ from rotator.tracking.known_sky import KnownSky
 from rotator.tracking.next_flight import AHEAD_S, target_path
 from rotator.tracking.tracker import Tracker
 
+LONGEST_S = 7200.0
+"""Sun and Moon are up for half a day, which takes minutes to fly and shows nothing more."""
+
 
 @dataclass(frozen=True, slots=True)
 class SkyTarget:
@@ -43,7 +46,7 @@ class SkyTarget:
 
 
 def next_pass(config: Config, words: str, after_utc_s: float) -> tuple[Pass, SkyTarget]:
-    """The target's first pass that ends after that moment, whole. Raises PassError."""
+    """The target's first pass that ends after that moment, from where it rises. Raises PassError."""
     site, catalogue = build_site(config.station), build_catalogue(config)
     if site is None:
         raise PassError(NO_PLACE)
@@ -56,5 +59,8 @@ def next_pass(config: Config, words: str, after_utc_s: float) -> tuple[Pass, Sky
         raise PassError(f"{target.name} does not rise within {AHEAD_S / 86_400:.0f} days")
     if found.aos_s is None or found.los_s is None or not math.isfinite(found.los_s - found.aos_s):
         raise PassError(f"{target.name} does not rise and set: there is no pass to fly")
-    rows = target_path(target, found.aos_s, found.los_s, apart_s=found.aos_s).rows
-    return Pass(target.name, rows), SkyTarget(words, found.aos_s, config, site, catalogue)
+    until_s, name = found.los_s, target.name
+    if until_s - found.aos_s > LONGEST_S:
+        until_s, name = found.aos_s + LONGEST_S, f"{name} (its first {LONGEST_S / 3600:.0f} hours)"
+    rows = target_path(target, found.aos_s, until_s, apart_s=found.aos_s).rows
+    return Pass(name, rows), SkyTarget(words, found.aos_s, config, site, catalogue)
