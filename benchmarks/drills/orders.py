@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from benchmarks.drills.front_panel import FrontPanel
+from benchmarks.drills.front_panel import STILL_AT_MOST_S, FrontPanel
 from benchmarks.drills.goals import TURN_DEG, ZENITH_DEG, AxisOrders, Goal, Ranges
 from benchmarks.drills.held_off import HeldOff
 from benchmarks.drills.script import PAGE, PANEL, PEOPLE, Event
@@ -27,6 +27,8 @@ PUT_OFF_S = 6.0
 """A jog with a time may begin so late: when the axis has been seen to stand."""
 PANEL_S = 0.2
 """A jog switch is read twice before it counts, and once when it is let go."""
+UNSEEN_S = 0.2
+"""A stop and its release so soon after a turn of a knob may come before the panel has seen that turn."""
 TAKEN_S = 0.2
 """A program that is killed so soon after a stop may not have taken it."""
 LEASE_S = 0.5
@@ -91,6 +93,8 @@ class Orders:
         self._held_off = HeldOff()
         self._modes = False
         """A person on the page has set a mode, which may hold a storm park back."""
+        self._modes_known_s = STILL_AT_MOST_S
+        """Until then a panel's mode switch, read for the first time, may end what a person has taken."""
         self.sure = False
         """A direction was ordered that nothing known held back, and nothing has ended it since."""
         self._listed = False
@@ -109,6 +113,8 @@ class Orders:
         self._stopped_s = math.inf
         """When a person last stopped it, or parked it before a storm."""
         self._shifts = Shifts()
+        self._knob: Event | None = None
+        """The knob of the panel that was turned last."""
 
     @property
     def attended(self) -> bool:
@@ -138,6 +144,7 @@ class Orders:
         self._shifts = Shifts()
         self._held_off.forget()
         self._modes = False
+        self._modes_known_s = now_s + STILL_AT_MOST_S
         self._tracked.begin_anew()
 
     def links_lost(self, now_s: float) -> None:
@@ -185,7 +192,7 @@ class Orders:
         free = not self._held and not self._storm and self._panel.mode == "auto" and self._panel.settled
         if event.what == "aim" and event.who != PAGE:
             self.sure = self.sure or (free and not self._held_off.perhaps)
-        self._held_off.note(event, free=free)
+        self._held_off.note(event, free=free and event.at_s >= self._modes_known_s)
         self._may_idle(event.at_s)
 
     def _note_flights(self, event: Event) -> None:
@@ -294,6 +301,7 @@ class Orders:
             case "stop":
                 self._panel.pull(event.at_s)
             case "knob":
+                self._knob = event
                 turned = self.axes if self.goes_round else (event.text(0),)
                 for axis in turned:
                     self._anywhere(event, axis)
@@ -367,6 +375,8 @@ class Orders:
         self._storms = self._parked = False
         self._silenced.forget()
         self.acknowledged_s = self.released_s = now_s
+        if self._knob is not None and now_s - self._knob.at_s < UNSEEN_S:
+            self._note_panel(self._knob)  # the panel sees the turn only now
 
     def _left(self, event: Event) -> None:
         for axis, orders in self.axes.items():

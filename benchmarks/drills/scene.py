@@ -48,7 +48,7 @@ def _case(config: Config, axis: Axis, truth: AxisTruth) -> AxisCase:
         slowest_dps = min(table.speed_dps, truth.full_dps)
         patience_s = COUNTED_PERIODS * config.pulses.of(axis).spacing_deg / slowest_dps + PRESSES_S
     elif truth.full_dps < SLOW_DPS:
-        patience_s = SLOW_TRY_S
+        patience_s = SLOW_TRY_S + (NOISY_TRY_S - TRY_S if sim.pot_noise_deg > NOISY_DEG else 0.0)
     elif sim.pot_noise_deg > ROUGH_S * truth.full_dps:
         patience_s = ROUGH_TRY_S
     elif sim.pot_noise_deg > NOISY_DEG:

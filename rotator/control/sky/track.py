@@ -29,8 +29,13 @@ LONGEST_GAP_S = 5.0
 """Orders further apart are no stream: each is a target of its own."""
 LEAST_TRAVEL = 1.0
 """Orders that differ by less than this share of their rounding may be one standing target, rounded two ways."""
+WHOLE_DEG = 1.0
+STOOD = 3.0
+"""A target whose pace would have shown in so many steps of its rounding, but did not, stood."""
 LARGEST_SURPRISE_DEG = 4.0
 """An order further than this from where the path led is a new target."""
+FASTEST_APPROACH = 0.02
+"""The share of its distance that a target comes nearer in a second: 8 km/s at 400 km."""
 COASTING_S = 3.0
 """Without new orders the target goes on this long; then the last order stands."""
 
@@ -68,6 +73,7 @@ class Track:
         self._orders.append((now_s, azimuth_deg, elevation_deg))
         while self._orders[0][0] < now_s - KEPT_S:
             self._orders.popleft()
+        self._forget_standing()
         if not self._is_stream():
             self._fit = None
         elif self._fit is None or now_s - self._fit.at_s >= REFIT_S:
@@ -87,6 +93,20 @@ class Track:
             _, azimuth_deg, elevation_deg = self._orders[-1]
             return azimuth_deg, elevation_deg
         return self._fit.direction(at_s)
+
+    def _forget_standing(self) -> None:
+        """A target that stood and has begun to move, as one that a program holds where it will rise: where it stood
+        says nothing of its path. Not of whole degrees: few of them say less than those of a target that stood."""
+        orders = list(self._orders)
+        stands = next((number for number, order in enumerate(orders) if order[1:] != orders[0][1:]), len(orders))
+        if stands < 2 or len(orders) - stands < LEAST_ORDERS - 1:
+            return
+        (since_s, *_), (until_s, *where_deg), (now_s, *here_deg) = orders[0], orders[stands - 1], orders[-1]
+        grain_deg = _grain_deg(orders)
+        least_pace_dps = (great_circle_deg(*where_deg, *here_deg) - grain_deg) / (now_s - until_s)
+        if grain_deg < WHOLE_DEG and least_pace_dps * (until_s - since_s) > STOOD * grain_deg:
+            for _ in range(stands - 1):
+                self._orders.popleft()
 
     def _is_stream(self) -> bool:
         if len(self._orders) < LEAST_ORDERS:
@@ -142,6 +162,12 @@ class _Fit:
             [-nsx, -nssx, -nsy, -nssy, nssxx + approach],
         ]
         self._a, self._b, self._c, self._d, self._g = solved(matrix, [nx, nsx, ny, nsy, -nsxx - nsyy])
+        if abs(self._g) > FASTEST_APPROACH:
+            # No target does that: it stood and has begun to move, as one that a program holds where it will rise.
+            self._g = g = math.copysign(FASTEST_APPROACH, self._g)
+            line = [[n, ns], [ns, nss + sideways]]
+            self._a, self._b = solved(line, [nx + g * nsx, nsx + g * nssx])
+            self._c, self._d = solved(line, [ny + g * nsy, nsy + g * nssy])
 
     def direction(self, at_s: float) -> tuple[float, float]:
         s = at_s - self.at_s

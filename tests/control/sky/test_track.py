@@ -54,6 +54,19 @@ def test_it_knows_the_target_between_the_orders_and_ahead_of_them(
     assert off_deg(track, 75.0) < soon_deg
 
 
+@pytest.mark.parametrize("stood_s", [3.0, 20.0, 300.0])
+@pytest.mark.parametrize(("decimals", "at_once_deg", "soon_deg"), [(0, 11.0, 11.0), (1, 11.0, 3.5), (2, 11.0, 2.5)])
+def test_a_target_that_is_held_where_it_will_rise_and_then_begins_to_move(
+    decimals: int, at_once_deg: float, soon_deg: float, stood_s: float
+) -> None:
+    """As Gpredict does it over rotctld. Where it will be in 20 s: at most that far off, and after some orders less."""
+    track = Track()
+    for second in range(-int(stood_s), 15):
+        track.note(float(second), *rounded(flying(max(0.0, float(second))), decimals))
+        if second > 0 and track.moving(float(second)):
+            assert off_deg(track, second + 20.0) < (at_once_deg if second < LEAST_ORDERS else soon_deg), second
+
+
 @pytest.mark.parametrize(
     ("decimals", "now_deg", "in_20_s_deg"),
     [(0, 0.12, 0.45), (1, 0.015, 0.065), (2, 0.003, 0.028)],
