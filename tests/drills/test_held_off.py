@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from benchmarks.drills.front_panel import STILL_AT_MOST_S
 from benchmarks.drills.goals import Ranges
 from benchmarks.drills.orders import Orders
 from benchmarks.drills.script import Event
@@ -18,7 +19,7 @@ class Script:
     def __init__(self) -> None:
         self.orders = Orders((Ranges(0.0, 360.0, False), Ranges(0.0, 180.0, False)), (0.0, 0.0))
         self.now_s = 0.0
-        self.wait(SOON_S)
+        self.wait(STILL_AT_MOST_S)
 
     def say(self, who: str, what: str, *args: float | str) -> None:
         self.orders.note(Event(self.now_s, who, what, args))
@@ -91,3 +92,10 @@ def test_at_an_end_of_the_range_what_went_on_may_go_on() -> None:
     script.say("console", "jog", "up", 0.5)
     script.wait(20.0)
     assert script.moves == (True, False)
+
+
+def test_a_panel_s_switch_that_is_read_for_the_first_time_may_end_what_was_taken_before() -> None:
+    orders = Orders((Ranges(0.0, 360.0, False), Ranges(0.0, 180.0, False)), (0.0, 0.0))
+    orders.note(Event(0.5, "page", "take"))
+    orders.note(Event(2.0, "gs232b", "aim", (200.0, 40.0)))
+    assert orders.holds("azimuth")
