@@ -56,10 +56,10 @@ async def main():
     logging.getLogger().addHandler(said)
     app = App(load(Path(sys.argv[1])))
     gpio, relays = app.station.world.gpio, app.config.relays
-    offs, late_s = [], []
-    def edges(at_s, changes):
-        offs.extend(at_s for pin in (relays.azimuth_cw, relays.azimuth_ccw) if changes.get(pin) is False)
-    gpio.on_edges.append(edges)
+    edges, late_s = [], []
+    def note(at_s, changes):
+        edges.extend((at_s, pin, changes[pin]) for pin in (relays.azimuth_cw, relays.azimuth_ccw) if pin in changes)
+    gpio.on_edges.append(note)
     stop, loop = asyncio.Event(), asyncio.get_running_loop()
     async def watch():
         while True:
@@ -69,7 +69,7 @@ async def main():
     with SignalThread(lambda: loop.call_soon_threadsafe(stop.set)):
         await app.run(stop)
     watcher.cancel()
-    print(json.dumps({"offs": offs, "late_s": max(late_s), "said": said.lines}))
+    print(json.dumps({"edges": edges, "late_s": max(late_s), "said": said.lines}))
 
 asyncio.run(main())
 """
@@ -84,7 +84,9 @@ class Result:
     stops_ms: list[float]
     """From the last byte of S to the relay's line."""
     unmet: int
-    """Stops after which no relay opened within a second."""
+    """Stops after which a relay that was closed did not open within a second."""
+    idle: int
+    """Stops that came before the jog had closed a relay: it first waits until the axis stands."""
     answers_ms: list[float]
     """From C2 to its whole answer, as the client saw it."""
     worst_late_ms: float
@@ -155,12 +157,21 @@ def measure(seconds: float) -> Result:
             box.terminate()
             out, _ = box.communicate()
     told = json.loads(out)
+    edges: list[tuple[float, int, bool]] = told["edges"]
+    met = [sent_s for sent_s in client.stops_s if _closed(edges, sent_s)]
     after_ms = [
-        min((1000 * (off - sent) for off in told["offs"] if off >= sent), default=1e9) for sent in client.stops_s
+        min((1000 * (at_s - sent_s) for at_s, _, on in edges if at_s >= sent_s and not on), default=1e9)
+        for sent_s in met
     ]
     stops_ms = [wait_ms for wait_ms in after_ms if wait_ms < 1000]
-    missed = len(after_ms) - len(stops_ms)
-    return Result(stops_ms, missed, client.answers_ms, 1000 * told["late_s"], told["said"], used)
+    missed, idle = len(after_ms) - len(stops_ms), len(client.stops_s) - len(met)
+    return Result(stops_ms, missed, idle, client.answers_ms, 1000 * told["late_s"], told["said"], used)
+
+
+def _closed(edges: list[tuple[float, int, bool]], now_s: float) -> bool:
+    """Whether a relay was closed then."""
+    levels = {pin: on for at_s, pin, on in edges if at_s < now_s}
+    return any(levels.values())
 
 
 def _cpu_s(pid: int) -> float:
@@ -179,7 +190,8 @@ def main() -> None:
         ranked = sorted(values)
         p99_ms = ranked[int(0.99 * (len(ranked) - 1))]
         print(f"{name:24} median {statistics.median(ranked):6.2f} p99 {p99_ms:6.2f} worst {ranked[-1]:7.2f} ms")
-    print(f"stops without effect: {result.unmet}; latest cycle {result.worst_late_ms:.0f} ms late")
+    print(f"stops without effect: {result.unmet} ({result.idle} had no relay to open)")
+    print(f"latest cycle: {result.worst_late_ms:.0f} ms late")
     print(f"warnings and faults: {len(result.warnings)}", *result.warnings, sep="\n  ")
 
 
