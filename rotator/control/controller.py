@@ -11,17 +11,15 @@ from collections.abc import Iterable, Mapping
 from hw.ports import Axis, Direction
 from rotator.control.aiming import Aiming
 from rotator.control.authority import Authority
+from rotator.control.axis.build import build_axis
 from rotator.control.axis.motion_watch import LATE_S, late
-from rotator.control.axis.port import ControlledAxis
-from rotator.control.axis.positioned import PositionedAxis
 from rotator.control.axis.sensing import Reading
-from rotator.control.axis.settings import PositionedSettings, SwitchedSettings
-from rotator.control.axis.switched import SwitchedAxis
 from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.fence import Fence
 from rotator.control.homing_queue import HomingQueue
 from rotator.control.jogs import Jogs
 from rotator.control.pass_starts import PassStarts
+from rotator.control.refused import Refused
 from rotator.control.rights import deed_of
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
@@ -65,20 +63,15 @@ from rotator.status import AxisStatus, Status
 class Controller:
     def __init__(self, settings: Settings) -> None:
         self._settings = settings
-        switched: dict[Axis, SwitchedAxis] = {}
-        axes: dict[Axis, ControlledAxis] = {}
-        for each in (settings.azimuth, settings.elevation):
-            match each:
-                case SwitchedSettings():
-                    axis = SwitchedAxis(each, lease_s=settings.lease_s, period_s=settings.period_s)
-                    axes[each.axis] = switched[each.axis] = axis
-                case PositionedSettings():
-                    axes[each.axis] = PositionedAxis(each, lease_s=settings.lease_s)
-        self._axes, self._switched = axes, switched
+        axes = {
+            each.axis: build_axis(each, lease_s=settings.lease_s, period_s=settings.period_s)
+            for each in (settings.azimuth, settings.elevation)
+        }
+        self._axes = axes
         tolerances_deg = settings.azimuth.tolerance_deg, settings.elevation.tolerance_deg
         self._authority = Authority(settings.mode, max(tolerances_deg), settings.latch)
         self._aiming = Aiming(settings.mount, axes, Pointing(settings.mount, *tolerances_deg, on_sky=settings.on_sky))
-        self._homing = HomingQueue({name: axis for name, axis in switched.items() if axis.settings.homing is not None})
+        self._homing = HomingQueue(axes)
         self._fence = Fence(settings.mount, axes, period_s=settings.period_s, attended=settings.attended)
         self._timed = TimedList()
         self._jogs = Jogs(axes)
@@ -173,7 +166,7 @@ class Controller:
 
     def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
         more = self._remarks[axis] + self._aiming.notices(axis) + self._fence.notices(axis, now_s)
-        starts = self._starts.of(axis) if axis in self._switched else None
+        starts = self._starts.of(axis) if self._axes[axis].has_relays else None
         return self._axes[axis].status(now_s, starts=starts, more=more)
 
     def _note_lateness(self, now_s: float) -> None:
@@ -216,8 +209,8 @@ class Controller:
                 self._nudge(axis, offset_deg, now_s)
             case Confirm(axis, angle_deg):
                 self._confirm(axis, angle_deg)
-            case RelaysChecked(axis) if axis in self._switched:
-                self._switched[axis].checked()
+            case RelaysChecked(axis):
+                self._relays_checked(axis)
             case LetGo():
                 self._stop(source, BOTH, latch=True, now_s=now_s)
                 self.errands.append(LetGo())
@@ -314,7 +307,7 @@ class Controller:
     def _home(self, axis: Axis, source: Source) -> None:
         try:
             self._homing.ask(axis, source)
-        except ValueError as reason:
+        except Refused as reason:
             self.troubles.append(str(reason))
 
     def _home_next(self, now_s: float) -> None:
@@ -383,12 +376,16 @@ class Controller:
         if any(control.moving(now_s) for control in self._axes.values()):
             self.troubles.append(f"{axis.value} is not calibrated while the antenna moves")
             return
-        if axis not in self._switched:
-            self.troubles.append(f"{axis.value} knows its own angles: it needs no ends")
-            return
-        self._axes[axis].halt()
-        self._aiming.forget((axis,))
         try:
-            self._switched[axis].calibrate_end(high_end=high_end)
-        except ValueError as reason:
-            self.troubles.append(f"{axis.value} keeps its calibration: {reason}")
+            self._axes[axis].calibrate_end(high_end=high_end)
+        except Refused as reason:
+            self.troubles.append(str(reason))
+        if self._axes[axis].has_relays:
+            self._axes[axis].halt()
+            self._aiming.forget((axis,))
+
+    def _relays_checked(self, axis: Axis) -> None:
+        try:
+            self._axes[axis].checked()
+        except Refused as reason:
+            self.troubles.append(str(reason))

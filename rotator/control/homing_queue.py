@@ -9,15 +9,16 @@ from collections import deque
 from collections.abc import Mapping
 
 from hw.ports import Axis
-from rotator.control.axis.switched import SwitchedAxis
+from rotator.control.axis.port import ControlledAxis
+from rotator.control.refused import Refused
 from rotator.orders import Source
 
 
 class HomingQueue:
-    """`axes`: those that count, and so can be homed."""
+    """`axes`: those that can be homed take part."""
 
-    def __init__(self, axes: Mapping[Axis, SwitchedAxis]) -> None:
-        self._axes = axes
+    def __init__(self, axes: Mapping[Axis, ControlledAxis]) -> None:
+        self._axes = {name: axis for name, axis in axes.items() if axis.homeable}
         self._waiting: deque[Axis] = deque()
         self._asked_by: Source | None = None
 
@@ -31,9 +32,9 @@ class HomingQueue:
         return self.active and source != self._asked_by
 
     def ask(self, axis: Axis, source: Source) -> None:
-        """Raises ValueError where the axis has no end stop to be found."""
+        """Raises Refused where the axis has no end stop to find."""
         if axis not in self._axes:
-            raise ValueError(f"{axis.value} knows its angle: it needs no homing")
+            raise Refused(f"{axis.value} knows its angle: it needs no homing")
         self._asked_by = source
         self._waiting.append(axis)
 

@@ -25,11 +25,13 @@ class EndCalibration:
         self._first: tuple[bool, float] | None = None
         """The end that came first: whether it is the high one, and its reading."""
 
-    def take(self, raw: float, calibration: Calibration | None, *, high_end: bool) -> Calibration | None:
+    def take(self, raw: float | None, calibration: Calibration | None, *, high_end: bool) -> Calibration | None:
         """The axis stands at that end and reads `raw`. Returns the new calibration; None: the other end is needed too.
 
-        Raises ValueError where the readings are no two ends.
+        Raises ValueError where the readings are not two ends, or `raw` is None: the sensor has no good reading.
         """
+        if raw is None:
+            raise ValueError("the sensor has no believable reading")
         if self._given is not None:
             self._refuse_beyond(self._given, raw)
         if calibration is not None:

@@ -54,6 +54,22 @@ class ControlledAxis(Protocol):
     def confirmable(self) -> bool:
         """Whether a person may say at which angle the axis stands."""
 
+    @property
+    def has_relays(self) -> bool:
+        """Whether relays switch its motor, so that its starts can be counted."""
+
+    @property
+    def homeable(self) -> bool:
+        """Whether it counts, and so has an end stop to find."""
+
+    @property
+    def homing(self) -> bool:
+        """Whether it is on its way to its end stop."""
+
+    @property
+    def cooling(self) -> bool:
+        """Whether its motor has run for long, and has to rest before it goes on."""
+
     def moving(self, now_s: float) -> bool:
         """Driven, or still coasting."""
 
@@ -68,6 +84,9 @@ class ControlledAxis(Protocol):
 
     def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
         """Turn that way for `seconds`, or until halted (None). OFF halts. `held`: no wait prolongs the time."""
+
+    def home(self) -> None:
+        """Find the end stop. Raises Refused where it is not `homeable`."""
 
     def halt(self) -> None:
         """Stop and have no goal."""
@@ -86,6 +105,12 @@ class ControlledAxis(Protocol):
     @property
     def fault(self) -> Fault | None:
         """What stopped the axis; None: it may be driven."""
+
+    def calibrate_end(self, *, high_end: bool) -> None:
+        """It stands at an end of its range: take its reading for that end. Raises Refused."""
+
+    def checked(self) -> None:
+        """A person has looked at both relays: they are open. Raises Refused where there are none."""
 
     def decide(self, now_s: float) -> Decision:
         """What the drive is to do from now on: what the goal asks for, as far as it is safe."""

@@ -21,6 +21,7 @@ from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import COMING_DEG, SERVO_STRAY_DEG, STRAY_DEG, StrayWatch
 from rotator.control.axis.trend import Trend
 from rotator.control.commands import HOLD, Command, Decision, Hold, Steer
+from rotator.control.refused import Refused
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
@@ -101,6 +102,22 @@ class PositionedAxis:
     def confirmable(self) -> bool:
         return self.settings.confirmable
 
+    @property
+    def has_relays(self) -> bool:
+        return False
+
+    @property
+    def homeable(self) -> bool:
+        return False
+
+    @property
+    def homing(self) -> bool:
+        return False
+
+    @property
+    def cooling(self) -> bool:
+        return False
+
     def moving(self, now_s: float) -> bool:
         return self.driven
 
@@ -113,6 +130,15 @@ class PositionedAxis:
 
     def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
         self._goal = jog(direction, seconds, now_s, commissioned=not self.settings.missing, held=held)
+
+    def home(self) -> None:
+        raise Refused(f"{self.settings.axis.value} knows its angle: it needs no homing")
+
+    def calibrate_end(self, *, high_end: bool) -> None:
+        raise Refused(f"{self.settings.axis.value} knows its own angles: it needs no ends")
+
+    def checked(self) -> None:
+        raise Refused(f"{self.settings.axis.value} has no relays: there is nothing to look at")
 
     def halt(self) -> None:
         self._goal = None

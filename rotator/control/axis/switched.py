@@ -25,6 +25,7 @@ from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
 from rotator.control.axis.vain_presses import IN_VAIN, VainPresses
 from rotator.control.axis.weld_watch import TURNS
 from rotator.control.commands import UNFED, Command, Decision, Feed, Run, Steer
+from rotator.control.refused import Refused
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
@@ -117,6 +118,18 @@ class SwitchedAxis:
         lost = self._condition is not None and bool(self._condition.lost)
         return (*self._ends.missing, Missing.HOMING) if lost else self._ends.missing
 
+    @property
+    def has_relays(self) -> bool:
+        return True
+
+    @property
+    def homeable(self) -> bool:
+        return self.settings.homing is not None
+
+    @property
+    def cooling(self) -> bool:
+        return self._endurance.resting
+
     def moving(self, now_s: float) -> bool:
         return self._runs.off_s(now_s) < SETTLED_AFTER_S
 
@@ -127,9 +140,8 @@ class SwitchedAxis:
         self._goal = jog(direction, seconds, now_s, commissioned=not self.missing, held=held)
 
     def home(self) -> None:
-        """Find the end stop. Raises ValueError where the axis does not count."""
         if self.settings.homing is None:
-            raise ValueError("this rotor knows where it stands; there is no end stop to be found")
+            raise Refused(f"{self.settings.axis.value} knows its angle: it needs no homing")
         self._goal = HomeGoal(Homing(self.settings.homing))
 
     def halt(self) -> None:
@@ -307,10 +319,11 @@ class SwitchedAxis:
         return Run(direction, now_s + self._timing.lease_s) if direction else self._law.rest(now_s)
 
     def calibrate_end(self, *, high_end: bool) -> None:
-        """The axis stands at an end of its range: take its reading for it. Raises ValueError; then nothing changed."""
-        if self._sensing.raw is None or not self._sensing.believable:
-            raise ValueError("the sensor has no believable reading")
-        calibration = self._ends.take(self._sensing.raw, self._sensing.calibration, high_end=high_end)
+        raw = self._sensing.raw if self._sensing.believable else None
+        try:
+            calibration = self._ends.take(raw, self._sensing.calibration, high_end=high_end)
+        except ValueError as reason:
+            raise Refused(f"{self.settings.axis.value} keeps its calibration: {reason}") from reason
         if calibration is not None:
             self._begin_anew(calibration)
 

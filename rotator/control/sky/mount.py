@@ -10,6 +10,7 @@ import math
 from bisect import bisect_right
 from dataclasses import dataclass
 
+from rotator.control.refused import Refused
 from rotator.control.sky.angles import ZENITH_DEG, turn_deg
 from rotator.control.sky.pointing_model import PERFECT, PointingModel
 
@@ -20,7 +21,7 @@ _ROUNDS = 2
 """The azimuth that fits a resting elevation is found to 0.1° in so many rounds, with terms up to 5°."""
 
 
-class Unreachable(ValueError):  # noqa: N818 - it tells about a direction, it is no failure
+class Unreachable(Refused):
     """No axis angle within the range points there. The text gives the reason."""
 
 
