@@ -16,6 +16,7 @@ import tomlkit
 
 from benchmarks.drills.browser import Browser
 from benchmarks.drills.script import PAGE, Drill
+from benchmarks.drills.sentinel import DrilledSentinel
 from benchmarks.drills.speech import PROTOCOLS
 from benchmarks.drills.tracking import DrilledTracking
 from firmware_sim.clock import SimClock
@@ -81,6 +82,7 @@ class Box:
         self._clock = clock
         self._folder = folder
         self.alive = True
+        self.sentinel = DrilledSentinel(clock)
         if world is not None:
             world.bus.open()
         self.station = Station(
@@ -91,6 +93,7 @@ class Box:
             add_alarm=self._add_alarm,
             counts=folder / counts.FILE_NAME,
             world=world,
+            watch=self.sentinel,
         )
         assert self.station.world is not None
         self.world: SimRotor = self.station.world

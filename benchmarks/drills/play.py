@@ -29,7 +29,7 @@ from firmware_sim.clock import SimClock
 STARTED_S = 1000.0
 STEP_S = 0.05
 """How often the world is looked at while no control cycle comes."""
-FAILS = "the program ends with an exception"
+FAILS = "the program ends with an exception, or its sentinel kills it"
 STALLED_S = 1.0
 """Links whose event loop has stood still for longer have lost their orders."""
 OUTSIDE = ("zero", "full")
@@ -142,7 +142,10 @@ class _Play:
         self._box.cycle(blind=blind)
 
     def _found(self) -> list[Violation]:
-        return [*self._judges.found, *self._sectors.found, *self._silence.found]
+        found = [*self._judges.found, *self._sectors.found, *self._silence.found]
+        if self._box.alive and self._box.sentinel.kills:
+            found.append(Violation(self._now_s, FAILS, "program", "its sentinel hears nothing while a relay is closed"))
+        return found
 
     def _sleep_until(self, at_s: float) -> None:
         self._clock.sleep_until(STARTED_S + at_s)

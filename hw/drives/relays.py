@@ -15,6 +15,7 @@ from hw.ports import Axis, Direction, HardwareError, LeaseWatch, OutputLines
 
 LONGEST_LEASE_S = 0.5
 """No command lives longer, even if the caller asks for more: when the caller dies, the motor stops within 0.5 s."""
+NEVER_S = float("-inf")
 MASTER_LINGER_S = 10.0
 """How long the motors' supply stays on after the last motor stopped, so that its relay switches less often."""
 
@@ -63,10 +64,9 @@ class RelayBank:
         self._master_wired = master
         self._one_at_a_time = one_at_a_time
         self._master_until_s: float | None = None
-        self._feeding = False
-        """The motors have their supply so that a relay that did not open shows itself."""
-        self._fed_until_s = float("-inf")
-        """So long an axis is looked at with its supply alone."""
+        self._fed_until_s = NEVER_S
+        """Until then the motors have their supply so that a relay that did not open shows itself. A lease, as a
+        motor's: it ends unless it is renewed."""
         self._motors = {axis: _Motor() for axis in Axis}
         self._cut = False
         self._lock = threading.Condition()
@@ -83,7 +83,7 @@ class RelayBank:
                     self._run(axis, direction, now_s)
                     motor.until_s = min(until_s, now_s + LONGEST_LEASE_S)
             finally:
-                self._plan()
+                self._plan(now_s)
             return motor.on
 
     def feed(self, axis: Axis, until_s: float) -> None:
@@ -95,13 +95,12 @@ class RelayBank:
             try:
                 self._open(axis, now_s)
                 if self._master_wired and not self._cut and until_s > now_s:
-                    self._feeding = True
                     self._renew()
                     self._lines.set({MASTER: True})
-                    self._fed_until_s = min(until_s, now_s + LONGEST_LEASE_S)
+                    self._fed_until_s = max(self._fed_until_s, min(until_s, now_s + LONGEST_LEASE_S))
                     self._master_until_s = max(self._master_until_s or 0.0, self._fed_until_s)
             finally:
-                self._plan()
+                self._plan(now_s)
 
     def unfeed(self, axis: Axis) -> None:
         """Open the relays of `axis`, and switch the motors' supply off unless the other motor runs, or is looked at.
@@ -114,9 +113,9 @@ class RelayBank:
                 self._open(axis, now_s)
                 if self._master_until_s is not None and self._idle() and now_s >= self._fed_until_s:
                     self._lines.set({MASTER: False})
-                    self._master_until_s, self._feeding = None, False
+                    self._master_until_s = None
             finally:
-                self._plan()
+                self._plan(now_s)
 
     @property
     def supplied(self) -> bool:
@@ -143,10 +142,10 @@ class RelayBank:
             if self._master_wired:
                 everything[MASTER] = False
             self._lines.set(everything)
-            self._master_until_s, self._feeding = None, False
+            self._master_until_s, self._fed_until_s = None, NEVER_S
             for motor in self._motors.values():
                 self._note_stop(motor, now_s)
-            self._plan()
+            self._plan(now_s)
 
     def due_s(self) -> float | None:
         """The next moment at which `enforce` has something to do; None: nothing is on."""
@@ -171,10 +170,10 @@ class RelayBank:
             if self._master_wired and (failures or lingered):
                 try:
                     self._lines.set({MASTER: False})
-                    self._master_until_s, self._feeding = None, False
+                    self._master_until_s, self._fed_until_s = None, NEVER_S
                 except HardwareError as failure:
                     failures.append(failure)
-            self._plan()
+            self._plan(now_s)
         if failures:
             raise failures[0]
 
@@ -215,7 +214,7 @@ class RelayBank:
         levels = {RELAYS[axis, Direction(-direction)]: False, RELAYS[axis, direction]: True}
         if self._master_wired:
             levels[MASTER] = True
-            self._master_until_s, self._feeding = now_s + MASTER_LINGER_S, False
+            self._master_until_s = now_s + MASTER_LINGER_S
         # A line that fails may have switched all the same: the relay counts as closed until it is opened.
         motor = self._motors[axis]
         motor.on = motor.last = direction
@@ -248,15 +247,19 @@ class RelayBank:
     def _idle(self) -> bool:
         return all(motor.on is Direction.OFF for motor in self._motors.values())
 
-    def _plan(self) -> None:
+    def _plan(self, now_s: float) -> None:
         """Set the next moment for `enforce`. Wake the guard if that moment is sooner than before, or there is none."""
-        moments = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
-        if self._watch and self._renewed and not moments and not self._feeding:
+        leases_s = [motor.until_s for motor in self._motors.values() if motor.on is not Direction.OFF]
+        if self._fed_until_s > now_s:
+            leases_s.append(self._fed_until_s)
+        if self._watch and self._renewed and not leases_s:
+            # The watch must hear of each end: it takes silence with a lease in force for a program that hangs.
             self._watch.rest()
             self._renewed = False
-        if self._master_until_s is not None and not moments:
-            moments.append(self._master_until_s)
-        due_s = min(moments, default=None)
+        moments_s = leases_s
+        if self._idle() and self._master_until_s is not None:
+            moments_s = [*leases_s, self._master_until_s]
+        due_s = min(moments_s, default=None)
         news = due_s is None or self._due_s is None or due_s < self._due_s
         self._due_s = due_s
         if news:

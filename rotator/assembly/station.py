@@ -15,7 +15,7 @@ from firmware_sim.rotors.rotor import SimRotor
 from firmware_sim.world_file import WorldWriter
 from hw.buses.gpio import GpioOutputs
 from hw.chips.hd44780 import BACKLIGHT_ACTIVE_LOW, BACKPACKS, BackpackPort, GpioPort, Hd44780
-from hw.ports import CharacterDisplay, HardwareError
+from hw.ports import CharacterDisplay, HardwareError, LeaseWatch
 from hw.safety.heartbeat import Heartbeat
 from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel import Sentinel
@@ -50,6 +50,7 @@ class Station:
     `add_alarm`: that of the simulated clock, where time is simulated; the rotor has begun then. In real time the
     caller starts the rotor. `counts`: the file that keeps counted axes; None: they begin where the simulated rotor is.
     `world`: a simulated rotor that has outlived an earlier station, and goes on; None: it is made from the file.
+    `watch`: hears the leases of the relays in place of a sentinel, where time is simulated.
     """
 
     rotor: Rotor
@@ -72,6 +73,7 @@ class Station:
         add_alarm: AddAlarm | None = None,
         counts: Path | None = None,
         world: SimRotor | None = None,
+        watch: LeaseWatch | None = None,
     ) -> None:
         self._config = config
         self._sleep = sleep
@@ -92,7 +94,7 @@ class Station:
             parts = Assembly(
                 config,
                 self.board,
-                self.sentinel,
+                self.sentinel or watch,
                 start_deg=simulated.start_deg,
                 counts=counts,
                 in_step=add_alarm is not None,

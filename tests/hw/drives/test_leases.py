@@ -123,3 +123,30 @@ def test_a_watch_that_goes_away_stops_the_motor_by_its_lease(bench: Bench) -> No
         bench.drive(AZ, PLUS)
     bench.clock.sleep(0.3)
     assert not bench.gpio.level(22)
+
+
+def test_a_look_at_the_supply_is_a_lease_and_its_end_is_told(bench: Bench) -> None:
+    bench.bank.feed(AZ, bench.clock() + 0.25)
+    assert bench.journal.words() == ["renew"]
+    bench.clock.sleep(0.3)
+    assert bench.journal.words() == ["renew", "rest"]
+    assert not bench.gpio.level(26)
+
+
+def test_a_look_that_ends_early_while_the_supply_lingers_is_told_too(bench: Bench) -> None:
+    """A person lets go of the opposite key while its relay still waits."""
+    bench.drive(AZ, PLUS)
+    bench.drive(AZ, OFF)
+    bench.bank.feed(AZ, bench.clock() + 0.25)
+    bench.drive(AZ, OFF)
+    bench.clock.sleep(0.3)
+    assert bench.journal.words() == ["renew", "rest", "renew", "rest"]
+    assert bench.gpio.level(26)
+
+
+def test_a_look_at_one_axis_lasts_while_the_other_ends(bench: Bench) -> None:
+    bench.bank.feed(EL, bench.clock() + 0.4)
+    bench.bank.feed(AZ, bench.clock() + 0.1)
+    bench.clock.sleep(0.2)
+    assert bench.journal.words() == ["renew", "renew"]
+    assert bench.gpio.level(26)

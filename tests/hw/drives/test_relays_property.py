@@ -1,7 +1,8 @@
 """Any sequence of commands at all: what the relays do is read off the pins, edge by edge.
 
 Opposite relays never together, no relay closed longer than its command allows, no reversal before its dead time; and
-where the transformer is small, never both motors.
+where the transformer is small, never both motors. The master feeds each motor that runs, lingers, and stays open after
+a cut. The sentinel hears of each lease and of its end, so that it never takes a program at rest for one that hangs.
 """
 
 from __future__ import annotations
@@ -28,6 +29,20 @@ MOTORS = {
 ROUNDING_S = 1e-9
 
 
+class Ears:
+    """A sentinel that only listens: when a lease was told last, and whether all have ended since."""
+
+    def __init__(self, clock: SimClock) -> None:
+        self._clock = clock
+        self.leased_s: float | None = None
+
+    def renew(self) -> None:
+        self.leased_s = self._clock()
+
+    def rest(self) -> None:
+        self.leased_s = None
+
+
 class AnySequence(RuleBasedStateMachine):
     @initialize(
         active_low=st.booleans(),
@@ -41,7 +56,11 @@ class AnySequence(RuleBasedStateMachine):
         self.active_low, self.dead_time_s, self.one_at_a_time = active_low, dead_time_s, one_at_a_time
         pins = {name: pin for name, pin in PINS.items() if master or name != "master"}
         lines = GpioOutputs(self.gpio, "/dev/gpiochip0", pins, consumer="test", active_low=active_low)
-        self.bank = RelayBank(lines, self.clock, dead_time_s=dead_time_s, master=master, one_at_a_time=one_at_a_time)
+        self.master, self.cut, self.ears = master, False, Ears(self.clock)
+        self.supplied_until_s = float("-inf")
+        self.bank = RelayBank(
+            lines, self.clock, dead_time_s=dead_time_s, master=master, one_at_a_time=one_at_a_time, watch=self.ears
+        )
         self.gpio.edges.clear()
         self.clock.add_alarm(self.bank.due_s, self.bank.enforce)
         self.allowed_until_s: dict[int, float] = {}
@@ -61,16 +80,36 @@ class AnySequence(RuleBasedStateMachine):
         if on is not Direction.OFF:
             self.allowed_until_s[MOTORS[axis, on]] = min(now_s + seconds, now_s + LONGEST_LEASE_S)
 
-    @rule()
-    def off(self) -> None:
-        self.bank.off()
-        assert not any(self.is_on(pin) for pin in PINS.values() if pin != PINS["master"])
+    @rule(axis=st.sampled_from(Axis), seconds=st.floats(-0.1, 0.7) | st.sampled_from([0.25, 3600.0]))
+    def feed(self, axis: Axis, seconds: float) -> None:
+        self.bank.feed(axis, self.clock() + seconds)
+        assert self.bank.driven()[axis] is Direction.OFF
+        if not self.cut:
+            self.supplied_until_s = max(self.supplied_until_s, self.clock() + min(seconds, LONGEST_LEASE_S))
+
+    @rule(axis=st.sampled_from(Axis))
+    def unfeed(self, axis: Axis) -> None:
+        self.bank.unfeed(axis)
+        assert self.bank.driven()[axis] is Direction.OFF
+
+    @rule(what=st.sampled_from(["off", "cut", "restore", "restore"]))
+    def supply(self, what: str) -> None:
+        match what:
+            case "off":
+                self.bank.off()
+                assert not any(self.is_on(pin) for pin in MOTORS.values())
+            case "cut":
+                assert self.bank.cut() == self.master
+                self.cut = self.master
+            case "restore":
+                self.bank.restore()
+                self.cut = False
 
     @rule(early_s=st.floats(0.0, 0.5))
     def enforce(self, early_s: float) -> None:
         self.bank.enforce(self.clock() - early_s)
 
-    @rule(seconds=st.floats(0.0, 1.5) | st.sampled_from([0.05, 0.25, 0.5, MASTER_LINGER_S]))
+    @rule(seconds=st.floats(0.0, 1.5) | st.sampled_from([0.05, 0.25, 0.5, 0.75, MASTER_LINGER_S]))
     def time_passes(self, seconds: float) -> None:
         self.clock.sleep(seconds)
 
@@ -99,6 +138,27 @@ class AnySequence(RuleBasedStateMachine):
                 assert rested_s >= self.dead_time_s - ROUNDING_S, "reversed before the dead time was over"
 
     @invariant()
+    def the_master_feeds_what_runs_and_no_longer(self) -> None:
+        if not hasattr(self, "gpio"):
+            return
+        runs, closed = any(self.is_on(pin) for pin in MOTORS.values()), self.is_on(PINS["master"])
+        if runs:
+            self.supplied_until_s = self.clock() + LONGEST_LEASE_S + MASTER_LINGER_S
+        if not self.master:
+            return
+        assert closed or not runs, "a motor runs without its supply"
+        assert not (closed and self.cut), "a motor has its supply although it was cut"
+        assert not closed or self.clock() < self.supplied_until_s + ROUNDING_S, "the supply stays on"
+
+    @invariant()
+    def the_sentinel_is_content(self) -> None:
+        if not hasattr(self, "gpio"):
+            return
+        told_s = self.ears.leased_s
+        assert told_s is not None or not any(self.is_on(pin) for pin in MOTORS.values()), "a lease was not told"
+        assert told_s is None or self.clock() - told_s <= LONGEST_LEASE_S, "the program seems to hang"
+
+    @invariant()
     def nothing_on_is_overdue(self) -> None:
         if not hasattr(self, "gpio"):
             return
@@ -116,4 +176,4 @@ class AnySequence(RuleBasedStateMachine):
 
 
 TestAnySequence = AnySequence.TestCase
-TestAnySequence.settings = settings(max_examples=examples(150), stateful_step_count=40, deadline=None)
+TestAnySequence.settings = settings(max_examples=examples(400), stateful_step_count=40, deadline=None)
