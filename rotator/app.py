@@ -100,7 +100,7 @@ class App:
         latch_file = build_latch_file(config)
         # A new start by the page knows the stop even where a full disk has not taken it.
         stopped = latch_file.load() or self._anew.latch
-        self._latch = LatchThread(latch_file, stopped)
+        self._latch = LatchThread(latch_file.save, stopped)
         kept = learnt.load(), relays_file.load() if relays_file else None, stopped
         axis = self._anew.sets_up
         self._calibration = _calibration_of(config, axis, path) if axis and path else None

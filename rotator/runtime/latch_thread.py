@@ -6,50 +6,66 @@ Knows when to write, and when to try again on a card that refuses. `rotator.stor
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 
 from rotator.status import Latch
-from rotator.store.latch import LatchFile
 
 LATCH_THREAD = "latch"
 """The name of the thread."""
 AGAIN_S = 10.0
-"""After a failed write the next try waits so long: a dying card is not written for each press."""
+"""The pause after a failed write: a dying card is not written for each press."""
 JOIN_S = 2.0
 
 
 class LatchThread:
     """`note` may be called from any thread and never waits; of several notes the newest is written."""
 
-    def __init__(self, file: LatchFile, latch: Latch | None) -> None:
-        """`latch`: what the file's last run has left; a damaged file is replaced with it."""
-        self._file = file
+    def __init__(self, save: Callable[[Latch | None], bool], latch: Latch | None, *, again_s: float = AGAIN_S) -> None:
+        """`save` writes the file, and returns False if that failed; the thread calls it.
+
+        `latch`: what the file's last run has left; a damaged file is replaced with it.
+        """
+        self._save = save
         self._newest = latch
-        self._changed, self._ending = threading.Event(), threading.Event()
+        self._again_s = again_s
+        self._news = threading.Condition()
+        self._unwritten = self._ending = False
         self._thread = threading.Thread(target=self._run, name=LATCH_THREAD, daemon=True)
 
     def start(self) -> None:
-        self._changed.set()
+        self.note(self._newest)
         self._thread.start()
 
     def note(self, latch: Latch | None) -> None:
         """This is in force from now on; None: nothing is latched."""
-        self._newest = latch
-        self._changed.set()
+        with self._news:
+            self._newest, self._unwritten = latch, True
+            self._news.notify()
+
+    def end(self) -> None:
+        """Let the thread write what is in force, and end. A failed write is tried once more. Returns at once."""
+        with self._news:
+            self._unwritten = self._ending = True
+            self._news.notify()
 
     def close(self) -> None:
-        """Write what is in force, and end. A disk that hangs is left behind. May be called twice."""
-        self._ending.set()
-        self._changed.set()
+        """As `end`, and wait for it. A disk that hangs is left behind. May be called twice."""
+        self.end()
         if self._thread.is_alive():
             self._thread.join(JOIN_S)
 
     def _run(self) -> None:
+        last_try = False
         while True:
-            self._changed.wait()
-            self._changed.clear()
-            done = self._file.save(self._newest)
-            if self._ending.is_set():
-                return
-            if not done:
-                self._ending.wait(AGAIN_S)
-                self._changed.set()
+            with self._news:
+                self._news.wait_for(lambda: self._unwritten)
+                self._unwritten, latch = False, self._newest
+            done = self._save(latch)
+            with self._news:
+                # A stop may have come while the disk was slow: the end waits for it too.
+                if self._ending and not self._unwritten and (done or last_try):
+                    return
+                if not done:
+                    last_try = self._ending
+                    self._news.wait_for(lambda: self._ending, self._again_s)
+                    self._unwritten = True

@@ -1,17 +1,48 @@
-"""The thread that writes a latched stop: the newest counts, and the end waits for the disk."""
+"""The thread that writes a latched stop: the newest counts, however slow or broken the card is, and at the end too."""
 
 from __future__ import annotations
 
+import itertools
 import threading
 import time
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
+
+import pytest
 
 from rotator.runtime.latch_thread import LatchThread
 from rotator.status import Latch
-from rotator.store.latch import DAMAGED, LatchFile
+from rotator.store.latch import BEFORE, DAMAGED, LatchFile
+from tests.search import some
 
 PATIENCE_S = 20.0
+Events = tuple[Latch | str | None, ...]
 STOP, STORM = Latch("panel"), Latch("console#3", storm=True)
+END = "end"
+"""The box ends: nothing is noted after this."""
+
+
+class SlowCard:
+    """A card on which each write takes a while. Meanwhile other threads do what `script` says, write by write.
+
+    Each entry of `script`: what they do before the old content is replaced, what they do after it, and whether the
+    card takes the write. When the script is over the card is quick, and takes every write.
+    """
+
+    def __init__(self, file: LatchFile, script: Sequence[tuple[Events, Events, bool]]) -> None:
+        self._file = file
+        self._script = iter(script)
+        self.others: Callable[[Latch | str | None], None] = lambda _event: None
+
+    def save(self, latch: Latch | None) -> bool:
+        before, after, takes = next(self._script, ((), (), True))
+        for event in before:
+            self.others(event)
+        done = takes and self._file.save(latch)
+        for event in after:
+            self.others(event)
+        return done
 
 
 def left_in(path: Path) -> Latch | None:
@@ -20,7 +51,7 @@ def left_in(path: Path) -> Latch | None:
 
 def begun(path: Path) -> LatchThread:
     file = LatchFile(path)
-    thread = LatchThread(file, file.load())
+    thread = LatchThread(file.save, file.load())
     thread.start()
     return thread
 
@@ -68,3 +99,47 @@ def test_what_the_card_refused_is_tried_once_more_at_the_end(tmp_path: Path) -> 
     folder.unlink()
     thread.close()
     assert left_in(folder / "latch.json") == Latch("panel before the restart")
+
+
+def scripts(events: Events) -> Iterator[Sequence[tuple[Events, Events, bool]]]:
+    """Every way in which these events, in this order, fall into the first two writes, and each outcome of both."""
+    places = range(4)  # before and after the first write, before and after the second one
+    for at in itertools.combinations_with_replacement(places, len(events)):
+        parts = [tuple(event for event, place in zip(events, at, strict=True) if place == each) for each in places]
+        for first, second in itertools.product((True, False), repeat=2):
+            if first or second or END in (*parts[2], *parts[3]):  # the end tries twice
+                yield [(parts[0], parts[1], first), (parts[2], parts[3], second)]
+
+
+@pytest.mark.search
+@pytest.mark.parametrize(
+    ("left", "notes"),
+    [(None, (STOP,)), (STOP, (None,)), (None, (STOP, STORM)), (None, (None, STOP)), (STOP, (STOP, None))],
+)
+def test_what_was_noted_last_is_in_the_file_whenever_the_card_is_slow_or_refuses(
+    tmp_path: Path, left: Latch | None, notes: tuple[Latch | None, ...]
+) -> None:
+    """Each order of the notes, the end, and the begin, the end and the outcome of a write."""
+    newest = notes[-1]
+    for number, script in enumerate(some(list(scripts((*notes, END))))):
+        path = tmp_path / str(number) / "latch.json"
+        LatchFile(path).save(left)
+        file = LatchFile(path)
+        card = SlowCard(file, script)
+        thread = LatchThread(card.save, file.load(), again_s=0.0)
+        card.others = partial(happen, thread)
+        thread.start()
+        thread.close()
+        found = left_in(path)
+        if newest is None:
+            assert found is None, script
+        else:
+            assert found is not None, script
+            assert (found.by.removesuffix(BEFORE), found.storm) == (newest.by, newest.storm), script
+
+
+def happen(thread: LatchThread, event: Latch | str | None) -> None:
+    if isinstance(event, str):
+        thread.end()
+    else:
+        thread.note(event)
