@@ -23,7 +23,10 @@ def no_switches(_axis: Axis) -> frozenset[Direction]:
 
 
 class PlainRotor:
-    """Default answers: no switched supply, no index contact, no way that is counted, nothing to check."""
+    """Default answers: no relays, no switched supply, no index contact, no coast that is counted, nothing to check."""
+
+    def driven(self, _axis: Axis) -> Direction:
+        return Direction.OFF
 
     def closed_contacts(self) -> frozenset[Axis]:
         return frozenset()

@@ -185,7 +185,7 @@ class CountedRotor(RelayRotor):
 
     def obey(self, axis: Axis, command: Command) -> Direction:
         runs = isinstance(command, Run) and command.direction is not Direction.OFF
-        starts = runs and self.bank.driven()[axis] is Direction.OFF
+        starts = runs and self.driven(axis) is Direction.OFF
         obey = super().obey
         if starts and axis in self._axes:
             return self._axes[axis].start(lambda: obey(axis, command))

@@ -31,6 +31,10 @@ class Rotor(Protocol):
         Returns the direction whose relay is closed now; OFF for a rotor without relays.
         """
 
+    def driven(self, axis: Axis) -> Direction:
+        """The direction whose relay may be closed now, also after an `obey` that failed; OFF for a rotor without
+        relays."""
+
     def run(self, errand: Errand) -> None:
         """Carry out an errand, which the controller gives once. Raises HardwareError."""
 

@@ -37,6 +37,9 @@ class RelayRotor(GuardedRotor):
             case _:
                 raise AssertionError("relays take directions only")
 
+    def driven(self, axis: Axis) -> Direction:
+        return self.bank.driven()[axis]
+
     def condition(self, axis: Axis) -> Condition:
         condition = super().condition(axis)
         return condition if self.bank.supplied else replace(condition, supplied=False)

@@ -86,10 +86,11 @@ class Engine:
 
     def start(self) -> asyncio.Future[Exception | None]:
         """Start both, in an event loop. Returns the future that is done when the control loop has ended."""
-        self._thread = ControlThread(self.loop)
+        thread = ControlThread(self.loop)
         self._rotor.start()
-        self._thread.start()
-        return self._thread.ended
+        thread.start()
+        self._thread = thread  # `halt` waits for a thread that runs
+        return thread.ended
 
     async def halt(self) -> Exception | None:
         """Switch everything off. May be called twice. Returns what ended the control loop, None for a proper end.

@@ -115,13 +115,15 @@ class ControlLoop:
         before = self.status
         self._watch_links(now_s)
         commands = self._controller.step(now_s, self._sensors.readings, orders)
-        driven = dict.fromkeys(Axis, Direction.OFF)
+        driven = {}
         self._run_errands()
         for axis, command in commands.items():
             try:
                 driven[axis] = self._rotor.obey(axis, command)
                 self._journal.note(DRIVES[axis], "")
             except HardwareError as fault:
+                # A relay that could not be opened is closed.
+                driven[axis] = self._rotor.driven(axis)
                 self._journal.note(DRIVES[axis], str(fault))
         self._controller.note_driven(now_s, driven)
         self.status = self._controller.status(now_s, self._late_s)

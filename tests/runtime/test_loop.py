@@ -5,10 +5,11 @@ When orders act, what a silent sensor does, and that the relays are off whatever
 
 from __future__ import annotations
 
+import itertools
 import logging
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, cast
 
@@ -238,6 +239,9 @@ class LinesGone:
             raise HardwareError("GPIO: cannot switch azimuth_cw: No such device")
         return Direction.OFF
 
+    def driven(self) -> dict[Axis, Direction]:
+        return dict.fromkeys(Axis, Direction.OFF)
+
     def off(self) -> None:
         pass
 
@@ -254,6 +258,33 @@ def test_a_drive_that_fails_is_said_once(rig: Rig, caplog: pytest.LogCaptureFixt
     rig.run(2.0)
     assert len(records(caplog, "No such device")) == 1
     assert not records(caplog, "answers again")
+
+
+class FailingLines:
+    """Relay lines of which some calls fail: `fails` says of each call, one after the other, whether it does."""
+
+    def __init__(self, fails: Iterable[bool]) -> None:
+        self._fails = iter(fails)
+
+    def set(self, levels: Mapping[str, bool]) -> None:
+        if next(self._fails, False):
+            raise HardwareError(f"GPIO: cannot switch {', '.join(levels)}: No such device")
+
+
+@pytest.mark.parametrize("fails", list(itertools.product((False, True), repeat=5)), ids=str)
+def test_whichever_line_fails_the_status_says_what_the_relays_may_do(fails: tuple[bool, ...]) -> None:
+    """A relay that could not be opened is still driven: watches that heard of an opening would judge it by that."""
+    rig = Rig()
+    bank = RelayBank(FailingLines(fails), rig.clock, dead_time_s=0.5)
+    loop = ControlLoop(build_controller(rig.config), RelayRotor(bank, rig.station.rotor.sensors), rig.clock, PERIOD_S)
+    rig.run(LOOK_S, loop)
+    orders = (Jog(AZ, Direction.PLUS), Stop(), Jog(EL, Direction.MINUS), Jog(AZ, Direction.MINUS), Stop())
+    for order in orders:
+        loop.post(LINK, order)
+        for _ in range(2):
+            rig.run(PERIOD_S, loop)
+            assert {axis: loop.status.axis(axis).drive for axis in Axis} == bank.driven(), order
+    rig.station.close()
 
 
 def test_an_order_that_can_wait_makes_room_for_the_next_of_its_kind(rig: Rig) -> None:
