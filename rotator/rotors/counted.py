@@ -26,7 +26,7 @@ from rotator.store import counts
 log = logging.getLogger(__name__)
 
 KEEP_EVERY_S = 0.5
-"""Seconds between two reports of a resting axis to the counts file, which decides when to write."""
+"""Seconds between two reports to the counts file: a resting axis, or a lost count. The file decides when to write."""
 
 
 class CountedAxis:
@@ -149,12 +149,13 @@ class CountedAxis:
     def _keep(self, angle_deg: float) -> None:
         if self._counts_writer is None or self._doubt:
             return
-        if self._counter.trouble:
-            if not self._reported_lost:
-                self._counts_writer.lost(self._axis)
-            self._reported_lost = True
-            return
         now_s = self._clock()
+        if self._counter.trouble:
+            # Again and again: a card may have refused it, and the file must not keep an angle that is wrong.
+            if not self._reported_lost or now_s - self._reported_s >= KEEP_EVERY_S:
+                self._reported_s, self._reported_lost = now_s, True
+                self._counts_writer.lost(self._axis)
+            return
         if self._counter.at_rest and (self._moved or now_s - self._reported_s >= KEEP_EVERY_S):
             self._reported_s, self._moved = now_s, False
             self._counts_writer.rests(now_s, self._axis, angle_deg)

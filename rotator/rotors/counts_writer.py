@@ -38,8 +38,9 @@ class Mark(Enum):
 class CountsWriter:
     """`later` runs the writing jobs; None: the writer starts a thread for them, which `close` ends.
 
-    The caller lets no `rests` come between `may_start` and the relay that closes. After `close` no motor may start, and
-    the other calls do nothing: a sensor thread may run longer than the rotor.
+    May be used from any thread. The caller lets no `rests` come between a `may_start` that is True and the relay that
+    closes. After `close` no motor may start, and the other calls do nothing: a sensor thread may run longer than the
+    rotor.
     """
 
     def __init__(self, file: CountsFile, later: Later | None = None) -> None:
@@ -47,7 +48,11 @@ class CountsWriter:
         self._pool = ThreadPoolExecutor(1, COUNTS_THREAD) if later is None else None
         self._run_later: Later = self._pool.submit if self._pool else later or at_once
         self._marks = dict.fromkeys(Axis, Mark.NONE)
-        self._closing = threading.Lock()
+        self._requests = dict.fromkeys(Axis, 0)
+        """The number of the latest request for a mark. What comes of an older one, or of one that a rest has followed,
+        does not count: the file may say by then that the axis stands."""
+        self._lock = threading.RLock()
+        """Reentrant: `at_once` runs its jobs within a call."""
         self._closed = False
 
     def load(self) -> dict[Axis, Place]:
@@ -56,12 +61,14 @@ class CountsWriter:
 
     def may_start(self, axis: Axis) -> bool:
         """Whether the motor may start now. False: not yet (ask again), or not at all (`trouble` says why)."""
-        if self._closed:
-            return False
-        if self._marks[axis] in (Mark.NONE, Mark.REFUSED):
-            self._marks[axis] = Mark.ASKED
-            self._later(lambda: self._mark(axis))
-        return self._marks[axis] is Mark.SET
+        with self._lock:
+            if self._closed:
+                return False
+            if self._marks[axis] in (Mark.NONE, Mark.REFUSED):
+                self._new_state(axis, Mark.ASKED)
+                request = self._requests[axis]
+                self._later(lambda: self._mark(axis, request))
+            return self._marks[axis] is Mark.SET
 
     def trouble(self, axis: Axis) -> str:
         """Why the motor may not start; empty when it may start now or soon."""
@@ -69,21 +76,23 @@ class CountsWriter:
 
     def rests(self, now_s: float, axis: Axis, angle_deg: float) -> None:
         """The axis stands at this angle on the rotor's own scale, and its count is right."""
-        self._marks[axis] = Mark.NONE
-        self._later(lambda: self._file.rest(now_s, axis, angle_deg))
+        with self._lock:
+            self._new_state(axis, Mark.NONE)
+            self._later(lambda: self._file.rest(now_s, axis, angle_deg))
 
     def lost(self, axis: Axis) -> None:
-        """The count of the axis may be wrong."""
+        """The count of the axis may be wrong. Say so again now and then: a card may have refused it."""
         self._later(lambda: self._file.lose(axis))
 
     def homed(self, axis: Axis, angle_deg: float) -> None:
         """The axis was found at this angle on the rotor's own scale."""
-        self._marks[axis] = Mark.NONE
-        self._later(lambda: self._file.home(axis, angle_deg))
+        with self._lock:
+            self._new_state(axis, Mark.NONE)
+            self._later(lambda: self._file.home(axis, angle_deg))
 
     def close(self) -> None:
         """Write the angle of each axis that stands, and end the thread. May be called twice."""
-        with self._closing:
+        with self._lock:
             if not self._closed:
                 self._run_later(self._file.close)
             self._closed = True
@@ -91,9 +100,17 @@ class CountsWriter:
             self._pool.shutdown(wait=True)
 
     def _later(self, job: Callable[[], None]) -> None:
-        with self._closing:
+        with self._lock:
             if not self._closed:
                 self._run_later(job)
 
-    def _mark(self, axis: Axis) -> None:
-        self._marks[axis] = Mark.SET if self._file.start(axis) else Mark.REFUSED
+    def _new_state(self, axis: Axis, mark: Mark) -> None:
+        self._requests[axis] += 1
+        self._marks[axis] = mark
+
+    def _mark(self, axis: Axis, request: int) -> None:
+        """In the writing thread."""
+        done = self._file.start(axis)
+        with self._lock:
+            if request == self._requests[axis]:
+                self._marks[axis] = Mark.SET if done else Mark.REFUSED

@@ -11,7 +11,7 @@ import logging
 import threading
 from collections.abc import Callable
 
-from hw.ports import Axis, Direction, HardwareError
+from hw.ports import Axis, HardwareError
 from rotator.control.controller import Controller
 from rotator.orders import Order, Source, Stop
 from rotator.rotors.port import Rotor

@@ -103,6 +103,8 @@ class CountsFile:
         self._written: dict[Axis, Place] = dict.fromkeys(cams, NEVER)
         self._stood: dict[Axis, tuple[float, float]] = {}
         """For an axis that stands: the moment since when, and its angle."""
+        self._doubted: set[Axis] = set()
+        """The axes whose count may be wrong. The file may not say so yet: a card may have refused it."""
         self._rested_s = dict.fromkeys(cams, -math.inf)
 
     @property
@@ -126,14 +128,18 @@ class CountsFile:
         return self._written[axis].standing is not Standing.KNOWN or self._write(axis, MOVING)
 
     def lose(self, axis: Axis) -> None:
-        """The count can no longer be trusted."""
+        """The count can no longer be trusted. A write that failed is tried again by the next call, and by `close`."""
         self._stood.pop(axis, None)
+        self._doubted.add(axis)
         if self._written[axis].standing is not Standing.LOST:
             self._write(axis, LOST)
 
     def home(self, axis: Axis, angle_deg: float) -> None:
-        """The axis has been homed and stands at this angle."""
-        self._write(axis, Place(Standing.KNOWN, angle_deg))
+        """The axis has been homed and stands at this angle. Where it stood before was on another count."""
+        self._stood.pop(axis, None)
+        self._doubted.discard(axis)
+        if not self._write(axis, Place(Standing.KNOWN, angle_deg)):
+            self._stood[axis] = (-math.inf, angle_deg)  # the next `rest`, or `close`, tries again
 
     def rest(self, now_s: float, axis: Axis, angle_deg: float) -> None:
         """The axis stands at this angle, and its count is right. The angle is written after a long enough rest."""
@@ -145,7 +151,9 @@ class CountsFile:
             self._rested_s[axis] = now_s
 
     def close(self) -> None:
-        """The box ends: write the angle of every axis that stands."""
+        """The box ends: write the angle of every axis that stands, and each doubt that a card has refused."""
+        for axis in self._doubted:
+            self.lose(axis)
         for axis, (_, angle_deg) in self._stood.items():
             place = Place(Standing.KNOWN, round(angle_deg, 3))
             if place != self._written[axis]:

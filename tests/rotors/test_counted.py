@@ -223,6 +223,20 @@ def test_turned_by_something_else_at_rest_it_is_lost_on_disk_at_once(path: Path)
     assert mast.on_disk().standing is Standing.LOST
 
 
+def test_a_loss_that_the_card_refuses_is_written_as_soon_as_it_takes_it(path: Path) -> None:
+    mast = Mast(path, KNOWN)
+    mast.wait(30.0)
+    in_the_way = path.with_name(path.name + ".new")
+    in_the_way.mkdir()
+    mast.rig.rotor.inject("azimuth-hand-turns")
+    mast.wait(4.0)
+    assert mast.axis.condition(NO_ENDS).lost == "it turns with no relay on"
+    assert mast.on_disk().standing is Standing.KNOWN
+    in_the_way.rmdir()
+    mast.wait(1.0)
+    assert mast.on_disk().standing is Standing.LOST, "a power cut now, and the next run must not believe the old angle"
+
+
 def test_driven_and_quiet_is_a_fault_by_its_name(path: Path) -> None:
     mast = Mast(path, KNOWN)
     mast.rig.rotor.inject("azimuth-motor-stalled")
