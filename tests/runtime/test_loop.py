@@ -266,9 +266,12 @@ class FailingLines:
     def __init__(self, fails: Iterable[bool]) -> None:
         self._fails = iter(fails)
 
-    def set(self, levels: Mapping[str, bool]) -> None:
+    def set(self, levels: dict[str, bool]) -> None:
         if next(self._fails, False):
             raise HardwareError(f"GPIO: cannot switch {', '.join(levels)}: No such device")
+
+    def close(self) -> None:
+        pass
 
 
 @pytest.mark.parametrize("fails", list(itertools.product((False, True), repeat=5)), ids=str)
