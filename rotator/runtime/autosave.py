@@ -20,6 +20,8 @@ from rotator.store.relays import RelaysFile
 log = logging.getLogger(__name__)
 
 CALIBRATIONS_EVERY_S = 1.0
+CALIBRATIONS_AGAIN_S = 10.0
+"""The pause after a calibration that could not be saved."""
 LEARNT_EVERY_S = 600.0
 
 
@@ -45,7 +47,9 @@ class Autosave:
         self._relays = relays
         self._saving = threading.Lock()
         """`close` may come while another thread still saves."""
-        self._points = {axis: loop.status.axis(axis).calibration for axis in Axis}
+        self._saved = {axis: loop.status.axis(axis).calibration for axis in Axis}
+        self._troubles: dict[Axis, str] = {}
+        """Why the latest calibration of an axis could not be saved."""
         learnt.note(self._motors())
 
     async def run(self) -> None:
@@ -53,9 +57,10 @@ class Autosave:
         rounds = 0
         while True:
             await asyncio.sleep(CALIBRATIONS_EVERY_S)
-            await asyncio.to_thread(self.keep_calibrations)
-            await asyncio.to_thread(self.keep_relays)
             rounds += 1
+            if not self._troubles or rounds * CALIBRATIONS_EVERY_S % CALIBRATIONS_AGAIN_S == 0:
+                await asyncio.to_thread(self.keep_calibrations)
+            await asyncio.to_thread(self.keep_relays)
             if rounds * CALIBRATIONS_EVERY_S % LEARNT_EVERY_S == 0:
                 await asyncio.to_thread(self._keep_learnt, ending=False)
 
@@ -66,7 +71,7 @@ class Autosave:
         self._keep_learnt(ending=True)
 
     def keep_calibrations(self) -> None:
-        """Save each calibration that was taken over a link (O, F) since the last call."""
+        """Save each calibration that was taken over a link (O, F) and is not saved yet."""
         with self._saving:
             self._keep_calibrations()
 
@@ -83,19 +88,26 @@ class Autosave:
     def _keep_calibrations(self) -> None:
         for axis in Axis:
             points = self._loop.status.axis(axis).calibration
-            if points is None or points == self._points[axis]:
-                continue
-            self._points[axis] = points
-            if self._path is None:
-                log.warning("%s: new calibration, lost at the end: run with --config to keep it", axis.value)
-                continue
-            from rotator.config.save import save_table  # noqa: PLC0415 - loads tomlkit, which a start can do without
+            if points is not None and points != self._saved[axis] and self._keep_calibration(axis, points):
+                self._saved[axis] = points
 
-            try:
-                save_table(self._path, axis.value, calibration=self._offsets.own_scale(axis, points))
-                log.info("%s: calibration saved in %s", axis.value, self._path)
-            except (OSError, ConfigError) as fault:
-                log.error("%s: calibration cannot be saved: %s", axis.value, fault)
+    def _keep_calibration(self, axis: Axis, points: tuple[tuple[float, float], ...]) -> bool:
+        """False: it could not be saved, and has to be tried again. The log has each new reason once."""
+        if self._path is None:
+            log.warning("%s: new calibration, lost at the end: run with --config to keep it", axis.value)
+            return True
+        from rotator.config.save import save_table  # noqa: PLC0415 - loads tomlkit, which a start can do without
+
+        try:
+            save_table(self._path, axis.value, calibration=self._offsets.own_scale(axis, points))
+        except (OSError, ConfigError) as fault:
+            if self._troubles.get(axis) != str(fault):
+                log.error("%s: calibration cannot be saved, it is tried again: %s", axis.value, fault)
+            self._troubles[axis] = str(fault)
+            return False
+        self._troubles.pop(axis, None)
+        log.info("%s: calibration saved in %s", axis.value, self._path)
+        return True
 
     def _motors(self) -> dict[Axis, Motors]:
         learnt = {axis: self._loop.status.axis(axis).learnt for axis in Axis}

@@ -6,7 +6,6 @@ Knows the file's form and its bounds. A token itself is never in it. Does not kn
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -76,7 +75,8 @@ class PairedFile:
         none = PairedList()
         return self._file.load(_parse, absent=none, damaged=none, consequence="ignored, browsers must be paired anew")
 
-    def save(self, paired: Sequence[Paired], highest: int) -> bool:
+    def save(self, kept: PairedList) -> bool:
+        """False: the write failed."""
         content = [
             {
                 "number": each.number,
@@ -85,6 +85,6 @@ class PairedFile:
                 "since_s": round(each.since_s),
                 "seen_s": round(each.seen_s),
             }
-            for each in paired
+            for each in kept.paired
         ]
-        return self._file.save({"highest": highest, "paired": content})
+        return self._file.save({"highest": kept.highest, "paired": content})

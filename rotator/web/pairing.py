@@ -12,11 +12,11 @@ import logging
 import secrets
 import threading
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
 
-from rotator.store.paired import LONGEST_NAME, MOST, Paired, PairedFile
+from rotator.store.paired import LONGEST_NAME, MOST, Paired, PairedFile, PairedList
 
 log = logging.getLogger(__name__)
 
@@ -65,7 +65,8 @@ class Pairings:
         kept = file.load()
         self._paired = {each.digest: each for each in kept.paired}
         self._highest = kept.highest
-        self._unsaved = False
+        self._written = self._list()
+        """What the file says."""
         self._code = ""
         self._by_person = False
         self._until_s = 0.0
@@ -163,7 +164,6 @@ class Pairings:
             # A clock that was wrong for an hour must not end what people have paired.
             if one is None or now_s - one.seen_s <= NOTED_S or not self._trusted():
                 return one
-            self._unsaved = True
             if one.seen_s and now_s - one.seen_s > LASTS_S:
                 self._drop(one)
                 return None
@@ -171,18 +171,23 @@ class Pairings:
             return one
 
     def keep(self) -> None:
-        """Write the file, where something has changed. It waits for the disk, and holds up no other call meanwhile."""
+        """Write the file, if it does not say this yet. Waits for the disk, and holds up no other call meanwhile.
+
+        What the disk has refused is tried again by the next call.
+        """
         with self._saving:
             with self._lock:
-                unsaved, self._unsaved = self._unsaved, False
-                paired, highest = sorted(self._paired.values(), key=lambda each: each.number), self._highest
-            if unsaved:
-                self._file.save(paired, highest)
+                now = self._list()
+            if now != self._written and self._file.save(now):
+                self._written = now
 
-    def all(self) -> list[Paired]:
+    def all(self) -> Sequence[Paired]:
         """All of them, the oldest first."""
         with self._lock:
-            return sorted(self._paired.values(), key=lambda each: each.number)
+            return self._list().paired
+
+    def _list(self) -> PairedList:
+        return PairedList(tuple(sorted(self._paired.values(), key=lambda each: each.number)), self._highest)
 
     def paired(self) -> list[str]:
         """A line for each."""
@@ -212,7 +217,6 @@ class Pairings:
         seen_s = now_s if self._trusted() else 0.0
         one = Paired(self._highest, self._own_name(_tidy(name)), _digest(token), now_s, seen_s)
         self._paired[one.digest] = one
-        self._unsaved = True
         log.info("page: %s is paired", one.name)
         return token, one
 
@@ -224,7 +228,6 @@ class Pairings:
 
     def _drop(self, one: Paired) -> None:
         del self._paired[one.digest]
-        self._unsaved = True
         log.info("page: %s is paired no more", one.name)
         self.on_gone(one)
 

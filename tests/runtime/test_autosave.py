@@ -153,6 +153,52 @@ def test_a_file_that_is_gone_is_said(path: Path, caplog: pytest.LogCaptureFixtur
     assert "azimuth: calibration cannot be saved" in caplog.text
 
 
+CALIBRATIONS = (Calibrate(Axis.AZIMUTH, high_end=False), Calibrate(Axis.ELEVATION, high_end=False))
+
+
+@pytest.mark.parametrize("works", range(7))
+@pytest.mark.parametrize("breaks", range(6))
+def test_whenever_the_card_refuses_each_calibration_is_in_the_file_in_the_end(
+    path: Path, breaks: int, works: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    """The card breaks before one of the events, and works again before a later one, or before the end."""
+    box = Running(path, path)
+    before = load(path)
+    in_the_way = path.with_name(path.name + ".new")
+    for number, event in enumerate((CALIBRATIONS[0], None, CALIBRATIONS[1], None, None, None)):
+        if number == breaks:
+            in_the_way.mkdir()
+        if number == works and in_the_way.exists():
+            in_the_way.rmdir()
+        if event is None:
+            box.autosave.keep_calibrations()
+        else:
+            box.run(2.0, event)
+    if in_the_way.exists():
+        in_the_way.rmdir()
+    box.autosave.close()
+    after = load(path)
+    assert after.azimuth.calibration != before.azimuth.calibration
+    assert after.elevation.calibration != before.elevation.calibration
+    assert caplog.text.count("cannot be saved") <= 2, "each axis once"
+
+
+def test_what_could_not_be_saved_is_said_once_and_tried_again_until_it_is(
+    path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level(logging.INFO)
+    box = Running(path, path)
+    text = path.read_text()
+    path.unlink()
+    for _ in range(3):
+        calibrate_low(box, Axis.AZIMUTH)
+    assert caplog.text.count("cannot be saved") == 1
+    path.write_text(text)
+    box.autosave.keep_calibrations()
+    assert load(path).azimuth.calibration is not None
+    assert caplog.text.count("calibration saved in") == 1
+
+
 def test_closed_twice_it_saves_once(path: Path) -> None:
     box = Running(path, path)
     box.turn_about()

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import threading
-from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
-from rotator.store.paired import MOST, Paired, PairedFile
+from rotator.store.paired import MOST, PairedFile, PairedList
 from rotator.web.pairing import CODE_S, LASTS_S, MOST_TRIES, TRIES, WAIT_S, NotPairedError, Pairings
 
 
@@ -210,30 +210,56 @@ def test_a_number_is_never_given_again_also_after_a_new_start(
     assert [one.number for one in again.all()] == [1, 3]
 
 
+class SlowFile(PairedFile):
+    """Its disk takes as long as the test likes, and `fails` at the next write if the test says so."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        self.writes, self.may_end, self.fails = threading.Event(), threading.Event(), False
+        self.may_end.set()
+
+    def save(self, kept: PairedList) -> bool:
+        self.writes.set()
+        assert self.may_end.wait(60.0)
+        fails, self.fails = self.fails, False
+        return not fails and super().save(kept)
+
+
 def test_to_know_who_stops_the_antenna_does_not_wait_for_the_disk(tmp_path: Path, clocks: Clocks) -> None:
-    class SlowFile(PairedFile):
-        """Its disk takes as long as the test likes."""
-
-        def save(self, paired: Sequence[Paired], highest: int) -> bool:
-            writes.set()
-            assert may_end.wait(60.0)
-            return super().save(paired, highest)
-
-    writes, may_end = threading.Event(), threading.Event()
-    may_end.set()
-    slow = Pairings(SlowFile(tmp_path / "paired.json"), lambda: clocks.now_s, lambda: clocks.utc_s)
+    file = SlowFile(tmp_path / "paired.json")
+    slow = Pairings(file, lambda: clocks.now_s, lambda: clocks.utc_s)
     token = slow.token("phone")
-    may_end.clear()
-    writes.clear()
+    file.may_end.clear()
+    file.writes.clear()
     clocks.pass_by(2 * 86_400.0)
     assert slow.known(token) is not None
-    assert not writes.is_set()
+    assert not file.writes.is_set()
     writer = threading.Thread(target=slow.keep)
     writer.start()
-    assert writes.wait(60.0)
+    assert file.writes.wait(60.0)
     assert slow.known(token) is not None
-    may_end.set()
+    file.may_end.set()
     writer.join()
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_what_changes_while_the_disk_is_slow_is_kept_too(tmp_path: Path, clocks: Clocks, fails: bool) -> None:
+    file = SlowFile(tmp_path / "paired.json")
+    slow = Pairings(file, lambda: clocks.now_s, lambda: clocks.utc_s)
+    token = slow.token("phone")
+    file.may_end.clear()
+    file.writes.clear()
+    file.fails = fails
+    writer = threading.Thread(target=slow.token, args=("one more",))
+    writer.start()
+    assert file.writes.wait(60.0)
+    clocks.pass_by(2 * 86_400.0)
+    seen = slow.known(token)
+    file.may_end.set()
+    writer.join()
+    slow.keep()
+    assert seen in opened(tmp_path, clocks).all()
+    assert opened(tmp_path, clocks).all() == slow.all()
 
 
 def test_numbers_are_never_given_twice_while_one_lives(pairings: Pairings) -> None:
@@ -249,3 +275,40 @@ def test_numbers_are_never_given_twice_while_one_lives(pairings: Pairings) -> No
 def test_a_name_is_kept_as_plain_text(pairings: Pairings, given: str, kept: str) -> None:
     pairings.token(given)
     assert pairings.all()[0].name == kept
+
+
+# --- a card that refuses
+
+
+EVENTS = ("pair", "revoke", "seen", "card", "keep")
+
+
+@pytest.mark.parametrize("events", list(itertools.product(EVENTS, repeat=3)), ids="-".join)
+def test_whatever_the_card_refuses_is_in_the_file_once_it_works(
+    tmp_path: Path, clocks: Clocks, events: tuple[str, ...]
+) -> None:
+    """`card`: it breaks, or works again. A revoked browser must not come back with the next start."""
+    pairings, in_the_way = opened(tmp_path, clocks), tmp_path / "paired.json.new"
+    token = pairings.token("first")
+    for event in events:
+        clocks.pass_by(100_000.0)
+        match event:
+            case "pair":
+                token = pairings.token("one more")
+            case "revoke" if pairings.all():
+                assert pairings.revoke(pairings.all()[-1].number) == ""
+            case "seen":
+                pairings.known(token)
+            case "card" if in_the_way.exists():
+                in_the_way.rmdir()
+            case "card":
+                in_the_way.mkdir()
+            case "keep":
+                pairings.keep()
+    if in_the_way.exists():
+        in_the_way.rmdir()
+    pairings.keep()
+    assert opened(tmp_path, clocks).all() == pairings.all()
+    written_ns = (tmp_path / "paired.json").stat().st_mtime_ns
+    pairings.keep()
+    assert (tmp_path / "paired.json").stat().st_mtime_ns == written_ns, "nothing is new"
