@@ -131,7 +131,7 @@ def draw(panel: PanelTable = PANEL) -> Sheet:
     sheet.ground("lamp.a")
     sheet.note(
         (30, 1060),
-        f"Outputs {more}: a lamp each, as on {lamps[0]}. Every switch closes to ground; the Pi itself pulls up.",
+        f"Outputs {more}: a lamp each, as on {lamps[0]}. Mode, calibrate and stop close to ground; the Pi pulls up.",
         "10 nF from each wiper, and from A2, to ground right at the ADS1115; 10 µF across each meter.",
         "Fit what you want: what the file does not name is not there.",
     )
