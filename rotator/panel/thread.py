@@ -30,6 +30,8 @@ STALE_S = 0.25
 RETRY_S = 0.5
 CHECK_S = 1.0
 """How often the output chip is checked for a reset."""
+AGAIN_S = 10.0
+"""The pause after full scales that the disk has refused."""
 KNOBS, LAMPS = "knobs and jog switches", "lamps and meters"
 STEPS = 255
 """Steps of a meter. The needle shows no finer ones, and they would load the bus."""
@@ -67,7 +69,8 @@ class PanelParts:
 
 
 class PanelThread:
-    """`post` takes an order, `keep` the knobs' full scales; `pulses` returns the axes whose index contact is closed.
+    """`post` takes an order. `keep` writes the knobs' full scales, and returns False if that failed. `pulses` returns the
+    axes whose index contact is closed.
 
     `failed` hears of the bug that ended a thread: without its panel a box must not go on.
     """
@@ -80,7 +83,7 @@ class PanelThread:
         post: Callable[[Order], None],
         clock: Callable[[], float],
         *,
-        keep: Callable[[Mapping[Axis, float]], None] = lambda full_scales: None,
+        keep: Callable[[Mapping[Axis, float]], bool] = lambda full_scales: True,
         pulses: Callable[[], Iterable[Axis]] = lambda: (),
         failed: Callable[[Exception], None] = lambda failure: None,
     ) -> None:
@@ -92,8 +95,11 @@ class PanelThread:
         self._keep = keep
         self._pulses = pulses
         self._failed = failed
-        self._to_keep: Mapping[Axis, float] | None = None
-        """New full scales of the knobs. A disk may be slow, and the stop button must not wait for it."""
+        self._full_scales: Mapping[Axis, float] | None = None
+        """The latest new ones of the knobs. A disk may be slow, and the stop button must not wait for it."""
+        self._kept: Mapping[Axis, float] | None = None
+        """Those that are on the disk."""
+        self._keep_again_s = -math.inf
         self._data = False
         self._readings: dict[str, tuple[float, float]] = {}
         """The last reading of each sensor, and its moment."""
@@ -118,12 +124,14 @@ class PanelThread:
             thread.start()
 
     def stop(self) -> None:
-        """End the threads and switch lamps and meters off: their chip works on without the program."""
+        """End the threads, keep what is not kept yet, and switch lamps and meters off: their chip works on without the
+        program."""
         self._stopping.set()
         for thread in self._threads:
             if thread.is_alive():
                 thread.join(timeout=JOIN_S)
         if not any(thread.is_alive() for thread in self._threads):  # a thread that hangs holds the bus
+            self.save(math.inf)
             self.dark()
 
     def cycle(self, now_s: float) -> None:
@@ -131,7 +139,7 @@ class PanelThread:
         self.read(now_s)
         self.step(now_s)
         self.show(now_s)
-        self.save()
+        self.save(now_s)
 
     # --- the thread that uses no bus
 
@@ -157,7 +165,7 @@ class PanelThread:
         for note in output.notes:
             log.warning("panel: %s", note)
         if output.full_scales is not None:
-            self._to_keep = output.full_scales
+            self._full_scales = output.full_scales
 
     def _closed(self) -> dict[str, bool]:
         """Which switches are closed; empty: none is fitted, or they cannot be read."""
@@ -186,7 +194,7 @@ class PanelThread:
         """Read the knobs and the jog switches, set lamps and meters, and keep new full scales."""
         self.read(now_s)
         self.show(now_s)
-        self.save()
+        self.save(now_s)
 
     def read(self, now_s: float) -> None:
         """Read every sensor. All are on one chip, so a failure of one counts for all."""
@@ -225,14 +233,19 @@ class PanelThread:
             return
         self._trouble(LAMPS, "")
 
-    def save(self) -> None:
-        full_scales, self._to_keep = self._to_keep, None
-        if full_scales is not None:
-            self._keep(full_scales)
+    def save(self, now_s: float) -> None:
+        """Keep new full scales of the knobs; what the disk has refused is tried again."""
+        full_scales = self._full_scales
+        if full_scales is None or full_scales is self._kept or now_s < self._keep_again_s:
+            return
+        if self._keep(full_scales):
+            self._kept = full_scales
+        else:
+            self._keep_again_s = now_s + AGAIN_S
 
     def dark(self) -> None:
         """Switch every lamp and meter off. If the chip does not answer, they stay as they are."""
-        if self._parts.outputs is not None and self._started:
+        if self._parts.outputs is not None and (self._started or self._shown):
             with suppress(HardwareError):
                 for channel in (*self._parts.lamps.values(), *self._parts.meters.values()):
                     self._parts.outputs.duty(channel, 0.0)

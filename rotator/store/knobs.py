@@ -50,9 +50,13 @@ class KnobsFile:
         )
         return dict(self._saved)
 
-    def save(self, full_scales: Mapping[Axis, float]) -> None:
-        """Write the full scales, unless the file has the same ones."""
+    def save(self, full_scales: Mapping[Axis, float]) -> bool:
+        """Write the full scales, unless the file has the same ones. False: the write failed."""
         rounded = {axis: round(share, DIGITS) for axis, share in full_scales.items()}
         content = {axis.value: share for axis, share in rounded.items()}
-        if rounded != self._saved and self._file.save({"full_scales": content}):
+        if rounded == self._saved:
+            return True
+        done = self._file.save({"full_scales": content})
+        if done:
             self._saved = rounded
+        return done

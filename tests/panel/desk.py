@@ -75,6 +75,8 @@ class Bench:
         self.bug = False
         self.posted: list[Order] = []
         self.kept: dict[Axis, float] = {}
+        self.refusals = 0
+        """So many of the next writes to the disk fail."""
         self.pulses: set[Axis] = set()
         self.failures: list[Exception] = []
         self.disk = threading.Event()
@@ -111,11 +113,15 @@ class Bench:
             raise RuntimeError("a bug")
         return self.status
 
-    def _keep(self, full_scales: Mapping[Axis, float]) -> None:
+    def _keep(self, full_scales: Mapping[Axis, float]) -> bool:
         self.disk.wait()
         with self.changed:
+            self.refusals -= 1
+            if self.refusals >= 0:
+                return False
             self.kept.update(full_scales)
             self.changed.notify_all()
+            return True
 
     def _fail(self, failure: Exception) -> None:
         with self.changed:

@@ -96,6 +96,30 @@ def test_the_stop_button_and_the_way_back() -> None:
     assert desk.sim.lit() == {"auto"}
 
 
+@pytest.mark.parametrize(("refusals", "seconds"), [(1, 12.0), (3, 32.0)])
+def test_full_scales_that_the_disk_refuses_are_tried_again_until_they_are_kept(refusals: int, seconds: float) -> None:
+    desk = Desk()
+    desk.refusals = refusals
+    desk.sim.set_calibrate(closed=True)
+    for axis in ("azimuth", "elevation"):
+        desk.sim.turn_knob(axis, 0.95)
+    desk.waits(seconds)
+    assert desk.kept == pytest.approx({AZ: 0.95, EL: 0.95}, abs=0.001)
+    assert desk.refusals == -1, "and then no more"
+
+
+def test_full_scales_that_the_disk_refuses_are_tried_once_more_at_the_end() -> None:
+    desk = Desk()
+    desk.refusals = 1
+    desk.sim.set_calibrate(closed=True)
+    for axis in ("azimuth", "elevation"):
+        desk.sim.turn_knob(axis, 0.95)
+    desk.waits(3.0)
+    assert desk.kept == {}
+    desk.thread.stop()
+    assert desk.kept == pytest.approx({AZ: 0.95, EL: 0.95}, abs=0.001)
+
+
 def test_calibration_at_power_up() -> None:
     desk = Desk()
     desk.sim.set_calibrate(closed=True)
@@ -129,6 +153,16 @@ def test_what_has_not_changed_is_not_written_again() -> None:
     desk.sim.board.before_change.append(lambda: writes.append(None))
     desk.waits(10.0)
     assert len(writes) <= 2 * 11  # only the addresses of what `check` reads, once a second
+
+
+def test_at_the_end_it_is_dark_also_where_the_chip_has_just_failed_to_answer() -> None:
+    desk = in_mode(AUTO)
+    desk.sim.inject("outputs-gone")
+    desk.waits(1.1)
+    desk.sim.clear("outputs-gone")
+    assert desk.sim.lit() == {"auto"}
+    desk.thread.stop()
+    assert desk.sim.lit() == set()
 
 
 def test_at_the_end_it_is_dark() -> None:
