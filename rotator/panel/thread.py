@@ -69,8 +69,8 @@ class PanelParts:
 
 
 class PanelThread:
-    """`post` takes an order. `keep` writes the knobs' full scales, and returns False if that failed. `pulses` returns the
-    axes whose index contact is closed.
+    """`post` takes an order. `keep` writes the knobs' full scales; False: that failed. `pulses` returns the axes whose
+    index contact is closed.
 
     `failed` hears of the bug that ended a thread: without its panel a box must not go on.
     """
