@@ -28,7 +28,8 @@ class Turned:
 
 class FrontPanel:
     def __init__(self) -> None:
-        self.mode = "auto"
+        self.mode = self._stands_at = "auto"
+        """What counts, and where the switch stands."""
         self.pressed = False
         """The stop button is."""
         self._pulled_s = -math.inf
@@ -48,6 +49,9 @@ class FrontPanel:
         return self._turn is not None and self._turn.since_s <= now_s
 
     def turn(self, mode: str, at_s: float) -> None:
+        if mode == self._stands_at:
+            return  # it is not moved, so the second in which it has to stand still goes on
+        self._stands_at = mode
         releases = not self.pressed and self._pulled_s <= at_s
         if self._turn is not None and self._turn.since_s <= at_s and self._turn.releases:
             self._released = replace(self._turn, mode=self._turn.mode if self.mode == "park" else self.mode)
