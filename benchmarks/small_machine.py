@@ -1,9 +1,10 @@
 """The box on a fifth of a core: run `python -m benchmarks.small_machine [MINUTES]`, as root; 60 minutes unless told.
 
 The box runs as a process of its own, in real time, on its simulated station, under a quota of CPU time. A client
-outside of the quota tracks a moving target once a second, asks once a second, jogs and stops. Relay edges carry the
-time at which the simulated line changed. Prints how soon a stop opens the relay, how late the cycles were, every fault,
-and what the box used of its fifth.
+outside of the quota flies the shipped passes of real satellites, an order a second, asks once a second, jogs and stops.
+Relay edges carry the time at which the simulated line changed. Each kind of rotor gets those minutes, one after the
+other. Prints how soon a stop opens the relay, how late the cycles were, every fault, and what the box used of its
+fifth.
 """
 
 from __future__ import annotations
@@ -12,68 +13,36 @@ import json
 import os
 import random
 import select
-import socket
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import tty
+from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import cycle
 from pathlib import Path
 
+import tomlkit
+
+from benchmarks.load import cpu_s
 from benchmarks.quota import NoQuotaError, fifth_of_a_core
+from benchmarks.stops import Stops, free_port, opened
+from rotator.cli.box import RunningBox
+from rotator.config.load import shipped
+from rotator.rehearsal.passes import find_pass, shipped_names
 
-CONFIG = """
-[[link]]
-protocol = "gs232b"
-pty = "{folder}/gs232"
-[state]
-path = "{folder}/state.json"
-[page]
-listen = "127.0.0.1:{port}"
-[relays]
-dead_time_s = 0.05
-[sim.azimuth]
-start_deg = 225
-"""
-BOX = """
-import asyncio, json, logging, sys
-from pathlib import Path
-from rotator.app import App
-from rotator.config.load import load
-from rotator.runtime.signals import SignalThread
-
-class Counted(logging.Handler):
-    def __init__(self):
-        super().__init__(logging.WARNING)
-        self.lines = []
-    def emit(self, record):
-        self.lines.append(record.getMessage())
-
-async def main():
-    said = Counted()
-    logging.getLogger().addHandler(said)
-    app = App(load(Path(sys.argv[1])))
-    gpio, relays = app.station.world.gpio, app.config.relays
-    edges, late_s = [], []
-    def note(at_s, changes):
-        edges.extend((at_s, pin, changes[pin]) for pin in (relays.azimuth_cw, relays.azimuth_ccw) if pin in changes)
-    gpio.on_edges.append(note)
-    stop, loop = asyncio.Event(), asyncio.get_running_loop()
-    async def watch():
-        while True:
-            late_s.append(app.loop.status.cycle_late_s)
-            await asyncio.sleep(0.05)
-    watcher = asyncio.create_task(watch())
-    with SignalThread(lambda: loop.call_soon_threadsafe(stop.set)):
-        await app.run(stop)
-    watcher.cancel()
-    print(json.dumps({"edges": edges, "late_s": max(late_s), "said": said.lines}))
-
-asyncio.run(main())
-"""
-STOP_EVERY_S = 10.0
+KINDS = {"relay-pot": "simulated", "relay-pulse": "u100"}
+"""Each kind of rotor with relays, by its shipped configuration."""
+START_DEG = 225.0
+HOMED = (f"confirm azimuth {START_DEG:g}", "confirm elevation 0")
+DEAD_TIME_S = {"relay-pot": 0.05, "relay-pulse": 0.5}
+JOG_S = 0.6
+"""So long at least a jog lasts; with the motor's coast before it a relay has closed by then."""
+STOP_EVERY = 10
+"""A jog and a stop come each so many seconds."""
 ANSWER_S = 5.0
 
 
@@ -81,12 +50,7 @@ ANSWER_S = 5.0
 class Result:
     """Of one run. Times in milliseconds."""
 
-    stops_ms: list[float]
-    """From the last byte of S to the relay's line."""
-    unmet: int
-    """Stops after which a relay that was closed did not open within a second."""
-    idle: int
-    """Stops that came before the jog had closed a relay: it first waits until the axis stands."""
+    stops: Stops
     answers_ms: list[float]
     """From C2 to its whole answer, as the client saw it."""
     worst_late_ms: float
@@ -118,29 +82,28 @@ class _Client:
             reply += os.read(self._fd, 256)
         self.answers_ms.append(1000 * (time.monotonic() - sent_s))
 
-    def second(self, count: int) -> None:
-        """A second of tracking: an order, a question; every STOP_EVERY_S a jog and a stop instead."""
+    def second(self, count: int, stop_every: int, orders: Iterator[str]) -> None:
+        """A second of a pass: an order, a question; each `stop_every`-th a jog and a stop instead."""
         end_s = time.monotonic() + 1.0
-        if count % STOP_EVERY_S == STOP_EVERY_S - 1:
-            self.send("R" if count % 20 < STOP_EVERY_S else "L")
-            time.sleep(0.5 + 0.1 * self._chance.random())
+        order = next(orders)
+        if count % stop_every == stop_every - 1:
+            self.send("R" if count // stop_every % 2 else "L")
+            time.sleep(JOG_S + 0.1 * self._chance.random())
             self.stops_s.append(self.send("S"))
         else:
-            self.send(f"W{(225 + count % 60) % 360:03d} {15 + count % 60 // 2:03d}")
+            self.send(order)
             self.ask()
         time.sleep(max(0.0, end_s - time.monotonic()))
 
 
-def measure(seconds: float) -> Result:
+def measure(seconds: float, kind: str = "relay-pot", *, stop_every: int = STOP_EVERY) -> Result:
     """Raises NoQuotaError."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         config = folder / "rotator.toml"
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            port = probe.getsockname()[1]
-        config.write_text(CONFIG.format(folder=folder, port=port))
-        box = subprocess.Popen([sys.executable, "-c", BOX, str(config)], stdout=subprocess.PIPE, text=True)
+        config.write_text(_config(folder, kind))
+        command = [sys.executable, "-m", "benchmarks.watched_box", str(config)]
+        box = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
         try:
             while not (folder / "gs232").exists():
                 if box.poll() is not None:
@@ -148,51 +111,72 @@ def measure(seconds: float) -> Result:
                 time.sleep(0.05)
             client = _Client(folder / "gs232")
             client.ask()
+            if kind == "relay-pulse":  # a person says where it stands, as after homing
+                _confirm(folder)
+            orders = _passes()
             with fifth_of_a_core(box.pid):
-                before_s, started_s = _cpu_s(box.pid), time.monotonic()
+                before_s, started_s = cpu_s(box.pid), time.monotonic()
                 for count in range(round(seconds)):
-                    client.second(count)
-                used = (_cpu_s(box.pid) - before_s) / (time.monotonic() - started_s)
+                    client.second(count, stop_every, orders)
+                used = (cpu_s(box.pid) - before_s) / (time.monotonic() - started_s)
         finally:
             box.terminate()
             out, _ = box.communicate()
     told = json.loads(out)
-    edges: list[tuple[float, int, bool]] = told["edges"]
-    met = [sent_s for sent_s in client.stops_s if _closed(edges, sent_s)]
-    after_ms = [
-        min((1000 * (at_s - sent_s) for at_s, _, on in edges if at_s >= sent_s and not on), default=1e9)
-        for sent_s in met
-    ]
-    stops_ms = [wait_ms for wait_ms in after_ms if wait_ms < 1000]
-    missed, idle = len(after_ms) - len(stops_ms), len(client.stops_s) - len(met)
-    return Result(stops_ms, missed, idle, client.answers_ms, 1000 * told["late_s"], told["said"], used)
+    stops = opened(client.stops_s, told["edges"])
+    return Result(stops, client.answers_ms, 1000 * told["late_s"], told["said"], used)
 
 
-def _closed(edges: list[tuple[float, int, bool]], now_s: float) -> bool:
-    """Whether a relay was closed then."""
-    levels = {pin: on for at_s, pin, on in edges if at_s < now_s}
-    return any(levels.values())
+def _config(folder: Path, kind: str) -> str:
+    """The shipped configuration on its simulated rotor, with one link, and no panel or switch to hold it."""
+    values = tomllib.loads(shipped(KINDS[kind]))
+    for table in ("panel", "limits", "lcd", "link"):
+        values.pop(table, None)
+    values.setdefault("rotor", {})["hardware"] = "sim"
+    values.setdefault("relays", {})["dead_time_s"] = DEAD_TIME_S[kind]
+    values |= {
+        "link": [{"protocol": "gs232b", "pty": f"{folder}/gs232"}],
+        "state": {"path": f"{folder}/state.json"},
+        "page": {"listen": f"127.0.0.1:{free_port()}"},
+    }
+    values.setdefault("sim", {}).setdefault("azimuth", {})["start_deg"] = START_DEG
+    return tomlkit.dumps(values)
 
 
-def _cpu_s(pid: int) -> float:
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+def _confirm(folder: Path) -> None:
+    with RunningBox(folder / "rotator.toml") as console:
+        for words in HOMED:
+            console.order(words)
+
+
+def _passes() -> Iterator[str]:
+    """The shipped passes one after the other, second by second, without end."""
+    for name in cycle(shipped_names()):
+        flown = find_pass(name)
+        for t_s in range(round(flown.end_s)):
+            azimuth_deg, elevation_deg = flown.at(t_s)
+            yield f"W{round(azimuth_deg) % 360:03d} {max(0, round(elevation_deg)):03d}"
 
 
 def main() -> None:
     minutes = float(sys.argv[1]) if len(sys.argv) > 1 else 60.0
-    try:
-        result = measure(60.0 * minutes)
-    except NoQuotaError as fault:
-        raise SystemExit(str(fault)) from None
-    print(f"{minutes:g} minutes on a fifth of a core, {100 * result.used:.1f} % of a core used")
-    for name, values in (("S to relay off", result.stops_ms), ("C2 to its whole answer", result.answers_ms)):
+    for kind in KINDS:
+        try:
+            result = measure(60.0 * minutes, kind)
+        except NoQuotaError as fault:
+            raise SystemExit(str(fault)) from None
+        _tell(kind, minutes, result)
+
+
+def _tell(kind: str, minutes: float, result: Result) -> None:
+    print(f"{kind}: {minutes:g} minutes on a fifth of a core, {100 * result.used:.1f} % of a core used")
+    for name, values in (("S to relay off", result.stops.after_ms), ("C2 to its whole answer", result.answers_ms)):
         ranked = sorted(values)
         p99_ms = ranked[int(0.99 * (len(ranked) - 1))]
         print(f"{name:24} median {statistics.median(ranked):6.2f} p99 {p99_ms:6.2f} worst {ranked[-1]:7.2f} ms")
-    print(f"stops without effect: {result.unmet} ({result.idle} had no relay to open)")
+    print(f"stops without effect: {result.stops.unmet} ({result.stops.idle} more had no relay to open)")
     print(f"latest cycle: {result.worst_late_ms:.0f} ms late")
-    print(f"warnings and faults: {len(result.warnings)}", *result.warnings, sep="\n  ")
+    print(f"warnings and faults: {len(result.warnings)}", *result.warnings, sep="\n  ", flush=True)
 
 
 if __name__ == "__main__":
