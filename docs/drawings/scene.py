@@ -24,7 +24,7 @@ CASE = Colour(128, 134, 142)
 METAL = Colour(168, 174, 180)
 CAST = Colour(142, 150, 156)
 CABLE = Colour(58, 60, 66)
-MAST_X, ROTOR_Y = 958, 268
+MAST_X, ROTOR_Y = 926, 268
 SATELLITE = (560, 66)
 RELAYS_AT: Point = (725.0, 486.0)
 
@@ -63,7 +63,7 @@ def _outside() -> list[str]:
     return [
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="url(#sky)"/>',
         '<circle cx="300" cy="380" r="260" fill="url(#sun)"/>',
-        '<path d="M 170 330 Q 520 -60 1010 40" fill="none" stroke="white" stroke-opacity="0.55" stroke-width="2"'
+        '<path d="M 170 330 Q 520 -60 978 40" fill="none" stroke="white" stroke-opacity="0.55" stroke-width="2"'
         ' stroke-dasharray="3 9"/>',
         f'<g transform="translate({x} {y}) rotate(-14)">',
         '<rect x="-46" y="-9" width="34" height="18" fill="#22406e" stroke="#9db7dd"/>',
@@ -201,7 +201,7 @@ def _relays() -> list[str]:
 
 def _cables() -> list[str]:
     """PC to Pi by USB; a ribbon from the header to the relays; the rotor's cable over the edge of the table."""
-    parts = cable("M 346 552 C 392 592, 452 566, 476 512", 7, CABLE)
+    parts = cable("M 346 552 C 392 596, 474 580, 481 497", 7, CABLE)
     for wire, colour in enumerate(
         (Colour(200, 60, 50), Colour(225, 190, 60), Colour(60, 150, 80), Colour(70, 110, 200))
     ):
@@ -221,7 +221,7 @@ def _names() -> list[str]:
         (190, 592, "your tracking program"),
         (545, 592, "Raspberry Pi: a Yaesu GS-232 to the PC"),
         (845, 592, "four relays"),
-        (1062, 250, "the rotor"),
+        (1046, 250, "the rotor"),
     )
     edge = 'fill="none" stroke="#1a120b" stroke-opacity="0.75" stroke-width="4" stroke-linejoin="round"'
     return [
