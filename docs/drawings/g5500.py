@@ -76,7 +76,7 @@ def draw(config: Config) -> Sheet:
     sheet.note(
         (30, 760),
         "Each contact joins its pin with pin 8, as the switches on the control box do. No motor's current flows here.",
-        "4.5 V at the socket becomes 2.9 V at the converter, 5 V becomes 3.2 V. Pin 7 stays free.",
-        "The relays are on at high: their GPIOs are pulled down, that is off, while the Pi starts.",
+        "4.5 V at the socket becomes 2.9 V at the converter, 5 V becomes 3.2 V. 100 nF from A0 and A1 to ground.",
+        "Pin 7 stays free. The relays are on at high: their GPIOs are pulled down, that is off, while the Pi starts.",
     )
     return sheet

@@ -21,7 +21,7 @@ BUFFER = {
 CONTROL = ["1 CS", "2 SCK", "3 SI", "4 VSS"]
 POT = ["8 VDD", "5 PA0", "6 PW0", "7 PB0"]
 """An MCP41010's pins (Microchip DS11195C)."""
-BOX = ["", "knob +", "knob wiper", "knob −", "", "supply a", "supply b"]
+BOX = ["", "knob +", "knob wiper", "knob −", "ground", "supply a", "supply b"]
 KNOB = (("5 PA0", "knob +", ORANGE), ("6 PW0", "knob wiper", GREEN), ("7 PB0", "knob −", BLACK))
 
 
@@ -63,7 +63,7 @@ def draw(config: Config) -> Sheet:
             chip(f"{axis} box", f"{axis} box", (1000, y), 170, BOX, lines=["its knob taken out"]),
         )
         sheet.rail("5 V", RED, f"{axis}.8 VDD")
-        sheet.ground(f"{axis}.4 VSS")
+        sheet.ground(f"{axis}.4 VSS", f"{axis} box.ground")
         for pin, end, colour in KNOB:
             sheet.wire(colour, f"{axis}.{pin}", f"{axis} box.{end}")
     for name, (a, _) in BUFFER.items():
