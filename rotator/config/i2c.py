@@ -1,10 +1,11 @@
-"""An I2C chip in use, with its bus and address, and the addresses that each part can have.
+"""An I2C chip in use, with its bus and address, the addresses that each part can have, and one that it cannot have.
 
 Knows no register, and not which chips a configuration uses: its tables say that.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 ADDRESSES: dict[str, tuple[int, ...]] = {
@@ -18,6 +19,10 @@ ADDRESSES: dict[str, tuple[int, ...]] = {
 """The usual addresses of each part, from its data sheet. 0x38 to 0x3F are those of the PCF8574A."""
 
 
+_MORE = {"PCA9685": range(0x40, 0x78), "AS5600": range(0x08, 0x78)}
+"""Six pins set a PCA9685's address, and an AS5600L's is programmed."""
+
+
 @dataclass(frozen=True, slots=True)
 class I2CChip:
     bus: int
@@ -27,3 +32,19 @@ class I2CChip:
     """The key of the file that names the address: `adc.address`."""
     part: str
     """The name of the part, as in `ADDRESSES`."""
+
+    def fault(self) -> str | None:
+        """What is wrong with an address that the part cannot have; 48 for 0x48 is the usual slip."""
+        usual = ADDRESSES.get(self.part, ())
+        meant = int(str(self.address), 16)
+        if not usual or self.address in usual or (meant not in usual and self.address in _MORE.get(self.part, ())):
+            return None
+        right = f"write 0x{meant:02x}" if meant in usual else f"write one of {_listed(usual)}"
+        return f"{self.key} = {self.address} is 0x{self.address:02x}, and no {self.part} has that: {right}"
+
+
+def _listed(addresses: tuple[int, ...]) -> str:
+    """Addresses in rising order, neighbours as a range."""
+    ends = [at for at in addresses if at - 1 not in addresses or at + 1 not in addresses]
+    text = ", ".join(f"0x{at:02x}" for at in ends)
+    return text if len(ends) == len(addresses) else re.sub(r"(0x..), (0x..)", r"\1 to \2", text)

@@ -1,18 +1,18 @@
 """A text that is meant to be TOML: all that keeps it from being it, in words for the person who wrote it.
 
-Mends each mistake to find the next one, and hands the mended text on, so that the keys can be checked too. Knows no key
-but by the names of the tables that a caller gives.
+Mends each mistake to find the next one, and hands the mended text on, so that the keys can be checked too. Knows of
+tables and keys what a caller says.
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 
 from rotator.config.mistake import Mistake
-from rotator.config.slips import shown, slip
+from rotator.config.slips import Sort, shown, slip
 from rotator.config.statements import Statement, places, statements
 
 _TWICE = re.compile(r"Cannot (?:declare|overwrite|mutate|redefine)|twice|immutable|already")
@@ -32,31 +32,37 @@ class Mended:
     """What was wrong."""
     whole: bool
     """Every mistake could be mended: no key is missing that the person has written."""
+    whys: Mapping[int, str]
+    """By the number of a mended line: its mistake without what to write, for a line that is wrong even so."""
 
 
-def mended(text: str, tables: Collection[str], lists: Collection[str]) -> Mended:
-    """The text without its mistakes. `tables`: names of tables that stand there once; `lists`: of those in [[ ]]."""
+def mended(text: str, tables: Collection[str], lists: Collection[str], sorts: Mapping[str, Sort]) -> Mended:
+    """The text without its mistakes. `tables`: names of tables that stand there once; `lists`: of those in [[ ]];
+    `sorts`: what belongs behind a key."""
     text, mistakes = _brackets(text, tables, lists)
     whole = True
+    whys: dict[int, str] = {}
     for _ in range(MOST):
         try:
             tomllib.loads(text)
-            return Mended(text, tuple(mistakes), whole)
+            return Mended(text, tuple(mistakes), whole, whys)
         except tomllib.TOMLDecodeError as fault:
             reason = str(fault)
         except RecursionError:
-            return Mended("", (*mistakes, Mistake("has too many brackets inside each other")), whole=False)
-        mistake, line, better = _mistake(text, reason)
+            return Mended("", (*mistakes, Mistake("has too many brackets inside each other")), whole=False, whys={})
+        mistake, line, better, why = _mistake(text, reason, sorts)
         rows = text.split("\n")
         if any(mistake.lines == each.lines for each in mistakes):
             better = None  # mended once, and still wrong: the line is left out
         else:
             mistakes.append(mistake)
+            if why:
+                whys[line] = why
         whole = whole and better is not None
         heading = better is None and rows[line - 1].lstrip().startswith("[")
         rows[line - 1] = f'["{SCRATCH}{line}"]' if heading else better or ""
         text = "\n".join(rows)
-    return Mended("", tuple(mistakes), whole=False)
+    return Mended("", tuple(mistakes), whole=False, whys={})
 
 
 def _brackets(text: str, tables: Collection[str], lists: Collection[str]) -> tuple[str, list[Mistake]]:
@@ -74,8 +80,8 @@ def _brackets(text: str, tables: Collection[str], lists: Collection[str]) -> tup
     return "\n".join(rows), mistakes
 
 
-def _mistake(text: str, reason: str) -> tuple[Mistake, int, str | None]:
-    """The first mistake of a text, its line, and that line as it should be."""
+def _mistake(text: str, reason: str, sorts: Mapping[str, Sort]) -> tuple[Mistake, int, str | None, str]:
+    """The first mistake of a text, its line, that line as it should be, and why it is wrong."""
     rows = text.split("\n")
     found = statements(text)
     at = _PLACE.search(reason)
@@ -86,13 +92,13 @@ def _mistake(text: str, reason: str) -> tuple[Mistake, int, str | None]:
             row = rows[each.last - 1]
             said = f"{shown(rows[each.line - 1])}: {each.unclosed} is missing at its end"
             if each.unclosed[0] in "\"'":
-                return Mistake(said, (each.line,)), each.line, None
-            return Mistake(said, (each.line,)), each.last, _closed(row, each.unclosed)
+                return Mistake(said, (each.line,)), each.line, None, ""
+            return Mistake(said, (each.line,)), each.last, _closed(row, each.unclosed), ""
     this = next((each for each in found if each.line <= line <= each.last), None)
     if this and this.keys and _TWICE.search(reason):
-        return _twice(text, this, rows[this.line - 1])
-    what = slip(rows[line - 1], _PLACE.sub("", reason))
-    return Mistake(what.advice, (line,)), line, what.mended
+        return *_twice(text, this, rows[this.line - 1]), ""
+    what = slip(rows[line - 1], _PLACE.sub("", reason), sorts)
+    return Mistake(what.advice, (line,)), line, what.mended, what.why
 
 
 def _closed(row: str, brackets: str) -> str:

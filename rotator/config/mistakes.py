@@ -17,7 +17,7 @@ from rotator.config import mending, migrations
 from rotator.config.mistake import Mistake
 from rotator.config.model import Config
 from rotator.config.statements import Place, places
-from rotator.config.wording import explain, tables
+from rotator.config.wording import explain, sorts, tables
 
 _PATHS = re.compile(r"[a-z_0-9]+(?:\[\d+\])?(?:\.[a-z_0-9]+)*")
 """What may be a key in the words of a mistake."""
@@ -26,7 +26,7 @@ _PATHS = re.compile(r"[a-z_0-9]+(?:\[\d+\])?(?:\.[a-z_0-9]+)*")
 def mistakes_in(text: str) -> list[Mistake]:
     """Everything that is wrong with a text that is no configuration."""
     several = {name for name, _, many in tables() if many}
-    mended = mending.mended(text, {name for name, *_ in tables()} - several, several)
+    mended = mending.mended(text, {name for name, *_ in tables()} - several, several, sorts())
     found = list(mended.mistakes)
     try:
         keys = migrations.values(mended.text)
@@ -45,7 +45,8 @@ def mistakes_in(text: str) -> list[Mistake]:
         told = [error for error in errors if mended.whole or error["type"] not in ("missing", "value_error")]
         told = [error for error in told if not _follows(error, replaced)]
         new = [mistake for error in told for mistake in _located(error, lines) if mistake not in found]
-        found += new
+        for mistake in new:
+            _tell(mistake, found, mended.whys)
         if any(not error["loc"] for error in errors) or (told and not new):
             break
         replaced |= {tuple(error["loc"]) for error in errors}
@@ -53,6 +54,17 @@ def mistakes_in(text: str) -> list[Mistake]:
         for error in errors:
             _mend(values, list(error["loc"]))
     return found
+
+
+def _tell(mistake: Mistake, found: list[Mistake], whys: Mapping[int, str]) -> None:
+    """Add a mistake. One of a line that was wrong before is told in one with that: each advice alone would lead to the
+    other."""
+    line = mistake.lines[0] if len(mistake.lines) == 1 else 0
+    before = next((at for at, each in enumerate(found) if line in whys and each.lines == (line,)), None)
+    if before is None or "; and " in found[before].text:
+        found.append(mistake)
+    else:
+        found[before] = Mistake(f"{whys[line]}; and {mistake.text}", mistake.lines)
 
 
 def _follows(error: ErrorDetails, replaced: Collection[Place]) -> bool:

@@ -152,7 +152,8 @@ class Config(Table):
 
     @model_validator(mode="after")
     def _fits_together(self) -> Config:
-        faults = [*self._pins_twice(), *self._chips_twice(), *self._places_twice(), *self._follows_itself()]
+        faults = [fault for chip in self.chips() if (fault := chip.fault())]
+        faults += [*self._pins_twice(), *self._chips_twice(), *self._places_twice(), *self._follows_itself()]
         faults += self._needs_station()
         faults += self.adc.faults() if self.uses_adc else []
         faults += self.kind.faults({axis: self.axis(axis) for axis in Axis})

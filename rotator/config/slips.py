@@ -1,23 +1,27 @@
 """One line that is no TOML: what the person meant, and the line as it should be.
 
 Knows the slips that people make: a decimal comma, a unit behind the number, a text without quotes, a missing bracket.
-Does not know any key, and sees no other line.
+Of keys it knows what a caller says: which are numbers, and which are texts. Sees no other line.
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from rotator.config.mistake import NO_BREAK
+from rotator.config.quantity import numbers
 from rotator.config.statements import parts
 
+Sort = Literal["number", "whole", "text"]
+"""What belongs behind a key: a number, a whole number, or a text. Other keys have none of these."""
+
 _NUMBER = r"[-+]?\d+(?:\.\d+)?"
-_COMMA = re.compile(r"([-+]?\d+),(\d+)")
-_UNIT = re.compile(rf"({_NUMBER}|[-+]?\d+,\d+)\s*([^\d\s.,\"'\[\]][^\"'\[\]]*)")
+_UNIT = re.compile(rf"(?:{_NUMBER}|[-+]?\d+,\d+)\s*([^\d\s.,\"'\[\]][^\"'\[\]]*)")
 _POINT = re.compile(r"([-+]?)(\d*)\.(\d*)")
-_ZEROS = re.compile(r"([-+]?)0+(\d+(?:\.\d+)?)")
 _KEY = re.compile(r"\s*([^=:#\[\]\"']+?)\s*(==|=|:=|:)\s*(.*)")
 _KEY_WITHOUT_SIGN = re.compile(r"([A-Za-z_]\w*)\s+([-+\d\"'].*)")
 _HEADING = re.compile(r"\[{0,2}\s*([A-Za-z_][\w. -]*?)\s*\]{0,2}\s*[;:,]?\s*(?:#.*)?")
@@ -27,11 +31,6 @@ _WORDS = {
 }  # fmt: skip
 _NOTHING = ("none", "null", "nil", "n/a", "-", "--")
 _CURLY = str.maketrans(dict.fromkeys("“”„‟«»″", '"') | dict.fromkeys("‘’‚‛′", "'"))
-_UNITS = {
-    ("s", "ms"): 0.001, ("s", "µs"): 1e-6, ("s", "us"): 1e-6, ("s", "min"): 60, ("s", "h"): 3600, ("hz", "khz"): 1e3,
-    ("hz", "mhz"): 1e6, ("v", "mv"): 0.001, ("dps", "rpm"): 6, ("m", "km"): 1000, ("m", "ft"): 0.3048,
-}  # fmt: skip
-"""The end of a key, a unit that is not its own, and the factor to its own."""
 _BASE = re.compile(r"0([XOB])([0-9A-Fa-f]+)|\$([0-9A-Fa-f]+)|([0-9A-Fa-f]{2})h")
 
 
@@ -40,12 +39,16 @@ class Slip:
     advice: str
     mended: str | None
     """The line as it should be; None: nothing tells what was meant."""
+    why: str = ""
+    """The advice without what to write, for a line that is wrong even so."""
 
 
-def slip(line: str, reason: str) -> Slip:
-    """`reason`: what the reader of TOML says, for a line that shows none of the usual slips."""
+def slip(line: str, reason: str, sorts: Mapping[str, Sort]) -> Slip:
+    """`reason`: what the reader of TOML says, for a line that shows none of the usual slips. `sorts`: by key."""
     bare = line.strip()
-    for found in (_unseen(line), _remark(bare), _quotes(bare), _heading(bare), _value_of(bare), _no_sign(bare)):
+    for found in (
+        _unseen(line), _remark(bare), _quotes(bare), _heading(bare), _value_of(bare, sorts), _no_sign(bare, sorts),
+    ):  # fmt: skip
         if found:
             return found
     return Slip(f"{shown(bare)}: is not TOML: {reason}", None)
@@ -64,7 +67,8 @@ def _write(bare: str, mended: str, why: str) -> Slip | None:
     except (tomllib.TOMLDecodeError, RecursionError):
         return None
     right = shown(_before_remark(mended))
-    return Slip(f"{shown(bare)}: {why}: write {right.replace(' ', NO_BREAK) if len(right) < 30 else right}", mended)
+    right = right.replace(" ", NO_BREAK) if len(right) < 30 else right
+    return Slip(f"{shown(bare)}: {why}: write {right}", mended, f"{shown(bare)}: {why}")
 
 
 def _unseen(line: str) -> Slip | None:
@@ -105,7 +109,7 @@ def _heading(bare: str) -> Slip | None:
     return _write(bare, mended, "the heading's brackets do not match" if " " not in found[1] else "no heading")
 
 
-def _value_of(bare: str) -> Slip | None:
+def _value_of(bare: str, sorts: Mapping[str, Sort]) -> Slip | None:
     """A line with a key and a value."""
     found = _KEY.fullmatch(bare)
     if not found:
@@ -119,45 +123,54 @@ def _value_of(bare: str) -> Slip | None:
     value, remark = _before_remark(value), value[len(_before_remark(value)) :]
     if not value:
         return Slip(f"{key} = without a value: write one, or take the line out", None)
-    why, better = _in_unit(key, value) or _better(value)
+    name = parts(key)[-1]
+    sort = sorts.get(name)
+    meant = [] if sort == "text" or value[0] == "[" else numbers(value, name, whole=sort == "whole")
+    if len(meant) > 1:
+        return Slip(f"{shown(bare)}: may be {' or '.join(meant)}: write the one that you mean", None)
+    if not meant and sort in ("number", "whole") and value[0] != "[":
+        return Slip(f"{shown(bare)}: {alone(name, whole=sort == 'whole')}", None)
+    why, better = (_why_not(value), meant[0]) if meant else _better(value, sort)
     return _write(bare, f"{key} = {better}  {remark}".rstrip(), why) if better else None
 
 
-def _better(value: str) -> tuple[str, str]:
+def alone(key: str, *, whole: bool) -> str:
+    """What belongs behind a key for a number, where nothing tells which number was meant."""
+    unit = {"deg": ", in degrees", "dps": ", in degrees a second", "m": ", in metres", "s": ", in seconds",
+            "v": ", in volts", "hz": ", in hertz"}.get(key.rpartition("_")[2], "")  # fmt: skip
+    return f"write {'a whole number' if whole else 'one number'} alone{unit}"
+
+
+def _why_not(value: str) -> str:
+    """Why a value that means a number is none."""
+    if value[0] in "\"'":
+        return "a number stands without quotes"
+    if re.fullmatch(r"[-+]?0\d+(?:\.\d+)?", value):
+        return "no zeros before a number"
+    if _POINT.fullmatch(value):
+        return "digits belong on both sides of the point"
+    if _BASE.fullmatch(value):
+        return "the form of such a number is 0x48"
+    if re.fullmatch(r"[-+]?\d+,\d+", value):
+        return "a number has a point, no comma"
+    if (unit := _UNIT.fullmatch(value)) and not any(mark.isdigit() for mark in unit[1]):
+        return f"the number alone, in the key's own unit, without {unit[1].strip()}"
+    return "one number belongs here"
+
+
+def _better(value: str, sort: Sort | None) -> tuple[str, str]:
     """What is wrong with a value, and the right one; empty texts for a value with another slip."""
-    if comma := _COMMA.fullmatch(value):
-        return "a number has a point, no comma", f"{comma[1]}.{comma[2]}"
-    if zeros := _ZEROS.fullmatch(value):
-        return "no zeros before a number", f"{zeros[1]}{zeros[2]}"
-    if (point := _POINT.fullmatch(value)) and (point[2] or point[3]):
-        return "digits belong on both sides of the point", f"{point[1]}{point[2] or 0}.{point[3] or 0}"
-    if base := _BASE.fullmatch(value):
-        return "the form of such a number is 0x48", f"0{(base[1] or 'x').lower()}{base[2] or base[3] or base[4]}"
-    if value.lower() in _WORDS:
+    if sort != "text" and value.lower() in _WORDS:
         return "only true or false", _WORDS[value.lower()]
     if value.lower() in _NOTHING:
         return "", ""
-    if unit := _UNIT.fullmatch(value):
-        return f"the number alone, without {unit[2].strip()}", _number(unit[1])
     if value[0] == "[":
         return _better_list(value)
     if value[0] in "\"'":
         return _better_text(value)
     if re.fullmatch(r"[^\"'\[\]{}=]+[\"']?", value):
-        return "a text stands in quotes", f'"{value.rstrip(chr(34) + chr(39))}"'.replace("\\", "/")
+        return "a text stands in quotes", f'"{value.rstrip(chr(34) + chr(39) + ";, ")}"'.replace("\\", "/")
     return "", ""
-
-
-def _in_unit(key: str, value: str) -> tuple[str, str] | None:
-    """A number with a unit that is not the key's own; None for another value."""
-    found = _UNIT.fullmatch(value)
-    factor = found and _UNITS.get((key.rpartition("_")[2], found[2].strip().lower()))
-    if not found or not factor:
-        return None
-    return (
-        f"the number alone, in the key's own unit ({key.rpartition('_')[2]})",
-        f"{float(_number(found[1])) * factor:g}",
-    )
 
 
 def _better_list(value: str) -> tuple[str, str]:
@@ -185,18 +198,16 @@ def _better_text(value: str) -> tuple[str, str]:
     return f"{shown(value[end:])} behind the text is too much", value[:end]
 
 
-def _no_sign(bare: str) -> Slip | None:
+def _no_sign(bare: str, sorts: Mapping[str, Sort]) -> Slip | None:
     if found := _KEY_WITHOUT_SIGN.fullmatch(bare):
-        value = _before_remark(found[2])
-        right = _write(bare, f"{found[1]} = {found[2]}", "a = is missing")
-        return right or _write(bare, f"{found[1]} = {_better(value)[1]}", "a = is missing")
+        line = f"{found[1]} = {found[2]}"
+        if right := _write(bare, line, "a = is missing"):
+            return right
+        then = _value_of(line, sorts)
+        return _write(bare, then.mended, "a = is missing") if then and then.mended else None
     if len(bare.split()) > 2 and "=" not in bare:
         return Slip(f"{shown(bare)}: if it is a remark, write # before it", f"# {bare}")
     return None
-
-
-def _number(text: str) -> str:
-    return text.replace(",", ".")
 
 
 def _before_remark(value: str) -> str:

@@ -16,7 +16,9 @@ from pydantic import BaseModel
 from pydantic_core import ErrorDetails
 
 from rotator.config.model import Config
+from rotator.config.quantity import numbers
 from rotator.config.rotor_names import type_of
+from rotator.config.slips import Sort, alone
 
 _KINDS = {
     "float": "a number",
@@ -44,6 +46,7 @@ _PROTOCOL_OF = {
 """What a person calls a protocol, in small letters and digits, and the one that is meant."""
 _LISTENS = ("tcp", "listen")
 """Keys for a port of this machine: a bare number is the port."""
+_LISTS_OF_TEXTS = ("allow", "names", "broker_names")
 _YES, _NO = ("yes", "on", "true", "1", "ja", "oui"), ("no", "off", "false", "0", "nein", "non")
 
 
@@ -72,7 +75,8 @@ def explain(error: ErrorDetails) -> str:
             sort = kind.split("_")[0]
             expected = _KINDS.get(sort) if kind.endswith(("_type", "_parsing")) else None
             expected = expected or error["msg"].removeprefix("Input should be ")
-            right = _right_port(str(place[-1]), value) or _right_value(sort, value)
+            name = next((str(part) for part in reversed(place) if isinstance(part, str)), "")
+            right = _right_port(name, value) or _right_value(sort, name, value)
             return f"{key} = {show(value)}: must be {expected}{right}"
 
 
@@ -161,31 +165,55 @@ def _right_pair(value: list[Any] | tuple[Any, ...], reason: str) -> str:
     return reason[0].lower() + reason[1:]
 
 
-def _right_value(sort: str, value: object) -> str:
+def _right_value(sort: str, key: str, value: object) -> str:
     """What to write for a value of the wrong kind: `"4,5"` where a number belongs."""
     match sort, value:
         case "float" | "int", str(text):
-            number = re.match(r"\s*([-+]?\d+(?:[.,]\d+)?)", text)
-            if number and (sort == "float" or number[1].lstrip("+-").isdigit()):
-                return f"; write {number[1].replace(',', '.')} without quotes{'' if _bare(text) else ' and unit'}"
+            meant = numbers(text, key, whole=sort == "int")
+            if len(meant) == 1 and re.fullmatch(r"\s*[-+]?\d+([.,]\d+)?\s*", text) and "x" not in meant[0]:
+                return f"; write {meant[0]} without quotes"
+            if meant:
+                return f"; write {' or '.join(f'{key} = {each}' for each in meant)}"
+            return f"; {alone(key, whole=sort == 'int')}" if any(mark.isdigit() for mark in text) else ""
         case "bool", str(text) if text.lower() in _YES + _NO:
             return f"; write {'true' if text.lower() in _YES else 'false'} without quotes"
         case "bool", 0 | 1:
             return f"; write {'true' if value else 'false'}"
         case "string", int() | float() if not isinstance(value, bool):
-            return f'; write "{value}"'
-        case "list", str(text):
-            return f'; write ["{text}"]'
+            # A number with a point may have been written otherwise, such as 1.50.
+            return f'; write "{value}"' if isinstance(value, int) else "; put it in quotes"
+        case "list", str(text) if text.lstrip().startswith("["):
+            return "; write it without quotes"
+        case "list", str(text) if key in _LISTS_OF_TEXTS:
+            texts = [each for each in re.split(r"[\s,;]+", text) if each]
+            return f"; write [{', '.join(show(each) for each in texts)}]" if texts else ""
     return ""
+
+
+@cache
+def sorts() -> Mapping[str, Sort]:
+    """What belongs behind each key that is a number or a text in every table that has it."""
+    found: dict[str, set[Sort | None]] = {}
+    for _, model, _ in tables():
+        for name, field in model.model_fields.items():
+            found.setdefault(name, set()).add(_sort(field.annotation))
+    return {name: sort for name, of in found.items() if len(of) == 1 and (sort := next(iter(of)))}
+
+
+def _sort(annotation: object) -> Sort | None:
+    if any(get_origin(each) in (list, tuple, dict) for each in (annotation, *get_args(annotation))):
+        return None
+    kinds = [kind for each in (*get_args(annotation), annotation) for kind in (each, *get_args(each))]
+    if float in kinds:
+        return "number"
+    if int in kinds or all(isinstance(kind, int) for kind in get_args(annotation) or ("",)):
+        return "whole"
+    return "text" if str in kinds or all(isinstance(kind, str) for kind in get_args(annotation) or (0,)) else None
 
 
 def _right_port(name: str, value: object) -> str:
     """`tcp = 4533`: a port alone, of this machine alone."""
     return f'; write "127.0.0.1:{value}"' if name in _LISTENS and type(value) is int else ""
-
-
-def _bare(text: str) -> bool:
-    return re.fullmatch(r"\s*[-+]?\d+(?:[.,]\d+)?\s*", text) is not None
 
 
 def _choices(context: Mapping[str, Any]) -> list[str]:

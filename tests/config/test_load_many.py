@@ -18,6 +18,8 @@ from tests.config.texts import faults
 LINK = '[[link]]\nprotocol = "gs232b"\npty = "run/gs232"\n'
 
 
+SENSORS = "[azimuth.sensor]\nkind = 'as5600'\nbus = {bus}\n[elevation.sensor]\nkind = 'as5600'\n"
+
 # --- several at once
 
 
@@ -123,7 +125,7 @@ def test_no_fault_is_told_twice() -> None:
         ("[relays]\nmaster = 25\n", "GPIO 25 is used by relays.elevation_down and relays.master"),
         ("[lcd]\nkind = 'gpio'\nrs = 22\n", "GPIO 22 is used by relays.azimuth_cw and lcd.rs"),
         ("[lcd]\nkind = 'gpio'\nd4 = 6\n", "GPIO 6 is used by lcd.d4 and lcd.d5"),
-        ("[lcd]\nkind = 'pcf8574'\naddress = 0x48\n", "lcd.address and adc.address are both 0x48 on bus 1"),
+        (SENSORS.format(bus=1), "elevation.sensor.address and azimuth.sensor.address are both 0x36 on bus 1"),
         (LINK * 2, "2 links use run/gs232: link[0] and link[1]"),
         (LINK * 3, "3 links use run/gs232: link[0] and link[1] and link[2]"),
         (
@@ -141,7 +143,7 @@ def test_nothing_is_used_twice(text: str, said: str) -> None:
     [
         "[lcd]\nkind = 'pcf8574'\nrs = 22\n",
         "[lcd]\nkind = 'none'\nrs = 22\naddress = 0x48\n",
-        "[lcd]\nkind = 'pcf8574'\nbus = 0\naddress = 0x48\n",
+        SENSORS.format(bus=0),
     ],
 )
 def test_what_is_not_used_may_be_the_same(text: str) -> None:

@@ -30,7 +30,7 @@ def told(text: str) -> list[str]:
         ("coast_s = 170 ms", "coast_s = 0.17"),
         ("rest_s = 5 min", "rest_s = 300"),
         ("min_deg = .5", "min_deg = 0.5"),
-        ("min_deg = 5.", "min_deg = 5.0"),
+        ("min_deg = 5.", "min_deg = 5"),
         ("min_deg = 005", "min_deg = 5"),
         ("min_deg 10", "min_deg = 10"),
         ("min_deg: 10", "min_deg = 10"),
