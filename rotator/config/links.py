@@ -214,7 +214,11 @@ def address(text: str) -> tuple[str, int]:
     if not parts or not 0 < int(parts[3]) <= LAST_PORT:
         port = text if text.isascii() and text.isdecimal() and 0 < int(text) <= LAST_PORT else "4533"
         raise ValueError(f'"{text}" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:{port}"')
-    return parts[1] or parts[2], int(parts[3])
+    host = parts[1] or parts[2]
+    numbers = host.split(".")
+    if len(numbers) == 4 and all(each.isdecimal() for each in numbers) and any(int(each) > 255 for each in numbers):
+        raise ValueError(f'"{text}": no number of an address is above 255: write one such as "192.168.1.77:{parts[3]}"')
+    return host, int(parts[3])
 
 
 def networks(texts: list[str] | None) -> list[str] | None:

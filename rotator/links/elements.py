@@ -16,7 +16,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from aiohttp import ETag, web
 
 from rotator.links.allowed import Allowed
-from rotator.links.wire import reason
+from rotator.links.listening import cannot_listen
 from rotator.orbits import omm
 from rotator.orbits.elements import Elements
 
@@ -59,7 +59,7 @@ class ElementsServer:
             loop = asyncio.get_running_loop()
             server = await loop.create_server(new, self._host, self._port, reuse_address=True)
         except (OSError, UnicodeError) as fault:
-            log.error("[sky] serve: %s:%d: cannot listen there: %s", self._host, self._port, reason(fault))
+            log.error("[sky] serve: %s", cannot_listen(fault, self._host, self._port))
             await runner.cleanup()
             return
         self.where = server.sockets[0].getsockname()[:2]

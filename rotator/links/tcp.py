@@ -10,8 +10,9 @@ import asyncio
 from collections.abc import Callable
 
 from rotator.links.allowed import Allowed
+from rotator.links.listening import cannot_listen
 from rotator.links.stream import Clients
-from rotator.links.wire import LinkError, Wire, reason
+from rotator.links.wire import LinkError, Wire
 from rotator.protocols.session import Session
 
 MOST_CLIENTS = 128
@@ -43,7 +44,7 @@ class TcpLink:
                 self._clients.new, self._host, self._port, reuse_address=True
             )
         except (OSError, UnicodeError) as fault:
-            raise LinkError(f"{self._host}:{self._port}: cannot listen there: {reason(fault)}") from fault
+            raise LinkError(cannot_listen(fault, self._host, self._port)) from fault
         self.wire.state = "listening"
 
     async def run(self) -> None:

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rotator.links.allowed import Allowed
+from rotator.links.listening import cannot_listen
 from rotator.links.wire import Conversation, LinkError, Wire, reason
 from rotator.protocols.session import Session
 from rotator.runtime.log_limit import LogLimit
@@ -92,7 +93,7 @@ class UdpLink:
                 allow_broadcast=True,
             )
         except (OSError, UnicodeError) as fault:
-            raise LinkError(f"{self._host}:{self._port}: cannot listen there: {reason(fault)}") from fault
+            raise LinkError(cannot_listen(fault, self._host, self._port)) from fault
         self._transport = transport
         self.wire.state = "listening"
 

@@ -13,7 +13,8 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
-from rotator.links.wire import Wire, reason
+from rotator.links.listening import cannot_listen
+from rotator.links.wire import Wire
 from rotator.runtime.event_watch import EventWatch
 from rotator.web.connections import Connection, Connections
 from rotator.web.logs import http_logger
@@ -83,7 +84,7 @@ class PageThread:
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, UNSENT_BYTES)
         except (OSError, UnicodeError) as fault:
             self.wire.state = "closed"
-            log.warning("%s:%d: there is no page: %s", self._host, self._port, reason(fault))
+            log.warning("there is no page: %s", cannot_listen(fault, self._host, self._port))
             return
         self.wire.state = "listening"
         for each in self._kept:

@@ -276,8 +276,7 @@ def test_a_port_in_use(gs232: TcpLink, port: int, running: Running, new_ear: typ
 
 
 def test_another_machine_s_address(wire: Wire, new_ear: type[Any]) -> None:
-    # Python 3.13 has other words for it.
-    with pytest.raises(LinkError, match=r"^192\.0\.2\.1:4533: cannot listen there: (Cannot assign|could not bind)"):
+    with pytest.raises(LinkError, match=r"^192\.0\.2\.1:4533: cannot listen there: Cannot assign"):
         asyncio.run(TcpLink(wire, "192.0.2.1", 4533, new_ear).open())
 
 
@@ -286,7 +285,7 @@ def test_a_name_that_no_machine_has(wire: Wire, new_ear: type[Any]) -> None:
         socket.getaddrinfo("no host", 4533)
     with pytest.raises(LinkError) as refused:
         asyncio.run(TcpLink(wire, "no host", 4533, new_ear).open())
-    assert str(refused.value) == f"no host:4533: cannot listen there: {unknown.value.strerror}"
+    assert str(refused.value).startswith(f"no host:4533: cannot listen there: {unknown.value.strerror}: write an")
 
 
 def test_a_name_that_cannot_be(wire: Wire, new_ear: type[Any]) -> None:

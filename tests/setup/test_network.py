@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from rotator.cli.network import wait_for_the_pc
 from rotator.config.load import SIMULATED, parse, profiles, shipped
+from rotator.links.addresses import addresses
 from rotator.monitor.transcript import LinkNote, Peer, Way, encode_link, encode_peer, encode_piece
 from rotator.orders import Source
-from rotator.setup.machine import addresses
 from rotator.setup.network import BEGIN, END, closed, open_to
 from tests.setup.conftest import ROTATOR, Card
 

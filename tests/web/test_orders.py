@@ -204,7 +204,7 @@ def test_a_taken_port_is_said_and_the_box_runs(page_box: Start, caplog: Any) -> 
             page.start()
             page.stop()
             assert page.wire.state == "closed"
-            assert f"{place}: there is no page: Address already in use" in caplog.text
+            assert f"there is no page: {place}: cannot listen there: Address already in use" in caplog.text
             assert (await box.get("status"))[0] == 200
 
     asyncio.run(main())

@@ -1,0 +1,51 @@
+"""Why the box cannot listen at an address, and what to write into its file instead.
+
+Knows the usual slips: the PC's address in place of the box's own, a name that nobody has, a port for root. Opens no
+port.
+"""
+
+from __future__ import annotations
+
+import errno
+import ipaddress
+import os
+import socket
+
+from rotator.links.addresses import addresses
+from rotator.links.wire import reason
+
+LAST_OF_ROOT = 1023
+NOT_OURS = "could not bind"
+"""How asyncio of Python 3.13 begins, without a number, where no address is this machine's."""
+
+
+def cannot_listen(fault: OSError | UnicodeError, host: str, port: int) -> str:
+    """The whole sentence, in one line."""
+    shown = f"[{host}]" if ":" in host else host
+    return f"{shown}:{port}: cannot listen there: {_why(fault, host, port)}"
+
+
+def _why(fault: OSError | UnicodeError, host: str, port: int) -> str:
+    number = fault.errno if isinstance(fault, OSError) and not isinstance(fault, socket.gaierror) else None
+    if number == errno.EADDRNOTAVAIL or (number is None and NOT_OURS in str(fault)):
+        allow = f', and allow = ["{host}"] lets that one in' if _is_lan(host) else ", and in allow who may"
+        return f"{os.strerror(errno.EADDRNOTAVAIL)}: {_ours()}; for the network write 0.0.0.0:{port}{allow}"
+    if number == errno.EACCES and port <= LAST_OF_ROOT:
+        return f"{os.strerror(number)}: ports up to {LAST_OF_ROOT} are root's: write one above, such as {port + 8000}"
+    if isinstance(fault, socket.gaierror):
+        return (
+            f"{reason(fault)}: write an address: 127.0.0.1:{port} for programs on this machine, "
+            f"0.0.0.0:{port} for the network too"
+        )
+    return reason(fault)
+
+
+def _ours() -> str:
+    return f"this machine has {', '.join([*(str(each.ip) for each in addresses()), '127.0.0.1'])}"
+
+
+def _is_lan(host: str) -> bool:
+    try:
+        return ipaddress.ip_address(host).is_private
+    except ValueError:
+        return False
