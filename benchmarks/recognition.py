@@ -1,9 +1,9 @@
 """How often something else is taken for a satellite: `python -m benchmarks.recognition [STREAMS [SEED [SATELLITES]]]`.
 
-Streams of whole degrees, tenths and hundredths, once a second for 40 s, begin anywhere in the sky, twenty at each of
-many moments of two days: standing antennas, antennas at the horizon, sweeps, a person at a knob, stars, and great
-circles as fast as satellites are. The box knows 100 satellites. Prints how many streams it has recognised; 10 000 take
-a minute.
+Streams of whole degrees, tenths and hundredths, each second, every two or every five seconds for 40 s, begin anywhere
+in the sky, twenty at each of many moments of two days: standing antennas, antennas at the horizon, sweeps, a person at
+a knob, stars, and great circles as fast as satellites are. The box knows 100 satellites, and its station follows some
+of them: none to twenty, drawn for each moment. Prints how many streams it has recognised; 10 000 take a minute.
 """
 
 from __future__ import annotations
@@ -26,6 +26,8 @@ from tests.orbits import skyfield_oracle
 from tests.orbits.streams import Path, great_circle
 
 STREAMS, SATELLITES, SECONDS = 10_000, 100, 40
+MOST_FOLLOWED = 20
+PERIODS_S = 1, 1, 1, 2, 5
 AT_ONCE = 20
 STATION = Site(48.85, 2.35)
 STAR_DPS = 360.0 / 86_164.0
@@ -95,9 +97,8 @@ def knob(dice: random.Random, begin: Sight, from_s: float) -> Path:
     return lambda utc_s: places[round(utc_s - from_s)]
 
 
-def is_recognised(known: list[Satellite], path: Path, from_s: float, per_degree: int) -> bool:
-    watch = StreamWatch(known)
-    for second in range(SECONDS):
+def is_recognised(watch: StreamWatch, path: Path, from_s: float, per_degree: int, period_s: int = 1) -> bool:
+    for second in range(0, SECONDS, period_s):
         azimuth_deg, elevation_deg = (round(deg * per_degree) / per_degree for deg in path(from_s + second))
         if elevation_deg < 0:
             return False
@@ -116,9 +117,11 @@ def main(count: int = STREAMS, seed: int = 15, satellites: int = SATELLITES) -> 
         if number % AT_ONCE == 0:
             known: list[Satellite] = [Seen(each, STATION) for each in elements]
             from_s = elements[0].epoch_utc_s + dice.uniform(0, 2 * 86_400.0)
+            followed = [each.name for each in dice.sample(elements, min(satellites, dice.randint(0, MOST_FOLLOWED)))]
         kind, path = stream(dice, from_s)
         sent[kind] += 1
-        taken[kind] += is_recognised(known, path, from_s, dice.choice((1, 1, 1, 10, 100)))
+        watch = StreamWatch(known, followed)
+        taken[kind] += is_recognised(watch, path, from_s, dice.choice((1, 1, 1, 10, 100)), dice.choice(PERIODS_S))
     for kind in sorted(sent):
         print(f"{kind:22} {sent[kind]:6} streams, {taken[kind]} taken for a satellite")
     print(f"{'all':22} {sent.total():6} streams, {taken.total()} taken for a satellite")

@@ -42,8 +42,12 @@ def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingT
     clock, simulated = SystemClock(), config.rotor.hardware == "sim"
     # A simulated rotor may live at any time.
     tracker = Tracker(sky, planner, box, lambda: simulated or clock.is_set)
-    listener = StreamListener(sky, planner, box, time.time, tracker.clock_trusted)
     priorities = build_priorities(config)
+
+    def wanted() -> list[str]:
+        return wanted_names(config.sky, sky, priorities.of)
+
+    listener = StreamListener(sky, planner, box, time.time, tracker.clock_trusted, wanted=wanted)
     begun_s = time.monotonic() if config.keeps_files else None
     follower = Follower(tracker, planner, box, lambda: wanted_often(config.sky, sky, priorities.of)[0], begun_s)
 
@@ -91,6 +95,12 @@ def wanted_often(
         else:
             found[name] = WantedOften(wanted, priority(each.name, each.priority), each.min_culmination_deg)
     return tuple(found.values()), faults
+
+
+def wanted_names(table: SkyTable, sky: KnownSky, priority: Callable[[str, float], float] = _as_written) -> list[str]:
+    """The known targets of `[[sky.follow]]`, as their elements call them; the highest priority first."""
+    found = sorted(wanted_often(table, sky, priority)[0], key=lambda each: -each.priority)
+    return [each.wanted.target().name for each in found]
 
 
 def build_antenna(config: Config, stands_deg: Place | None = None) -> Antenna:

@@ -1,30 +1,56 @@
 """How probable it is that a stream which follows no satellite fits one as well: whether its orders tell enough.
 
-Knows how antennas are turned and how often satellites rise. Does not know how many satellites there are, nor which
-probability is small enough.
+Knows how antennas are turned, how often satellites rise, and which probability is small enough. Does not know which
+satellites there are, nor what names them.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 from rotator.orbits.sight import FULL_TURN_DEG
-from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, RISING_DEG, UNSTEADY_S, Heard, SampledPath
+from rotator.orbits.stream_fit import BIAS_DEG, CLOCKS_S, UNSTEADY_S, Heard, SampledPath, Second, turn_deg
 
 TRAVEL_ROUNDINGS = 3.0
 LEAST_TRAVEL_DEG = 0.5
-"""So far must the orders have moved for their course and speed to be those of the satellite; less only as it rises:
-hardly anything else begins low in the sky there and then."""
+"""Orders tell course and speed when the satellite has moved as far as this. As it rises less will do: hardly anything
+else begins low in the sky there and then."""
 RISES_DEG = 5.0
 RISE_EVERY_S = 10_800.0
-"""A satellite near the earth rises about so often."""
-JUST_RISEN_DEG = 0.1
+"""The mean time between two rises of a satellite near the earth."""
+RISING_SOON_DEG, JUST_RISEN_DEG, RISE_BIAS_DEG = -0.1, 0.15, 0.1
+"""A program's first order of a pass finds the satellite between these elevations, and its azimuth this near."""
 SKY_SQUARE_DEG = 20_627.0
 """Above the horizon."""
 RATES_SQUARE_DPS = math.pi
 """What moves in the sky without following a satellite does so at up to 1°/s, in any direction."""
+LINE_CHANCE = 1e-5
+"""The chance of all satellites together that a stream is accepted which moves, and follows none."""
+STANDING_CHANCE = 1.5e-4
+"""The same of a stream that stands at the horizon from its beginning on."""
+LIKELY_SHARE, MOST_LIKELY = 0.9, 12
+"""The satellites that this station uses have this share of `STANDING_CHANCE`, and all others have the rest. Among more
+satellites no share is large enough."""
+
+
+@dataclass(frozen=True, slots=True)
+class Known:
+    """How many satellites may be meant: in all, of those that the station uses, and of those that are up now."""
+
+    all: int
+    likely: int
+    up: int
+
+    def standing_chance(self, *, likely: bool) -> float:
+        """The share of one satellite in `STANDING_CHANCE`. The shares of all satellites add up to it."""
+        if self.likely in (0, self.all):
+            return STANDING_CHANCE / max(1, self.all)
+        if likely:
+            return LIKELY_SHARE * STANDING_CHANCE / self.likely
+        return (1.0 - LIKELY_SHARE) * STANDING_CHANCE / (self.all - self.likely)
 
 
 def has_moved(orders: Sequence[Heard]) -> bool:
@@ -42,22 +68,52 @@ def has_told(path: SampledPath, orders: Sequence[Heard], rounding: float) -> boo
 
 def line_chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> float:
     """The probability that a line through the sky at random fits this satellite as well: in place, and in motion."""
-    first_s, last_s = orders[0].utc_s, orders[-1].utc_s
-    travelled_dps = path.sight(first_s).apart_deg(path.sight(last_s)) / (last_s - first_s)
     wide_deg = rounding + 2 * BIAS_DEG
-    place = wide_deg * (wide_deg + (CLOCKS_S[-1] - CLOCKS_S[0]) * travelled_dps) / SKY_SQUARE_DEG
-    loose_dps = (rounding + 2 * UNSTEADY_S * travelled_dps) / (last_s - first_s)
-    return place * min(1.0, loose_dps**2 / RATES_SQUARE_DPS)
+    long_deg = wide_deg + (CLOCKS_S[-1] - CLOCKS_S[0]) * _travelled_dps(path, orders)
+    return wide_deg * long_deg / SKY_SQUARE_DEG * _motion_chance(path, orders, rounding)
+
+
+def rising_line_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
+    """The probability that a line at random begins at the horizon as this satellite rises there, and moves as it does.
+
+    1: the orders do not begin as it rises. `orders`: those that tell something of it. Before them the program may have
+    waited at the horizon for any time.
+    """
+    return rise_chance(path, orders, clocks_s, rounding) * _motion_chance(path, orders, rounding)
+
+
+def _travelled_dps(path: SampledPath, orders: Sequence[Heard]) -> float:
+    first_s, last_s = orders[0].utc_s, orders[-1].utc_s
+    return path.sight(first_s).apart_deg(path.sight(last_s)) / (last_s - first_s)
+
+
+def _motion_chance(path: SampledPath, orders: Sequence[Heard], rounding: float) -> float:
+    """The probability that a line at random has the course and the speed of this satellite."""
+    loose_deg = rounding + 2 * UNSTEADY_S * _travelled_dps(path, orders)
+    return min(1.0, (loose_deg / (orders[-1].utc_s - orders[0].utc_s)) ** 2 / RATES_SQUARE_DPS)
 
 
 def rise_chance(path: SampledPath, orders: Sequence[Heard], clocks_s: Sequence[float], rounding: float) -> float:
-    """The probability that a stream that stands at the horizon begins when one satellite rises there; 1: it does not
-    begin as this one rises."""
+    """The probability that a stream that stands at the horizon begins when and where one satellite rises; 1: it does
+    not begin as this one rises.
+
+    Looks closer than `stream_fit`: a program whose elements or place differ more is recognised when it has moved.
+    """
     first = orders[0]
-    seen = [path.at(first.utc_s + clock_s) for clock_s in clocks_s]
-    begins = any(RISING_DEG <= each.elevation_deg <= JUST_RISEN_DEG and each.elevation_dps > 0 for each in seen)
-    if first.elevation_deg > 0 or not begins:
+    rising = [seen for clock_s in clocks_s if _rises(seen := path.at(first.utc_s + clock_s), first, rounding)]
+    if first.elevation_deg > 0 or not rising:
         return 1.0
-    span_s = CLOCKS_S[-1] - CLOCKS_S[0]
-    wide_deg = rounding + 2 * BIAS_DEG + span_s * abs(seen[0].azimuth_dps)
+    rises_s = (JUST_RISEN_DEG - RISING_SOON_DEG) / rising[0].elevation_dps
+    span_s = CLOCKS_S[-1] - CLOCKS_S[0] + rises_s
+    # An azimuth that is cut off is up to a whole rounding too low, one that is rounded half of it too high.
+    wide_deg = 1.5 * rounding + 2 * RISE_BIAS_DEG + rises_s * abs(rising[0].azimuth_dps)
     return span_s / RISE_EVERY_S * wide_deg / FULL_TURN_DEG
+
+
+def _rises(seen: Second, first: Heard, rounding: float) -> bool:
+    over_deg = turn_deg(seen.azimuth_deg, first.azimuth_deg)
+    return (
+        RISING_SOON_DEG <= seen.elevation_deg <= JUST_RISEN_DEG
+        and seen.elevation_dps > 0
+        and -rounding - RISE_BIAS_DEG <= over_deg <= rounding / 2 + RISE_BIAS_DEG
+    )

@@ -10,10 +10,19 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from rotator.orbits.chance import has_moved, has_told, line_chance, rise_chance
+from rotator.orbits.chance import (
+    LINE_CHANCE,
+    MOST_LIKELY,
+    Known,
+    has_moved,
+    has_told,
+    line_chance,
+    rise_chance,
+    rising_line_chance,
+)
 from rotator.orbits.sight import NotThere, Sight, Target
 from rotator.orbits.stream_fit import (
     CLOCKS_S,
@@ -27,24 +36,21 @@ from rotator.orbits.stream_fit import (
 from rotator.orders import Aim, Calibrate, ClearTimed, Fly, Leave, Order, Release, Remark, Source, Speed, Stream
 
 ORDERS = 8
-"""So many orders tell a satellite, where they leave no other reading."""
+FEW_ORDERS, FEW_S = 3, 8.0
+"""This many orders tell a satellite, or `FEW_ORDERS` in this time where they come slowly."""
 KEPT = 30
-"""A stream that comes upon a path later must agree with it for so many orders: any line crosses some path."""
+"""A stream that comes upon a path later must agree with it for this many orders: any line crosses some path."""
 AGAIN_S = 2.0
-"""Where so many orders have told none, the next are looked at so much later."""
+"""If `KEPT` orders have told no satellite, the next look is this much later."""
 LONGEST_GAP_S = 20.0
 """Orders further apart do not belong together. Some programs send only when a whole degree has changed."""
 THIN_S = 0.9
-"""Of faster orders one in this time counts."""
+"""If orders come faster, one in this time counts."""
 FASTEST_DPS = 2.0
 """No satellite crosses the sky faster. Orders that do begin a new stream."""
 SIEVE_EVERY_S = 10.0
 SIEVE_DEG = 2 * FASTEST_DPS * SIEVE_EVERY_S
 """A satellite further from the order than this is not meant before the next sieving."""
-CHANCE = 1e-5
-"""So seldom may a stream that follows no satellite fit as well."""
-RISE_CHANCE = 1e-4
-"""So seldom may a stream that begins low and stands there begin where and when a known satellite rises."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,17 +71,31 @@ class Departed:
 
 
 class StreamWatch:
-    """Hears the orders of every source. `satellites`: those that may be meant."""
+    """Hears the orders of every source. `satellites`: those that may be meant. `likely`: names of those in use here,
+    the most wanted first.
+    """
 
-    def __init__(self, satellites: Iterable[Target] = ()) -> None:
+    def __init__(self, satellites: Iterable[Target] = (), likely: Sequence[str] = ()) -> None:
         self._satellites = tuple(satellites)
+        self._wanted = likely
+        self._used: tuple[str, ...] = ()
+        """Names of those that were recognised or flown, the latest first."""
         self._listeners: dict[Source, _Listener] = {}
         self._planners: set[Source] = set()
         """Programs that plan by themselves: they name the turn of the overlap, or flip."""
 
-    def know(self, satellites: Iterable[Target]) -> None:
-        """The elements have changed. What is followed stays so, by the elements of then."""
+    def know(self, satellites: Iterable[Target], likely: Sequence[str] = ()) -> None:
+        """The elements have changed. A satellite that is followed is followed on by its old elements."""
         self._satellites = tuple(satellites)
+        self._wanted = likely
+
+    def used(self, name: str) -> None:
+        """The station follows this satellite now: its next pass is likely to be followed, too."""
+        self._used = tuple(dict.fromkeys((name, *self._used)))[:MOST_LIKELY]
+
+    @property
+    def _likely(self) -> Sequence[str]:
+        return tuple(dict.fromkeys((*self._used, *self._wanted)))[:MOST_LIKELY]
 
     def followed(self, source: Source) -> Recognised | None:
         """What the orders of this source follow."""
@@ -97,7 +117,10 @@ class StreamWatch:
                     self._forget_silent(utc_s)
                     self._listeners[source] = _Listener(source)
                 heard = Heard(utc_s, azimuth_deg % 360.0, elevation_deg)
-                return self._listeners[source].hear(heard, self._satellites)
+                news = self._listeners[source].hear(heard, self._satellites, self._likely)
+                if isinstance(news, Recognised):
+                    self.used(news.satellite.name)
+                return news
             case Speed() | ClearTimed() | Calibrate() | Release() | Remark() | Fly(stream=Stream()):
                 return None
             case _:  # it ends the stream
@@ -122,15 +145,13 @@ class _Listener:
         self._source = source
         self._orders: deque[Heard] = deque(maxlen=KEPT)
         self._all_kept = True
-        """From the stream's beginning on."""
+        """No order has been dropped since the stream began."""
         self._near: list[SampledPath] = []
-        self._up = 0
-        """How many satellites are up, and may be meant."""
-        self._known = 0
-        """How many there are."""
+        self._known = Known(0, 0, 0)
+        self._likely: Collection[str] = ()
         self._sieved_s = -math.inf
         self._next_s = -math.inf
-        """Before then no path is fitted again."""
+        """The moment of the next fit, at the earliest."""
         self._followed: SampledPath | None = None
         self._clocks_s: tuple[float, ...] = ()
         """How far ahead the program's clock may be, as the orders tell it so far."""
@@ -140,7 +161,7 @@ class _Listener:
     def last_s(self) -> float:
         return self._orders[-1].utc_s if self._orders else -math.inf
 
-    def hear(self, order: Heard, satellites: Sequence[Target]) -> Recognised | Departed | None:
+    def hear(self, order: Heard, satellites: Sequence[Target], likely: Collection[str]) -> Recognised | Departed | None:
         if self._orders and self._begins_anew(order):
             self._orders.clear()
             self._all_kept = True
@@ -151,8 +172,10 @@ class _Listener:
         self._orders.append(order)
         if self.recognised is not None:
             return self._departed(order)
+        self._likely = likely
         self._sieve(order, satellites)
-        if len(self._orders) < (ORDERS if self._all_kept else KEPT) or not self._near or order.utc_s < self._next_s:
+        enough = _are_enough(self._orders) if self._all_kept else len(self._orders) == KEPT
+        if not enough or not self._near or order.utc_s < self._next_s:
             return None
         if len(self._orders) == KEPT:
             self._next_s = order.utc_s + AGAIN_S
@@ -174,7 +197,8 @@ class _Listener:
         sights = [(each, sight) for each in satellites if (sight := _up(each, order.utc_s)) is not None]
         near = [each for each, sight in sights if sight.apart_deg(order.direction) <= SIEVE_DEG]
         self._near = [known.get(each) or SampledPath(each) for each in near]
-        self._up, self._known = len(sights), len(satellites)
+        likely = sum(each.name in self._likely for each in satellites)
+        self._known = Known(len(satellites), likely, len(sights))
         for path in self._near:
             path.forget_before(self._orders[0].utc_s + CLOCKS_S[0] - 1)
 
@@ -186,19 +210,29 @@ class _Listener:
             return None
         path, clocks_s = fits[0]
         told = telling(path, orders)
-        if len(told) < ORDERS:
+        if not _are_enough(told):
             return None
         if not has_moved(told):
             # In whole degrees a satellite may stand for 15 s after its rise: then only place and moment tell it.
-            if self._known * rise_chance(path, orders, clocks_s, rounding) > RISE_CHANCE:
+            allowed = self._known.standing_chance(likely=path.satellite.name in self._likely)
+            if rise_chance(path, orders, clocks_s, rounding) > allowed:
                 return None
-        elif not has_told(path, told, rounding) or self._up * line_chance(path, told, rounding) > CHANCE:
+        elif not has_told(path, told, rounding) or self._line_chance(path, told, clocks_s, rounding) > LINE_CHANCE:
             return None
         self._followed, self._clocks_s = path, clocks_s
         self.recognised = Recognised(
             self._source, path.satellite, Stream(rounding, ahead_s=(clocks_s[0], clocks_s[-1]))
         )
         return self.recognised
+
+    def _line_chance(
+        self, path: SampledPath, told: Sequence[Heard], clocks_s: Sequence[float], rounding: float
+    ) -> float:
+        """Of all satellites together: by where the orders are, or by where and when they begin."""
+        return min(
+            self._known.up * line_chance(path, told, rounding),
+            self._known.all * rising_line_chance(path, told, clocks_s, rounding),
+        )
 
     def _departed(self, order: Heard) -> Departed | None:
         """Whether an order, as the program's clock may be, is too far from the path that it has followed."""
@@ -215,8 +249,14 @@ class _Listener:
         return departed
 
 
+def _are_enough(orders: Sequence[Heard]) -> bool:
+    return len(orders) >= ORDERS or (
+        len(orders) >= FEW_ORDERS and orders[-1].utc_s - orders[0].utc_s >= FEW_S - UNSTEADY_S
+    )
+
+
 def _up(satellite: Target, utc_s: float) -> Sight | None:
-    """None: it is under the horizon, and does not rise within the next seconds."""
+    """None: it is too far below the horizon to be meant before the next sieving."""
     try:
         sight = satellite.sight(utc_s)
     except NotThere:

@@ -40,7 +40,7 @@ class Heard:
 
 
 @dataclass(frozen=True, slots=True)
-class _Second:
+class Second:
     """Where the satellite is when a second begins, and how it moves until the next."""
 
     azimuth_deg: float
@@ -54,13 +54,13 @@ class SampledPath:
 
     def __init__(self, satellite: Target) -> None:
         self.satellite = satellite
-        self._seconds: dict[int, _Second] = {}
+        self._seconds: dict[int, Second] = {}
 
-    def at(self, utc_s: float) -> _Second:
+    def at(self, utc_s: float) -> Second:
         """As it moves at that moment."""
         number = math.floor(utc_s)
         second, share = self._second(number), utc_s - number
-        return _Second(
+        return Second(
             second.azimuth_deg + share * second.azimuth_dps,
             second.elevation_deg + share * second.elevation_dps,
             second.azimuth_dps,
@@ -75,7 +75,7 @@ class SampledPath:
     def forget_before(self, utc_s: float) -> None:
         self._seconds = {number: second for number, second in self._seconds.items() if number >= utc_s}
 
-    def _second(self, number: int) -> _Second:
+    def _second(self, number: int) -> Second:
         found = self._seconds.get(number)
         if found is None:
             following = self._seconds.get(number + 1)
@@ -85,7 +85,7 @@ class SampledPath:
                 if following is None
                 else Sight(following.azimuth_deg, following.elevation_deg, math.inf)
             )
-            found = self._seconds[number] = _Second(
+            found = self._seconds[number] = Second(
                 now.azimuth_deg,
                 now.elevation_deg,
                 turn_deg(now.azimuth_deg, soon.azimuth_deg),

@@ -17,7 +17,7 @@ from rotator.assembly.arduino import arduino_station
 from rotator.assembly.settings import build_controller, build_mount, build_offsets, planned_motors
 from rotator.assembly.simulation import simulated_boom
 from rotator.assembly.station import Station
-from rotator.assembly.tracking import TrackedBox, build_known_sky
+from rotator.assembly.tracking import TrackedBox, build_known_sky, wanted_names
 from rotator.config.model import Config
 from rotator.control.sky.flight_plan import Antenna, plan_flight
 from rotator.control.sky.known_path import KnownPath
@@ -130,8 +130,9 @@ class BoxPlant:
         self._overhearing: Overhearing | None = None
         if utc_s is not None:
             apart_s = utc_s - clock()
-            box = TrackedBox(config, self._loop, self._mount)
-            self._overhearing = Overhearing(self._loop, build_known_sky(config), box, clock, lambda: clock() + apart_s)
+            box, sky = TrackedBox(config, self._loop, self._mount), build_known_sky(config)
+            wanted = wanted_names(config.sky, sky)
+            self._overhearing = Overhearing(self._loop, sky, box, clock, lambda: clock() + apart_s, wanted=wanted)
 
     def inject(self, at_s: float, name: str) -> None:
         """Let the named fault begin at this moment of simulated time."""

@@ -6,7 +6,7 @@ Knows the UTC at which the rehearsal happens, and how long a plan takes on a Pi.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from firmware_sim.clock import SimClock
@@ -25,21 +25,30 @@ COMPUTING_S = 0.6
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """The satellite that the box has named on its displays, so long after the stream began."""
+    """The satellite that the box has named on its displays, and when: seconds after the stream began."""
 
     name: str
     after_s: float
 
 
 class Overhearing:
-    """`utc`: the true time."""
+    """`utc`: the true time. `wanted`: names of the satellites that the configuration follows."""
 
-    def __init__(self, loop: ControlLoop, sky: KnownSky, box: Box, clock: SimClock, utc: Callable[[], float]) -> None:
+    def __init__(
+        self,
+        loop: ControlLoop,
+        sky: KnownSky,
+        box: Box,
+        clock: SimClock,
+        utc: Callable[[], float],
+        *,
+        wanted: Sequence[str] = (),
+    ) -> None:
         self._loop = loop
         self._satellites = sky.satellites()
         self._clock = clock
         self._utc = utc
-        self._listener = StreamListener(sky, PlansAtOnce(), box, utc, lambda: True)
+        self._listener = StreamListener(sky, PlansAtOnce(), box, utc, lambda: True, wanted=lambda: wanted)
         self._due_s: deque[float] = deque()
         self._first_s: float | None = None
         self._true: Target | None = None

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from rotator.orbits.recognition import Recognised, StreamWatch
@@ -22,18 +22,28 @@ from rotator.tracking.tracker import Box, Planner
 log = logging.getLogger(__name__)
 
 MOST_WAITING = 500
-"""So many orders are kept until they are looked at; a flood pushes the oldest out."""
+"""Orders that are kept until they are looked at; a flood pushes the oldest out."""
 
 AGAIN_S = 30.0
-"""A flight that has ended while its stream goes on is planned again so long after the plan before: a person had taken
+"""A flight that has ended while its stream goes on is planned again this much after the plan before: a person had taken
 the antenna, and has given it back."""
 
 
 class StreamListener:
-    """`hear` may be called from any thread and never waits; `step` and `know` from one thread only."""
+    """`hear` may be called from any thread and never waits; `step` and `know` from one thread only.
+
+    `wanted`: names of the satellites that the configuration follows, the most wanted first.
+    """
 
     def __init__(
-        self, sky: KnownSky, planner: Planner, box: Box, utc: Callable[[], float], clock_trusted: Callable[[], bool]
+        self,
+        sky: KnownSky,
+        planner: Planner,
+        box: Box,
+        utc: Callable[[], float],
+        clock_trusted: Callable[[], bool],
+        *,
+        wanted: Callable[[], Sequence[str]] = tuple,
     ) -> None:
         self._sky = sky
         self._planner = planner
@@ -41,7 +51,8 @@ class StreamListener:
         self._utc = utc
         self._clock_trusted = clock_trusted
         self._heard: deque[tuple[Source, Order, float]] = deque(maxlen=MOST_WAITING)
-        self._watch = StreamWatch(sky.satellites())
+        self._wanted = wanted
+        self._watch = StreamWatch(sky.satellites(), wanted())
         self._planned: Recognised | None = None
         """Whose pass was planned last, and when, on the loop's clock."""
         self._planned_s = 0.0
@@ -51,10 +62,12 @@ class StreamListener:
 
     def know(self) -> None:
         """The elements have changed."""
-        self._watch.know(self._sky.satellites())
+        self._watch.know(self._sky.satellites(), self._wanted())
 
     def step(self, clock: Callable[[], Now]) -> None:
         """Look at what was heard. It may compute for seconds."""
+        if (flown := self._box.status().flown) is not None:
+            self._watch.used(flown.name)
         moved: set[Source] = set()
         while self._heard:
             source, order, utc_s = self._heard.popleft()

@@ -1,0 +1,106 @@
+"""How soon a satellite is recognised after its rise: `python -m benchmarks.recognition_delay [PASSES [SEED]]`.
+
+Passes of satellites drawn at random over stations drawn at random, sent in whole degrees by a program whose clock is up
+to 5 s off. The box knows 100 satellites; the station uses eight of them, and the one that is sent is among these, or it
+is not. Rounded, and cut off. Moments count from the rise as the program sees it.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from benchmarks.recognition import SATELLITES, catalogue
+from rotator.orbits.earth import Site
+from rotator.orbits.elements import Elements
+from rotator.orbits.passes import passes
+from rotator.orbits.recognition import Recognised, StreamWatch
+from rotator.orbits.satellite import Satellite
+from rotator.orbits.sight import NotThere
+from rotator.orders import Aim, Source
+from tests.orbits.streams import whole
+
+PASSES, USED = 200, 8
+CLOCK_S = 5.0
+UNSTEADY_S = 0.05
+LEAST_DEG, DAYS = 5.0, 8.0
+LONGEST_S = 120.0
+LATE_S = 10.0
+ROUNDINGS: dict[str, Callable[[float], int]] = {"rounded": lambda deg: int(whole(deg)), "cut off": math.floor}
+
+
+@dataclass(frozen=True, slots=True)
+class Rise:
+    """A pass that begins at `aos_s`; the program sees it `ahead_s` earlier, and sends its first order within a
+    period after that."""
+
+    elements: Elements
+    site: Site
+    aos_s: float
+    ahead_s: float
+
+
+def rises(dice: random.Random, elements: list[Elements], count: int) -> list[Rise]:
+    found: list[Rise] = []
+    while len(found) < count:
+        site = Site(math.degrees(math.asin(dice.uniform(-0.95, 0.95))), dice.uniform(-180, 180), dice.uniform(0, 1500))
+        each = dice.choice(elements)
+        from_s = each.epoch_utc_s + dice.uniform(0, DAYS * 86_400.0)
+        try:
+            one = next(passes(Satellite(each, site), from_s, from_s + 86_400.0, LEAST_DEG), None)
+        except NotThere:
+            continue
+        if one is not None and one.aos_s is not None and one.aos_s > from_s:
+            found.append(Rise(each, site, one.aos_s, dice.uniform(-CLOCK_S, CLOCK_S)))
+    return found
+
+
+def recognised_after_s(
+    rise: Rise, watch: StreamWatch, rounds: Callable[[float], int], period_s: float, dice: random.Random
+) -> tuple[str, float]:
+    """The name that is recognised, and the seconds since the program has seen the rise; empty and infinite: none."""
+    truth, at_s = Satellite(rise.elements, rise.site), rise.aos_s + dice.uniform(0.0, period_s)
+    while at_s < rise.aos_s + LONGEST_S:
+        seen = truth.sight(at_s)
+        aim = Aim(rounds(seen.azimuth_deg) % 360, max(0, rounds(seen.elevation_deg)))
+        if isinstance(news := watch.hear(Source("gs232b"), aim, at_s - rise.ahead_s), Recognised):
+            return news.satellite.name, at_s - rise.aos_s
+        at_s += period_s + dice.uniform(-UNSTEADY_S, UNSTEADY_S)
+    return "", math.inf
+
+
+def used(rise: Rise, elements: list[Elements], dice: random.Random) -> list[str]:
+    """Those that the station uses, the one that is sent among them."""
+    names = [rise.elements.name, *(each.name for each in dice.sample(elements, USED - 1))]
+    dice.shuffle(names)
+    return names
+
+
+def main(count: int = PASSES, seed: int = 15) -> None:
+    dice = random.Random(seed)
+    elements = catalogue(dice, SATELLITES)
+    found = rises(dice, elements, count)
+    for period_s in (1.0, 2.0, 5.0):
+        for rounding, rounds in ROUNDINGS.items():
+            for among in (True, False):
+                after_s, wrong = [], 0
+                for rise in found:
+                    known = [Satellite(each, rise.site) for each in elements]
+                    watch = StreamWatch(known, used(rise, elements, dice) if among else ())
+                    name, late_s = recognised_after_s(rise, watch, rounds, period_s, dice)
+                    wrong += name not in ("", rise.elements.name)
+                    after_s.append(late_s)
+                after_s.sort()
+                print(
+                    f"every {period_s:g} s, {rounding:7}, {'used' if among else 'not used'}: "
+                    f"median {after_s[count // 2]:4.1f} s, 90 % within {after_s[count * 9 // 10]:4.1f} s, "
+                    f"worst {after_s[-1]:4.1f} s; {sum(each > LATE_S for each in after_s)} of {count} "
+                    f"after {LATE_S:g} s; {wrong} wrong"
+                )
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:3]))
