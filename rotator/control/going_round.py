@@ -26,13 +26,16 @@ PLACE_TOLERANCE_DEG = 0.8 * BESIDE_DEG
 """How near to a place on its way an axis has to come."""
 SAME_DEG = 0.25
 """A target that has moved by less needs no new way."""
+MORE_ROOM_DEG = 0.1
+"""A motor that needs so much more room before a sector than was known needs other ways."""
 
 
 class GoingRound:
     def __init__(self, mount: Mount, axes: Mapping[Axis, ControlledAxis]) -> None:
         self._mount = mount
         self._axes = axes
-        self.detours = detours(mount, axes) if mount.sectors else None
+        self._room_deg = self._room()
+        self.detours = self._detours() if mount.sectors else None
         self._wishes: dict[Axis, AimGoal] = {}
         """The goals as asked for."""
         self._target: Place | None = None
@@ -60,6 +63,7 @@ class GoingRound:
             return from_deg, False
         if azimuth_deg > FULL_TURN_DEG or elevation_deg > ZENITH_DEG:  # the sender names the place
             return from_deg, False
+        self._keep_room()
         here = self._here(now_s)
         if not here.known:
             return from_deg, False
@@ -99,6 +103,7 @@ class GoingRound:
         """Give each axis the goal of this moment."""
         if self.detours is None:
             return
+        self._keep_room()
         # A fault has stopped its axis. Its acknowledgement orders no motion of it.
         self.stop(tuple(axis for axis, control in self._axes.items() if control.fault))
         wishes = {axis: wish for axis in Axis if (wish := self.wish(axis)) is not None}
@@ -167,6 +172,24 @@ class GoingRound:
             for axis in Axis:
                 self._noticed[axis] = Notice(f"the antenna is in {detour.sector}: it may only leave it", "IN FORBIDDEN")
 
+    def _room(self) -> Place:
+        return self._axes[Axis.AZIMUTH].room_deg, self._axes[Axis.ELEVATION].room_deg
+
+    def _detours(self) -> Detours:
+        azimuth, elevation = self._axes[Axis.AZIMUTH], self._axes[Axis.ELEVATION]
+        about_deg = azimuth.about_deg, elevation.about_deg
+        return Detours(self._mount, self._room_deg, about_deg, Speeds(azimuth.speed_dps, elevation.speed_dps))
+
+    def _keep_room(self) -> None:
+        """A motor that turns out to be faster needs more room: the fence would hold it back at a place too near."""
+        room_deg = self._room()
+        if any(
+            now_deg > before_deg + MORE_ROOM_DEG for now_deg, before_deg in zip(room_deg, self._room_deg, strict=True)
+        ):
+            azimuth_deg, elevation_deg = map(max, room_deg, self._room_deg)
+            self._room_deg = azimuth_deg, elevation_deg
+            self.detours = self._detours()
+
     def _here(self, now_s: float) -> Box:
         return Box(*(self._axes[axis].sweep(now_s, None) for axis in Axis))
 
@@ -177,12 +200,6 @@ class GoingRound:
     def _set(self, axis: Axis, goal: AimGoal) -> None:
         if self._axes[axis].aiming != goal:
             self._axes[axis].aim(goal)
-
-
-def detours(mount: Mount, axes: Mapping[Axis, ControlledAxis]) -> Detours:
-    azimuth, elevation = axes[Axis.AZIMUTH], axes[Axis.ELEVATION]
-    room_deg, about_deg = (azimuth.room_deg, elevation.room_deg), (azimuth.about_deg, elevation.about_deg)
-    return Detours(mount, room_deg, about_deg, Speeds(azimuth.speed_dps, elevation.speed_dps))
 
 
 def _place_deg(goal: AimGoal, now_s: float) -> float:

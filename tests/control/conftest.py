@@ -50,7 +50,10 @@ class Desk:
         park_after_s: float = 0.0,
         on_sky: bool = True,
         sectors: tuple[Sector, ...] = (),
+        described: float = 1.0,
     ) -> None:
+        """`described`: the motors' speeds in the file, as a share of the real ones."""
+        self._described = described
         self.range = {AZ: Range(*azimuth), EL: Range(*elevation)}
         self.angle_deg = dict(zip(Axis, at, strict=True))
         self._speed_dps = dict.fromkeys(Axis, 0.0)
@@ -89,7 +92,8 @@ class Desk:
         limits = self.range[axis]
         line = between_ends(LOW_RAW, limits.min_deg, HIGH_RAW, limits.max_deg)
         calibration = None if Missing.CALIBRATION in missing else line
-        motor = Motor(self.SPEED_DPS[axis], self.SPEED_DPS[axis] * self.LAG_S)
+        speed_dps = self.SPEED_DPS[axis] * self._described
+        motor = Motor(speed_dps, speed_dps * self.LAG_S)
         if self.counted:
             degrees = Calibration(((limits.min_deg, limits.min_deg), (limits.max_deg, limits.max_deg)))
             travel_s = (limits.max_deg - limits.min_deg) / motor.speed_dps

@@ -7,6 +7,8 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
+from rotator.control.axis.motion import Motor
+from rotator.control.axis.reach import bounds
 from rotator.control.sky.mount import Range, Sector
 from rotator.faults import FaultKind, Missing
 from rotator.orders import Aim, Home, Jog, Park, Stop
@@ -69,6 +71,33 @@ def test_a_stream_into_it_waits_beside_it_and_goes_round_to_a_target_beyond(besi
     assert beside.angle_deg[AZ] == pytest.approx(149, abs=5)
     assert beside.angle_deg[EL] == pytest.approx(20, abs=5)
     assert starts < 25
+
+
+@pytest.mark.parametrize("described", [0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.5, 2.5])
+def test_however_wrong_the_speed_in_the_file_is_it_waits_where_the_fence_lets_it_start_again(
+    new_desk: Any, described: float
+) -> None:
+    """The fence keeps the room that the motors need as they have been learnt; the way round keeps it too."""
+    desk = new_desk(at=(40.0, 10.0), sectors=(CHIMNEY,), described=described)
+    desk.step()
+    for target_deg in ((20.0, 40.0), (60.0, 10.0)) * 4:
+        desk.step(Aim(*target_deg))
+        desk.run(20.0)
+    for target_deg in ((101.0, 5.0), (115.0, 34.0)):
+        desk.step(Aim(*target_deg))
+        desk.run(0.1)
+        places = [axis.target_deg for axis in (desk.status.azimuth, desk.status.elevation)]
+        azimuth_room_deg, elevation_room_deg = (room_deg(desk, axis, described) for axis in Axis)
+        assert places[0] < 98.0 - azimuth_room_deg or places[1] > 37.0 + elevation_room_deg
+        desk.run(60.0)
+        assert not any("stopped before" in notice for notice in notices(desk))
+
+
+def room_deg(desk: Any, axis: Axis, described: float) -> float:
+    """How far a motor as fast as its runs have shown may go before a command can end that."""
+    written = Motor(desk.SPEED_DPS[axis] * described, desk.SPEED_DPS[axis] * described * desk.LAG_S)
+    learnt = desk.status.axis(axis).learnt
+    return max(bounds(written, Motor(motor.speed_dps, motor.coast_deg)).room_deg for motor in learnt)
 
 
 def test_an_order_for_azimuth_alone_goes_over_it_and_comes_down_again(beside: Any) -> None:
