@@ -137,16 +137,20 @@ async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
     """Lines, and at a terminal the same keys as in the picture."""
     wires = app.wires
     keys = RunKeys(app.console)
+    told = ""
 
     def greeting() -> list[str]:
         lines = plain_lines.greeting(__version__, app.config.rotor.hardware, wires)
         return [*lines, "  keys: " + ", ".join(terminal.KEYS).replace("   ", ", ")] if sys.stdin.isatty() else lines
 
     def key(pressed: str) -> None:
+        nonlocal told
         if keys.key(pressed):
             stop.set()
-        elif keys.line and not keys.line.endswith(NEXT):
-            screen.write(f"{keys.line}\n")
+        elif keys.line != told and not keys.line.endswith(NEXT):
+            told = keys.line
+            if told:
+                screen.write(f"{told}\n")
 
     with keys_to(key):
         await print_lines(greeting, lambda: plain_lines.line(app.loop.status), screen)

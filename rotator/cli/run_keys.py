@@ -1,4 +1,4 @@
-"""What a person types at `rotator run`: one key stops or quits, and what may start a motor is a word and Enter.
+"""What a person types at `rotator run`: stopping is easy and never fails, and what may start a motor is a word and Enter.
 
 Knows the keys, the words, and the line that is being typed. Does not know the terminal, nor how a word is carried out:
 it goes to a console session, which answers as it answers `rotator tell`.
@@ -9,17 +9,27 @@ from __future__ import annotations
 from rotator.orders import Stop
 from rotator.protocols.console_session import ERROR, ConsoleSession
 from rotator.protocols.session import Box
+from rotator.status import Status
 
 WORDS = ("park", "resume")
+"""Words that need Enter."""
+STOP_WORD = "stop"
+"""It needs no Enter: its last letter stops."""
 STOP, QUIT = " ", "q"
 STAYS = "a fault stays until repaired"
+AGAIN = "The antenna is on its way. q again to quit"
 NEXT = "Enter does it"
 """What is said of a word that is being typed."""
+NO_WORD = "no such word: Enter clears it"
 ENTER, BACK, ESCAPE = "\r\n", "\x7f\b", "\x1b"
 
 
 class RunKeys:
-    """Give `key` every character. `line` is what the person has typed, or what came of it; empty: nothing."""
+    """Give `key` every character. `line` is what the person has typed, or what came of it; empty: nothing.
+
+    A wrong letter spoils the line until Enter, Esc, or until it is taken back: the letters that follow must not become
+    another word, which would turn the antenna.
+    """
 
     def __init__(self, box: Box) -> None:
         self.line = ""
@@ -28,45 +38,64 @@ class RunKeys:
         self._typed = ""
         self._escape = ""
         """The beginning of an arrow's characters: Esc, then `[` or `O`."""
+        self._asked = False
+        """`q` was the last key, and the antenna is on its way: the next one quits."""
 
     def key(self, pressed: str) -> bool:
         """Take one character. True: the box is to end."""
+        asked, self._asked = self._asked, False
         if pressed == STOP:
-            self._escape = self._typed = self.line = ""
-            self._box.order(Stop(latch=True))
-            return False
-        if pressed == ESCAPE or self._escape:
-            self._swallow(pressed)
-            return False
-        if pressed == QUIT:
-            return True
-        if pressed in BACK:
+            self._stop()
+        elif pressed == ESCAPE or self._escape:
+            return self._swallow(pressed)
+        elif pressed == QUIT:
+            if asked or not _on_its_way(self._box.status()):
+                return True
+            self._show("", AGAIN)
+            self._asked = True
+        elif pressed in BACK:
             self._show(self._typed[:-1])
         elif pressed in ENTER:
             self._enter()
-        elif any(word.startswith(self._typed + pressed.lower()) for word in WORDS):
-            self._show(self._typed + pressed.lower())
         elif pressed.isprintable():
-            # A slip ends the word: what is left of other words must not become one that turns the antenna.
-            self._show("", f"{pressed} is no key here; begin again" if self._typed else f"{pressed} is no key here")
+            self._letter(pressed.lower())
         return False
+
+    def _letter(self, letter: str) -> None:
+        typed = self._typed + letter
+        # Also at the end of a line that is no word: whoever types it wants the antenna to stand.
+        if typed.endswith(STOP_WORD):
+            self._stop(f"{STOP_WORD}: done")
+        else:
+            self._show(typed)
+
+    def _stop(self, said: str = "") -> None:
+        self._escape = ""
+        self._box.order(Stop(latch=True))
+        self._show("", said)
 
     def _enter(self) -> None:
         word = self._typed
         if word in WORDS:
             answer = self._session.receive(f"{word}\n".encode())[0].decode().strip()
             refused = answer.removeprefix(ERROR) if answer.startswith(ERROR) else ""
-            self._show("")
             stays = STAYS if word == "resume" and self._box.status().faults else ""
-            self.line = f"{word}: {refused or stays or 'done'}"
+            self._show("", f"{word}: {refused or stays or 'done'}")
+        elif word.startswith(STOP_WORD[0]):
+            # `s`, or `stpo`: no other word begins so.
+            self._stop(f"{STOP_WORD}: done")
         elif word:
-            self._show(word, f"write it whole: {' or '.join(WORDS)}")
+            self._show("", f"{_to_first_slip(word)}: no such word. Type {', '.join((STOP_WORD, *WORDS[:-1]))} or {WORDS[-1]}")
 
     def _show(self, typed: str, remark: str = "") -> None:
         self._typed = typed
-        self.line = f"> {typed}_  {remark or NEXT}" if typed else remark
+        if typed:
+            # A line that is spoilt looks the same whatever follows, so that it is told once.
+            self.line = f"> {_to_first_slip(typed)}_  {NEXT if _begins_a_word(typed) else NO_WORD}"
+        else:
+            self.line = remark
 
-    def _swallow(self, pressed: str) -> None:
+    def _swallow(self, pressed: str) -> bool:
         """An arrow or another key that sends more than one character. Esc alone forgets what was typed."""
         if pressed == ESCAPE:
             self._escape = pressed
@@ -75,6 +104,23 @@ class RunKeys:
             self._escape += pressed
         elif self._escape == ESCAPE:
             self._escape = ""
-            self.key(pressed)
+            return self.key(pressed)
         elif pressed.isalpha() or pressed == "~":
             self._escape = ""
+        return False
+
+
+def _begins_a_word(typed: str) -> bool:
+    return any(word.startswith(typed) for word in (*WORDS, STOP_WORD))
+
+
+def _to_first_slip(typed: str) -> str:
+    """What was typed, up to the first letter that makes no word, with that letter."""
+    ends = (end for end in range(1, len(typed)) if not _begins_a_word(typed[:end]))
+    return typed[: next(ends, len(typed))]
+
+
+def _on_its_way(status: Status) -> bool:
+    """Whether the antenna turns, homes, or flies a pass or waits for one."""
+    homes = status.azimuth.homing or status.elevation.homing
+    return status.moving or homes or status.flown is not None

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotator.cli.run_keys import RunKeys
-from rotator.orders import Park, Release, Stop
+from rotator.orders import Aim, Park, Release, Stop
 from tests.protocols.conftest import BenchBox
 
 ANY_KEY = [chr(code) for code in range(256)]
@@ -41,15 +41,55 @@ def test_stop_is_one_key_whatever_has_been_typed(bench: BenchBox, before: str) -
     assert bench.orders == [Stop(latch=True)], "the word is forgotten"
 
 
-@pytest.mark.parametrize("text", ["park\r", "PARK\n", "px\x7fpark\r", "\x1b[Apark\r", "par\rk\r"])
+@pytest.mark.parametrize(
+    "text",
+    ["stop", "STOP", "stop\r", "s\r", "S\n", "st\r", "sto\r", "stpo\r", "xxstop", "parkstop", "pstop\r", "\x1bstop"],
+)
+@pytest.mark.parametrize("before", ["", "\r", "x\r", "par\r", "\x1b[A"])
+def test_whoever_types_stop_stops(bench: BenchBox, before: str, text: str) -> None:
+    typed(bench, before + text)
+    assert bench.orders == [Stop(latch=True)]
+
+
+@pytest.mark.parametrize("length", [1, 100, 5000])
+def test_stop_is_read_at_the_end_of_any_line(bench: BenchBox, length: int) -> None:
+    typed(bench, "x" * length + "stop")
+    assert bench.orders == [Stop(latch=True)]
+
+
+@pytest.mark.parametrize("word", ["park", "resume"])
+def test_after_stop_the_next_word_counts(bench: BenchBox, word: str) -> None:
+    """As on the first evening: s-t-o-p and Enter, and then a word."""
+    keys = typed(bench, "stop\r")
+    assert keys.line == "stop: done"
+    for key in f"{word}\r":
+        keys.key(key)
+    told = {"park": "park: stopped by link#1: nothing moves until resume", "resume": "resume: done"}
+    assert keys.line == told[word]
+
+
+@pytest.mark.parametrize(
+    "text", ["park\r", "PARK\n", "px\x7fark\r", "\x1b[Apark\r", "par\rpark\r", "x\rpark\r", "x\x1bpark\r"]
+)
 def test_the_word_parks(bench: BenchBox, text: str) -> None:
     assert typed(bench, text).line == "park: done"
     assert bench.orders == [Park(storm=True)]
 
 
-@pytest.mark.parametrize("text", ["paxrk\r", "pxaorrk\r", "pa5rk\r", "resxume\r", "pa-rk\r"])
-def test_a_slip_ends_the_word(bench: BenchBox, text: str) -> None:
+@pytest.mark.parametrize("text", ["paxrk\r", "pxaorrk\r", "pa5rk\r", "rexume\r", "pa-rk\r", "xpark\r", "par\rk\r"])
+def test_a_slip_spoils_the_line_until_enter(bench: BenchBox, text: str) -> None:
     typed(bench, text)
+    assert bench.orders == []
+
+
+def test_a_slip_is_told_once_whatever_follows(bench: BenchBox) -> None:
+    keys, told = typed(bench, "pak"), set()
+    for key in "resumeparkhello":
+        keys.key(key)
+        told.add(keys.line)
+    assert told == {"> pak_  no such word: Enter clears it"}
+    keys.key("\r")
+    assert keys.line == "pak: no such word. Type stop, park or resume"
     assert bench.orders == []
 
 
@@ -60,10 +100,11 @@ def test_the_word_releases(bench: BenchBox) -> None:
 
 def test_what_is_typed_shows(bench: BenchBox) -> None:
     assert typed(bench, "pa").line == "> pa_  Enter does it"
-    assert typed(bench, "pa5").line == "5 is no key here; begin again"
-    assert typed(bench, "pa\r").line == "> pa_  write it whole: park or resume"
-    assert typed(bench, "5").line == "5 is no key here"
+    assert typed(bench, "sto").line == "> sto_  Enter does it"
+    assert typed(bench, "pa5").line == "> pa5_  no such word: Enter clears it"
+    assert typed(bench, "pa\r").line == "pa: no such word. Type stop, park or resume"
     assert typed(bench, "pa\x1b").line == ""
+    assert typed(bench, "p\x7f").line == ""
 
 
 def test_a_word_without_effect_says_why(bench: BenchBox) -> None:
@@ -84,9 +125,22 @@ def test_a_release_does_not_say_that_a_fault_is_gone() -> None:
     assert typed(bench, "resume\r").line == "resume: a fault stays until repaired"
 
 
-def test_q_quits_at_any_moment(bench: BenchBox) -> None:
+def test_q_quits_a_box_at_rest_at_any_moment(bench: BenchBox) -> None:
     assert RunKeys(bench).key("q")
     assert typed(bench, "pa").key("q")
+
+
+def test_q_asks_once_while_the_antenna_is_on_its_way() -> None:
+    bench = BenchBox(at=(100.0, 30.0))
+    bench.order(Aim(200.0, 30.0))
+    bench.wait(1.0)
+    assert bench.status().moving
+    keys = RunKeys(bench)
+    assert not keys.key("q")
+    assert keys.line == "The antenna is on its way. q again to quit"
+    assert not keys.key("x"), "another key takes it back"
+    assert not keys.key("q")
+    assert keys.key("q")
 
 
 @given(st.lists(st.sampled_from(ANY_KEY), max_size=40))
@@ -95,5 +149,5 @@ def test_no_keys_without_a_whole_word_start_anything(keys: list[str]) -> None:
     typed(bench, "".join(keys))
     letters = "".join(key.lower() for key in keys)
     may = {"park": Park, "resume": Release}
-    allowed = [order for word, order in may.items() if all(letter in letters for letter in word)]
+    allowed = [order for word, order in may.items() if set(word) <= set(letters)]
     assert all(isinstance(order, (Stop, *allowed)) for order in bench.orders)
