@@ -41,7 +41,7 @@ from rotator.links.wire import LinkError, Wire
 from rotator.monitor.socket import MonitorSocket
 from rotator.monitor.tap import Tap
 from rotator.mqtt.build import build_mqtt
-from rotator.orders import Source, Take
+from rotator.orders import KEYBOARD, Source, Take
 from rotator.protocols.console_session import ConsoleSession
 from rotator.runtime.anew import Anew
 from rotator.runtime.autosave import Autosave
@@ -120,7 +120,7 @@ class App:
         self._pairings = build_pairings(config, self._tracking.clock_is_known)
         self._fetching = build_fetching(config, self._tracking.clock_is_known, self._tracking.read_again)
         self._elements_server = build_elements_server(config, self._tracking.known_elements)
-        self.console = Client(self.loop, mount, Source("console"))
+        self.console = Client(self.loop, mount, Source(KEYBOARD))
         numbers = itertools.count(1)
         monitor = monitor_path(config.state.path, config.monitor.path, os.environ)
         self._console_socket = ConsoleSocket(

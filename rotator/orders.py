@@ -6,7 +6,7 @@ Knows the orders as values. Does not know who sends them, nor what they do.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 from hw.ports import Axis, Direction
@@ -265,7 +265,9 @@ Order = Pointing | Jog | Stop | Release | ClearTimed | Calibrate | Speed | Leave
 PAGE = "page"
 """The page of the box: each of its paired browsers is a connection of this link."""
 CONSOLE, PANEL = "console", "panel"
-PERSONS = (CONSOLE, PANEL, "calibrate", PAGE)
+KEYBOARD = "keyboard"
+"""The keys of `rotator run`, the space bar among them."""
+PERSONS = (CONSOLE, KEYBOARD, PANEL, "calibrate", PAGE)
 """What a person uses at the box, as the link of a source. No link of the configuration has such a name."""
 MQTT = "mqtt"
 """The broker of [mqtt], as the link of a source: a program, however many stand behind it."""
@@ -279,6 +281,8 @@ class Source:
 
     link: str
     connection: int = 0
+    host: str = field(default="", compare=False)
+    """The address of the machine at the other end; empty: not known, or there is none."""
 
     @property
     def is_person(self) -> bool:

@@ -169,6 +169,8 @@ class Status:
     storm: bool = False
     """What is latched is a storm park, and the antenna is at it."""
     controlled_by: str = ""
+    controlled_from: str = ""
+    """The address of the machine whose program that is; empty: not known, or there is none."""
     held_by: str = ""
     """The person who has taken the antenna and not given it back; empty: there is none."""
     timed_point: int = 0

@@ -193,7 +193,7 @@ class _Connections:
         if self._link.report_moves:
             session = MoveReport(session, client)
         text = self._link.protocol not in _BINARY
-        return TappedSession(session, self._shared.tap, source, text=text, ended=client.left)
+        return TappedSession(session, self._shared.tap, source, text=text, ended=client.left, came=client.comes_from)
 
     def follower(self) -> Inquiry:
         source, client = self._client()

@@ -26,6 +26,7 @@ from rotator.calibrating.entries import (
     Yes,
 )
 from rotator.orders import Order, Stop
+from rotator.spoken import sender
 from rotator.status import AxisStatus, Status
 
 Steps = Generator[None, None, None]
@@ -114,7 +115,7 @@ class Guide:
         self._latest, self._entry = status, entry
         if status.latched:
             # Over the console's socket, or at the panel: what this guide orders has no effect any more.
-            raise Abandoned(f"Stopped at the {status.latched}: the motors stand. {NOTHING_SAVED}")
+            raise Abandoned(f"Stopped by {sender(status.latched)}: the motors stand. {NOTHING_SAVED}")
 
     def _halt(self) -> None:
         self._orders.append(Stop())

@@ -18,7 +18,7 @@ from rotator.assembly.station import Station
 from rotator.config.model import Config
 from rotator.config.places import console_path, monitor_path
 from rotator.links.console import ConsoleSocket
-from rotator.orders import Order, SetMode, Source, Stop
+from rotator.orders import CONSOLE, PANEL, Order, SetMode, Source, Stop
 from rotator.protocols.console import Ask, parse
 from rotator.protocols.console_session import MAX_LINE, ConsoleSession
 from rotator.protocols.lines import LineReader
@@ -35,7 +35,7 @@ class Stops:
     """Those of one calibration: `start` it in an event loop, once the control loop runs. `end` may be called twice."""
 
     def __init__(self, config: Config, loop: ControlLoop, station: Station) -> None:
-        mount, console, panel = build_mount(config), Source("console"), Source("panel")
+        mount, console, panel = build_mount(config), Source(CONSOLE, 1), Source(PANEL)
         self.console = ConsoleSocket(
             console_path(monitor_path(config.state.path, config.monitor.path, os.environ)),
             lambda: OnlyStops(ConsoleSession(Client(loop, mount, console), hands(station.world))),

@@ -44,7 +44,7 @@ from rotator.config.station import NO_PLACE
 from rotator.orbits.catalogue import Unknown
 from rotator.orbits.sight import NotThere, Target
 from rotator.orbits.targets import find
-from rotator.spoken import held_by
+from rotator.spoken import held_by, spoken
 from rotator.store.whole import write_whole
 from rotator.views.residual_svg import residual_svg
 
@@ -246,8 +246,9 @@ def _refuse_beside_running_box(path: Path | None) -> None:
 def _refuse_stopped(config: Config) -> None:
     """Raises CommandFailed if the box was stopped when it ran last: somebody may be at the mast still."""
     if (stopped := build_latch_file(config).load()) is not None:
+        held = spoken(held_by(stopped.by, storm=stopped.storm))
         raise CommandFailed(
-            f"{held_by(stopped.by, storm=stopped.storm)}: nothing turns in a calibration either. Start the box, say "
+            f"{held}: nothing turns in a calibration either. Start the box, say "
             "resume there when nobody is at the mast, and end it again"
         )
 

@@ -21,7 +21,7 @@ from rotator.cli.box import AXES, BoxStatus, Refused, RunningBox, faults, stands
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.reach import consoles
 from rotator.cli.stop import STOPPED, stop_boxes
-from rotator.spoken import spoken
+from rotator.spoken import sender
 
 LOOK_S = 0.2
 """The time between two looks at the antenna, in seconds."""
@@ -109,11 +109,11 @@ def _judge(after: BoxStatus, ours: str, axes: Sequence[str], what: str) -> None:
         raise CommandFailed("\n         ".join(failed), FAULTY)
     if after["stopped_by"] and not after["storm_park"]:
         raise CommandFailed(
-            f"{what} was ended: stopped by {spoken(after['stopped_by'])}; nothing moves until `rotator resume`"
+            f"{what} was ended: stopped by {sender(after['stopped_by'])}; nothing moves until `rotator resume`"
         )
     mover = str(after["moved_by"] or "")
     if not mover.startswith(CONSOLE) or (ours and mover != ours):
-        other = "another command" if mover.startswith(CONSOLE) else mover
+        other = "another command" if mover.startswith(CONSOLE) else sender(mover)
         ended = f"{other} moves the antenna now" if mover else "the antenna was stopped"
         raise CommandFailed(f"{what} was ended: {ended}")
 

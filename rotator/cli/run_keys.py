@@ -1,4 +1,4 @@
-"""What a person types at `rotator run`: stopping is easy and never fails, and what may start a motor is a word and Enter.
+"""What a person types at `rotator run`: stopping never fails, and what may start a motor is a word and Enter.
 
 Knows the keys, the words, and the line that is being typed. Does not know the terminal, nor how a word is carried out:
 it goes to a console session, which answers as it answers `rotator tell`.
@@ -20,6 +20,7 @@ STAYS = "a fault stays until repaired"
 AGAIN = "The antenna is on its way. q again to quit"
 NEXT = "Enter does it"
 """What is said of a word that is being typed."""
+CHOICE = f"Type {', '.join((STOP_WORD, *WORDS[:-1]))} or {WORDS[-1]}"
 NO_WORD = "no such word: Enter clears it"
 ENTER, BACK, ESCAPE = "\r\n", "\x7f\b", "\x1b"
 
@@ -85,7 +86,7 @@ class RunKeys:
             # `s`, or `stpo`: no other word begins so.
             self._stop(f"{STOP_WORD}: done")
         elif word:
-            self._show("", f"{_to_first_slip(word)}: no such word. Type {', '.join((STOP_WORD, *WORDS[:-1]))} or {WORDS[-1]}")
+            self._show("", f"{_to_first_slip(word)}: no such word. {CHOICE}")
 
     def _show(self, typed: str, remark: str = "") -> None:
         self._typed = typed

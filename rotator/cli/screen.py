@@ -29,18 +29,25 @@ LOG_ROWS = 40
 
 
 class LogRows(logging.Handler):
-    """The latest log lines, for the picture, with the senders' names as a person says them."""
+    """The latest log lines, for the picture."""
 
     def __init__(self) -> None:
         super().__init__()
         self.rows: deque[str] = deque(maxlen=LOG_ROWS)
 
     def emit(self, record: logging.LogRecord) -> None:
-        self.rows.append(spoken(self.format(record).splitlines()[0]))
+        self.rows.append(self.format(record).splitlines()[0])
+
+
+class SpokenFormatter(logging.Formatter):
+    """With the senders' names as a person says them."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        return spoken(super().format(record))
 
 
 def log_to(handler: logging.Handler) -> None:
-    handler.setFormatter(logging.Formatter("%(asctime)s %(levelname).1s %(message)s", "%H:%M:%S"))
+    handler.setFormatter(SpokenFormatter("%(asctime)s %(levelname).1s %(message)s", "%H:%M:%S"))
     logging.basicConfig(level=logging.INFO, handlers=[handler])
 
 

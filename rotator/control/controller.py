@@ -151,6 +151,7 @@ class Controller:
             latched=self._authority.latched,
             storm=self._authority.storm,
             controlled_by=str(self._authority.controlled_by or ""),
+            controlled_from=self._authority.controlled_by.host if self._authority.controlled_by else "",
             held_by=str(self._authority.held_by or ""),
             timed_point=self._timed.point,
             timed_points=len(self._timed.points),

@@ -116,7 +116,7 @@ class Tap:
 class TappedSession:
     """A session, with a copy of all its bytes for `tap`. `text`: the bytes are characters; else they are binary.
 
-    `ended` is called when the connection has ended.
+    `ended` is called when the connection has ended, `came` with the address of its machine, where there is one.
     """
 
     def __init__(
@@ -127,8 +127,9 @@ class TappedSession:
         *,
         text: bool = True,
         ended: Callable[[], None] = lambda: None,
+        came: Callable[[str], None] = lambda _host: None,
     ) -> None:
-        self._ended = ended
+        self._ended, self._came = ended, came
         self._session = session
         self._tap = tap
         self._source = source
@@ -136,6 +137,7 @@ class TappedSession:
 
     def comes_from(self, host: str) -> None:
         self._tap.came(self._source, host)
+        self._came(host)
 
     def ended(self) -> None:
         self._tap.left(self._source)

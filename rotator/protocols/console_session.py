@@ -19,7 +19,7 @@ from rotator.protocols.panel_words import Hand, StopButton, ThrowJog, TurnKnob, 
 from rotator.protocols.session import Box, Pairing, Tracking
 from rotator.protocols.status_object import as_object
 from rotator.protocols.table_text import TableError, read_table
-from rotator.spoken import held, spoken
+from rotator.spoken import held, sender, spoken
 from rotator.status import Flown, Status
 
 MAX_LINE = 200
@@ -136,9 +136,10 @@ def report(status: Status) -> list[str]:
         )
     if status.moving:
         lines.append("moving: " + " ".join(axis.value for axis in Axis if status.axis(axis).moving))
-    lines.append(f"moved by: {status.controlled_by or 'nobody'}")
+    mover = sender(status.controlled_by, status.controlled_from) if status.controlled_by else "nobody"
+    lines.append(f"moved by: {mover}")
     if status.held_by:
-        lines.append(f"held by: {status.held_by}; programs do not move it until give-back")
+        lines.append(f"held by: {sender(status.held_by)}; programs do not move it until give-back")
     if status.flown is not None:
         how = "recognised" if status.recognised else "tracks"
         lines.append(f"{how}: {tracked(status.flown, status.at_s)}")
@@ -146,7 +147,7 @@ def report(status: Status) -> list[str]:
         lines.append(f"panel: {status.mode.name}")
     if status.latched:
         what, until = held(storm=status.storm)
-        lines.append(f"{what}: {status.latched}; {until}")
+        lines.append(f"{what}: {sender(status.latched)}; {until}")
     lines += [f"fault: {fault}" for fault in status.faults]
     lines += [f"missing: {axis.value} needs {what}" for axis in Axis if (what := status.axis(axis).uncalibrated)]
     lines += [f"note: {notice}" for notice in status.notices]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rotator.control.admission import refusal
 from rotator.control.sky.mount import Mount
@@ -75,6 +75,10 @@ class Client:
             self._has_ordered = True
             self._loop.post(self._source, order, can_wait=self._is_too_much(order))
         return refused
+
+    def comes_from(self, host: str) -> None:
+        """The address of the connection's machine, for the screens."""
+        self._source = replace(self._source, host=host)
 
     def left(self) -> None:
         """The connection has ended: what it began and left without an end ends with it."""

@@ -44,7 +44,9 @@ class Journal:
             if fault not in before.faults:
                 log.log(logging.WARNING if fault.passing else logging.ERROR, "FAULT %s", fault)
         mover = now.controlled_by
-        if mover and mover != before.controlled_by and (text := self._movers.admit(f"{mover} moves the antenna")):
+        place = f", from {now.controlled_from}," if now.controlled_from else ""
+        moves = f"{mover}{place} moves the antenna"
+        if mover and mover != before.controlled_by and (text := self._movers.admit(moves)):
             log.info("%s", text)
         if before.faults and not now.faults:
             passed = all(fault.passing for fault in before.faults)

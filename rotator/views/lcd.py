@@ -8,6 +8,7 @@ from __future__ import annotations
 from hw.ports import Axis
 from rotator.orders import Mode
 from rotator.protocols.gs232 import whole
+from rotator.spoken import short_sender
 from rotator.status import Status
 from rotator.views.words import rise_or_set
 
@@ -43,7 +44,7 @@ def _notices(status: Status) -> list[str]:
     notices = [fault.act_now for fault in status.faults if fault.act_now]
     notices += [f"{_SHORT[fault.axis]} {fault.lcd}" for fault in status.faults]
     if status.latched:
-        notices.append(("STORM PARK: " if status.storm else "STOP: ") + status.latched.upper())
+        notices.append(("STORM: " if status.storm else "STOP: ") + short_sender(status.latched))
     if status.mode is not Mode.AUTO:
         notices.append(f"MODE {status.mode.name}")
     for axis in Axis:

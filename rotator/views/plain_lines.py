@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from hw.ports import Axis, Direction
-from rotator.spoken import spoken
+from rotator.spoken import sender
 from rotator.status import AxisStatus, Status
 from rotator.views.words import TURNS, WireView, degrees, notes
 
@@ -25,7 +25,7 @@ def line(status: Status) -> str:
     if status.mode_switch:
         parts.append(f"mode {status.mode.name}")
     if status.latched:
-        parts.append(f"{'STORM PARK' if status.storm else 'STOPPED'} by {spoken(status.latched)}")
+        parts.append(f"{'STORM PARK' if status.storm else 'STOPPED'} by {sender(status.latched)}")
     parts += [f"FAULT {fault}" for fault in status.faults]
     parts += [f"NOTE {notice}" for notice in notes(status)]
     return "  ".join(parts)

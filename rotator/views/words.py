@@ -12,7 +12,7 @@ from typing import Protocol
 from hw.ports import Axis, Direction
 from rotator.control.rights import mode_words
 from rotator.orders import PANEL, Mode
-from rotator.spoken import spoken
+from rotator.spoken import sender, spoken
 from rotator.status import Flown, Status
 from rotator.views.sky_plot import off_deg
 
@@ -49,10 +49,7 @@ def headline(status: Status) -> tuple[str, str]:
     if loud := next((fault.act_now for fault in status.faults if fault.act_now), ""):
         return loud, ALARMS
     if status.latched:
-        return (
-            spoken(f"STORM PARK by {status.latched}" if status.storm else f"STOPPED by {status.latched}"),
-            ALARMS,
-        )
+        return f"{'STORM PARK' if status.storm else 'STOPPED'} by {sender(status.latched)}", ALARMS
     if faulted:
         return f"FAULT {' and '.join(faulted)}", ALARMS
     if homing:
@@ -87,10 +84,11 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
         return "no orders"
     if status.flown is not None and not status.recognised:
         return f"tracks {status.flown.name}, {rise_or_set(status.flown, status.at_s)}"
-    where = next((wire.where for wire in wires if source.partition("#")[0] == wire.name), "")
+    # An address of a machine says more than the port at which this box listens.
+    where = "" if status.controlled_from else next((w.where for w in wires if source.partition("#")[0] == w.name), "")
     recognised = f": {status.flown.name}, {rise_or_set(status.flown, status.at_s)}" if status.flown else ""
     point = f", point {status.timed_point} of {status.timed_points}" if status.timed_points else ""
-    return f"orders from {spoken(source)}{recognised}{point}" + (f" ({where})" if where else "")
+    return f"orders from {sender(source, status.controlled_from)}{recognised}{point}" + (f" ({where})" if where else "")
 
 
 def rise_or_set(flown: Flown, now_s: float) -> str:

@@ -19,7 +19,7 @@ from rotator.control.sky.mount import Mount
 from rotator.links.wire import Wire
 from rotator.orders import TRACKER, Fly, Stop
 from rotator.protocols.status_object import as_object
-from rotator.spoken import spoken
+from rotator.spoken import sender, spoken
 from rotator.status import AxisStatus, Status, Trust
 from rotator.views import words
 from rotator.views.sky_plot import Way, aimed_at, off_deg, pointing
@@ -175,12 +175,17 @@ class Scene:
         """The status with the names of people's browsers in place of their numbers."""
         return replace(
             status,
-            latched=self.said(status.latched),
-            controlled_by=ITSELF if status.controlled_by == TRACKER else self.said(status.controlled_by),
-            held_by=self.said(status.held_by),
-            mode_by=self.said(status.mode_by),
+            latched=self._who(status.latched),
+            controlled_by=ITSELF if status.controlled_by == TRACKER else self._who(status.controlled_by, status),
+            held_by=self._who(status.held_by),
+            mode_by=self._who(status.mode_by),
             notices=tuple(self.said(notice) for notice in status.notices),
         )
+
+    def _who(self, name: str, moves: Status | None = None) -> str:
+        """One sender, with the name of a person's browser. `moves`: the status, where it is who moves the antenna."""
+        said = self.said(name)
+        return said if said != name else sender(name, moves.controlled_from if moves else "")
 
     def said(self, text: str) -> str:
         """A text with the names of people's browsers in place of their numbers."""

@@ -44,7 +44,7 @@ def test_rotator_stop_ends_a_scan() -> None:
     sky.wait(1.5)
     assert not sky.moving()
     assert sky.guide.ended
-    assert "Stopped at the console: the motors stand. Nothing is saved." in sky.text
+    assert "Stopped by a rotator command: the motors stand. Nothing is saved." in sky.text
     assert sky.rig.result is None
 
 
@@ -56,7 +56,7 @@ def test_rotator_stop_ends_the_setting_up_of_an_axis(calibration: Callable[..., 
     console(run, parse(QUIET, "test")).receive(b"stop now\n")
     run.wait(1.5)
     assert not run.moving()
-    assert "Stopped at the console" in run.text
+    assert "Stopped by a rotator command" in run.text
 
 
 def test_no_other_command_of_the_console_moves_it_or_lets_it_move() -> None:
@@ -100,7 +100,7 @@ def test_the_panel_ends_a_scan(deed: str) -> None:
     watched(2.5)
     assert sky.guide.ended
     assert not sky.moving()
-    assert "Stopped at the panel: the motors stand." in sky.text
+    assert "Stopped by the panel: the motors stand." in sky.text
 
 
 def test_of_the_panels_orders_none_but_a_stop_goes_on() -> None:

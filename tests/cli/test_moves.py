@@ -29,7 +29,7 @@ def test_an_order_that_shows_late_is_not_another_command(
     said(rotator_here(*order, "--config", config))
 
 
-@pytest.mark.parametrize("who_told", [("gs232b#1", "gs232b#1 moves the antenna now"), ("", "the antenna was stopped")])
+@pytest.mark.parametrize("who_told", [("gs232b#1", "gs232b moves the antenna now"), ("", "the antenna was stopped")])
 @pytest.mark.parametrize("order", [["home", "azimuth", "--yes"], ["point", 0, 0], ["park"], ["jog", "ccw", 3]])
 def test_somebody_else_takes_or_stops_it(
     scripted: Any, rotator_here: Rotator, config: Path, who_told: tuple[str, str], order: list[Any]
@@ -90,7 +90,7 @@ def test_an_axis_that_may_not_be_aimed_has_not_arrived(scripted: Any, rotator_he
 def test_a_stop_on_the_way_ends_it(scripted: Any, rotator_here: Rotator, config: Path) -> None:
     scripted(on_its_way(100), pointed(AxisStatus(0.0, 450.0, 120.0), by="", latched="panel"))
     done = rotator_here("point", "180", "45", "--config", config)
-    assert why(done) == "rotator: point was ended: stopped by panel; nothing moves until `rotator resume`\n"
+    assert why(done) == "rotator: point was ended: stopped by the panel; nothing moves until `rotator resume`\n"
 
 
 def test_the_storm_park_is_no_stop(scripted: Any, rotator_here: Rotator, config: Path) -> None:

@@ -125,7 +125,7 @@ def test_every_display_names_who_stopped_it(tmp_path: Path) -> None:
     assert spoken(held_by(status.latched, storm=status.storm)) == (
         "stopped by a rotator command before the restart: nothing moves until resume"
     )
-    assert lcd.rows(status, lcd.ALTERNATE_S)[0] == "STOP: CONSOLE#3 "
+    assert lcd.rows(status, lcd.ALTERNATE_S)[0] == "STOP: COMMAND   "
 
 
 def test_a_damaged_file_stops_the_box_and_says_so(tmp_path: Path) -> None:

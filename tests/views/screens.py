@@ -53,13 +53,13 @@ BARE = replace(AZIMUTH, angle_deg=None, target_deg=None, drive=Direction.OFF, mi
 STATES = {
     "no order": ASLEEP,
     "tracking": STATUS,
-    "stopped": replace(ASLEEP, latched="console"),
+    "stopped": replace(ASLEEP, latched="keyboard"),
     "one fault": replace(STATUS, elevation=replace(ELEVATION, fault=STILL)),
     "both faulted": BOTH_OUT,
     "both faulted and stopped": replace(BOTH_OUT, latched="the panel"),
     "relay welded": replace(STATUS, azimuth=replace(AZIMUTH, fault=WELDED)),
     "uncalibrated": replace(ASLEEP, azimuth=BARE, elevation=replace(ELEVATION, missing=(Missing.LIMITS,))),
-    "storm park": replace(STATUS, latched="console", storm=True),
+    "storm park": replace(STATUS, latched="keyboard", storm=True),
     "homing": replace(ASLEEP, azimuth=replace(ASLEEP.azimuth, homing=True, source=AngleSource.COUNTED)),
     "panel": replace(STATUS, mode=Mode.MANUAL, mode_switch=True),
     "long names": replace(

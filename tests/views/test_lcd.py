@@ -132,13 +132,13 @@ def test_the_lower_row_stays() -> None:
 
 def test_several_notices_take_turns() -> None:
     now = with_axis(AZ, fault=POT_OPEN)
-    now = replace(now, elevation=replace(now.elevation, fault=STALLED), latched="console")
-    assert uppers(now, 16)[2::4] == ["AZ POT OPEN/SHRT", "EL STANDS STILL", "STOP: CONSOLE", "AZ POT OPEN/SHRT"]
+    now = replace(now, elevation=replace(now.elevation, fault=STALLED), latched="keyboard")
+    assert uppers(now, 16)[2::4] == ["AZ POT OPEN/SHRT", "EL STANDS STILL", "STOP: KEYBOARD", "AZ POT OPEN/SHRT"]
     assert uppers(now, 16)[::4] == ["SAT A:235 E:025"] * 4
 
 
 def test_a_latched_stop_says_who_pressed_it() -> None:
-    assert uppers(status(latched="console"))[2] == "STOP: CONSOLE"
+    assert uppers(status(latched="keyboard"))[2] == "STOP: KEYBOARD"
 
 
 @pytest.mark.parametrize(("axis", "shown"), [(AZ, "AZ UNCALIBRATED"), (EL, "EL UNCALIBRATED")])

@@ -60,10 +60,10 @@ def test_a_pot_that_reads_just_below_zero_is_at_zero() -> None:
 
 
 def test_trouble_in_a_line() -> None:
-    now = replace(STATUS, latched="console", elevation=AxisStatus(0, 180, fault=FAULT, missing=(Missing.LIMITS,)))
+    now = replace(STATUS, latched="keyboard", elevation=AxisStatus(0, 180, fault=FAULT, missing=(Missing.LIMITS,)))
     line = plain_lines.line(now)
     assert "elevation --- UNCALIBRATED (needs limits)" in line
-    assert "STOPPED by console" in line
+    assert "STOPPED by the keyboard" in line
     assert line.endswith(f"FAULT {FAULT}")
 
 

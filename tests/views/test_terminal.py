@@ -70,13 +70,13 @@ def test_the_relay_that_is_on_is_lit(axis: Axis, drive: Direction, lit: str) -> 
     ("state", "said"),
     [
         ("no order", "AT REST no orders"),
-        ("tracking", "TURNING SAT A:235 E:025 orders from gs232b#1 (run/gs232)"),
-        ("stopped", "STOPPED by console"),
+        ("tracking", "TURNING SAT A:235 E:025 orders from gs232b (run/gs232)"),
+        ("stopped", "STOPPED by the keyboard"),
         ("one fault", "FAULT elevation"),
         ("both faulted and stopped", "STOPPED by the panel"),
         ("relay welded", "CUT MOTOR POWER!"),
         ("uncalibrated", "UNCALIBRATED azimuth and elevation"),
-        ("storm park", "STORM PARK by console"),
+        ("storm park", "STORM PARK by the keyboard"),
         ("homing", "HOMING azimuth: turns to its end stop"),
         ("panel", "The panel's switch is at MANUAL"),
     ],
@@ -89,7 +89,7 @@ def test_what_it_does_and_who_says_so(state: str, said: str, wires: list[Wire]) 
 
 
 def test_a_list_says_at_which_point_it_is() -> None:
-    assert "orders from gs232b#1, point 3 of 12" in show(replace(STATUS, timed_point=3, timed_points=12))
+    assert "orders from gs232b, point 3 of 12" in show(replace(STATUS, timed_point=3, timed_points=12))
 
 
 def test_on_target() -> None:

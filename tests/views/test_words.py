@@ -17,7 +17,7 @@ def status(source: str, *, recognised: bool) -> Status:
 @pytest.mark.parametrize(
     ("source", "recognised", "said", "told"),
     [
-        ("gs232b#1", True, "orders from gs232b#1: ISS, LOS 5:12", "recognised: ISS, up for 5:12 min more"),
+        ("gs232b#1", True, "orders from gs232b: ISS, LOS 5:12", "recognised: ISS, up for 5:12 min more"),
         ("track", False, "tracks ISS, LOS 5:12", "tracks: ISS, up for 5:12 min more"),
     ],
 )
