@@ -40,10 +40,10 @@ class MoteusRotor(PlainRotor):
         self._ends = ends
 
     def condition(self, axis: Axis) -> Condition:
-        limit = self._drive.limits().get(axis)
+        limit, stopped_by = self._drive.limits().get(axis), self._drive.faults().get(axis, "")
         return Condition(
-            fault=self._fault(axis),
-            latched=axis in self._drive.faults(),
+            fault=self._fault(axis, stopped_by),
+            latched=bool(stopped_by),
             notice=Notice(limit.name, limit.short) if limit else None,
             missed=self._drive.misses(axis),
             ends=self._ends(axis),
@@ -78,10 +78,9 @@ class MoteusRotor(PlainRotor):
         else:
             self._drive.off()
 
-    def _fault(self, axis: Axis) -> Fault | None:
-        text = self._drive.faults().get(axis)
-        if text:
-            return Fault(FaultKind.CONTROLLER_FAULT, axis, text)
+    def _fault(self, axis: Axis, stopped_by: str) -> Fault | None:
+        if stopped_by:
+            return Fault(FaultKind.CONTROLLER_FAULT, axis, stopped_by)
         try:
             self._drive.angle_deg(axis)
         except HardwareError as reason:

@@ -7,6 +7,7 @@ the same. Knows no HTTP and no browser.
 from __future__ import annotations
 
 import re
+import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -101,6 +102,8 @@ class Scene:
         self._utc = utc
         self._past: deque[tuple[float, ...]] = deque(maxlen=int(KEPT_S / EVERY_S))
         self._path = _Path("", "", [])
+        self._counting = threading.Lock()
+        """Orders come from several threads, some at the same moment."""
         self._flights = 0
         self.stops = 0
         """How often a person has stopped it since the start of the program."""
@@ -108,12 +111,14 @@ class Scene:
     def note_order(self, order: object) -> None:
         """Of every order: a flight has the path of the pass. Called from any thread."""
         if isinstance(order, Stop) and order.latch:
-            self.stops += 1
+            with self._counting:
+                self.stops += 1
         if isinstance(order, Fly):
             step = max(1, len(order.path) // MOST_POINTS)
             points = [(round(az, 1), round(el, 1)) for _, az, el in order.path[::step]]
-            self._flights += 1
-            self._path = _Path(f"{self._flights} {order.name}", order.name, points)
+            with self._counting:
+                self._flights += 1
+                self._path = _Path(f"{self._flights} {order.name}", order.name, points)
 
     def note(self) -> None:
         """One more point of the past."""

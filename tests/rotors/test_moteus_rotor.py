@@ -17,11 +17,14 @@ from hw.moteus.drive import MoteusDrive
 from hw.moteus.orders import MoteusSpec
 from hw.moteus.wire import MoteusInStep
 from hw.ports import Axis, Direction
+from rotator.control.axis.sensing import Condition
 from rotator.control.commands import HOLD, Acknowledge, Place, Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import FaultKind
 from rotator.orders import LetGo
+from rotator.rotors import moteus as rotors_moteus
 from rotator.rotors.moteus import MoteusRotor
+from tests.interleaved import interleaved
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 SHIFT = Offsets(10.0, -3.0)
@@ -96,6 +99,27 @@ def test_a_controller_with_a_fault_is_latched_until_it_is_acknowledged(axis: Axi
     bench.rotor.run(Acknowledge(axis))
     bench.clock.sleep(1.0)
     assert bench.found(axis) is None
+
+
+def faulty() -> Bench:
+    bench = Bench()
+    bench.world.inject("azimuth-over-temperature")
+    bench.clock.sleep(0.5)
+    return bench
+
+
+def test_a_fault_that_ends_while_it_is_read_is_latched_or_not_there() -> None:
+    """The sensors' thread reads it while the control thread passes an acknowledgement on."""
+    conditions: list[Condition] = []
+    for _ in interleaved(
+        rotors_moteus,
+        faulty,
+        lambda bench: conditions.append(bench.rotor.condition(AZ)),
+        lambda bench: bench.drive.acknowledge(AZ),
+    ):
+        pass
+    seen = {(each.fault is not None, each.latched) for each in conditions}
+    assert seen == {(True, True), (False, False)}
 
 
 def test_a_controller_that_never_answered_is_silent_until_it_does() -> None:
