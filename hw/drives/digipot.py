@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 
 from hw.chips.mcp41010 import Mcp41010
 from hw.drives.control_box import BoxSpec, ControlBox
@@ -78,9 +79,9 @@ class DigipotDrive:
             if box.deaf or self.barred or self._somewhere():
                 return
             box.order(angle_deg)
-            self._feed(box, now_s)
             box.until_s = min(until_s, now_s + LONGEST_LEASE_S)
             self._changed.notify_all()
+            self._feed(box, now_s)
 
     def hold(self, axis: Axis) -> None:
         """Stop that box. Where only a cut supply stops it, the other box stops too, until its own hold or this aim."""
@@ -221,10 +222,15 @@ class DigipotDrive:
                 box.repeat()  # without its own supply the chip may have forgotten the step
             elif self._enable:
                 box.order_here()
+        self._powered, self._refresh_s = True, now_s + REFRESH_S
         if self._enable:
-            self._enable.set({ENABLE: True})
-        self._powered = True
-        self._refresh_s = now_s + REFRESH_S
+            try:
+                self._enable.set({ENABLE: True})
+            except HardwareError:
+                # A line that fails may have switched all the same: the boxes count as fed until the supply is cut.
+                with suppress(HardwareError):
+                    self._cut()
+                raise
 
     def _stop(self, box: ControlBox) -> None:
         if self._only_a_cut_stops(box):

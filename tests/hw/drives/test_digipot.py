@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterable
+from contextlib import suppress
+
 import pytest
 
 from firmware_sim.clock import SimClock
@@ -13,6 +17,7 @@ from hw.drives.control_box import BoxSpec
 from hw.drives.digipot import ENABLE, REFRESH_S, DigipotDrive
 from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import AngleSource, Axis, HardwareError
+from hw.safety.guard import Guard
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 ENABLE_PIN = 22
@@ -32,6 +37,7 @@ class Bench:
         start_deg: float = 40.0,
         box_band_deg: float = 2.0,
         range_deg: tuple[float, float] | None = None,
+        enable_outcomes: Iterable[str] = (),
     ) -> None:
         self.clock = SimClock(100.0)
         self.rotor = SimDigipotRotor(
@@ -45,9 +51,10 @@ class Bench:
             (Mcp41010(bus, "azimuth"), BoxSpec(start_deg=start_deg, range_deg=range_deg)),
             (Mcp41010(bus, "elevation"), BoxSpec(steps=((0.0, 0.0), (90.0, 64.0)), start_deg=30.0)),
             self.clock,
-            enable=self.outputs({ENABLE: ENABLE_PIN}) if relay else None,
+            enable=FailingEnable(self.outputs({ENABLE: ENABLE_PIN}), enable_outcomes) if relay else None,
         )
-        self.clock.add_alarm(self.drive.due_s, self.drive.enforce)
+        guard = Guard(self.drive, self.clock)
+        self.clock.add_alarm(self.drive.due_s, guard.enforce if enable_outcomes else self.drive.enforce)
 
     def outputs(self, pins: dict[str, int], *, active_low: bool = False) -> GpioOutputs:
         return GpioOutputs(self.rotor.gpio, "/dev/gpiochip0", pins, consumer="rotator-digipot", active_low=active_low)
@@ -312,3 +319,37 @@ def test_steps_that_are_none(steps: tuple[tuple[float, float], ...]) -> None:
     chip = Mcp41010(bench.kernel(), "azimuth")
     with pytest.raises(HardwareError, match="0 to 256"):
         DigipotDrive((chip, BoxSpec(steps=steps)), (chip, BoxSpec()), bench.clock)
+
+
+class FailingEnable:
+    """The supply's line. Of each call, one after the other: it works, fails, or switches and fails all the same."""
+
+    def __init__(self, lines: GpioOutputs, outcomes: Iterable[str]) -> None:
+        self._lines = lines
+        self._outcomes = iter(outcomes)
+
+    def set(self, levels: dict[str, bool]) -> None:
+        outcome = next(self._outcomes, "works")
+        if outcome != "fails":
+            self._lines.set(levels)
+        if outcome != "works":
+            raise HardwareError("GPIO: cannot switch enable: No such device")
+
+    def close(self) -> None:
+        self._lines.close()
+
+
+@pytest.mark.parametrize("outcomes", list(itertools.product(("works", "fails", "switches"), repeat=3)), ids="-".join)
+def test_however_the_supply_s_line_fails_a_lease_ends_the_move_and_the_next_aim_works(
+    outcomes: tuple[str, ...],
+) -> None:
+    bench = Bench(enable_outcomes=outcomes)
+    for _ in range(len(outcomes) + 1):
+        with suppress(HardwareError):
+            bench.drive.aim(AZ, 90.0, 0.0, bench.clock() + 0.25)
+        bench.clock.sleep(20.0)
+        assert bench.rotor.antenna()[0] < 60.0, "its lease was over long ago"
+    for _ in range(400):
+        bench.drive.aim(AZ, 90.0, 0.0, bench.clock() + 0.25)
+        bench.clock.sleep(CYCLE_S)
+    assert bench.rotor.antenna()[0] == pytest.approx(90.0, abs=BAND_DEG)
