@@ -11,6 +11,7 @@ import logging
 import socket
 import threading
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rotator.links.listening import cannot_listen
@@ -95,8 +96,9 @@ class PageThread:
         """Returns when the thread has ended."""
         self._stopping.set()
         loop, stop = self._loop, self._stop
-        if loop is not None and stop is not None and not loop.is_closed():
-            loop.call_soon_threadsafe(stop.set)
+        if loop is not None and stop is not None:
+            with suppress(RuntimeError):  # the page has just ended by itself
+                loop.call_soon_threadsafe(stop.set)
         if self._thread.is_alive():
             self._thread.join(JOIN_S)
         if self._socket is not None:
@@ -169,6 +171,7 @@ class PageThread:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
             await runner.cleanup()
+            await asyncio.to_thread(behind.pairings.keep)
 
 
 async def _keep(pairings: Pairings) -> None:

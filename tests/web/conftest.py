@@ -20,6 +20,7 @@ from rotator.config.load import parse
 from rotator.monitor.tap import Tap
 from rotator.runtime.anew import Anew
 from rotator.web.build import build_page, build_pairings
+from rotator.web.pairing import Pairings
 from rotator.web.thread import PageThread
 from tests.boxes import file_with_page, free_port
 
@@ -27,9 +28,9 @@ PATIENCE_S = 60.0
 OFF = (0, 0)
 
 
-def page_of(app: App, **more: Any) -> PageThread:
+def page_of(app: App, pairings: Pairings | None = None, **more: Any) -> PageThread:
     """One more page of this box, not started. `more`: as in `build_page`."""
-    pairings = build_pairings(app.config, lambda: True)
+    pairings = pairings or build_pairings(app.config, lambda: True)
     assert pairings is not None
     tap, tracking = Tap(datetime.now, lambda: app.loop.status), build_tracking(app.config, app.loop, app.mount)
     return build_page(

@@ -11,6 +11,8 @@ import pytest
 from rotator.app import App
 from rotator.config.load import parse
 from rotator.runtime.event_watch import EventWatch
+from rotator.store.paired import FILE_NAME
+from rotator.web.build import build_pairings
 from tests.boxes import file_with_page, free_port
 from tests.web.conftest import page_of
 
@@ -57,3 +59,25 @@ def test_a_page_that_has_failed_hangs_up_and_is_closed(tmp_path: Path, caplog: p
     finally:
         page.stop()
     assert [record.getMessage() for record in caplog.records] == ["page: it has failed; the box runs on without it"]
+
+
+def test_who_is_revoked_while_the_card_refuses_is_written_at_the_end_of_the_page(tmp_path: Path) -> None:
+    port = free_port()
+    config = parse(file_with_page(tmp_path, port), "test")
+    pairings = build_pairings(config, lambda: True)
+    assert pairings is not None
+    token = pairings.token("a lost phone")
+    page = page_of(App(config), pairings)
+    page.start()
+    with socket.create_connection(("127.0.0.1", port), PATIENCE_S) as browser:
+        browser.sendall(b"GET /api/me HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        assert browser.recv(12) == b"HTTP/1.1 200"
+    in_the_way = Path(config.state.path).with_name(f"{FILE_NAME}.new")
+    in_the_way.mkdir()
+    assert pairings.revoke(1) == ""
+    in_the_way.rmdir()
+    page.stop()
+    page.stop()
+    again = build_pairings(config, lambda: True)
+    assert again is not None
+    assert again.known(token) is None
