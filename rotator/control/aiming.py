@@ -21,7 +21,7 @@ from rotator.control.sky.pointing import AimGoal, Goals, Pointing
 from rotator.control.sky.route import Speeds
 from rotator.faults import Notice
 from rotator.orders import BOTH, Aim, Fly, Source
-from rotator.status import AxisStatus, Flown
+from rotator.status import Flown
 
 
 class Aiming:
@@ -51,9 +51,8 @@ class Aiming:
 
     def point_at(self, asked: Aim, now_s: float) -> None:
         """Raises Unreachable; then everything is as it was."""
-        if asked.place and None in (asked.azimuth_deg, asked.elevation_deg):
-            self._name_by_axes()
         wanted = self._pointing.wanted
+        by_axes = self._named_by_axes() if asked.place and None in (asked.azimuth_deg, asked.elevation_deg) else None
         asked = joined(self._mount, asked, (wanted.azimuth_deg, wanted.elevation_deg), self._places())
         aim = self._nudges.applied(asked)
         if not aim.engaged:
@@ -66,25 +65,28 @@ class Aiming:
             stands_deg = self._azimuth.angle_deg
             from_deg = self._mount.azimuth.min_deg if stands_deg is None else stands_deg
             near_deg, over = self._round.turn(now_s, aim, from_deg)
-            goals = self._pointing.aim(now_s, aim, near_deg, self._elevation.angle_deg or 0.0, over=over)
+            stands_el_deg = self._elevation.angle_deg or 0.0
+            goals = self._pointing.aim(now_s, aim, near_deg, stands_el_deg, over=over, wanted=by_axes)
             self._end_flight()
             self._set_goals(goals)
             self._asked, self._asked_s = asked, now_s
         elif aim.elevation_deg is not None:
+            self._pointing.wanted = by_axes or wanted
             self.forget((Axis.ELEVATION,))
             self._round.aim(Axis.ELEVATION, self._pointing.raise_to(aim.elevation_deg, self._azimuth.angle_deg or 0.0))
             self._asked, self._asked_s = asked, now_s
 
-    def _name_by_axes(self) -> None:
-        """Name the direction in force by the axes' own angles: over the top the elevation is then above 90°."""
+    def _named_by_axes(self) -> Aim | None:
+        """The direction in force by the axes' own angles: over the top the elevation is then above 90°. None: no
+        direction is in force on both axes, or an angle is not known."""
         azimuth_deg, elevation_deg = self._places()
         wanted = self._pointing.wanted
         if azimuth_deg is None or elevation_deg is None or None in (wanted.azimuth_deg, wanted.elevation_deg):
-            return
-        self._pointing.wanted = replace(wanted, azimuth_deg=azimuth_deg, elevation_deg=elevation_deg)
+            return None
+        return replace(wanted, azimuth_deg=azimuth_deg, elevation_deg=elevation_deg)
 
     def _end_flight(self) -> None:
-        """Another order takes its place: an axis that this one does not name stays at its target."""
+        """End the planned flight. An axis that is not named in the new order keeps its target."""
         if self._flight is not None:
             self._flight = None
             self._round.forget_paths()
@@ -96,19 +98,20 @@ class Aiming:
         self._flight = flight
         self._fly_on(now_s)
 
-    def fly_for_stream(self, order: Fly, source: Source, now_s: float) -> None:
-        """Fly a planned pass in place of a stream, where the order in force is one of that stream.
+    def fly_for_stream(self, order: Fly, source: Source, now_s: float) -> bool:
+        """Fly a planned pass in place of a stream, where the order in force is one of that stream. Returns whether.
 
         Raises Unreachable; then everything is as it was.
         """
         asked = self._asked
         if asked is None or self._nudges.applied(asked) != asked:
-            return
+            return False
         following = Following(order, source, now_s)
         if not following.agrees(source, asked, self._asked_s):
-            return
+            return False
         self._flight = Flight(order, self._mount, following)
         self._fly_on(now_s)
+        return True
 
     def flies_on(self, source: Source, aim: Aim, now_s: float) -> bool:
         """Whether this order is one of the stream in whose place a pass is flown, which then goes on."""
@@ -129,9 +132,10 @@ class Aiming:
             self._round.forget_paths()
 
     def park(self) -> None:
-        """Go to the park position. Raises Unreachable."""
-        self.forget(BOTH)
-        self._set_goals(self._pointing.park())
+        """Go to the park position. Raises Unreachable; then everything is as it was."""
+        goals = self._pointing.park()
+        self._asked = self._flight = None
+        self._set_goals(goals)
 
     def nudge(self, axis: Axis, offset_deg: float) -> None:
         """Shift this axis by so much, for all orders from now on."""
@@ -140,13 +144,19 @@ class Aiming:
     def clear_nudges(self) -> None:
         self._nudges.clear()
 
-    def repeat(self, now_s: float) -> None:
-        """Point again at the order in force, with the nudges of now. Raises Unreachable."""
+    def repeat(self, now_s: float) -> bool:
+        """Point again at the order in force, with the present nudges. Returns whether there is one.
+
+        Raises Unreachable.
+        """
         if self._asked is not None and self._asked.engaged:
             self.point_at(self._asked, now_s)
-        elif self._flight is not None:
+            return True
+        if self._flight is not None:
             self._flight.begin_goals_anew()
             self._fly_on(now_s)
+            return True
+        return False
 
     def drop(self) -> None:
         """The order in force is not to be repeated, nor followed on: an axis that still aims stays at its target."""
@@ -222,18 +232,6 @@ class Aiming:
     def notices(self, axis: Axis) -> tuple[Notice, ...]:
         """What a forbidden sector keeps this axis from."""
         return self._round.notices(axis)
-
-    def pointed(self, azimuth: AxisStatus, elevation: AxisStatus) -> tuple[AxisStatus, AxisStatus]:
-        """With where the boom points beside what the axes read."""
-        mount, axis_deg, raised_deg = self._mount, azimuth.shown_deg, elevation.shown_deg
-        if mount.model.perfect or axis_deg is None:
-            return azimuth, elevation
-        raised_deg = elevation.min_deg if raised_deg is None else raised_deg
-        there_azimuth_deg, there_elevation_deg = mount.pointed(axis_deg, raised_deg)
-        return (
-            replace(azimuth, correction_deg=there_azimuth_deg - axis_deg),
-            replace(elevation, correction_deg=there_elevation_deg - raised_deg),
-        )
 
     def _places(self) -> tuple[float | None, float | None]:
         """Where each axis goes, or stands where it has no target."""

@@ -7,7 +7,8 @@ from typing import Any
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.orders import Aim, Jog, Nudge, Order, Park, Source, Stop
+from rotator.control.sky.known_path import KnownPath
+from rotator.orders import Aim, AxisPlan, Fly, Jog, LoadTimed, Nudge, Order, Park, Source, Stop
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 PANEL = Source("panel")
@@ -86,3 +87,39 @@ def test_between_the_orders_of_a_stream_the_target_moves_on_and_stands_when_the_
     target_deg = desk.status.azimuth.target_deg
     desk.run(1.0)
     assert desk.status.azimuth.target_deg == target_deg
+
+
+OUTSIDE = KnownPath(((1000.0, 20.0, 0.0), (1060.0, 40.0, 10.0))).rows
+BEYOND = AxisPlan(1000.0, (20.0, 900.0), ())
+REFUSED: list[Order] = [
+    Aim(190.0, None, place=True),
+    Aim(190.0, None),
+    Aim(190.0, 40.0),
+    LoadTimed(2.0, ((190.0, 40.0),)),
+    Fly("SO-50", OUTSIDE, BEYOND, BEYOND),
+]
+
+
+@pytest.mark.parametrize("order", REFUSED, ids=lambda order: type(order).__name__)
+@pytest.mark.parametrize("streams", [False, True])
+def test_what_is_refused_leaves_the_order_in_force_as_it_is_and_as_it_is_shown(
+    new_desk: Any, order: Order, streams: bool
+) -> None:
+    """The axis's own angle is 370° where the display shows the 10° that were ordered; nothing points at 190°."""
+    desk, twin = (new_desk(azimuth=(200.0, 540.0), at=(300.0, 10.0)) for _ in range(2))
+    for each in (desk, twin):
+        each.step()
+        for second in range(5 if streams else 1):
+            each.step(Aim(10.0 + 2.0 * second, 30.0))
+            each.run(0.95)
+    assert desk.status.azimuth.target_deg > 360.0
+    desk.step(order, by=PANEL)
+    twin.step()
+    assert len(desk.controller.troubles) == 1
+    for _ in range(100):
+        shown = [(each.status.wanted_azimuth_deg, each.status.wanted_elevation_deg) for each in (desk, twin)]
+        assert shown[0] == shown[1]
+        assert targets(desk) == targets(twin)
+        assert desk.driven == twin.driven
+        desk.step()
+        twin.step()

@@ -29,7 +29,7 @@ from rotator.status import Trust
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 MINUS, OFF, PLUS = Direction
-CONSOLE, PANEL = Source("console"), Source("panel")
+CONSOLE, PANEL, BROWSER = Source("console"), Source("panel"), Source("page", 1)
 RESTING = {AZ: OFF, EL: OFF}
 
 
@@ -51,12 +51,30 @@ def test_with_the_links_lost_a_storm_park_goes_on(desk: Any) -> None:
     assert (AZ, MINUS) in desk.run(1.0)
 
 
-@pytest.mark.parametrize(("mode", "goes_on"), [(Mode.MANUAL, True), (Mode.JOG, True), (Mode.AUTO, False)])
-def test_with_the_links_lost_the_panel_s_jog_goes_on(desk: Any, mode: Mode, goes_on: bool) -> None:
-    desk.step(SetMode(mode), by=PANEL)
-    desk.step(Jog(AZ, PLUS), by=PANEL)
+SENDERS = [CONSOLE, PANEL, BROWSER, Source("gs232b", 1), Source("mqtt"), Source("track")]
+
+
+@pytest.mark.parametrize("sender", SENDERS, ids=str)
+def test_with_the_links_lost_only_what_page_and_panel_ordered_goes_on(desk: Any, sender: Source) -> None:
+    """Each of these two has a thread of its own, and a STOP that works."""
+    desk.step(Jog(AZ, PLUS), by=sender)
     desk.controller.links_lost()
-    assert (desk.step()[AZ] is PLUS) is goes_on
+    assert (desk.step()[AZ] is PLUS) is (sender in (PANEL, BROWSER))
+
+
+@pytest.mark.parametrize("sender", SENDERS, ids=str)
+def test_with_the_page_lost_only_what_it_ordered_ends(desk: Any, sender: Source) -> None:
+    desk.step(Jog(AZ, PLUS), by=sender)
+    desk.controller.page_lost()
+    assert (desk.step()[AZ] is PLUS) is (sender is not BROWSER)
+
+
+@pytest.mark.parametrize("mode", [Mode.MANUAL, Mode.JOG])
+def test_a_mode_that_the_console_has_set_does_not_outlast_the_links(desk: Any, mode: Mode) -> None:
+    desk.step(SetMode(mode), by=CONSOLE)
+    desk.step(Jog(AZ, PLUS), by=CONSOLE)
+    desk.controller.links_lost()
+    assert desk.step() == RESTING
 
 
 def test_with_the_links_lost_no_other_axis_begins_to_home(new_desk: Any) -> None:

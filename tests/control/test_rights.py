@@ -56,7 +56,7 @@ def timed(desk: Any) -> None:
 
 def idle_park(desk: Any) -> None:
     desk.step(Aim(145.0, 30.0), by=OTHER)
-    desk.run(14.6)
+    desk.run(15.6)
     assert desk.status.azimuth.target_deg == PARKED[0]
 
 

@@ -16,16 +16,8 @@ from rotator.control.axis.opening_watch import OpeningWatch
 from rotator.control.axis.sensing import NORMAL, Condition
 from rotator.control.axis.weld_watch import WeldWatch
 from rotator.control.sky.mount import Range
-from rotator.faults import Fault, FaultKind, Notice
+from rotator.faults import Fault, Notice
 from rotator.status import ALL_OPEN, Trusts
-
-LATE_S = 0.5
-"""A cycle this much late while a motor runs: the guard has opened its relay meanwhile."""
-
-
-def late(axis: Axis, gap_s: float, period_s: float) -> Fault:
-    measured = f"the box did nothing for {gap_s:.1f} s while a motor ran"
-    return Fault(FaultKind.CONTROL_LATE, axis, measured, f"{period_s + LATE_S:g} s")
 
 
 class MotionWatch:

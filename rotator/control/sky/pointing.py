@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from rotator.control.sky.angles import ZENITH_DEG
 from rotator.control.sky.joining import direction
-from rotator.control.sky.mount import Mount
+from rotator.control.sky.mount import Mount, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
 from rotator.control.sky.route import LOOKS, STEP_S, Speeds, Way, best_way
 from rotator.control.sky.track import Track
@@ -94,22 +94,31 @@ class Pointing:
         self.forget()
         self.wanted = aim
 
-    def aim(self, now_s: float, aim: Aim, azimuth_deg: float, elevation_deg: float, *, over: bool = False) -> Goals:
+    def aim(
+        self,
+        now_s: float,
+        aim: Aim,
+        azimuth_deg: float,
+        elevation_deg: float,
+        *,
+        over: bool = False,
+        wanted: Aim | None = None,
+    ) -> Goals:
         """Goals for an order, with the antenna at these axis angles. Raises Unreachable; then nothing has changed.
 
-        `over`: it is better met over the top.
+        `over`: it is better met over the top. `wanted`: the direction in force, where the sender sees it by the axes'
+        own angles; None: as it was ordered.
         """
         assert aim.azimuth_deg is not None, "every order that points has an azimuth"
-        again = self._way is not None and (aim.azimuth_deg, aim.elevation_deg) == (
-            self.wanted.azimuth_deg,
-            self.wanted.elevation_deg,
-        )
+        before = wanted or self.wanted
+        again = (aim.azimuth_deg, aim.elevation_deg) == (before.azimuth_deg, before.elevation_deg)
+        again = again and self._way is not None
         # The same order again: stay on the turn chosen, wherever the antenna is now.
         near_deg = self._way.azimuth_deg if again and self._way is not None else azimuth_deg
         axis_azimuth_deg, axis_elevation_deg = self._mount.axis_angles(
             aim.azimuth_deg, aim.elevation_deg, near_deg, over=over
         )
-        kept_deg = self.wanted.elevation_deg if aim.elevation_deg is None else aim.elevation_deg
+        kept_deg = before.elevation_deg if aim.elevation_deg is None else aim.elevation_deg
         self.wanted = Aim(aim.azimuth_deg, kept_deg)
         self._planned_s = None
         if aim.elevation_deg is None or axis_elevation_deg is None:
@@ -137,7 +146,10 @@ class Pointing:
 
     def park(self) -> Goals:
         """Goals for the park position. Raises Unreachable; then nothing has changed."""
-        azimuth_deg, elevation_deg = self._mount.parked()
+        try:
+            azimuth_deg, elevation_deg = self._mount.parked()
+        except Unreachable as reason:
+            raise Unreachable(f"the park position cannot be reached: {reason}") from reason
         self.forget()
         self.wanted = Aim(self._mount.park_azimuth_deg, self._mount.park_elevation_deg)
         return (

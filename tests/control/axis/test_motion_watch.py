@@ -8,7 +8,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.motion_watch import MotionWatch, late
+from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.relay_trust import CUT_BY_HAND
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
@@ -292,9 +292,3 @@ def test_a_relay_found_welded_must_show_that_it_opens_before_the_opposite_one_is
     bench.end_run()
     bench.pass_by(3.0)
     assert bench.watch.accuse(MINUS) is None
-
-
-def test_a_late_cycle_is_told_with_how_late_it_was_and_how_late_it_may_be() -> None:
-    fault = late(Axis.AZIMUTH, 1.234, 0.05)
-    assert "1.2 s" in fault.measured
-    assert "0.55 s" in fault.limit
