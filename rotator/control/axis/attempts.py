@@ -6,16 +6,17 @@ and stops nothing.
 
 from __future__ import annotations
 
-from hw.ports import Axis, Direction
+from hw.ports import Axis
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.met_stops import MetStops
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.short_runs import STANDING, ShortRuns
 from rotator.control.sky.mount import Range
 from rotator.faults import POT, Fault, FaultKind, Notice
 
 
 class Attempts:
-    """Give it every change of the relays (`driven`) and every good reading (`see`), in order of time."""
+    """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time."""
 
     def __init__(self, axis: Axis, limits: Range, sensor: str = POT) -> None:
         self._faults = FaultLatch(sensor)
@@ -23,8 +24,7 @@ class Attempts:
         self._stops = MetStops(axis, limits)
         self._now_s = 0.0
         self._angle_deg: float | None = None
-        self._direction = self._last = Direction.OFF
-        """What the relays do, and the direction of the present or latest run."""
+        self._relays = RelayState()
 
     @property
     def fault(self) -> Fault | None:
@@ -40,10 +40,10 @@ class Attempts:
     def notices(self) -> tuple[Notice, ...]:
         return self._stops.notices
 
-    def driven(self, now_s: float, direction: Direction, speed_dps: float) -> None:
-        """What the relays do from now on. `speed_dps`: of that direction's motor."""
-        self._short_runs.driven(now_s, direction, speed_dps)
-        self._direction, self._last = direction, direction or self._last
+    def note_relays(self, relays: RelayState, speed_dps: float) -> None:
+        """The relays have changed. `speed_dps`: of the motor that runs now; 0: none runs."""
+        self._relays = relays
+        self._short_runs.note_relays(relays, speed_dps)
 
     def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
         """A good reading. Returns the fault that it shows, if any."""
@@ -74,13 +74,13 @@ class Attempts:
 
     def _tries(self, found: Fault | None) -> int:
         """How often the motor was on in vain before this fault: it runs now, or its last runs were short."""
-        if self._direction or found is None:
-            return int(bool(self._direction))
+        if self._relays.closed or found is None:
+            return int(self._relays.closed)
         return max(1, self._short_runs.tries) if found.kind in {*STANDING, FaultKind.WRONG_WAY} else 0
 
     def _struck(self, new: bool) -> bool:
         if new and self.fault is not None:
             self._short_runs.struck(self.fault.kind)
-            if self.fault.kind in STANDING and self._last and self._angle_deg is not None:
-                self._stops.stood_still(self.fault.kind, self._last, self._angle_deg)
+            if self.fault.kind in STANDING and self._relays.last and self._angle_deg is not None:
+                self._stops.stood_still(self.fault.kind, self._relays.last, self._angle_deg)
         return new

@@ -12,6 +12,7 @@ import math
 from collections import deque
 
 from hw.ports import Direction
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range
 from rotator.status import Trust, Trusts
@@ -53,8 +54,7 @@ class ContactWatch:
         self.looked = not look
         self.homing = False
         """A person watches how it finds its stop, and that it turns back there."""
-        self._driven = self._last = Direction.OFF
-        self._since_s = -math.inf
+        self._relays = RelayState()
         self._supplied_s: float | None = None
         self._changes: int | None = None
         self._read_s = -math.inf
@@ -86,7 +86,7 @@ class ContactWatch:
 
     def waits(self, direction: Direction) -> bool:
         """Whether that relay stays open, because nothing has shown yet that its opposite is open."""
-        if self._driven is direction:
+        if self._relays.direction is direction:
             return False
         # A late change may be the first of a motor with current: the contact must be silent first.
         return not self.looked or self._late_changes > 0 or self._trust[Direction(-direction)] is not Trust.OPEN
@@ -94,7 +94,7 @@ class ContactWatch:
     @property
     def settles(self) -> bool:
         """The relay of the latest run is off, and has not been seen open yet."""
-        return self._driven is Direction.OFF and self._trust.get(self._last) is Trust.UNSEEN
+        return not self._relays.closed and self._trust.get(self._relays.last) is Trust.UNSEEN
 
     @property
     def unsure(self) -> bool:
@@ -109,39 +109,38 @@ class ContactWatch:
         """Driven, and its contact did not change: a fault has ended the run."""
         self._blind_s = math.inf
 
-    def driven(self, now_s: float, direction: Direction) -> None:
-        if direction is self._driven:
-            return
-        if self._driven is not Direction.OFF:
-            self._last = self._driven
-            self._blind_s += now_s - max(self._since_s, self._changed_s)
-        if direction is not Direction.OFF:
-            if self._trust[direction] is Trust.OPEN:
-                self._trust[direction] = Trust.UNSEEN
+    def note_relays(self, relays: RelayState) -> None:
+        """The relays have changed."""
+        was, self._relays = self._relays, relays
+        if was.closed:
+            self._blind_s += relays.since_s - max(was.since_s, self._changed_s)
+        if relays.closed:
+            if self._trust[relays.direction] is Trust.OPEN:
+                self._trust[relays.direction] = Trust.UNSEEN
             self._moments_s.clear()
             self._turned_back, self._settled, self._late_changes = False, False, 0
-            self._ran_since[direction] = True
-        self._driven, self._since_s = direction, now_s
+            self._ran_since[relays.direction] = True
 
     def see(self, at_s: float, angle_deg: float, condition: Condition) -> None:
         changes = 0 if self._changes is None else condition.changes - self._changes
         changed = changes != 0
         self._changes, before_s, self._read_s = condition.changes, self._read_s, at_s
-        if changed and self._driven is Direction.OFF:
-            went_back = (angle_deg - self._angle_deg) * self._last < 0.0
-            again_ahead = self._last in condition.ahead - self._ahead
+        relays = self._relays
+        if changed and not relays.closed:
+            went_back = (angle_deg - self._angle_deg) * relays.last < 0.0
+            again_ahead = relays.last in condition.ahead - self._ahead
             self._turned_back = self._turned_back or went_back or again_ahead
         self._angle_deg, self._ahead = angle_deg, condition.ahead
         if changed:
             self._changed_s, self._blind_s, self._settled = at_s, 0.0, False
-        if self._driven is not Direction.OFF:
+        if relays.closed:
             if changed:
                 self._moments_s.append(at_s)
         elif not condition.supplied:
             self._supplied_s = None
         else:
             self._supplied_s = at_s if self._supplied_s is None else self._supplied_s
-            still_s = self._since_s + self._coast_s + READ_S
+            still_s = relays.since_s + self._coast_s + READ_S
             if before_s > still_s:
                 self._late_changes += changes
             if changed and self._late_changes >= (1 if condition.lost else TURNING_CHANGES):
@@ -175,13 +174,13 @@ class ContactWatch:
     def _room_deg(self) -> float:
         """From where it is counted to the stop in the direction of the latest run."""
         limits = self._limits
-        return limits.max_deg - self._angle_deg if self._last > 0 else self._angle_deg - limits.min_deg
+        return limits.max_deg - self._angle_deg if self._relays.last > 0 else self._angle_deg - limits.min_deg
 
     def _turns_by_itself(self) -> None:
         """The contact changes, and does not say which way the axis turns."""
         self.turns = True
         for way in (PLUS, MINUS):
-            if self._trust[way] is not Trust.OPEN and way is self._last:
+            if self._trust[way] is not Trust.OPEN and way is self._relays.last:
                 self._trust[way], self._ran_since[way] = Trust.DOUBTED, False
             elif self._trust[way] is Trust.OPEN:
                 self._trust[way] = Trust.UNSEEN
@@ -190,9 +189,9 @@ class ContactWatch:
         self.looked, self._settled, self.turns, self._late_changes = True, True, False, 0
         ahead = BOTH_WAYS if condition.lost or self.homing else condition.ahead
         if self._turned_back and not self.homing and self._room_deg < UNSURE_PERIODS * self._period_deg:
-            ahead -= {self._last}
+            ahead -= {self._relays.last}
         for way in (PLUS, MINUS):
-            own = way is self._last and self._ran_since[way]
+            own = way is self._relays.last and self._ran_since[way]
             followed = self._turned(lost=bool(condition.lost))
             if self._trust[way] is Trust.DOUBTED:
                 # Only a run of its own shows that it opens.

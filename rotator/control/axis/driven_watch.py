@@ -72,4 +72,4 @@ class DrivenWatch:
 
     def _endless(self, at_s: float) -> Fault | None:
         seen, relays = self._seen, self._seen.relays
-        return endless(seen.axis, relays.direction, at_s - relays.since_s, seen.limits, seen.reference_dps)
+        return endless(seen.axis, relays.direction, at_s - relays.begun_s, seen.limits, seen.reference_dps)

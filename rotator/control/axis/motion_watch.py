@@ -13,6 +13,7 @@ from rotator.control.axis.driven_watch import DrivenWatch
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.observed_motion import ObservedMotion
 from rotator.control.axis.opening_watch import OpeningWatch
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import NORMAL, Condition
 from rotator.control.axis.weld_watch import WeldWatch
 from rotator.control.sky.mount import Range
@@ -21,7 +22,7 @@ from rotator.status import ALL_OPEN, Trusts
 
 
 class MotionWatch:
-    """One axis. Give it every good reading (`see`) and every change of the relays (`driven`), in order of time.
+    """One axis. Give it every good reading (`see`) and every change of the relays (`note_relays`), in order of time.
 
     `placed`: the angles are calibrated, and the limits known. Without that only the relays are watched. `look`: nothing
     has been seen of the axis in this run of the program.
@@ -59,21 +60,19 @@ class MotionWatch:
         """A relay may be closed, and the readings will not show that any more."""
         return self._opening.unsure
 
-    def driven(self, now_s: float, direction: Direction) -> None:
-        """What the relays do from now on."""
+    def note_relays(self, relays: RelayState) -> None:
+        """The relays have changed."""
         was = self._seen.relays
-        if direction is was.direction:
-            return
-        self._opening.driven(now_s, direction, was.direction, was.since_s)
-        self._seen.driven(now_s, direction)
-        self._weld.driven(direction, was)
+        self._opening.note_relays(relays, was)
+        self._seen.note_relays(relays)
+        self._weld.note_relays(relays, was)
 
     def see(self, at_s: float, angle_deg: float, condition: Condition = NORMAL) -> Fault | None:
         """A good reading. Returns the fault that it shows, if any."""
         on_line = self._seen.see(at_s, angle_deg)
         if on_line:
             self._opening.see(at_s, angle_deg, supplied=condition.supplied)
-        if self._seen.relays.direction is not Direction.OFF:
+        if self._seen.relays.closed:
             return self._driven.judge(at_s, angle_deg, on_line=on_line) if self._placed else None
         return self._weld.judge(at_s) if on_line else None
 

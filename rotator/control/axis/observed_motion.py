@@ -5,12 +5,12 @@ Knows facts alone. `driven_watch`, `opening_watch` and `weld_watch` judge them. 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import WAYS
 from rotator.control.axis.trend import Slope, Trend
 from rotator.control.sky.mount import Range
@@ -19,10 +19,6 @@ SLOWEST_DPS = 0.5
 """Until an axis has shown how fast it turns it may be as slow as this, whatever the configuration says of its motor."""
 RELAY_S = 0.05
 """A relay and the cycle in which it closed take this long at most."""
-
-
-BLINK_S = 0.1
-"""A relay that closes again so soon after it opened goes on with its run: a stop and the same order once more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,20 +32,6 @@ class Window:
     """At most, where the noise asks for it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Relays:
-    """What the relays do since `since_s`, and what they did last."""
-
-    motor: Motor
-    """The motor of the present or latest run, as it was known when the run began."""
-    direction: Direction = Direction.OFF
-    last: Direction = Direction.OFF
-    """The direction of the latest run that has ended."""
-    since_s: float = -math.inf
-    begun_s: float = -math.inf
-    """When the present or latest run began."""
-
-
 class ObservedMotion:
     """`motors` is read, never changed: what is learnt meanwhile counts from the next run on."""
 
@@ -58,20 +40,17 @@ class ObservedMotion:
         self.limits = limits
         self.motors = motors
         self.trend = Trend()
-        self.relays = Relays(motors[Direction.PLUS])
+        self.relays = RelayState()
+        self.motor = motors[Direction.PLUS]
+        """The motor of the present or latest run, as it was known when the run began."""
         self.shown_dps: float | None = None
         """The fastest that the axis has been seen to turn for certain; None: it has not yet."""
 
-    def driven(self, now_s: float, direction: Direction) -> None:
-        """The relays change to `direction`."""
-        was = self.relays
-        last = was.last if was.direction is Direction.OFF else was.direction
-        if direction is Direction.OFF:
-            self.relays = Relays(was.motor, direction, last, since_s=now_s, begun_s=was.begun_s)
-            return
-        goes_on = was.direction is Direction.OFF and direction is last and now_s - was.since_s < BLINK_S
-        begun_s = was.begun_s if goes_on else now_s
-        self.relays = Relays(self.motors[direction], direction, last, since_s=begun_s, begun_s=begun_s)
+    def note_relays(self, relays: RelayState) -> None:
+        """The relays have changed."""
+        self.relays = relays
+        if relays.closed:
+            self.motor = self.motors[relays.direction]
 
     def see(self, at_s: float, angle_deg: float) -> bool:
         """A good reading. Returns whether it lies on the line of the others."""
@@ -84,23 +63,23 @@ class ObservedMotion:
     @property
     def reference_dps(self) -> float:
         """What the axis must live up to: the speed of its motor as known, but no more than it has shown."""
-        return min(self.relays.motor.speed_dps, SLOWEST_DPS if self.shown_dps is None else self.shown_dps)
+        return min(self.motor.speed_dps, SLOWEST_DPS if self.shown_dps is None else self.shown_dps)
 
     def speed(self, at_s: float, window: Window, rough_dps: float) -> Slope | None:
         """The speed over a stretch long enough for `rough_dps`, since the relays are as they are; None: too early."""
-        shown, relays = self.shown_dps is not None, self.relays
+        shown, relays, lag_s = self.shown_dps is not None, self.relays, self.motor.lag_s
         width_s = min(max(window.least_s, self.trend.window_s(rough_dps)), window.most_s if shown else window.first_s)
-        ready_s = relays.since_s + RELAY_S
-        ready_s += relays.motor.lag_s if relays.direction else 2.0 * relays.motor.lag_s + 3.0 * RELAY_S
-        from_s = max(ready_s, self.trend.since_s)
+        turns_s = relays.begun_s + RELAY_S + lag_s
+        rests_s = relays.since_s + RELAY_S + (2.0 * lag_s + 3.0 * RELAY_S)
+        from_s = max(turns_s if relays.closed else rests_s, self.trend.since_s)
         if at_s - width_s < from_s:
             return None
         # A first run that has not convinced yet is looked at whole: there is nothing else to go by.
-        return self.trend.slope(at_s - width_s if shown or not relays.direction else from_s)
+        return self.trend.slope(at_s - width_s if shown or not relays.closed else from_s)
 
     def whole_run(self, at_s: float, least_s: float) -> Slope | None:
         """The speed since the motor of the present run was due to turn; None: that is not `least_s` ago yet."""
-        from_s = max(self.relays.since_s + RELAY_S + self.relays.motor.lag_s, self.trend.since_s)
+        from_s = max(self.relays.begun_s + RELAY_S + self.motor.lag_s, self.trend.since_s)
         return self.trend.slope(from_s) if at_s - from_s >= least_s else None
 
     def name(self, direction: Direction) -> str:

@@ -21,6 +21,7 @@ from dataclasses import replace
 
 from hw.ports import Direction
 from rotator.control.axis.observed_motion import RELAY_S, ObservedMotion
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.run_on import RAN_ON_READINGS, RAN_ON_S, ended_suddenly, goes_on, went_far
 from rotator.control.axis.seen_run import END_WINDOWS_S, FED_SHARE, SLOWED_SHARE, STEADY_S, UNSEEN_S, EndedRun, SeenRun
 from rotator.control.axis.standing import HeldPlaces, Rest
@@ -46,7 +47,7 @@ SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
 
 
 class OpeningWatch:
-    """Give it every change of the relays (`driven`) and every good reading (`see`), in order of time.
+    """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time.
 
     `placed`: the limits are known, and the stops lie beyond them. `look`: nothing has been seen of this axis yet.
     """
@@ -129,13 +130,13 @@ class OpeningWatch:
         self._run.ended, self._blind_s, self.ran_on = None, 0.0, False
         self._held.forget_all()
 
-    def driven(self, now_s: float, direction: Direction, was: Direction, since_s: float) -> None:
-        """The relays change to `direction`; they were at `was` since `since_s`."""
-        if was is not Direction.OFF:
-            self._end(now_s, was, now_s - since_s)
-        if direction is not Direction.OFF:
-            if self._trust[direction] is Trust.OPEN:
-                self._trust[direction] = Trust.UNSEEN
+    def note_relays(self, relays: RelayState, was: RelayState) -> None:
+        """The relays have changed; `was`: before."""
+        if was.closed:
+            self._end(relays.since_s, was.direction, relays.since_s - was.begun_s)
+        if relays.closed:
+            if self._trust[relays.direction] is Trust.OPEN:
+                self._trust[relays.direction] = Trust.UNSEEN
             self._resting.clear()
             self._from_here = False
             self._rest_deg = self._rested_s = self._lagged_deg = None
@@ -146,7 +147,7 @@ class OpeningWatch:
         """A good reading, on the line of the others."""
         self._latest.append(angle_deg)
         gap_s, self._seen_s = at_s - self._seen_s, at_s
-        if self._seen.relays.direction is not Direction.OFF:
+        if self._seen.relays.closed:
             # After a long gap the guard has opened the relay: how the run went before it is what counts.
             if gap_s <= GAP_S or self._run.line is None:
                 self._see_run(at_s)
@@ -165,12 +166,12 @@ class OpeningWatch:
 
     def _see_run(self, at_s: float) -> None:
         relays, run = self._seen.relays, self._run
-        self._supplied_s, self._unbroken = relays.since_s, True
+        self._supplied_s, self._unbroken = relays.begun_s, True
         run.see(at_s)
         if run.line is not None:
             self._blind_s, self._from = 0.0, None
             self._held.turned_to(self._place_deg)
-        elif at_s - max(relays.since_s, run.turned_s) > max(BLIND_S, 1.5 * run.unseen_s):
+        elif at_s - max(relays.begun_s, run.turned_s) > max(BLIND_S, 1.5 * run.unseen_s):
             self._held.note(relays.direction, self._place_deg)
             self._from = self._from or Rest(self._place_deg, len(self._latest))
 

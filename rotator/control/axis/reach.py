@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from hw.ports import Direction
 from rotator.control.axis.motion import Motion, Motor
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
@@ -35,25 +36,6 @@ TRUSTED = frozenset({FaultKind.LIMIT_SWITCH, FaultKind.RELAY_WELDED, FaultKind.T
 def lost(fault: Fault | None) -> bool:
     """Whether this fault leaves the angle in doubt."""
     return fault is not None and fault.kind not in TRUSTED
-
-
-class Runs:
-    """What the relays of an axis do, and did last."""
-
-    def __init__(self) -> None:
-        self.direction = Direction.OFF
-        self.last = Direction.OFF
-        """The direction of the present or latest run."""
-        self._driven_s = -math.inf
-
-    def note(self, now_s: float, driven: Direction) -> None:
-        self.direction = driven
-        if driven is not Direction.OFF:
-            self.last, self._driven_s = driven, now_s
-
-    def off_s(self, now_s: float) -> float:
-        """For how long they have been open."""
-        return now_s - self._driven_s
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +70,7 @@ class Reach:
         """How far it may go on before a command can end that, at its first start too."""
         return max(bound.room_deg for bound in self._bounds(motion).values()) + self._step_deg
 
-    def swept(self, now_s: float, sensing: Sensing, motion: Motion, runs: Runs, run: Run | None) -> Range:
+    def swept(self, now_s: float, sensing: Sensing, motion: Motion, relays: RelayState, run: Run | None) -> Range:
         """Where the axis may pass until it rests, if this run is the last one; None: if it is to stop now."""
         angle_deg, seen_s = sensing.angle_deg, sensing.believed_s
         if angle_deg is None or now_s - seen_s > UNSEEN_S:
@@ -97,24 +79,24 @@ class Reach:
         near = abs(angle_deg - model_deg) <= NEAR_MODEL_DEG
         span = Range(model_deg, model_deg).spanning(angle_deg if near else model_deg).widened(self._step_deg)
         motors = self._bounds(motion)
-        if runs.last is not Direction.OFF:
-            span = _further(span, runs.last, _going_on_deg(motors[runs.last], runs, now_s - seen_s, now_s))
+        if relays.last is not Direction.OFF:
+            span = _further(span, relays.last, _going_on_deg(motors[relays.last], relays, now_s - seen_s, now_s))
         if run is None or run.direction is Direction.OFF:
             return span
         motor = motors[run.direction]
         # A motor that runs that way already has its coast in the span.
-        coast_deg = 0.0 if run.direction is runs.direction else motor.coast_deg
+        coast_deg = 0.0 if run.direction is relays.direction else motor.coast_deg
         return _further(span, run.direction, motor.speed_dps * max(0.0, run.until_s - now_s) + coast_deg)
 
     def _bounds(self, motion: Motion) -> dict[Direction, Bounds]:
         return {direction: bounds(self._described, motor) for direction, motor in motion.motors.items()}
 
 
-def _going_on_deg(motor: Bounds, runs: Runs, age_s: float, now_s: float) -> float:
+def _going_on_deg(motor: Bounds, relays: RelayState, age_s: float, now_s: float) -> float:
     """How far it has gone since it was seen, and goes on until it rests."""
-    if runs.direction is runs.last:
+    if relays.closed:
         return motor.speed_dps * age_s + motor.coast_deg
-    return motor.coast_deg * math.exp(-runs.off_s(now_s) / (FASTER * motor.lag_s))
+    return motor.coast_deg * math.exp(-relays.off_for_s(now_s) / (FASTER * motor.lag_s))
 
 
 def _further(span: Range, direction: Direction, by_deg: float) -> Range:

@@ -13,7 +13,7 @@ from dataclasses import replace
 from hw.ports import Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
-from rotator.control.axis.reach import Runs
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import WAYS, doubts, unstoppable
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition
@@ -29,7 +29,7 @@ WAITS = Notice("waits until it stands still before its relay closes")
 
 
 class RelayGate:
-    """Give it every good reading (`see`) and every change of the relays (`driven`); each run goes through `passed`.
+    """Give it every good reading (`see`) and every change of the relays (`note_relays`). It passes each run, or not.
 
     `placed`: the readings are angles, and the limits are known.
     """
@@ -39,6 +39,7 @@ class RelayGate:
     ) -> None:
         self._settings = settings
         self._lease_s = lease_s
+        self._relays = RelayState()
         self._watch = self._new_watch(motors, settings.trusts, placed=placed, look=settings.look)
         self._waits_s = math.inf
         """Since when a run waits for the opposite relay to be seen open; infinite: none waits."""
@@ -64,8 +65,10 @@ class RelayGate:
         """What is wrong with the motion: a fault, or None."""
         return self._watch.see(at_s, reading, condition)
 
-    def driven(self, now_s: float, direction: Direction) -> None:
-        self._watch.driven(now_s, direction)
+    def note_relays(self, relays: RelayState) -> None:
+        """The relays have changed."""
+        self._relays = relays
+        self._watch.note_relays(relays)
 
     def homes(self, *, homing: bool, failed: bool) -> None:
         """Whether it looks for its stop: an axis that counts is then let stand at it."""
@@ -78,6 +81,7 @@ class RelayGate:
             self._watch.rescale(motors)
         else:
             self._watch = self._new_watch(motors, self._watch.trusts, placed=placed, look=self._watch.looks)
+            self._watch.note_relays(self._relays)
 
     def acknowledge(self) -> None:
         self._watch.acknowledge()
@@ -103,14 +107,15 @@ class RelayGate:
         # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
         return Feed(now_s + self._lease_s) if self._settings.master else Run(Direction.OFF, now_s)
 
-    def blind(self, fault: Fault | None, runs: Runs, now_s: float) -> Fault | None:
+    def blind(self, fault: Fault | None, now_s: float) -> Fault | None:
         """A sensor's fault, as it is; where it hides whether the motor has stopped, the supply is to stop it."""
-        if fault is None or runs.last is Direction.OFF:
+        relays = self._relays
+        if fault is None or relays.last is Direction.OFF:
             return fault
-        trust = self.trusts[0 if runs.last > 0 else 1]
-        if trust is Trust.OPEN or runs.direction is not Direction.OFF or runs.off_s(now_s) < SETTLED_AFTER_S:
+        trust = self.trusts[0 if relays.last > 0 else 1]
+        if trust is Trust.OPEN or relays.off_for_s(now_s) < SETTLED_AFTER_S:
             return fault
-        way = WAYS[self._settings.axis, runs.last]
+        way = WAYS[self._settings.axis, relays.last]
         unseen = replace(fault, measured=f"{fault.measured}, and it may still run {way}")
         return unstoppable(unseen, master=self._settings.master)
 

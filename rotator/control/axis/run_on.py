@@ -28,7 +28,7 @@ def goes_on(seen: ObservedMotion, line: Slope, passed_s: float, gone_deg: float)
 
 def went_far(seen: ObservedMotion, run: SeenRun, gone_deg: float) -> bool:
     """Whether it has gone further, since its relay was switched off, than it coasts."""
-    lag_s = seen.relays.motor.lag_s
+    lag_s = seen.motor.lag_s
     longest_s = max(LATE_OPEN_S + lag_s, COASTS_SHARE * lag_s)
     rough_dps = run.ended.line.rough_dps if run.ended and run.ended.line else 0.0
     return gone_deg - seen.trend.noise_deg > longest_s * (_full_dps(run) + rough_dps)

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from hw.ports import Axis, Direction
 from rotator.control.axis.contact_watch import ContactWatch
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import WAYS, accusation
 from rotator.control.axis.sensing import NORMAL, Condition
 from rotator.control.axis.silent_runs import SilentRuns
@@ -62,8 +63,7 @@ class RunWatch:
         self._period_deg = period_s * max(motor.speed_dps for motor in motors.values())
         self._contact = ContactWatch(trusts, limits, period_s, self._period_deg, coast_s, look=look)
         self._silent = SilentRuns(axis)
-        self._direction = Direction.OFF
-        self._since_s = 0.0
+        self._relays = RelayState()
         self._angle_deg: float | None = None
 
     @property
@@ -86,23 +86,23 @@ class RunWatch:
         """The axis turns though its relays are off."""
         return self._contact.turns
 
-    def driven(self, now_s: float, direction: Direction) -> None:
-        self._contact.driven(now_s, direction)
-        self._silent.driven(now_s, direction)
-        if direction is not self._direction:
-            self._direction, self._since_s = direction, now_s
+    def note_relays(self, relays: RelayState) -> None:
+        self._relays = relays
+        self._contact.note_relays(relays)
+        self._silent.note_relays(relays)
 
     def see(self, at_s: float, angle_deg: float, condition: Condition = NORMAL) -> Fault | None:
         """A reading, and what the rotor says of its contact."""
         self._angle_deg = angle_deg
         self._contact.see(at_s, angle_deg, condition)
-        speed_dps = self._motors[self._direction or Direction.PLUS].speed_dps
+        speed_dps = self._motors[self._relays.direction or Direction.PLUS].speed_dps
         silent = self._silent.see(at_s, condition.changes, self._period_deg / speed_dps)
         if silent or (condition.fault and condition.fault.kind is FaultKind.NO_PULSES):
             self._contact.silent()
-        if self._direction is Direction.OFF:
+        relays = self._relays
+        if not relays.closed:
             return None
-        return silent or endless(self._axis, self._direction, at_s - self._since_s, self._limits, speed_dps)
+        return silent or endless(self._axis, relays.direction, at_s - relays.since_s, self._limits, speed_dps)
 
     def rescale(self, motors: Mapping[Direction, Motor]) -> None:
         """The count means other places than before. What is known of the relays stays."""

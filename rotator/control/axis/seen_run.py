@@ -83,7 +83,7 @@ class SeenRun:
 
     def see(self, at_s: float) -> None:
         """A reading was taken while a relay is closed."""
-        self.line = self._turning(at_s, self._seen.relays.since_s)
+        self.line = self._turning(at_s, self._seen.relays.begun_s)
         if self.line is not None:
             if abs(self.line.speed_dps) >= 2.0 * EXACT_ERRORS * self.line.rough_dps:
                 self._fastest_dps = max(self._fastest_dps, abs(self.line.speed_dps) - 2.0 * self.line.rough_dps)

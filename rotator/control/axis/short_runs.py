@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import math
 from collections import deque
+from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import WAYS
 from rotator.control.axis.sparks import Place
 from rotator.faults import Fault, FaultKind
@@ -33,18 +35,25 @@ SETTLE_S = 0.6
 """Relay, coast and the mean of the readings take so long after a run."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Ended:
+    direction: Direction
+    lasted_s: float
+    off_s: float
+
+
 class ShortRuns:
-    """Give it every change of the relays (`driven`) and every good reading (`see`), in order of time."""
+    """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time."""
 
     def __init__(self, axis: Axis) -> None:
         self._axis = axis
         self._latest: deque[Place] = deque(maxlen=SMOOTHED)
         self._stands_deg: float | None = None
         """Where it was when it was last seen to move."""
-        self._run: tuple[Direction, float, float] | None = None
-        """The present run: which way, since when, and the speed of its motor."""
-        self._ended: tuple[Direction, float, float] | None = None
-        """The last run, until its end is seen: which way, for how long, and when it ended."""
+        self._run: RelayState | None = None
+        """The present run; None: there is none, or it does not count."""
+        self._ended: _Ended | None = None
+        """The last run, until its end is seen."""
         self._way = Direction.PLUS
         """The direction of the last run that was counted."""
         self._counted = False
@@ -79,18 +88,18 @@ class ShortRuns:
         if kind in STANDING:
             self._runs, self._stood_s = STOOD_RUNS - 1, 0.0
 
-    def driven(self, now_s: float, direction: Direction, speed_dps: float) -> None:
-        """What the relays do from now on. `speed_dps`: of that direction's motor."""
-        if direction is (self._run[0] if self._run else Direction.OFF):
-            return
+    def note_relays(self, relays: RelayState, speed_dps: float) -> None:
+        """The relays have changed. `speed_dps`: of the motor that runs now."""
         if self._run is not None:
-            way, since_s, _ = self._run
-            self._ended, self._run = (way, now_s - since_s, now_s), None
-        if direction is not Direction.OFF:
+            self._ended, self._run = (
+                _Ended(self._run.direction, relays.since_s - self._run.since_s, relays.since_s),
+                None,
+            )
+        if relays.closed:
             self._count()
             if self._moved:
                 self._stands_deg = self._smoothed_deg
-            self._run, self._from_deg, self._moved = (direction, now_s, speed_dps), self._smoothed_deg, False
+            self._run, self._from_deg, self._moved = relays, self._smoothed_deg, False
             self._speed_dps = speed_dps
 
     def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
@@ -101,14 +110,14 @@ class ShortRuns:
             return None
         moved_deg = max(MOVED_DEG, MOVED_NOISES * noise_deg)
         if self._run is not None:
-            telling_s = moved_deg / (SLOW_SHARE * self._run[2])
+            telling_s = moved_deg / (SLOW_SHARE * self._speed_dps)
             self._telling_s = telling_s if self._known else max(telling_s, UNKNOWN_RUN_S)
         if self._stands_deg is None or abs(smoothed_deg - self._stands_deg) >= moved_deg:
             self._known = self._known or (self._stands_deg is not None and self._run is not None)
             self._stands_deg, self._runs, self._stood_s, self._moved = smoothed_deg, 0, 0.0, True
             self.tries = 0
         self._moved_deg = moved_deg
-        if self._ended is not None and at_s - self._ended[2] >= SETTLE_S:
+        if self._ended is not None and at_s - self._ended.off_s >= SETTLE_S:
             self._count()
         if not self._counted:
             return None
@@ -132,7 +141,7 @@ class ShortRuns:
         """The last run is over: has it moved the axis?"""
         if self._ended is None:
             return
-        way, run_s, _ = self._ended
+        way, run_s = self._ended.direction, self._ended.lasted_s
         self._ended, self._counted, self._way = None, True, way
         if self._from_deg is not None and self._smoothed_deg is not None:
             gone_deg = (self._smoothed_deg - self._from_deg) * way

@@ -7,7 +7,8 @@ stops.
 
 from __future__ import annotations
 
-from hw.ports import Axis, Direction
+from hw.ports import Axis
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import WAYS
 from rotator.faults import Fault, FaultKind
 
@@ -18,13 +19,12 @@ START_S = 0.15
 
 
 class SilentRuns:
-    """Give it every change of the relays (`driven`) and every reading (`see`), in order of time."""
+    """Give it every change of the relays (`note_relays`) and every reading (`see`), in order of time."""
 
     def __init__(self, axis: Axis) -> None:
         self._axis = axis
         self._changes: int | None = None
-        self._direction = self._last = Direction.OFF
-        """What the relays do, and the direction of the present or latest run."""
+        self._relays = RelayState()
         self._turns_s = 0.0
         """From when on the present run counts."""
         self._silent_s = 0.0
@@ -34,17 +34,15 @@ class SilentRuns:
         """A person watches the axis press against its stop."""
         self._silent_s = 0.0
 
-    def driven(self, now_s: float, direction: Direction) -> None:
-        """What the relays do from now on."""
-        if direction is self._direction:
-            return
-        if self._direction is not Direction.OFF:
-            self._silent_s += max(0.0, now_s - self._turns_s)
-        if direction is not Direction.OFF:
-            if direction is not self._last:
+    def note_relays(self, relays: RelayState) -> None:
+        """The relays have changed."""
+        was, self._relays = self._relays, relays
+        if was.closed:
+            self._silent_s += max(0.0, relays.since_s - self._turns_s)
+        if relays.closed:
+            if relays.direction is not was.last:
                 self._silent_s = 0.0
-            self._last, self._turns_s = direction, now_s + START_S
-        self._direction = direction
+            self._turns_s = relays.since_s + START_S
 
     def see(self, at_s: float, changes: int, period_s: float) -> Fault | None:
         """So many changes of the contact there were so far. `period_s`: from pulse to pulse, at the motor's speed.
@@ -54,12 +52,12 @@ class SilentRuns:
         if changes != self._changes:
             self._changes, self._silent_s = changes, 0.0
             self._turns_s = max(self._turns_s, at_s)
-        if self._direction is Direction.OFF:
+        if not self._relays.closed:
             return None
         silent_s = self._silent_s + max(0.0, at_s - self._turns_s)
         if silent_s <= SILENT_PERIODS * period_s:
             return None
         self._silent_s, self._turns_s = 0.0, at_s
-        way = WAYS[self._axis, self._direction]
+        way = WAYS[self._axis, self._relays.direction]
         measured = f"its motor ran {way} for {silent_s:.1f} s in all, and the contact did not change"
         return Fault(FaultKind.NO_PULSES, self._axis, measured)

@@ -17,8 +17,9 @@ from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
 from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.reach import Reach, Runs, lost
+from rotator.control.axis.reach import Reach, lost
 from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
@@ -68,7 +69,7 @@ class SwitchedAxis:
         self._lapsed_s = -math.inf
         """When a late cycle came last: the lease had opened the relay of the motor that ran."""
         self._endurance = Endurance(settings.longest_run_s, settings.rest_s)
-        self._runs = Runs()
+        self._relays = RelayState()
         self._reach = Reach(settings)
 
     @property
@@ -102,7 +103,7 @@ class SwitchedAxis:
 
     @property
     def driven(self) -> bool:
-        return self._runs.direction is not Direction.OFF
+        return self._relays.closed
 
     @property
     def pressed_in_vain(self) -> bool:
@@ -131,7 +132,7 @@ class SwitchedAxis:
         return self._endurance.resting
 
     def moving(self, now_s: float) -> bool:
-        return self._runs.off_s(now_s) < SETTLED_AFTER_S
+        return self._relays.off_for_s(now_s) < SETTLED_AFTER_S
 
     def aim(self, goal: AimGoal) -> None:
         self._goal = goal
@@ -169,7 +170,7 @@ class SwitchedAxis:
                 found = found or self._attempts.see(at_s, angle_deg, self._gate.noise_deg)
             self._astray = None if self.homing else found
         # The rotor's own report says more than what can be seen of it from here.
-        reported, present = reading.condition.fault, self._gate.blind(unbelievable, self._runs, now_s) or self._astray
+        reported, present = reading.condition.fault, self._gate.blind(unbelievable, now_s) or self._astray
         cause = present if reading.condition.latched else reported or present
         # Looking for its stop an axis is silent there; but one that turns by itself is told all the same.
         told = None if self.homing and reported and not reported.cut else reported
@@ -240,7 +241,7 @@ class SwitchedAxis:
         if self.missing or lost(self.fault):
             return UNKNOWN
         run = command if isinstance(command, Run) else None
-        return self._reach.swept(now_s, self._sensing, self._law.motion, self._runs, run)
+        return self._reach.swept(now_s, self._sensing, self._law.motion, self._relays, run)
 
     @property
     def room_deg(self) -> float:
@@ -274,7 +275,7 @@ class SwitchedAxis:
         if self._sensing.believable:
             return run
         # A bad reading starts nothing, and what runs may go on for a moment, until the next good one.
-        if run.direction is not self._runs.direction:
+        if run.direction is not self._relays.direction:
             return self._law.rest(now_s)
         return Run(run.direction, min(run.until_s, self._sensing.ridden_until_s))
 
@@ -312,7 +313,7 @@ class SwitchedAxis:
 
     def _home(self, now_s: float, homing: Homing) -> Run:
         assert self._condition is not None, "an axis homes only after its first reading"
-        direction = homing.step(now_s, self._runs.direction, self._condition)
+        direction = homing.step(now_s, self._relays.direction, self._condition)
         if homing.failure:
             self._goal = None
             self.fail(Fault(FaultKind.NOT_HOMED, self.settings.axis, homing.failure))
@@ -340,12 +341,13 @@ class SwitchedAxis:
         """Relays are not steered."""
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
-        self._law.driven(now_s, driven)
-        self._gate.driven(now_s, driven)
-        self._attempts.driven(now_s, driven, self._law.motion.motors[driven].speed_dps if driven else 0.0)
-        self._endurance.note(now_s, running=driven is not Direction.OFF)
-        self._runs.note(now_s, driven)
-        self._vain.driven(now_s, driven)
+        was, self._relays = self._relays, self._relays.changed(now_s, driven)
+        self._law.note_relays(now_s, self._relays)
+        self._endurance.note(now_s, running=self._relays.closed)
+        if self._relays != was:
+            self._gate.note_relays(self._relays)
+            self._attempts.note_relays(self._relays, self._law.motion.motors[driven].speed_dps if driven else 0.0)
+            self._vain.note_relays(self._relays)
 
     def status(self, now_s: float, *, starts: int | None = None, more: tuple[Notice, ...] = ()) -> AxisStatus:
         calibration = self._sensing.calibration
@@ -358,7 +360,7 @@ class SwitchedAxis:
             source=self.settings.source,
             target_deg=self.aiming.target_deg if self.aiming else None,
             tolerance_deg=self.aiming.tolerance_deg if self.aiming else None,
-            drive=self._runs.direction,
+            drive=self._relays.direction,
             moving=self.moving(now_s),
             starts=starts,
             missing=self.missing,

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from hw.ports import Direction
 from rotator.control.axis.motion import Motion, Motor
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.commands import Run
 from rotator.control.sky.plan import Path, next_place_deg
 
@@ -46,11 +47,9 @@ class SwitchedLaw:
         self._reach = reach
         self._taught = dict(motors)
         """What was known of the motors before the present or latest run."""
-        self._relay = Direction.OFF
+        self._relays = RelayState()
         self._running = Direction.OFF
         self._goal_deg = 0.0
-        self._off_s = -math.inf
-        """When the relay opened last."""
         self._stop_s: float | None = None
         """When the lease will have opened the relay."""
         self._planned: tuple[Path, float] | None = None
@@ -60,16 +59,14 @@ class SwitchedLaw:
         self._note_stop(at_s)
         self.motion.see(at_s, angle_deg)
 
-    def driven(self, now_s: float, direction: Direction) -> None:
-        """What the relays do from now on."""
-        if direction is not Direction.OFF and self._relay is Direction.OFF:
+    def note_relays(self, now_s: float, relays: RelayState) -> None:
+        """After each cycle: what the relays do."""
+        if relays.closed and not self._relays.closed:
             self._taught = dict(self.motion.motors)
-        if direction is Direction.OFF and self._relay is not Direction.OFF:
-            self._off_s = now_s
-        self._relay = direction
+        self._relays = relays
         self._note_stop(now_s)
         wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
-        self.motion.driven(now_s, direction, wanted_deg)
+        self.motion.driven(now_s, relays.direction, wanted_deg)
 
     def forget_run(self) -> None:
         """Something was wrong with the present or latest run: what it has taught is dropped."""
@@ -88,7 +85,8 @@ class SwitchedLaw:
         error_deg = target_deg - self._rest_deg(now_s)
         if self._running is Direction.OFF and abs(error_deg) <= tolerance_deg:
             return self.rest(now_s)
-        if self._running is Direction.OFF and target_deg == self._goal_deg and now_s < self._off_s + AGAIN_S:
+        again = target_deg == self._goal_deg and self._relays.off_for_s(now_s) < AGAIN_S
+        if self._running is Direction.OFF and again:
             return self.rest(now_s)
         return self._go(now_s, target_deg)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 
-from hw.ports import Direction
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sparks import Place
 from rotator.faults import Notice
 
@@ -26,7 +26,7 @@ IN_VAIN = Notice("presses did not move it: no program turns it before a person h
 
 
 class VainPresses:
-    """Give it every change of the relays (`driven`) and every good reading (`see`), in order of time."""
+    """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time."""
 
     def __init__(self) -> None:
         self._latest: deque[Place] = deque(maxlen=SMOOTHED)
@@ -50,15 +50,16 @@ class VainPresses:
         long = self._pressed_s + self._present_s >= LONG_S
         return long or (self._count >= ENOUGH and self._pressed_s >= ENOUGH_S)
 
-    def driven(self, now_s: float, direction: Direction) -> None:
-        if direction is Direction.OFF:
+    def note_relays(self, relays: RelayState) -> None:
+        """The relays have changed. A reversal goes on with the press."""
+        if not relays.closed:
             if self._since_s is not None and not self._moved:
-                self._pressed_s += now_s - self._since_s
-                self._ended_s = now_s
+                self._pressed_s += relays.since_s - self._since_s
+                self._ended_s = relays.since_s
             self._since_s, self._moved, self._present_s = None, False, 0.0
         elif self._since_s is None:
             self._counted()
-            self._since_s = now_s
+            self._since_s = relays.since_s
             if self._stands_deg is None:
                 self._stands_deg = self._place_deg
 

@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 
 from hw.ports import Direction
-from rotator.control.axis.observed_motion import ObservedMotion, Relays, Window
+from rotator.control.axis.observed_motion import ObservedMotion, Window
 from rotator.control.axis.opening_watch import OpeningWatch
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import CUT_BY_HAND, accusation, unstoppable
 from rotator.control.axis.trend import Slope
 from rotator.faults import Fault, FaultKind, Notice
@@ -45,11 +46,11 @@ class WeldWatch:
         """Since when the supply is to be cut."""
         self._noticed_s: float | None = None
 
-    def driven(self, direction: Direction, was: Relays) -> None:
-        """The relays change to `direction`; `was`: what they did before."""
-        if was.direction is not Direction.OFF:
+    def note_relays(self, relays: RelayState, was: RelayState) -> None:
+        """The relays have changed; `was`: before."""
+        if was.closed:
             self._rested = False
-        if direction is not Direction.OFF:
+        if relays.closed:
             self._cut_s = math.inf
 
     def acknowledge(self) -> None:

@@ -8,6 +8,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.attempts import Attempts
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, FaultKind
+from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
 LIMITS = Range(0.0, 450.0)
@@ -22,6 +23,7 @@ class Tried:
 
     def __init__(self, at_deg: float = 448.0) -> None:
         self.attempts = Attempts(Axis.AZIMUTH, LIMITS)
+        self._switch = Switch(lambda relays: self.attempts.note_relays(relays, 6.0))
         self.at_deg, self.now_s = at_deg, 100.0
         self.look(1.0)
 
@@ -36,7 +38,7 @@ class Tried:
         return told
 
     def drive(self, way: Direction) -> None:
-        self.attempts.driven(self.now_s, way, 6.0)
+        self._switch.to(self.now_s, way)
 
     def run_into(self, fault: Fault, way: Direction = PLUS) -> None:
         """Drive it until this fault ends the run."""

@@ -10,6 +10,7 @@ from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range
 from rotator.status import Trust
+from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
 PERIOD_S, COAST_S = 5.0 / 6.0, 0.5
@@ -26,6 +27,7 @@ class Shaft:
         self.watch = RunWatch(
             Axis.AZIMUTH, Range(0.0, 360.0), {PLUS: motor, MINUS: motor}, PERIOD_S, COAST_S, look=look
         )
+        self.switch = Switch(self.watch.note_relays)
         self.now_s = 100.0
         self._changes = 0
         self.supplied = True
@@ -62,9 +64,9 @@ class Shaft:
         self.pass_by(0.05)
 
     def run(self, way: Direction, changes: int = 6) -> None:
-        self.watch.driven(self.now_s, way)
+        self.switch.to(self.now_s, way)
         self.turn(changes)
-        self.watch.driven(self.now_s, OFF)
+        self.switch.to(self.now_s, OFF)
 
 
 def test_the_opposite_relay_waits_for_a_pause_longer_than_those_of_the_run() -> None:
@@ -113,9 +115,9 @@ def test_silence_without_a_supply_shows_nothing() -> None:
 
 def test_a_run_in_which_the_contact_never_changed_shows_nothing() -> None:
     shaft = Shaft()
-    shaft.watch.driven(shaft.now_s, PLUS)
+    shaft.switch.to(shaft.now_s, PLUS)
     shaft.pass_by(4.0 * PERIOD_S)
-    shaft.watch.driven(shaft.now_s, OFF)
+    shaft.switch.to(shaft.now_s, OFF)
     shaft.pass_by(60.0)
     assert shaft.watch.accuse(MINUS) is not None
     shaft.run(PLUS)
@@ -190,9 +192,9 @@ def test_taps_without_a_change_are_trusted_for_three_periods_in_all() -> None:
     shaft.run(PLUS)
     for _ in range(12):
         shaft.pass_by(4.0)
-        shaft.watch.driven(shaft.now_s, PLUS)
+        shaft.switch.to(shaft.now_s, PLUS)
         shaft.pass_by(0.3)
-        shaft.watch.driven(shaft.now_s, OFF)
+        shaft.switch.to(shaft.now_s, OFF)
         shaft.pass_by(4.0)
         trusts.append(shaft.watch.trusts[0])
     assert trusts[:7] == [Trust.OPEN] * 7
@@ -294,10 +296,10 @@ def test_without_a_count_it_must_have_changed_as_lately_as_one_that_turns(held_s
     """It may have met its stop anywhere."""
     shaft = Shaft()
     shaft.lost = "power was cut"
-    shaft.watch.driven(shaft.now_s, PLUS)
+    shaft.switch.to(shaft.now_s, PLUS)
     shaft.turn(6)
     shaft.pass_by(held_s)
-    shaft.watch.driven(shaft.now_s, OFF)
+    shaft.switch.to(shaft.now_s, OFF)
     shaft.pass_by(8.0)
     assert shaft.watch.trusts[0] is trust
 

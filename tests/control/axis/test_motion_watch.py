@@ -12,6 +12,7 @@ from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.relay_trust import CUT_BY_HAND
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
+from tests.control.axis.switch import Switch
 from tests.search import examples
 
 MINUS, OFF, PLUS = Direction
@@ -29,6 +30,7 @@ class Bench:
     ) -> None:
         motor = Motor(speed_dps, speed_dps * 0.15)
         self.watch = MotionWatch(Axis.AZIMUTH, Range(0.0, 450.0), {PLUS: motor, MINUS: motor}, master=master)
+        self._switch = Switch(self.watch.note_relays)
         self.speed_dps = speed_dps
         self.now_s = 1000.0
         self.angle_deg = at_deg
@@ -55,7 +57,7 @@ class Bench:
         return (fault.name if fault else "", self.now_s - began_s)
 
     def drive(self, way: Direction) -> None:
-        self.watch.driven(self.now_s, way)
+        self._switch.to(self.now_s, way)
 
     def run(self, way: Direction, seconds: float) -> Fault | None:
         """Drive it, and let it turn as it should."""

@@ -6,8 +6,9 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.observed_motion import ObservedMotion, Relays, Window
+from rotator.control.axis.observed_motion import ObservedMotion, Window
 from rotator.control.sky.mount import Range
+from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05
@@ -36,53 +37,28 @@ def ready(seen: ObservedMotion) -> ObservedMotion:
     return seen
 
 
-# --- the relays
-
-
-def test_a_run_and_its_end(seen: ObservedMotion) -> None:
-    seen.driven(10.0, PLUS)
-    assert seen.relays == Relays(RIGHT, PLUS, OFF, since_s=10.0, begun_s=10.0)
-    seen.driven(15.0, OFF)
-    assert seen.relays == Relays(RIGHT, OFF, PLUS, since_s=15.0, begun_s=10.0)
-    seen.driven(20.0, MINUS)
-    assert seen.relays == Relays(LEFT, MINUS, PLUS, since_s=20.0, begun_s=20.0)
-
-
-def test_a_reversal_without_a_pause_ends_the_run_before_it(seen: ObservedMotion) -> None:
-    seen.driven(10.0, PLUS)
-    seen.driven(12.0, MINUS)
-    assert seen.relays == Relays(LEFT, MINUS, PLUS, since_s=12.0, begun_s=12.0)
-
-
-@pytest.mark.parametrize(
-    ("open_s", "again", "begun_s"), [(0.05, PLUS, 10.0), (0.15, PLUS, 15.15), (0.05, MINUS, 15.05)]
-)
-def test_a_relay_that_only_blinked_goes_on_with_its_run(
-    seen: ObservedMotion, open_s: float, again: Direction, begun_s: float
-) -> None:
-    seen.driven(10.0, PLUS)
-    seen.driven(15.0, OFF)
-    seen.driven(15.0 + open_s, again)
-    assert (seen.relays.since_s, seen.relays.begun_s) == (begun_s, begun_s)
+# --- the motor
 
 
 def test_what_is_learnt_of_a_motor_counts_from_the_next_run_on() -> None:
     motors = {PLUS: RIGHT, MINUS: LEFT}
     seen = ObservedMotion(Axis.AZIMUTH, Range(0.0, 450.0), motors)
-    seen.driven(10.0, PLUS)
+    switch = Switch(seen.note_relays)
+    switch.to(10.0, PLUS)
     motors[PLUS] = LEFT
-    assert seen.relays.motor is RIGHT
-    seen.driven(11.0, OFF)
-    assert seen.relays.motor is RIGHT
-    seen.driven(12.0, PLUS)
-    assert seen.relays.motor is LEFT
+    assert seen.motor is RIGHT
+    switch.to(11.0, OFF)
+    assert seen.motor is RIGHT
+    switch.to(12.0, PLUS)
+    assert seen.motor is LEFT
 
 
 # --- how fast
 
 
 def test_until_it_has_turned_it_may_be_as_slow_as_half_a_degree_a_second(seen: ObservedMotion) -> None:
-    seen.driven(10.0, PLUS)
+    switch = Switch(seen.note_relays)
+    switch.to(10.0, PLUS)
     assert (seen.shown_dps, seen.reference_dps) == (None, 0.5)
 
 
@@ -90,7 +66,8 @@ def test_until_it_has_turned_it_may_be_as_slow_as_half_a_degree_a_second(seen: O
 def test_it_is_held_to_what_it_has_shown_and_to_no_more_than_its_motor_is_said_to_do(
     seen: ObservedMotion, shown_dps: float, reference_dps: float
 ) -> None:
-    seen.driven(10.0, PLUS)
+    switch = Switch(seen.note_relays)
+    switch.to(10.0, PLUS)
     seen.show(shown_dps)
     assert seen.reference_dps == reference_dps
 
@@ -105,29 +82,37 @@ def test_the_fastest_that_it_has_shown_stays(seen: ObservedMotion) -> None:
 
 
 def test_driven_it_is_judged_after_its_lag_and_a_window(seen: ObservedMotion) -> None:
-    ready(seen).driven(10.0, PLUS)
+    ready(seen)
+    switch = Switch(seen.note_relays)
+    switch.to(10.0, PLUS)
     assert first_told_s(seen, 10.0) == pytest.approx(0.05 + LAG_S + 1.0, abs=STEP_S)
 
 
 def test_switched_off_it_is_judged_after_its_coast_has_died_away(seen: ObservedMotion) -> None:
     """Twice its lag, and the relay's time: what coasts is not turned by anything."""
-    ready(seen).driven(9.0, PLUS)
-    seen.driven(10.0, OFF)
+    ready(seen)
+    switch = Switch(seen.note_relays)
+    switch.to(9.0, PLUS)
+    switch.to(10.0, OFF)
     assert first_told_s(seen, 10.0) == pytest.approx(0.2 + 2.0 * LAG_S + 1.0, abs=STEP_S)
 
 
 def test_after_a_gap_in_the_readings_the_window_begins_anew(seen: ObservedMotion) -> None:
-    ready(seen).driven(10.0, OFF)
+    ready(seen)
+    switch = Switch(seen.note_relays)
+    switch.to(10.0, OFF)
     seen.see(20.0, 100.0)
     assert first_told_s(seen, 20.0) == pytest.approx(1.0, abs=STEP_S)
 
 
 def test_noise_asks_for_a_longer_window_but_not_before_it_has_turned(seen: ObservedMotion) -> None:
-    ready(seen).driven(10.0, PLUS)
+    ready(seen)
+    switch = Switch(seen.note_relays)
+    switch.to(10.0, PLUS)
     assert first_told_s(seen, 10.0, rough_dps=1e-6) == pytest.approx(0.05 + LAG_S + 1.5, abs=STEP_S)
     seen.show(6.0)
-    seen.driven(30.0, OFF)
-    seen.driven(40.0, PLUS)
+    switch.to(30.0, OFF)
+    switch.to(40.0, PLUS)
     assert first_told_s(seen, 40.0, rough_dps=1e-6) == pytest.approx(0.05 + LAG_S + 3.0, abs=STEP_S)
 
 
@@ -136,7 +121,9 @@ def test_a_first_run_is_looked_at_whole_and_a_later_one_at_its_end() -> None:
         seen = ObservedMotion(Axis.AZIMUTH, Range(0.0, 450.0), {PLUS: RIGHT, MINUS: LEFT})
         if shown:
             seen.show(6.0)
-        ready(seen).driven(10.0, PLUS)
+        ready(seen)
+        switch = Switch(seen.note_relays)
+        switch.to(10.0, PLUS)
         at_s = 10.0
         for step in range(1, 60):
             at_s = 10.0 + step * STEP_S

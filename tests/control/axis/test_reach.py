@@ -11,7 +11,8 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motion, Motor
-from rotator.control.axis.reach import FASTER, RELAY_S, START_S, Bounds, Reach, Runs, bounds, lost
+from rotator.control.axis.reach import FASTER, RELAY_S, START_S, Bounds, Reach, bounds, lost
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import Reading, Sensing, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
@@ -36,7 +37,7 @@ class Reached:
         )
         self.motion = Motion({PLUS: DESCRIBED, MINUS: DESCRIBED})
         self._sensing = Sensing(Axis.AZIMUTH, Window(-1e9, 1e9), Calibration(((0.0, 0.0), (450.0, 450.0))))
-        self.runs = Runs()
+        self.relay_state = RelayState()
         self.now_s = 100.0
         self.look(1.0)
 
@@ -46,16 +47,15 @@ class Reached:
             self.motor.advance(self.now_s)
             self._sensing.take(Reading(self.now_s, self.motor.shaft_deg), self.now_s)
             self.motion.see(self.now_s, self.motor.shaft_deg)
-            self.runs.note(self.now_s, self.runs.direction)
 
     def relays(self, way: Direction) -> None:
         self.motor.coils(plus=way is PLUS, minus=way is MINUS, now_s=self.now_s)
         self.motion.driven(self.now_s, way, self.motion.rest_deg(self.now_s))
-        self.runs.note(self.now_s, way)
+        self.relay_state = self.relay_state.changed(self.now_s, way)
 
     def swept(self, way: Direction | None = None, for_s: float = 0.25, later_s: float = 0.0) -> Range:
         run = None if way is None else Run(way, self.now_s + later_s + for_s)
-        return self._reach.swept(self.now_s + later_s, self._sensing, self.motion, self.runs, run)
+        return self._reach.swept(self.now_s + later_s, self._sensing, self.motion, self.relay_state, run)
 
     @property
     def room_deg(self) -> float:

@@ -10,7 +10,6 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.reach import Runs
 from rotator.control.axis.relay_gate import WAITS, RelayGate
 from rotator.control.axis.sensing import NORMAL, Condition, Window
 from rotator.control.axis.settings import SwitchedSettings
@@ -18,6 +17,7 @@ from rotator.control.commands import Feed, Run
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, FaultKind
 from rotator.status import Trust, Trusts
+from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
 OPEN, UNSEEN, DOUBTED, WELDED = Trust
@@ -131,17 +131,14 @@ def test_when_the_readings_mean_other_places_what_is_known_of_the_relays_stays(s
 # --- a sensor that cannot be believed
 
 
-def ran(way: Direction, off_after_s: float, *, master: bool = True) -> tuple[RelayGate, Runs, float]:
+def ran(way: Direction, off_after_s: float, *, master: bool = True) -> tuple[RelayGate, Switch, float]:
     """A run whose relay opened so long ago, and has not been seen to."""
-    a_gate, runs = gate(master=master), Runs()
-    now_s = stood(a_gate, 10.0, 2.0)
-    a_gate.driven(now_s, way)
-    runs.note(now_s, way)
+    a_gate = gate(master=master)
+    switch, now_s = Switch(a_gate.note_relays), stood(a_gate, 10.0, 2.0)
+    switch.to(now_s, way)
     now_s += 1.0
-    runs.note(now_s, way)
-    a_gate.driven(now_s, OFF)
-    runs.note(now_s, OFF)
-    return a_gate, runs, now_s + off_after_s
+    switch.to(now_s, OFF)
+    return a_gate, switch, now_s + off_after_s
 
 
 @pytest.mark.parametrize(("way", "name"), [(PLUS, "clockwise"), (MINUS, "counter-clockwise")])
@@ -152,8 +149,8 @@ def test_a_sensor_that_hides_whether_the_motor_has_stopped_asks_for_its_supply_t
     way: Direction, name: str, master: bool, act_now: str, who: str
 ) -> None:
     """The wire of the pot breaks, and the relay may have welded: with a master the box cuts, without one a person."""
-    a_gate, runs, now_s = ran(way, 1.1, master=master)
-    fault = a_gate.blind(SILENT, runs, now_s)
+    a_gate, _, now_s = ran(way, 1.1, master=master)
+    fault = a_gate.blind(SILENT, now_s)
     assert fault is not None
     assert (fault.kind, fault.cut, fault.act_now) == (SILENT.kind, True, act_now)
     assert fault.measured.startswith("no answer, ")
@@ -163,15 +160,15 @@ def test_a_sensor_that_hides_whether_the_motor_has_stopped_asks_for_its_supply_t
 
 @pytest.mark.parametrize("master", [True, False])
 def test_but_not_while_it_may_still_coast_or_is_driven_or_was_seen_to_stop(master: bool) -> None:
-    a_gate, runs, now_s = ran(PLUS, 0.9, master=master)
-    assert a_gate.blind(SILENT, runs, now_s) is SILENT
-    assert a_gate.blind(None, runs, now_s + 5.0) is None
+    a_gate, _, now_s = ran(PLUS, 0.9, master=master)
+    assert a_gate.blind(SILENT, now_s) is SILENT
+    assert a_gate.blind(None, now_s + 5.0) is None
     stood(a_gate, now_s, 3.0)
-    assert a_gate.blind(SILENT, runs, now_s + 5.0) is SILENT
-    a_gate, runs, now_s = ran(PLUS, 5.0, master=master)
-    runs.note(now_s, PLUS)
-    assert a_gate.blind(SILENT, runs, now_s + 2.0) is SILENT
-    assert gate(master=master).blind(SILENT, Runs(), 100.0) is SILENT, "it has not been driven"
+    assert a_gate.blind(SILENT, now_s + 5.0) is SILENT
+    a_gate, switch, now_s = ran(PLUS, 5.0, master=master)
+    switch.to(now_s, PLUS)
+    assert a_gate.blind(SILENT, now_s + 2.0) is SILENT
+    assert gate(master=master).blind(SILENT, 100.0) is SILENT, "it has not been driven"
 
 
 # --- looking for its stop
@@ -181,10 +178,11 @@ def test_but_not_while_it_may_still_coast_or_is_driven_or_was_seen_to_stop(maste
 def test_an_axis_that_looks_for_its_stop_may_turn_back_there(homing: bool) -> None:
     a_gate, now_s = gate(COUNTED), 10.0
     a_gate.homes(homing=homing, failed=False)
-    a_gate.driven(now_s, MINUS)
+    switch = Switch(a_gate.note_relays)
+    switch.to(now_s, MINUS)
     for changes in range(8):
         now_s = stood(a_gate, now_s, 0.4, Condition(changes=changes, ahead=frozenset((PLUS,))))
-    a_gate.driven(now_s, OFF)
+    switch.to(now_s, OFF)
     now_s = stood(a_gate, now_s, 5.0, Condition(changes=7, ahead=frozenset((PLUS,))))
     assert (a_gate.passed(Run(PLUS, now_s + 0.3), now_s) == Run(PLUS, now_s + 0.3)) is homing
 

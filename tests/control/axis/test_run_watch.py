@@ -11,6 +11,7 @@ from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
+from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
 PERIOD_S, COAST_S = 5.0 / 6.0, 0.5
@@ -39,13 +40,15 @@ def first_fault(watch: RunWatch, from_s: float, seconds: float) -> tuple[float, 
 
 
 def test_a_run_from_end_to_end_is_none(watch: RunWatch) -> None:
-    watch.driven(100.0, PLUS)
+    switch = Switch(watch.note_relays)
+    switch.to(100.0, PLUS)
     assert first_fault(watch, 100.0, LONGEST_S - 0.1) is None
 
 
 @pytest.mark.parametrize("way", [PLUS, MINUS], ids=["clockwise", "counter-clockwise"])
 def test_one_that_does_not_end_is_told_with_its_way_and_its_limit(watch: RunWatch, way: Direction) -> None:
-    watch.driven(100.0, way)
+    switch = Switch(watch.note_relays)
+    switch.to(100.0, way)
     told = first_fault(watch, 100.0, 100.0)
     assert told is not None
     after_s, fault = told
@@ -58,32 +61,29 @@ def test_one_that_does_not_end_is_told_with_its_way_and_its_limit(watch: RunWatc
 
 
 def test_a_stop_or_a_reversal_begins_anew(watch: RunWatch) -> None:
-    watch.driven(0.0, PLUS)
+    switch = Switch(watch.note_relays)
+    switch.to(0.0, PLUS)
     assert first_fault(watch, 0.0, 80.0) is None
-    watch.driven(80.0, MINUS)
+    switch.to(80.0, MINUS)
     assert first_fault(watch, 80.0, 80.0) is None
-    watch.driven(160.0, OFF)
-    watch.driven(161.0, MINUS)
+    switch.to(160.0, OFF)
+    switch.to(161.0, MINUS)
     assert first_fault(watch, 161.0, 80.0) is None
-
-
-def test_the_same_order_again_is_the_same_run(watch: RunWatch) -> None:
-    for second in range(84):
-        watch.driven(float(second), PLUS)
-    assert watch.see(84.0, 0.0) is not None
 
 
 def test_standing_for_a_day_is_none(watch: RunWatch) -> None:
     assert watch.see(86_400.0, 12.0) is None
-    watch.driven(86_400.0, OFF)
+    switch = Switch(watch.note_relays)
+    switch.to(86_400.0, OFF)
     assert watch.see(172_800.0, 12.0) is None
 
 
 def test_a_motor_that_has_shown_to_be_slow_has_longer(watch: RunWatch, motors: dict[Direction, Motor]) -> None:
     motors[PLUS] = Motor(3.0, 0.3)
-    watch.driven(0.0, PLUS)
+    switch = Switch(watch.note_relays)
+    switch.to(0.0, PLUS)
     assert first_fault(watch, 0.0, LONGEST_S + 60.0) is None
-    watch.driven(200.0, MINUS)
+    switch.to(200.0, MINUS)
     assert first_fault(watch, 200.0, 100.0) is not None, "the other way it is as fast as ever"
 
 
@@ -98,14 +98,15 @@ class Presses:
 
     def __init__(self, watch: RunWatch) -> None:
         self._watch = watch
+        self._switch = Switch(watch.note_relays)
         self._now_s = 0.0
         self.changes = 0
 
     def press(self, way: Direction, seconds: float) -> Fault | None:
         """The fault that ends this press. A pause follows."""
-        self._watch.driven(self._now_s, way)
+        self._switch.to(self._now_s, way)
         fault = next(filter(None, (self._see() for _ in range(round(seconds / 0.05)))), None)
-        self._watch.driven(self._now_s, OFF)
+        self._switch.to(self._now_s, OFF)
         for _ in range(20):
             assert self._see() is None
         return fault

@@ -11,6 +11,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.observed_motion import ObservedMotion
 from rotator.control.axis.seen_run import SeenRun
 from rotator.control.sky.mount import Range
+from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05
@@ -25,6 +26,7 @@ class Runs:
         motor = Motor(BELIEVED_DPS, 0.9)
         self._observed = ObservedMotion(Axis.AZIMUTH, Range(0.0, 450.0), {PLUS: motor, MINUS: motor})
         self.seen = SeenRun(self._observed)
+        self._switch = Switch(self._observed.note_relays)
         self._noise_deg, self._chance = noise_deg, random.Random(seed)
         self._at_deg, self.now_s, self._began_s, self._way = at_deg, 50.0, 0.0, OFF
         self.turn(2.0, 0.0)
@@ -38,13 +40,13 @@ class Runs:
                 self.seen.see(self.now_s)
 
     def begin(self, way: Direction) -> None:
-        self._observed.driven(self.now_s, way)
+        self._switch.to(self.now_s, way)
         self.seen.begin()
         self._way, self._began_s = way, self.now_s
 
     def end(self) -> None:
         way, self._way = self._way, OFF
-        self._observed.driven(self.now_s, OFF)
+        self._switch.to(self.now_s, OFF)
         self.seen.end(self.now_s, way, self.now_s - self._began_s, self._at_deg)
 
     def run(self, way: Direction, seconds: float, dps: float) -> None:

@@ -9,6 +9,7 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.axis.short_runs import LEAST_RUN_S, ShortRuns
 from rotator.faults import Fault, FaultKind
+from tests.control.axis.switch import Switch
 
 STEP_S = 0.05
 SPEED_DPS = 6.0
@@ -23,6 +24,7 @@ class Bench:
         self._noise_deg = noise_deg
         self._chance = random.Random(5)
         self._runs = ShortRuns(Axis.AZIMUTH)
+        self._relays = Switch(lambda relays: self._runs.note_relays(relays, SPEED_DPS))
         self._way = Direction.OFF
         self._speed_dps = 0.0
         self._angle_deg = 100.0
@@ -52,7 +54,7 @@ class Bench:
 
     def _switch(self, way: Direction) -> None:
         self._way = way
-        self._runs.driven(self._now_s, way, SPEED_DPS)
+        self._relays.to(self._now_s, way)
 
     @property
     def kinds(self) -> list[FaultKind]:

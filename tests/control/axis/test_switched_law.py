@@ -10,6 +10,7 @@ import pytest
 
 from hw.ports import Direction
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.switched_law import ANYWHERE, LEAST_MOVE_DEG, SwitchedLaw, Timing
 from rotator.control.commands import Run
 from rotator.control.sky.plan import OFFSETS_S, Path
@@ -28,7 +29,7 @@ class Axis:
         motor = Motor(SPEED_DPS, SPEED_DPS * LAG_S)
         self.law = SwitchedLaw({PLUS: motor, MINUS: motor}, Timing(LEASE_S, PERIOD_S), reach)
         self.now_s, self.angle_deg, self.turning_dps = 20.0, at_deg, 0.0
-        self.relay, self.until_s = OFF, 0.0
+        self.relay, self.until_s, self.relays = OFF, 0.0, RelayState()
         self.starts = 0
         self.law.see(self.now_s, at_deg)
 
@@ -36,7 +37,8 @@ class Axis:
         if run.direction is not OFF and self.relay is OFF:
             self.starts += 1
         self.relay, self.until_s = run.direction, run.until_s
-        self.law.driven(self.now_s, self.relay)
+        self.relays = self.relays.changed(self.now_s, self.relay)
+        self.law.note_relays(self.now_s, self.relays)
         for _ in range(50):
             self.now_s += PERIOD_S / 50
             if self.now_s >= self.until_s:

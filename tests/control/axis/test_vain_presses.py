@@ -8,6 +8,7 @@ import pytest
 
 from hw.ports import Direction
 from rotator.control.axis.vain_presses import VainPresses
+from tests.control.axis.switch import Switch
 
 PLUS, OFF = Direction.PLUS, Direction.OFF
 CYCLE_S = 0.05
@@ -18,15 +19,16 @@ class Pot:
 
     def __init__(self, speed_dps: float, noise_deg: float) -> None:
         self.presses = VainPresses()
+        self.switch = Switch(self.presses.note_relays)
         self.chance = random.Random(3)
         self.speed_dps, self.noise_deg = speed_dps, noise_deg
         self.now_s = self.place_deg = 100.0
         self.rest(2.0)
 
     def press(self, seconds: float) -> None:
-        self.presses.driven(self.now_s, PLUS)
+        self.switch.to(self.now_s, PLUS)
         self._pass(seconds, self.speed_dps)
-        self.presses.driven(self.now_s, OFF)
+        self.switch.to(self.now_s, OFF)
 
     def rest(self, seconds: float) -> None:
         self._pass(seconds, 0.0)
@@ -74,7 +76,7 @@ def test_from_one_press_to_the_next_without_a_pause_they_count_too() -> None:
 def test_presses_that_run_into_each_other_are_told_within_five_seconds() -> None:
     """Each order comes while the relay is still on: the relay closes once."""
     pot = Pot(0.0, 0.1)
-    pot.presses.driven(pot.now_s, PLUS)
+    pot.switch.to(pot.now_s, PLUS)
     pot.rest(4.0)
     assert not pot.presses.enough
     pot.rest(1.0)

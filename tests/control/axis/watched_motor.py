@@ -15,6 +15,7 @@ from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
 from rotator.status import ALL_OPEN, Trusts
+from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05
@@ -48,6 +49,7 @@ class WatchedMotor:
             placed=placed,
             look=look,
         )
+        self._switch = Switch(self.watch.note_relays)
         self.now_s = 1000.0
         self.fault: Fault | None = None
         """The latest fault that the watch has told."""
@@ -79,7 +81,7 @@ class WatchedMotor:
 
     def relays(self, way: Direction) -> None:
         self.motor.coils(plus=way is PLUS, minus=way is MINUS, now_s=self.now_s)
-        self.watch.driven(self.now_s, way)
+        self._switch.to(self.now_s, way)
 
     def run(self, way: Direction, seconds: float) -> Fault | None:
         """Closed for so long, and then open. Returns the first fault meanwhile."""

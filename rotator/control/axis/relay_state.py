@@ -1,0 +1,45 @@
+"""What the relays of one axis do, and what they did last: one value, the same for every watch of the axis.
+
+Knows directions and moments. Does not know whether a relay has really opened: `relay_trust` holds that.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hw.ports import Direction
+
+BLINK_S = 0.1
+"""A relay that closes again this soon after it opened continues its run: a stop, then the same order once more."""
+
+
+@dataclass(frozen=True, slots=True)
+class RelayState:
+    """As it is from the start: no relay was closed yet."""
+
+    direction: Direction = Direction.OFF
+    since_s: float = -math.inf
+    """When the relays last changed."""
+    last: Direction = Direction.OFF
+    """The direction of the present or latest run; OFF: there was none yet."""
+    begun_s: float = -math.inf
+    """When that run began. A blink of its relay does not end a run."""
+
+    @property
+    def closed(self) -> bool:
+        """Whether one of them is closed."""
+        return self.direction is not Direction.OFF
+
+    def off_for_s(self, now_s: float) -> float:
+        """For how long both have been open; 0 while one is closed."""
+        return 0.0 if self.closed else now_s - self.since_s
+
+    def changed(self, now_s: float, direction: Direction) -> RelayState:
+        """The state from now on, where the relays drive in this direction. The same state: nothing changed."""
+        if direction is self.direction:
+            return self
+        if direction is Direction.OFF:
+            return RelayState(direction, now_s, self.last, self.begun_s)
+        goes_on = not self.closed and direction is self.last and now_s - self.since_s < BLINK_S
+        return RelayState(direction, now_s, direction, self.begun_s if goes_on else now_s)
