@@ -13,12 +13,11 @@ from collections import deque
 
 from hw.ports import Direction
 from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
 from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range
-from rotator.status import Trust, Trusts
+from rotator.status import Trust
 
-PLUS, MINUS = Direction.PLUS, Direction.MINUS
-BOTH_WAYS = frozenset((PLUS, MINUS))
 SLOWEST_SHARE = 0.3
 """A motor with current turns at this share of its speed at least."""
 SURE = 1.4
@@ -44,13 +43,13 @@ class ContactWatch:
     """
 
     def __init__(
-        self, trusts: Trusts, limits: Range, period_s: float, period_deg: float, coast_s: float, *, look: bool
+        self, trusts: RelayTrusts, limits: Range, period_s: float, period_deg: float, coast_s: float, *, look: bool
     ) -> None:
         self._limits = limits
         self._period_deg = period_deg
         self._period_s = period_s
         self._coast_s = coast_s
-        self._trust = dict(zip((PLUS, MINUS), trusts, strict=True))
+        self._trusts = trusts
         self.looked = not look
         self.homing = False
         """A person watches how it finds its stop, and that it turns back there."""
@@ -74,36 +73,31 @@ class ContactWatch:
         """The contact has changed though the relays are off, and it has not been silent since."""
         self._settled = False
         """The contact has been silent for long enough since the latest run."""
-        self._ran_since = {PLUS: False, MINUS: False}
+        self._ran_since = dict.fromkeys(BOTH_WAYS, False)
         """Whether a relay has been closed again since it was doubted."""
-
-    @property
-    def trusts(self) -> Trusts:
-        return self._trust[PLUS], self._trust[MINUS]
-
-    def trust(self, direction: Direction) -> Trust:
-        return self._trust[direction]
 
     def waits(self, direction: Direction) -> bool:
         """Whether that relay stays open, because nothing has shown yet that its opposite is open."""
         if self._relays.direction is direction:
             return False
         # A late change may be the first of a motor with current: the contact must be silent first.
-        return not self.looked or self._late_changes > 0 or self._trust[Direction(-direction)] is not Trust.OPEN
+        return not self.looked or self._late_changes > 0 or self._trusts.of(Direction(-direction)) is not Trust.OPEN
 
     @property
     def settles(self) -> bool:
         """The relay of the latest run is off, and has not been seen open yet."""
-        return not self._relays.closed and self._trust.get(self._relays.last) is Trust.UNSEEN
+        last = self._relays.last
+        return not self._relays.closed and last in BOTH_WAYS and self._trusts.of(last) is Trust.UNSEEN
 
     @property
     def unsure(self) -> bool:
         """A relay may be closed, and the contact has been silent for so long that it will not show that any more."""
-        return self._settled and Trust.DOUBTED in self.trusts
+        return self._settled and Trust.DOUBTED in self._trusts.both
 
     def checked(self) -> None:
         """A person has looked at both relays: they are open."""
-        self._trust, self._blind_s, self.turns = {PLUS: Trust.OPEN, MINUS: Trust.OPEN}, 0.0, False
+        self._trusts.checked()
+        self._blind_s, self.turns = 0.0, False
 
     def silent(self) -> None:
         """Driven, and its contact did not change: a fault has ended the run."""
@@ -115,8 +109,7 @@ class ContactWatch:
         if was.closed:
             self._blind_s += relays.since_s - max(was.since_s, self._changed_s)
         if relays.closed:
-            if self._trust[relays.direction] is Trust.OPEN:
-                self._trust[relays.direction] = Trust.UNSEEN
+            self._trusts.closed(relays.direction)
             self._moments_s.clear()
             self._turned_back, self._settled, self._late_changes = False, False, 0
             self._ran_since[relays.direction] = True
@@ -179,26 +172,27 @@ class ContactWatch:
     def _turns_by_itself(self) -> None:
         """The contact changes, and does not say which way the axis turns."""
         self.turns = True
-        for way in (PLUS, MINUS):
-            if self._trust[way] is not Trust.OPEN and way is self._relays.last:
-                self._trust[way], self._ran_since[way] = Trust.DOUBTED, False
-            elif self._trust[way] is Trust.OPEN:
-                self._trust[way] = Trust.UNSEEN
+        for way in BOTH_WAYS:
+            if self._trusts.of(way) is not Trust.OPEN and way is self._relays.last:
+                self._doubt(way)
+            else:
+                self._trusts.closed(way)
 
     def _note_standing(self, condition: Condition) -> None:
         self.looked, self._settled, self.turns, self._late_changes = True, True, False, 0
-        ahead = BOTH_WAYS if condition.lost or self.homing else condition.ahead
+        ahead = frozenset(BOTH_WAYS) if condition.lost or self.homing else condition.ahead
         if self._turned_back and not self.homing and self._room_deg < UNSURE_PERIODS * self._period_deg:
             ahead -= {self._relays.last}
-        for way in (PLUS, MINUS):
-            own = way is self._relays.last and self._ran_since[way]
-            followed = self._turned(lost=bool(condition.lost))
-            if self._trust[way] is Trust.DOUBTED:
-                # Only a run of its own shows that it opens.
-                followed = followed and own and bool(self._moments_s)
-            if self._trust[way] is Trust.OPEN:
-                continue
-            if followed and way in ahead:
-                self._trust[way] = Trust.OPEN
-            elif self._trust[way] is Trust.UNSEEN:
-                self._trust[way], self._ran_since[way] = Trust.DOUBTED, False
+        turned = self._turned(lost=bool(condition.lost))
+        for way in BOTH_WAYS:
+            trust = self._trusts.of(way)
+            # A doubt of a relay ends only after a run of its own.
+            own_run = way is self._relays.last and self._ran_since[way] and bool(self._moments_s)
+            if turned and way in ahead and (trust is not Trust.DOUBTED or own_run):
+                self._trusts.seen_open(way)
+            elif trust is Trust.UNSEEN:
+                self._doubt(way)
+
+    def _doubt(self, way: Direction) -> None:
+        self._trusts.doubt(way)
+        self._ran_since[way] = False

@@ -7,10 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from hw.ports import Axis, Direction
+from hw.ports import Direction
 from rotator.control.axis.homing import Homing
-from rotator.control.axis.relay_trust import WAYS
-from rotator.faults import Fault, FaultKind
 
 UNCALIBRATED_JOG_S = 2.0
 """The longest press on an axis that is not commissioned."""
@@ -42,11 +40,6 @@ class HomeGoal:
     """Find the end stop."""
 
     homing: Homing
-
-
-def limit_reached(axis: Axis, direction: Direction) -> Fault:
-    measured = f"its switch has opened on the way {WAYS[axis, direction]}"
-    return Fault(FaultKind.LIMIT_SWITCH, axis, measured)
 
 
 def jog(

@@ -6,8 +6,8 @@ goes, where the box can switch it.
 
 from __future__ import annotations
 
-from hw.ports import Axis, Direction
-from rotator.control.axis.relay_trust import WAYS, unstoppable
+from hw.ports import Axis
+from rotator.control.axis.relay_faults import WAYS, unstoppable
 from rotator.control.axis.trend import Trend
 from rotator.faults import Fault, FaultKind
 
@@ -58,7 +58,7 @@ class HeldWatch:
             return None
         if abs(angle_deg - self._held_deg) < TURNED_DEG:
             return None
-        way = WAYS[self._axis, Direction.PLUS if slope.speed_dps > 0 else Direction.MINUS]
+        way = WAYS[self._axis, slope.way]
         measured = f"it turns {way} at {abs(slope.speed_dps):.1f}°/s though it is to hold"
         limit = f"{self._limit_dps:.2g}°/s for {LOOKED_AT_S:g} s"
         return turns_by_itself(self._axis, measured, limit, master=self._master)

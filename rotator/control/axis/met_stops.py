@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.relay_trust import WAYS
+from rotator.control.axis.relay_faults import WAYS
 from rotator.control.sky.mount import Range
 from rotator.faults import FaultKind, Notice
 

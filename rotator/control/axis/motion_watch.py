@@ -14,6 +14,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.observed_motion import ObservedMotion
 from rotator.control.axis.opening_watch import OpeningWatch
 from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.sensing import NORMAL, Condition
 from rotator.control.axis.weld_watch import WeldWatch
 from rotator.control.sky.mount import Range
@@ -42,13 +43,14 @@ class MotionWatch:
         self._placed = placed
         self._seen = ObservedMotion(axis, limits, motors)
         self._driven = DrivenWatch(self._seen)
-        self._opening = OpeningWatch(self._seen, trusts, placed=placed, look=look)
-        self._weld = WeldWatch(self._seen, self._opening, master=master)
+        self._trusts = RelayTrusts(trusts)
+        self._opening = OpeningWatch(self._seen, self._trusts, placed=placed, look=look)
+        self._weld = WeldWatch(self._seen, self._opening, self._trusts, master=master)
 
     @property
     def trusts(self) -> Trusts:
         """What is known of the two relays."""
-        return self._opening.trusts
+        return self._trusts.both
 
     @property
     def looks(self) -> bool:

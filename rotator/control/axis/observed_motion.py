@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import WAYS
 from rotator.control.axis.trend import Slope, Trend
 from rotator.control.sky.mount import Range
 

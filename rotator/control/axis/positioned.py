@@ -11,11 +11,11 @@ from dataclasses import replace
 
 from hw.ports import AngleSource, Direction
 from rotator.control.axis.fault_latch import FaultLatch
-from rotator.control.axis.goals import JogGoal, jog, limit_reached
+from rotator.control.axis.goals import JogGoal, jog
 from rotator.control.axis.held_watch import HeldWatch
 from rotator.control.axis.pace import Pace
 from rotator.control.axis.reach import UNSEEN_S, lost
-from rotator.control.axis.relay_trust import unstoppable
+from rotator.control.axis.relay_faults import limit_reached, unstoppable
 from rotator.control.axis.sensing import Condition, Reading, Sensing
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import COMING_DEG, SERVO_STRAY_DEG, STRAY_DEG, StrayWatch

@@ -13,8 +13,8 @@ from dataclasses import replace
 from hw.ports import Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
+from rotator.control.axis.relay_faults import WAYS, doubts, unstoppable
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import WAYS, doubts, unstoppable
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition
 from rotator.control.axis.settings import SwitchedSettings

@@ -1,60 +1,48 @@
-"""The faults of a motor relay that may not have opened, in words for a person.
+"""How far each of the two relays of an axis is trusted to be open.
 
-Knows how far a relay is trusted, and whether a master is wired. `opening_watch` and `contact_watch` find that out.
+Knows what has been reported of them. Does not know how that was found out: `opening_watch` and `contact_watch` do.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from hw.ports import Direction
+from rotator.status import ALL_OPEN, Trust, Trusts
 
-from hw.ports import Axis, Direction
-from rotator.faults import Fault, FaultKind, Notice
-from rotator.status import Trust, Trusts
-
-CUT_BY_HAND = "CUT MOTOR POWER!"
-WAYS = {
-    (Axis.AZIMUTH, Direction.PLUS): "clockwise",
-    (Axis.AZIMUTH, Direction.MINUS): "counter-clockwise",
-    (Axis.ELEVATION, Direction.PLUS): "up",
-    (Axis.ELEVATION, Direction.MINUS): "down",
-}
+BOTH_WAYS = (Direction.PLUS, Direction.MINUS)
 
 
-def unstoppable(fault: Fault, *, master: bool) -> Fault:
-    """That fault, of an axis that no relay of its own is sure to stop: only the supply is.
+class RelayTrusts:
+    """`trusts`: what an earlier run of the program has left."""
 
-    `master`: an output switches the supply.
-    """
-    if master:
-        return replace(fault, measured=f"{fault.measured}; the box has switched the motors' supply off", cut=True)
-    measured = f"{fault.measured}; switch the motors' supply off by hand NOW, the box has no relay for that"
-    return replace(fault, measured=measured, cut=True, act_now=CUT_BY_HAND)
+    def __init__(self, trusts: Trusts = ALL_OPEN) -> None:
+        self._of = dict(zip(BOTH_WAYS, trusts, strict=True))
 
+    @property
+    def both(self) -> Trusts:
+        return self._of[Direction.PLUS], self._of[Direction.MINUS]
 
-def accusation(axis: Axis, direction: Direction, trust: Trust, place: str, *, master: bool) -> Fault | None:
-    """The fault that an order against that relay meets; None where the relay is not suspected.
+    def of(self, way: Direction) -> Trust:
+        return self._of[way]
 
-    `place`: where the axis stood when the doubt arose, for a person; empty: not known any more.
-    """
-    way = WAYS[axis, direction]
-    match trust:
-        case Trust.WELDED:
-            return unstoppable(Fault(FaultKind.RELAY_WELDED, axis, f"the relay {way} was found closed"), master=master)
-        case Trust.DOUBTED:
-            measured = f"the relay {way} is off, and it{place or ' stands'}, where a motor with current would stand too"
-            # The motor may have current and be held by its stop: with a master it is spared that.
-            return Fault(FaultKind.RELAY_UNSEEN, axis, measured, cut=master)
-        case _:
-            return None
+    def closed(self, way: Direction) -> None:
+        """This relay is closed, or may be. An older doubt stays."""
+        if self._of[way] is Trust.OPEN:
+            self._of[way] = Trust.UNSEEN
 
+    def look_again(self, way: Direction) -> None:
+        """What raised the doubt of this relay is over: readings may show now whether it is open."""
+        if self._of[way] is Trust.DOUBTED:
+            self._of[way] = Trust.UNSEEN
 
-def doubts(axis: Axis, trusts: Trusts) -> tuple[Notice, ...]:
-    """What a person who drives the axis to its stops on purpose should know: the relays in doubt forbid nothing."""
-    return tuple(
-        Notice(
-            f"the box could not see the relay {WAYS[axis, way]} open, because the axis stood still: if it does not "
-            f"turn {WAYS[axis, Direction(-way)]} now, release the key and look at that relay"
-        )
-        for way, trust in zip((Direction.PLUS, Direction.MINUS), trusts, strict=True)
-        if trust is Trust.DOUBTED
-    )
+    def seen_open(self, way: Direction) -> None:
+        self._of[way] = Trust.OPEN
+
+    def doubt(self, way: Direction) -> None:
+        self._of[way] = Trust.DOUBTED
+
+    def found_closed(self, way: Direction) -> None:
+        self._of[way] = Trust.WELDED
+
+    def checked(self) -> None:
+        """A person has looked at both relays: they are open."""
+        self._of = dict.fromkeys(BOTH_WAYS, Trust.OPEN)

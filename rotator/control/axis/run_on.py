@@ -1,52 +1,105 @@
-"""How far an axis goes on after its relay was switched off: a coast, or a motor with current that something has held.
+"""How an axis goes on after its relay was switched off: it coasts, or its motor still has current.
 
-Knows how fast it turned, how far it has coasted before, and the readings since. Does not know what held it: a branch,
-or a stop that is nearer than the sensor says.
+Knows how fast the axis turned, how far it has coasted before, and the readings since. Does not know what may hold it: a
+branch, or a stop that is nearer than the sensor says.
 """
 
 from __future__ import annotations
 
-from rotator.control.axis.observed_motion import ObservedMotion
-from rotator.control.axis.seen_run import SeenRun
+from rotator.control.axis.observed_motion import RELAY_S, ObservedMotion
+from rotator.control.axis.seen_run import SLOWED_SHARE, STEADY_S, EndedRun, SeenRun
 from rotator.control.axis.trend import Slope
 
 RAN_ON_S, RAN_ON_SHARE = 0.45, 0.9
-"""After this time a coasting axis has gone less than this share of what a fed motor goes."""
+"""After this time a coasting axis has gone less than this share of the way of a powered motor."""
 RAN_ON_READINGS = 5
-"""So many readings in a row show that it goes on at its speed."""
+"""It runs on if this many readings in a row show it."""
+COASTS_NOISES, COASTS_S = 5.0, 1.5
+"""Two mean angles differ if they are 5 noises apart: each is the mean of three readings. No coast lasts longer."""
 LATE_OPEN_S, COASTS_SHARE = 0.25, 1.5
-"""A contact that is burnt opens so late, the mean of the readings included; and an axis coasts for this share at most
-of what it has coasted before. Further it goes only with current."""
+"""A burnt contact opens late by this time at most, the mean of the readings included. A coast is at most 1.5 times the
+known coast. Only a motor with current turns its axis further."""
 SUDDEN_SHARE, AROUND_S = 0.87, 0.08
-"""So much of its way an axis has behind it when a motor with current would have got there: it did not slow down."""
+"""An axis that has this share of its way behind it when a powered motor would have arrived did not slow down."""
 
 
-def goes_on(seen: ObservedMotion, line: Slope, passed_s: float, gone_deg: float) -> bool:
-    """Whether it has gone about as far as a motor with current goes in that time."""
-    return gone_deg - 2.5 * seen.trend.noise_deg > RAN_ON_SHARE * abs(line.speed_dps) * passed_s
+class RunOn:
+    """The axis after its latest run."""
 
+    def __init__(self, seen: ObservedMotion, run: SeenRun) -> None:
+        self._seen = seen
+        self._run = run
+        self.begin()
 
-def went_far(seen: ObservedMotion, run: SeenRun, gone_deg: float) -> bool:
-    """Whether it has gone further, since its relay was switched off, than it coasts."""
-    lag_s = seen.motor.lag_s
-    longest_s = max(LATE_OPEN_S + lag_s, COASTS_SHARE * lag_s)
-    rough_dps = run.ended.line.rough_dps if run.ended and run.ended.line else 0.0
-    return gone_deg - seen.trend.noise_deg > longest_s * (_full_dps(run) + rough_dps)
+    def begin(self) -> None:
+        """A run begins: what the one before has shown is over."""
+        self.ran_on = False
+        """The axis went on at its speed after its relay was switched off."""
+        self.held_up = False
+        """It went on until something held it."""
+        self._going = 0
+        """How many readings in a row have shown that it runs on."""
+        self._lagged_deg: float | None = None
+        """The distance coasted when it was clearly slower than a powered motor."""
 
+    def slows(self, at_s: float, place_deg: float, ended: EndedRun, line: Slope, *, free: bool) -> bool:
+        """Whether it has been seen to slow down, as it is at `place_deg` now. `line`: how it turned when the run ended.
 
-def ended_suddenly(seen: ObservedMotion, run: SeenRun, place_deg: float) -> bool:
-    """Whether it went on at its full speed until something held it there: no coast ends so."""
-    if (ended := run.ended) is None or ended.line is None:
+        `free`: a powered motor could turn on from there.
+        """
+        slope = self._seen.trend.slope(ended.off_s + RELAY_S)
+        if slope is None:
+            return False
+        least_dps = abs(line.speed_dps) - 2.0 * line.rough_dps
+        slowed = slope.speed_dps * line.way + 3.0 * slope.rough_dps < SLOWED_SHARE * least_dps
+        passed_s = at_s - ended.off_s
+        gone_deg = (place_deg - ended.angle_deg) * line.way
+        coasts = not self._went_far(ended, gone_deg)
+        if (slowed and coasts and free) or self._still_coasts(passed_s, gone_deg, line):
+            return True
+        if passed_s >= RAN_ON_S and ended.lasted_s >= STEADY_S:
+            self._going = self._going + 1 if self._goes_on(line, passed_s, gone_deg) else 0
+            self.ran_on = self._going >= RAN_ON_READINGS
         return False
-    gone_deg = abs(place_deg - ended.angle_deg)
-    if (place_deg - ended.angle_deg) * ended.line.speed_dps < 0.0 or not went_far(seen, run, gone_deg):
-        return False
-    # A motor with current would have got here by then; one that coasts is still on its way.
-    then_deg = seen.trend.place_deg(ended.off_s + gone_deg / _full_dps(run), AROUND_S)
-    return then_deg is None or abs(then_deg - ended.angle_deg) >= SUDDEN_SHARE * gone_deg
 
+    def stands(self, place_deg: float) -> None:
+        """It has come to rest. No coast ends so suddenly as an axis at full speed that something holds."""
+        if (ended := self._run.ended) is None or ended.line is None:
+            return
+        gone_deg = abs(place_deg - ended.angle_deg)
+        if (place_deg - ended.angle_deg) * ended.line.speed_dps < 0.0 or not self._went_far(ended, gone_deg):
+            return
+        # A motor with current would have got here by then; one that coasts is still on its way.
+        then_deg = self._seen.trend.place_deg(ended.off_s + gone_deg / self._full_dps(ended), AROUND_S)
+        if then_deg is None or abs(then_deg - ended.angle_deg) >= SUDDEN_SHARE * gone_deg:
+            self.held_up = True
 
-def _full_dps(run: SeenRun) -> float:
-    """In a short run the motor was still gathering speed."""
-    line = run.ended.line if run.ended else None
-    return max(abs(line.speed_dps) if line else 0.0, run.motor_dps)
+    def _still_coasts(self, passed_s: float, gone_deg: float, line: Slope) -> bool:
+        """Whether the axis has fallen behind a powered motor, and still moves on: a stop would have held it there.
+
+        Many readings are compared for it, so it takes more than for one; and none coasts for long.
+        """
+        if passed_s > COASTS_S:
+            return False
+        sure_deg = COASTS_NOISES * self._seen.trend.noise_deg
+        if self._lagged_deg is None:
+            behind_deg = abs(line.speed_dps) * passed_s - gone_deg
+            if behind_deg > sure_deg + 3.0 * line.rough_dps * passed_s:
+                self._lagged_deg = gone_deg
+            return False
+        return gone_deg - self._lagged_deg > sure_deg
+
+    def _goes_on(self, line: Slope, passed_s: float, gone_deg: float) -> bool:
+        """Whether it has gone about as far as a powered motor goes in that time."""
+        return gone_deg - 2.5 * self._seen.trend.noise_deg > RAN_ON_SHARE * abs(line.speed_dps) * passed_s
+
+    def _went_far(self, ended: EndedRun, gone_deg: float) -> bool:
+        """Whether it has gone further than it coasts, since its relay was switched off."""
+        lag_s = self._seen.motor.lag_s
+        longest_s = max(LATE_OPEN_S + lag_s, COASTS_SHARE * lag_s)
+        rough_dps = ended.line.rough_dps if ended.line else 0.0
+        return gone_deg - self._seen.trend.noise_deg > longest_s * (self._full_dps(ended) + rough_dps)
+
+    def _full_dps(self, ended: EndedRun) -> float:
+        """Its full speed: in a short run the motor was still gathering it."""
+        return max(abs(ended.line.speed_dps) if ended.line else 0.0, self._run.motor_dps)

@@ -12,8 +12,9 @@ from collections.abc import Mapping
 from hw.ports import Axis, Direction
 from rotator.control.axis.contact_watch import ContactWatch
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.relay_faults import WAYS, accusation
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import WAYS, accusation
+from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.sensing import NORMAL, Condition
 from rotator.control.axis.silent_runs import SilentRuns
 from rotator.control.sky.mount import Range
@@ -61,7 +62,8 @@ class RunWatch:
         self._motors = motors
         self._master = master
         self._period_deg = period_s * max(motor.speed_dps for motor in motors.values())
-        self._contact = ContactWatch(trusts, limits, period_s, self._period_deg, coast_s, look=look)
+        self._trusts = RelayTrusts(trusts)
+        self._contact = ContactWatch(self._trusts, limits, period_s, self._period_deg, coast_s, look=look)
         self._silent = SilentRuns(axis)
         self._relays = RelayState()
         self._angle_deg: float | None = None
@@ -69,7 +71,7 @@ class RunWatch:
     @property
     def trusts(self) -> Trusts:
         """What is known of the two relays."""
-        return self._contact.trusts
+        return self._trusts.both
 
     @property
     def looks(self) -> bool:
@@ -122,7 +124,7 @@ class RunWatch:
         """The fault that an order in this direction meets, for as long as the opposite relay may be closed."""
         against = Direction(-direction)
         place = "" if self._angle_deg is None else f" stands at {self._angle_deg:.1f}°"
-        return accusation(self._axis, against, self._contact.trust(against), place, master=self._master)
+        return accusation(self._axis, against, self._trusts.of(against), place, master=self._master)
 
     def acknowledge(self) -> None:
         pass

@@ -11,8 +11,8 @@ from collections import deque
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
+from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import WAYS
 from rotator.control.axis.sparks import Place
 from rotator.faults import Fault, FaultKind
 

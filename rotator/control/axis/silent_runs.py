@@ -8,8 +8,8 @@ stops.
 from __future__ import annotations
 
 from hw.ports import Axis
+from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import WAYS
 from rotator.faults import Fault, FaultKind
 
 SILENT_PERIODS = 3.0

@@ -14,10 +14,11 @@ from rotator.control.axis.attempts import Attempts
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.axis.endurance import Endurance
-from rotator.control.axis.goals import HomeGoal, JogGoal, jog, limit_reached
+from rotator.control.axis.goals import HomeGoal, JogGoal, jog
 from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.reach import Reach, lost
+from rotator.control.axis.relay_faults import limit_reached
 from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import Condition, Reading, Sensing

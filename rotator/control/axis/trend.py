@@ -10,6 +10,7 @@ import math
 from collections import deque
 from dataclasses import dataclass
 
+from hw.ports import Direction
 from rotator.control.axis.sparks import Place, spark_deg
 
 KEPT_S = 5.0
@@ -36,6 +37,10 @@ class Slope:
     speed_dps: float
     rough_dps: float
     """Standard error of the speed, from the noise of the readings."""
+
+    @property
+    def way(self) -> Direction:
+        return Direction.PLUS if self.speed_dps > 0 else Direction.MINUS
 
 
 class Trend:

@@ -11,8 +11,9 @@ import math
 from hw.ports import Direction
 from rotator.control.axis.observed_motion import ObservedMotion, Window
 from rotator.control.axis.opening_watch import OpeningWatch
+from rotator.control.axis.relay_faults import CUT_BY_HAND, accusation, unstoppable
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.relay_trust import CUT_BY_HAND, accusation, unstoppable
+from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.trend import Slope
 from rotator.faults import Fault, FaultKind, Notice
 from rotator.status import Trust
@@ -34,9 +35,10 @@ CUT_IN_S = 3.0
 class WeldWatch:
     """`master`: an output switches the motors' supply."""
 
-    def __init__(self, seen: ObservedMotion, opening: OpeningWatch, *, master: bool) -> None:
+    def __init__(self, seen: ObservedMotion, opening: OpeningWatch, trusts: RelayTrusts, *, master: bool) -> None:
         self._seen = seen
         self._opening = opening
+        self._trusts = trusts
         self._master = master
         self._rested = True
         """The axis has stood since its relay opened."""
@@ -59,8 +61,8 @@ class WeldWatch:
 
     def accuse(self, direction: Direction) -> Fault | None:
         """The fault that an order in this direction meets, for as long as the opposite relay may be closed."""
-        opening, against = self._opening, Direction(-direction)
-        return accusation(self._seen.axis, against, opening.trust(against), opening.place, master=self._master)
+        against = Direction(-direction)
+        return accusation(self._seen.axis, against, self._trusts.of(against), self._opening.place, master=self._master)
 
     @property
     def notices(self) -> tuple[Notice, ...]:
@@ -93,10 +95,9 @@ class WeldWatch:
             self._fast_s = math.inf
             return None
         self._fast_s = min(self._fast_s, at_s)
-        way = Direction.PLUS if slope.speed_dps > 0 else Direction.MINUS
-        if self._rested and not self._still_turns(at_s, way, limit_dps):
+        if self._rested and not self._still_turns(at_s, slope.way, limit_dps):
             return None
-        return self._suspected(at_s, way, slope, limit_dps)
+        return self._suspected(at_s, slope, limit_dps)
 
     def _clearly(self, at_s: float) -> Slope | None:
         """The speed of an axis that turns like its motor, where noise asks for a longer look at a slower one."""
@@ -108,7 +109,7 @@ class WeldWatch:
     def _run_on(self) -> Fault | None:
         """It ran on, and stands now: at a stop, where the motor may still have current."""
         seen, opening, way = self._seen, self._opening, self._seen.relays.last
-        if not opening.ran_on or way is Direction.OFF or opening.trust(way) is not Trust.DOUBTED:
+        if not opening.ran_on or way is Direction.OFF or self._trusts.of(way) is not Trust.DOUBTED:
             return None
         opening.found_closed(way)
         measured = f"it went on {seen.name(way)} after its relay was switched off, and{opening.place or ' stands'}"
@@ -133,8 +134,8 @@ class WeldWatch:
         going = latest is not None and latest.speed_dps * way >= limit_dps / 2.0
         return going and at_s - self._fast_s >= STILL_FAST_S
 
-    def _suspected(self, at_s: float, way: Direction, slope: Slope, limit_dps: float) -> Fault:
-        seen = self._seen
+    def _suspected(self, at_s: float, slope: Slope, limit_dps: float) -> Fault:
+        seen, way = self._seen, slope.way
         self._opening.found_closed(way)
         self._cut_s = min(self._cut_s, at_s)
         welded = not self._rested and way is seen.relays.last

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.axis.goals import LONGEST_WAIT_S, JogGoal, jog, limit_reached
+from rotator.control.axis.goals import LONGEST_WAIT_S, JogGoal, jog
+from rotator.control.axis.relay_faults import limit_reached
 from rotator.faults import FaultKind
 
 MINUS, OFF, PLUS = Direction

@@ -9,7 +9,7 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
-from rotator.control.axis.relay_trust import CUT_BY_HAND
+from rotator.control.axis.relay_faults import CUT_BY_HAND
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
 from tests.control.axis.switch import Switch

@@ -6,7 +6,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.relay_trust import WAYS
+from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range

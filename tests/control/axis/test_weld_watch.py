@@ -7,7 +7,7 @@ import re
 import pytest
 
 from hw.ports import Direction
-from rotator.control.axis.relay_trust import CUT_BY_HAND
+from rotator.control.axis.relay_faults import CUT_BY_HAND
 from rotator.status import Trust
 from tests.control.axis.watched_motor import STEP_S, WatchedMotor
 

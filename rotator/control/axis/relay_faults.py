@@ -1,0 +1,67 @@
+"""The faults of a motor relay that may not have opened, and of a limit switch, in words for a person.
+
+Knows how far a relay is trusted, and whether a master is wired. `opening_watch` and `contact_watch` find that out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hw.ports import Axis, Direction
+from rotator.control.axis.relay_trust import BOTH_WAYS
+from rotator.faults import Fault, FaultKind, Notice
+from rotator.status import Trust, Trusts
+
+CUT_BY_HAND = "CUT MOTOR POWER!"
+WAYS = {
+    (Axis.AZIMUTH, Direction.PLUS): "clockwise",
+    (Axis.AZIMUTH, Direction.MINUS): "counter-clockwise",
+    (Axis.ELEVATION, Direction.PLUS): "up",
+    (Axis.ELEVATION, Direction.MINUS): "down",
+}
+"""What a person calls each direction."""
+
+
+def limit_reached(axis: Axis, direction: Direction) -> Fault:
+    measured = f"its switch has opened on the way {WAYS[axis, direction]}"
+    return Fault(FaultKind.LIMIT_SWITCH, axis, measured)
+
+
+def unstoppable(fault: Fault, *, master: bool) -> Fault:
+    """This fault, of an axis that its own relays may not stop: only cutting the supply is sure to.
+
+    `master`: an output switches the supply.
+    """
+    if master:
+        return replace(fault, measured=f"{fault.measured}; the box has switched the motors' supply off", cut=True)
+    measured = f"{fault.measured}; switch the motors' supply off by hand NOW, the box has no relay for that"
+    return replace(fault, measured=measured, cut=True, act_now=CUT_BY_HAND)
+
+
+def accusation(axis: Axis, direction: Direction, trust: Trust, place: str, *, master: bool) -> Fault | None:
+    """The fault of an order that would work against this relay; None: the relay is not suspected.
+
+    `place`: where the axis stands, for a person; empty: not known any more.
+    """
+    way = WAYS[axis, direction]
+    match trust:
+        case Trust.WELDED:
+            return unstoppable(Fault(FaultKind.RELAY_WELDED, axis, f"the relay {way} was found closed"), master=master)
+        case Trust.DOUBTED:
+            measured = f"the relay {way} is off, and it{place or ' stands'}, where a motor with current would stand too"
+            # The motor may have current and be held by its stop: with a master it is spared that.
+            return Fault(FaultKind.RELAY_UNSEEN, axis, measured, cut=master)
+        case _:
+            return None
+
+
+def doubts(axis: Axis, trusts: Trusts) -> tuple[Notice, ...]:
+    """Notices for a person who drives the axis to its stops on purpose: there the relays in doubt forbid nothing."""
+    return tuple(
+        Notice(
+            f"the box could not see the relay {WAYS[axis, way]} open, because the axis stood still: if it does not "
+            f"turn {WAYS[axis, Direction(-way)]} now, stop and check that relay"
+        )
+        for way, trust in zip(BOTH_WAYS, trusts, strict=True)
+        if trust is Trust.DOUBTED
+    )
