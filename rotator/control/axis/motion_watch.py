@@ -23,7 +23,7 @@ from rotator.status import ALL_OPEN, Trusts
 
 
 class MotionWatch:
-    """One axis. Give it every good reading (`see`) and every change of the relays (`note_relays`), in order of time.
+    """The `RelayWatch` of an axis whose angle is measured.
 
     `placed`: the angles are calibrated, and the limits known. Without that only the relays are watched. `look`: nothing
     has been seen of the axis in this run of the program.
@@ -40,12 +40,18 @@ class MotionWatch:
         placed: bool = True,
         look: bool = False,
     ) -> None:
-        self._placed = placed
-        self._seen = ObservedMotion(axis, limits, motors)
-        self._driven = DrivenWatch(self._seen)
+        self._axis = axis
+        self._limits = limits
+        self._master = master
         self._trusts = RelayTrusts(trusts)
+        self._begin(motors, placed=placed, look=look)
+
+    def _begin(self, motors: Mapping[Direction, Motor], *, placed: bool, look: bool) -> None:
+        self._placed = placed
+        self._seen = ObservedMotion(self._axis, self._limits, motors)
+        self._driven = DrivenWatch(self._seen)
         self._opening = OpeningWatch(self._seen, self._trusts, placed=placed, look=look)
-        self._weld = WeldWatch(self._seen, self._opening, self._trusts, master=master)
+        self._weld = WeldWatch(self._seen, self._opening, self._trusts, master=self._master)
 
     @property
     def trusts(self) -> Trusts:
@@ -78,16 +84,25 @@ class MotionWatch:
             return self._driven.judge(at_s, angle_deg, on_line=on_line) if self._placed else None
         return self._weld.judge(at_s) if on_line else None
 
+    def homes(self, *, homing: bool, failed: bool) -> None:
+        """An axis that measures has no end stop to find."""
+
+    def rescale(self, motors: Mapping[Direction, Motor], *, placed: bool) -> None:
+        """What the readings have shown of other places is dropped."""
+        relays = self._seen.relays
+        self._begin(motors, placed=placed, look=self.looks)
+        self.note_relays(relays)
+
     def forbids(self, direction: Direction) -> bool:
-        """Whether closing that relay now might work against the opposite one, where that has not let go."""
+        """Whether this relay must not close yet, because its opposite may still be closed."""
         return self._seen.relays.direction is not direction and self._opening.waits(direction)
 
     def accuse(self, direction: Direction) -> Fault | None:
-        """The fault that an order in this direction meets, for as long as the opposite relay may be closed."""
+        """The fault of an order in this direction, as long as the opposite relay is suspected."""
         return self._weld.accuse(direction)
 
     def acknowledge(self) -> None:
-        """A person knows; the supply comes back with the next order."""
+        """The fault is acknowledged: the supply comes back with the next order."""
         self._weld.acknowledge()
 
     def checked(self) -> None:

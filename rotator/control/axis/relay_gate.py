@@ -15,6 +15,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.relay_faults import WAYS, doubts, unstoppable
 from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.relay_watch import RelayWatch
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.axis.sensing import Condition
 from rotator.control.axis.settings import SwitchedSettings
@@ -40,7 +41,7 @@ class RelayGate:
         self._settings = settings
         self._lease_s = lease_s
         self._relays = RelayState()
-        self._watch = self._new_watch(motors, settings.trusts, placed=placed, look=settings.look)
+        self._watch = _new_watch(settings, motors, placed=placed)
         self._waits_s = math.inf
         """Since when a run waits for the opposite relay to be seen open; infinite: none waits."""
 
@@ -71,17 +72,12 @@ class RelayGate:
         self._watch.note_relays(relays)
 
     def homes(self, *, homing: bool, failed: bool) -> None:
-        """Whether it looks for its stop: an axis that counts is then let stand at it."""
-        if isinstance(self._watch, RunWatch):
-            self._watch.homes(homing=homing, failed=failed)
+        """Whether the axis looks for its end stop: it may then stand there, driven."""
+        self._watch.homes(homing=homing, failed=failed)
 
     def rescale(self, motors: Mapping[Direction, Motor], *, placed: bool) -> None:
         """The readings mean other places than before."""
-        if isinstance(self._watch, RunWatch):
-            self._watch.rescale(motors)
-        else:
-            self._watch = self._new_watch(motors, self._watch.trusts, placed=placed, look=self._watch.looks)
-            self._watch.note_relays(self._relays)
+        self._watch.rescale(motors, placed=placed)
 
     def acknowledge(self) -> None:
         self._watch.acknowledge()
@@ -129,16 +125,15 @@ class RelayGate:
 
         The look at the supply alone comes first: a person may not have seen what it shows.
         """
-        if self._watch.looks or (isinstance(self._watch, RunWatch) and self._watch.turns):
+        if self._watch.looks:
             return False
         plus, minus = self.trusts
         return self._settings.attended and (minus if direction > 0 else plus) is Trust.DOUBTED
 
-    def _new_watch(
-        self, motors: Mapping[Direction, Motor], trusts: Trusts, *, placed: bool, look: bool
-    ) -> MotionWatch | RunWatch:
-        axis, limits, master = self._settings.axis, self._settings.limits, self._settings.master
-        homing = self._settings.homing
-        if homing is None:
-            return MotionWatch(axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look)
-        return RunWatch(axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look)
+
+def _new_watch(settings: SwitchedSettings, motors: Mapping[Direction, Motor], *, placed: bool) -> RelayWatch:
+    axis, limits, homing = settings.axis, settings.limits, settings.homing
+    master, trusts, look = settings.master, settings.trusts, settings.look
+    if homing is None:
+        return MotionWatch(axis, limits, motors, master=master, trusts=trusts, placed=placed, look=look)
+    return RunWatch(axis, limits, motors, homing.period_s, homing.coast_s, master=master, trusts=trusts, look=look)

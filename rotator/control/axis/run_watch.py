@@ -35,7 +35,7 @@ def endless(axis: Axis, direction: Direction, run_s: float, limits: Range, speed
 
 
 class RunWatch:
-    """One axis, in the shape of `MotionWatch`: give it every reading and every change of the relays, in order of time.
+    """The `RelayWatch` of an axis that counts.
 
     `period_s`: from pulse to pulse at full speed. `coast_s`: how long the motor coasts at most. `look`: nothing has
     been seen of the axis in this run of the program.
@@ -75,18 +75,13 @@ class RunWatch:
 
     @property
     def looks(self) -> bool:
-        """Nothing has been seen of the axis yet."""
-        return not self._contact.looked
+        """It has not been seen to stand yet, or it turns though its relays are off."""
+        return not self._contact.looked or self._contact.turns
 
     @property
     def unsure(self) -> bool:
         """A relay may be closed, and the contact will not show that any more."""
         return self._contact.unsure
-
-    @property
-    def turns(self) -> bool:
-        """The axis turns though its relays are off."""
-        return self._contact.turns
 
     def note_relays(self, relays: RelayState) -> None:
         self._relays = relays
@@ -106,28 +101,28 @@ class RunWatch:
             return None
         return silent or endless(self._axis, relays.direction, at_s - relays.since_s, self._limits, speed_dps)
 
-    def rescale(self, motors: Mapping[Direction, Motor]) -> None:
-        """The count means other places than before. What is known of the relays stays."""
+    def rescale(self, motors: Mapping[Direction, Motor], *, placed: bool) -> None:
+        """The contact shows what it has shown before."""
         self._motors, self._angle_deg = motors, None
 
     def homes(self, *, homing: bool, failed: bool) -> None:
-        """Whether it looks for its stop, and a person watches: also until it is seen to stand there."""
+        """A person watches: the axis may stand at its stop, also until it has been seen to stand there."""
         if homing:
             self._silent.forget()
         self._contact.homing = homing or (self._contact.homing and not failed and self._contact.settles)
 
     def forbids(self, direction: Direction) -> bool:
-        """Whether closing that relay now might work against the opposite one, where that has not let go."""
+        """Whether this relay must not close yet, because its opposite may still be closed."""
         return self._contact.waits(direction)
 
     def accuse(self, direction: Direction) -> Fault | None:
-        """The fault that an order in this direction meets, for as long as the opposite relay may be closed."""
+        """The fault of an order in this direction, as long as the opposite relay is suspected."""
         against = Direction(-direction)
         place = "" if self._angle_deg is None else f" stands at {self._angle_deg:.1f}°"
         return accusation(self._axis, against, self._trusts.of(against), place, master=self._master)
 
     def acknowledge(self) -> None:
-        pass
+        """No fault of this watch keeps the supply off."""
 
     def checked(self) -> None:
         """A person has looked at both relays: they are open."""

@@ -56,11 +56,11 @@ class WeldWatch:
             self._cut_s = math.inf
 
     def acknowledge(self) -> None:
-        """A person knows; the supply comes back with the next order."""
+        """The fault is acknowledged: the supply comes back with the next order."""
         self._cut_s = math.inf
 
     def accuse(self, direction: Direction) -> Fault | None:
-        """The fault that an order in this direction meets, for as long as the opposite relay may be closed."""
+        """The fault of an order in this direction, as long as the opposite relay is suspected."""
         against = Direction(-direction)
         return accusation(self._seen.axis, against, self._trusts.of(against), self._opening.place, master=self._master)
 

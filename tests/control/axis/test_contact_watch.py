@@ -210,10 +210,10 @@ def test_after_a_run_that_is_over_a_change_of_the_contact_accuses_its_relay(way:
     shaft.run(way)
     shaft.pass_by(COAST_S)
     shaft.turn(4)
-    assert shaft.watch.turns
+    assert shaft.watch.looks
     assert shaft.watch.accuse(Direction(-way)) is not None
     shaft.pass_by(60.0)
-    assert not shaft.watch.turns
+    assert not shaft.watch.looks
     assert shaft.watch.accuse(Direction(-way)) is not None, "silence alone does not end it"
 
 
@@ -222,11 +222,11 @@ def test_while_it_turns_by_itself_no_relay_closes_and_silence_ends_that() -> Non
     shaft = Shaft()
     shaft.pass_by(5.0)
     shaft.turn(4)
-    assert shaft.watch.turns
+    assert shaft.watch.looks
     assert shaft.watch.forbids(PLUS)
     assert shaft.watch.forbids(MINUS)
     shaft.pass_by(5.0)
-    assert not shaft.watch.turns
+    assert not shaft.watch.looks
     assert shaft.watch.trusts == (Trust.OPEN, Trust.OPEN)
 
 
@@ -234,7 +234,7 @@ def test_a_change_while_it_still_coasts_is_no_turning_by_itself() -> None:
     shaft = Shaft()
     shaft.run(PLUS)
     shaft.turn(1)
-    assert not shaft.watch.turns
+    assert not shaft.watch.looks
     shaft.pass_by(4.0)
     assert shaft.watch.trusts == (Trust.OPEN, Trust.OPEN)
 
@@ -247,7 +247,7 @@ def test_one_late_change_is_a_coast_that_ended_just_beyond_an_edge_unless_the_co
     shaft.run(PLUS)
     shaft.pass_by(COAST_S + 0.3)
     shaft.turn(1)
-    assert shaft.watch.turns is bool(lost)
+    assert shaft.watch.looks is bool(lost)
     assert shaft.watch.forbids(PLUS), "it may be the first change of a motor with current"
     shaft.pass_by(4.0)
     assert shaft.watch.trusts == ((Trust.DOUBTED if lost else Trust.OPEN), Trust.OPEN)
@@ -260,7 +260,7 @@ def test_changes_that_are_read_late_may_have_come_in_time() -> None:
     shaft.pass_by(0.5)
     shaft.now_s += 0.5
     shaft.jump(2)
-    assert not shaft.watch.turns
+    assert not shaft.watch.looks
     shaft.pass_by(4.0)
     assert shaft.watch.trusts == (Trust.OPEN, Trust.OPEN)
 
