@@ -1,7 +1,7 @@
-"""One axis whose motor goes to an angle by itself: where it is to be now, and how fast its target moves on.
+"""One axis whose motor goes to an angle by itself: its goal, its limits and its faults.
 
-The sibling of `switched`. Knows its goal, its limits and its faults. Knows nothing of the sky, of the other axis, or of
-who gave the order. It does not know how the drive gets to an angle; it sees whether it does.
+The sibling of `switched`; `positioned_law` says where the drive is sent. Knows nothing of the sky, of the other axis,
+or of who gave the order. It does not know how the drive gets to an angle; it sees whether it does.
 """
 
 from __future__ import annotations
@@ -10,43 +10,36 @@ import math
 from dataclasses import replace
 
 from hw.ports import AngleSource, Direction
+from rotator.control.axis.axis_base import AxisBase
 from rotator.control.axis.fault_latch import FaultLatch
-from rotator.control.axis.goals import JogGoal, jog
+from rotator.control.axis.goals import JogGoal
 from rotator.control.axis.held_watch import HeldWatch
 from rotator.control.axis.pace import Pace
+from rotator.control.axis.positioned_law import PositionedLaw, Sent
 from rotator.control.axis.reach import UNSEEN_S, lost
 from rotator.control.axis.relay_faults import limit_reached, unstoppable
-from rotator.control.axis.sensing import Condition, Reading, Sensing
+from rotator.control.axis.sensing import Reading
 from rotator.control.axis.settings import PositionedSettings
-from rotator.control.axis.stray_watch import COMING_DEG, SERVO_STRAY_DEG, STRAY_DEG, StrayWatch
+from rotator.control.axis.stray_watch import SERVO_STRAY_DEG, STRAY_DEG, StrayWatch
 from rotator.control.axis.trend import Trend
-from rotator.control.commands import HOLD, Command, Decision, Hold, Steer
+from rotator.control.commands import HOLD, Command, Decision, Steer
 from rotator.control.refused import Refused
 from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.sectors import UNKNOWN
-from rotator.faults import Fault, FaultKind, Missing, Notice
+from rotator.faults import Fault, FaultKind, Notice
 from rotator.status import AxisStatus
 
-RATE_OVER_S = 0.25
-"""The target's rate is taken over this much of its path, half of it before now."""
-STILL_DPS = 0.05
-"""A target slower than this stands still."""
 
-
-class PositionedAxis:
+class PositionedAxis(AxisBase[PositionedSettings]):
     """The kind of `ControlledAxis` for drives that take an angle."""
 
     def __init__(self, settings: PositionedSettings, *, lease_s: float) -> None:
-        self.settings = settings
-        self._goal: AimGoal | JogGoal | None = None
-        self._faults = FaultLatch(settings.sensor)
-        self._condition = Condition()
-        self._lease_s = lease_s
         # A model jumps where it is corrected, and it does not scatter.
-        fastest_dps = settings.speed_dps if settings.source is AngleSource.MEASURED else math.inf
-        self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
+        super().__init__(settings, settings.speed_dps if settings.source is AngleSource.MEASURED else math.inf)
+        self._lease_s = lease_s
+        self._faults = FaultLatch(settings.sensor)
         servo = settings.accel_dps2 is not None and settings.source is AngleSource.MEASURED
         self._stray = StrayWatch(
             settings.axis,
@@ -60,30 +53,13 @@ class PositionedAxis:
         """The moment of the present cycle."""
         self._readings = Trend()
         self._pace = Pace(settings)
-        self._steered: tuple[Steer, float] | None = None
-        """Where the drive was sent last, and when; None: it holds."""
-        self._jogged = Direction.OFF
-        """Which way a jog sent it there."""
-
-    @property
-    def angle_deg(self) -> float | None:
-        return self._sensing.angle_deg
+        self._law = PositionedLaw(settings, self._pace.braking_deg(settings.speed_dps), lease_s)
+        self._sent: Sent | None = None
+        """Where the drive was sent last; None: it holds."""
 
     @property
     def speed_dps(self) -> float:
-        return self.settings.speed_dps
-
-    @property
-    def aiming(self) -> AimGoal | None:
-        return self._goal if isinstance(self._goal, AimGoal) else None
-
-    @property
-    def busy(self) -> bool:
-        return self._goal is not None
-
-    @property
-    def jog_is_held(self) -> bool:
-        return isinstance(self._goal, JogGoal) and (self._goal.held or self._goal.until_s is None)
+        return self._settings.speed_dps
 
     @property
     def fault(self) -> Fault | None:
@@ -91,8 +67,7 @@ class PositionedAxis:
 
     @property
     def driven(self) -> bool:
-        """Whether the drive was last sent elsewhere than where the axis is."""
-        return self._steered is not None and not self._arrived(self._steered[0])
+        return self._drive is not Direction.OFF
 
     @property
     def pressed_in_vain(self) -> bool:
@@ -100,7 +75,7 @@ class PositionedAxis:
 
     @property
     def confirmable(self) -> bool:
-        return self.settings.confirmable
+        return self._settings.confirmable
 
     @property
     def has_relays(self) -> bool:
@@ -111,74 +86,51 @@ class PositionedAxis:
         return False
 
     @property
-    def homing(self) -> bool:
-        return False
-
-    @property
     def cooling(self) -> bool:
         return False
 
     def moving(self, now_s: float) -> bool:
         return self.driven
 
-    def aim(self, goal: AimGoal) -> None:
-        self._goal = goal
-
-    @property
-    def missing(self) -> tuple[Missing, ...]:
-        return self.settings.missing
-
-    def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
-        self._goal = jog(direction, seconds, now_s, commissioned=not self.settings.missing, held=held)
-
     def home(self) -> None:
-        raise Refused(f"{self.settings.axis.value} knows its angle: it needs no homing")
+        raise Refused(f"{self._settings.axis.value} knows its angle: it needs no homing")
 
     def calibrate_end(self, *, high_end: bool) -> None:
-        raise Refused(f"{self.settings.axis.value} knows its own angles: it needs no ends")
+        raise Refused(f"{self._settings.axis.value} knows its own angles: it needs no ends")
 
     def checked(self) -> None:
-        raise Refused(f"{self.settings.axis.value} has no relays: there is nothing to look at")
-
-    def halt(self) -> None:
-        self._goal = None
-
-    def forget_path(self) -> None:
-        if isinstance(self._goal, AimGoal):
-            self._goal = self._goal.standing()
-
-    def confirmed(self) -> None:
-        self._sensing.begin_anew(self._sensing.calibration)
+        raise Refused(f"{self._settings.axis.value} has no relays: there is nothing to look at")
 
     def see(self, reading: Reading, now_s: float) -> None:
         self._condition = reading.condition
         self._seen_s = now_s
         unbelievable = self._sensing.take(reading, now_s, self._readings.noise_deg)
         for at_s, angle_deg in self._sensing.places if self._sensing.angle_deg is not None else ():
-            self._readings.see(at_s, angle_deg, self.settings.speed_dps)
+            self._readings.see(at_s, angle_deg, self._settings.speed_dps)
             self._pace.see(at_s, angle_deg)
         # The rotor's own report says more than what can be seen of it from here.
         reported = reading.condition.fault
         cause = unbelievable if reading.condition.latched else reported or unbelievable
         found = reported or unbelievable or self._turning(now_s) or self._straying(now_s)
-        if found is not None and found.kind is FaultKind.NOT_FOLLOWING and self.settings.master:
+        strays = found is not None and found.kind is FaultKind.NOT_FOLLOWING
+        if found is not None and strays and self._settings.master:
             # A control box that does not follow may not hear, and then no stop reaches it either.
             found = unstoppable(found, master=True)
         # A move that was too short to show anything counts with the one that shows it.
-        vain = self._stray.tries if found is not None and found.kind is FaultKind.NOT_FOLLOWING else 0
-        if self._faults.note(found, now_s, cause=cause, tries=int(self.driven) + vain):
+        tries = int(self.driven) + (self._stray.tries if strays else 0)
+        if self._faults.note(found, now_s, cause=cause, tries=tries):
             self._stray.struck()
 
     def _turning(self, now_s: float) -> Fault | None:
         """What is wrong while it is to hold. A model would show nothing, and wind turns an axis that is let go."""
-        if not self.settings.own_motor or self.settings.source is not AngleSource.MEASURED:
+        if not self._settings.own_motor or self._settings.source is not AngleSource.MEASURED:
             return None
-        return self._held.see(now_s, self._readings, self._sensing.angle_deg, holds=self._steered is None)
+        return self._held.see(now_s, self._readings, self._sensing.angle_deg, holds=self._sent is None)
 
     def _straying(self, now_s: float) -> Fault | None:
-        steered = self._steered[0] if self._steered else None
-        noise_deg = self._readings.noise_deg if self.settings.source is AngleSource.MEASURED else 0.0
-        return self._stray.see(now_s, steered, self._sensing.angle_deg, noise_deg, settling=self._condition.settling)
+        steer = self._sent.steer if self._sent else None
+        noise_deg = self._readings.noise_deg if self._settings.source is AngleSource.MEASURED else 0.0
+        return self._stray.see(now_s, steer, self._sensing.angle_deg, noise_deg, settling=self._condition.settling)
 
     def fail(self, fault: Fault) -> None:
         self._faults.fail(fault, self._seen_s, tries=int(self.driven))
@@ -189,21 +141,58 @@ class PositionedAxis:
         return self._faults.acknowledge(now_s, by_person=by_person)
 
     def decide(self, now_s: float) -> Decision:
-        command = self._wish(now_s)
-        if isinstance(command, Steer) and (blocked := self._blocked(command)):
-            self.fail(limit_reached(self.settings.axis, blocked))
-            self._goal, command = None, HOLD
-        self._steered = (command, now_s) if isinstance(command, Steer) else None
-        self._jogged = self._goal.direction if isinstance(self._goal, JogGoal) else Direction.OFF
-        match command:
-            case Steer(place_deg, 0.0, _):
-                self._pace.sent(now_s, place_deg)
-            case Steer():
-                self._pace.moves_on()
-        return Decision(command)
+        steer = self._wish(now_s)
+        if steer is not None and (blocked := self._blocked(steer)):
+            self.fail(limit_reached(self._settings.axis, blocked))
+            self._goal, steer = None, None
+        if steer is None:
+            self._sent = None
+            return Decision(HOLD)
+        self._sent = Sent(steer, now_s, self._goal.direction if isinstance(self._goal, JogGoal) else Direction.OFF)
+        if steer.rate_dps == 0.0:
+            self._pace.sent(now_s, steer.angle_deg)
+        else:
+            self._pace.moves_on()
+        return Decision(steer)
+
+    def _wish(self, now_s: float) -> Steer | None:
+        """Where the goal sends it; None: it is to hold. A fault ends the goal."""
+        if self.fault is not None:
+            self._goal = None
+        # A bad reading starts nothing. What moves may go on for a moment, until the next good one.
+        trusted = self._sensing.believable or self._sent is not None
+        until_s = min(now_s + self._lease_s, self._sensing.ridden_until_s)
+        if self._goal is None or not trusted or self._sensing.angle_deg is None or until_s <= now_s:
+            return None
+        match self._goal:
+            case AimGoal() if self.missing:
+                return None
+            case AimGoal(_, _, Path() as path):
+                return self._law.follow(now_s, path, until_s)
+            case AimGoal(target_deg, _, _):
+                return self._law.aim(target_deg, until_s)
+            case JogGoal() as jog:
+                steer = self._jog(now_s, self._sensing.angle_deg, jog, until_s)
+                self._goal = None if steer is None else jog
+                return steer
+            case _:
+                raise AssertionError("it has no end stop to find")
+
+    def _jog(self, now_s: float, angle_deg: float, jog: JogGoal, until_s: float) -> Steer | None:
+        """Where a jog sends it; None: the jog is over."""
+        if jog.until_s is not None and now_s >= jog.until_s:
+            return None
+        if jog.end_deg is not None:
+            return self._law.jog_to(jog.end_deg, angle_deg, until_s)
+        return self._law.jog(now_s, angle_deg, jog.direction, until_s, self._sent, settling=self._condition.settling)
+
+    def _blocked(self, steer: Steer) -> Direction | None:
+        """The direction of the command, where a limit switch forbids it."""
+        assert self._sensing.angle_deg is not None, "an axis is steered only where its angle is known"
+        return self._law.blocked(steer, self._sensing.angle_deg, self._condition.ends)
 
     def sweep(self, now_s: float, command: Command | None) -> Range:
-        if self.settings.missing or now_s - self._sensing.believed_s > UNSEEN_S or lost(self.fault):
+        if self.missing or now_s - self._sensing.believed_s > UNSEEN_S or lost(self.fault):
             return UNKNOWN
         span = self._pace.span(now_s)
         if not isinstance(command, Steer):
@@ -211,26 +200,27 @@ class PositionedAxis:
         # It comes to rest at the place of its last command, moving on for as long as that holds.
         on_deg = abs(command.rate_dps) * (command.until_s - now_s) + self._pace.braking_deg(command.rate_dps)
         end_deg = command.angle_deg + math.copysign(on_deg, command.rate_dps)
-        near_deg = self.settings.near_deg
+        near_deg = self._settings.near_deg
         return span.spanning(min(command.angle_deg, end_deg) - near_deg).spanning(
             max(command.angle_deg, end_deg) + near_deg
         )
 
     @property
     def room_deg(self) -> float:
-        return 2.0 * self.settings.near_deg
+        return 2.0 * self._settings.near_deg
 
     @property
     def about_deg(self) -> float:
-        return 1.1 * self.settings.near_deg
+        return 1.1 * self._settings.near_deg
 
     def hold_back(self, now_s: float, why: str) -> None:
-        self._steered = None
+        self._sent = None
         if isinstance(self._goal, JogGoal):
             self._goal = None
 
     def shortened(self, now_s: float, command: Steer) -> None:
-        self._steered = (command, now_s)
+        jog = self._sent.jog if self._sent else Direction.OFF
+        self._sent = Sent(command, now_s, jog)
         self._pace.sent(now_s, command.angle_deg)
         if isinstance(self._goal, JogGoal):
             self._goal = replace(self._goal, end_deg=command.angle_deg)
@@ -239,107 +229,10 @@ class PositionedAxis:
         """There are no relays to be noted."""
 
     def status(self, now_s: float, *, starts: int | None = None, more: tuple[Notice, ...] = ()) -> AxisStatus:
-        limits = self.settings.limits
-        return AxisStatus(
-            min_deg=limits.min_deg,
-            max_deg=limits.max_deg,
-            angle_deg=self._sensing.angle_deg,
-            seen=now_s <= self._sensing.ridden_until_s,
-            raw=self._sensing.raw,
-            source=self.settings.source,
-            target_deg=self.aiming.target_deg if self.aiming else None,
-            tolerance_deg=self.aiming.tolerance_deg if self.aiming else None,
-            drive=self._direction(),
-            moving=self.moving(now_s),
-            starts=starts,
-            missing=self.settings.missing,
-            confirmable=self.confirmable,
-            fault=self.fault,
-            noise_deg=self._readings.noise_deg,
-            notices=(*(each for each in (self._condition.notice, self._sensing.notice) if each), *more),
-        )
-
-    def _wish(self, now_s: float) -> Steer | Hold:
-        """What the goal asks for. A fault ends the goal."""
-        if self.fault is not None:
-            self._goal = None
-        # A bad reading starts nothing, and what moves may go on for a moment, until the next good one.
-        trusted = self._sensing.believable or self._steered is not None
-        if self._goal is None or not trusted or self._sensing.angle_deg is None:
-            return HOLD
-        until_s = min(now_s + self._lease_s, self._sensing.ridden_until_s)
-        if until_s <= now_s:
-            return HOLD
-        match self._goal:
-            case AimGoal() if self.settings.missing:
-                return HOLD
-            case AimGoal(_, _, Path() as path):
-                before_deg = path.angle_deg(now_s - RATE_OVER_S / 2)
-                rate_dps = (path.angle_deg(now_s + RATE_OVER_S / 2) - before_deg) / RATE_OVER_S
-                return self._within(path.angle_deg(now_s), rate_dps, until_s)
-            case AimGoal(target_deg, _, _):
-                return self._within(target_deg, 0.0, until_s)
-            case JogGoal(_, jog_until_s) if jog_until_s is not None and now_s >= jog_until_s:
-                self._goal = None
-                return HOLD
-            case JogGoal(end_deg=float() as end_deg):
-                return self._jog_to(end_deg, until_s)
-            case JogGoal(direction):
-                return self._jog(self._sensing.angle_deg, now_s, direction, until_s)
-
-    def _jog(self, angle_deg: float, now_s: float, direction: Direction, until_s: float) -> Steer | Hold:
-        """On from where this jog sent it last, at its own speed, as far as its limit; at first from where it is."""
-        limits = self.settings.limits
-        limit_deg = limits.max_deg if direction > 0 else limits.min_deg
-        if self._steered is None and (limit_deg - angle_deg) * direction <= self.settings.near_deg:
-            self._goal = None
-            return HOLD
-        # Where it can just brake, it is steered to its limit again and again: `hold` would let it come to rest beyond.
-        from_deg = angle_deg
-        if self._steered is not None and self._jogged is direction and not self._condition.settling:
-            steered, steered_s = self._steered
-            from_deg = steered.angle_deg + steered.rate_dps * (now_s - steered_s)
-        if (limit_deg - from_deg) * direction <= self._braking_deg:
-            return Steer(limit_deg, 0.0, until_s)
-        return self._within(from_deg, self.speed_dps * direction, until_s)
-
-    def _jog_to(self, end_deg: float, until_s: float) -> Steer | Hold:
-        """The end of a jog that may go no further."""
-        steer = self._within(end_deg, 0.0, until_s)
-        if not self._arrived(steer):
-            return steer
-        self._goal = None
-        return HOLD
+        notices = (*(each for each in (self._condition.notice, self._sensing.notice) if each), *more)
+        return self._status(now_s, starts, drive=self._drive, noise_deg=self._readings.noise_deg, notices=notices)
 
     @property
-    def _braking_deg(self) -> float:
-        """How far it takes to come to rest from its full speed."""
-        return self._pace.braking_deg(self.speed_dps)
-
-    def _within(self, angle_deg: float, rate_dps: float, until_s: float) -> Steer:
-        """No further than the limits; at a limit the target moves on alone."""
-        limits = self.settings.limits
-        kept_deg = limits.nearest(angle_deg)
-        outward = (kept_deg == limits.max_deg and rate_dps > 0) or (kept_deg == limits.min_deg and rate_dps < 0)
-        return Steer(kept_deg, 0.0 if outward or kept_deg != angle_deg else rate_dps, until_s)
-
-    def _blocked(self, command: Steer) -> Direction | None:
-        """The direction of the command, where a limit switch forbids it."""
-        assert self._sensing.angle_deg is not None, "an axis is steered only where its angle is known"
-        ahead_deg = command.angle_deg + command.rate_dps * self._lease_s - self._sensing.angle_deg
-        towards = Direction.PLUS if ahead_deg > 0 else Direction.MINUS
-        return towards if towards in self._condition.ends and abs(ahead_deg) >= COMING_DEG else None
-
-    def _arrived(self, steered: Steer) -> bool:
-        angle_deg = self._sensing.angle_deg
-        if angle_deg is None:
-            return True
-        return abs(steered.angle_deg - angle_deg) < self.settings.near_deg and abs(steered.rate_dps) < STILL_DPS
-
-    def _direction(self) -> Direction:
-        if self._steered is None or self._sensing.angle_deg is None or self._arrived(self._steered[0]):
-            return Direction.OFF
-        steered = self._steered[0]
-        ahead_deg = steered.angle_deg - self._sensing.angle_deg
-        towards = ahead_deg if abs(ahead_deg) >= self.settings.near_deg else steered.rate_dps
-        return Direction.PLUS if towards > 0 else Direction.MINUS
+    def _drive(self) -> Direction:
+        """The direction in which the drive turns it to where it was sent; OFF: it is there, or it holds."""
+        return self._law.towards(self._sent.steer, self._sensing.angle_deg) if self._sent else Direction.OFF

@@ -13,10 +13,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hw.ports import Direction
+from rotator.control.axis.goals import JogGoal
 from rotator.control.axis.motion import Motion, Motor
 from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.relay_trust import BOTH_WAYS
 from rotator.control.commands import Run
+from rotator.control.sky.mount import Range
 from rotator.control.sky.plan import Path, next_place_deg
+from rotator.control.sky.pointing import AimGoal
+from rotator.status import JOG_ENDS_DEG, LearntMotor
 
 FLOOR = 0.55
 """Below this share of the tolerance no error starts a motor, however slow the target: whole degrees are no better."""
@@ -68,6 +73,11 @@ class SwitchedLaw:
         wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
         self.motion.driven(now_s, relays.direction, wanted_deg)
 
+    @property
+    def learnt(self) -> tuple[LearntMotor, LearntMotor]:
+        plus, minus = (self.motion.motors[way] for way in BOTH_WAYS)
+        return LearntMotor(plus.speed_dps, plus.coast_deg), LearntMotor(minus.speed_dps, minus.coast_deg)
+
     def forget_run(self) -> None:
         """Something was wrong with the present or latest run: what it has taught is dropped."""
         self.motion.forget_run()
@@ -89,6 +99,32 @@ class SwitchedLaw:
         if self._running is Direction.OFF and again:
             return self.rest(now_s)
         return self._go(now_s, target_deg)
+
+    def aim(self, now_s: float, goal: AimGoal, limits: Range) -> Run:
+        """Towards this goal, inside the limits."""
+        match goal:
+            case AimGoal(_, tolerance_deg, Path() as path) if limits.holds(path.angle_deg(now_s)):
+                return self.follow(now_s, path, tolerance_deg)
+            case AimGoal(target_deg, tolerance_deg, path):
+                wanted_deg = path.angle_deg(now_s) if path else target_deg
+                return self.approach(now_s, limits.nearest(wanted_deg), tolerance_deg)
+
+    def jog(self, now_s: float, goal: JogGoal, angle_deg: float, limits: Range) -> Run | None:
+        """In this direction, up to the limit. None: it is there, and the jog is over."""
+        direction = goal.direction
+        limit_deg = self._within_reach(limits.max_deg if direction > 0 else limits.min_deg)
+        if (limit_deg - angle_deg) * direction <= JOG_ENDS_DEG:
+            return None
+        run = self.approach(now_s, limit_deg, JOG_ENDS_DEG)
+        # A jog never turns back. Where the law would, the motor rests, also before a reversal.
+        if run.direction is not direction:
+            return self.rest(now_s)
+        return Run(direction, min(run.until_s, self.jog_until_s(now_s, goal)))
+
+    def jog_until_s(self, now_s: float, goal: JogGoal) -> float:
+        """Until when a command of this jog holds, wherever the axis is."""
+        longest_s = now_s + self._timing.lease_s
+        return longest_s if goal.until_s is None else min(longest_s, goal.until_s)
 
     def follow(self, now_s: float, path: Path, tolerance_deg: float) -> Run:
         """Along with a target that moves; the tolerance is on the sky."""

@@ -1,0 +1,108 @@
+"""What both kinds of axis share: the goal, the sensor of the angle, and most of the status.
+
+Knows the goal and the readings. Does not know how the motor is driven: `switched` and `positioned` do.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import Generic, TypeVar
+
+from hw.ports import Direction
+from rotator.control.axis.end_calibration import EndCalibration
+from rotator.control.axis.goals import HomeGoal, JogGoal, jog
+from rotator.control.axis.sensing import NORMAL, Sensing
+from rotator.control.axis.settings import AxisSettings
+from rotator.control.sky.pointing import AimGoal
+from rotator.faults import Fault, Missing, Notice
+from rotator.status import AxisStatus
+
+Settings = TypeVar("Settings", bound=AxisSettings)
+
+
+class AxisBase(ABC, Generic[Settings]):
+    """The shared half of a `ControlledAxis`. `fastest_dps`: no reading moves faster; infinite: it may jump."""
+
+    def __init__(self, settings: Settings, fastest_dps: float) -> None:
+        self._settings = settings
+        self._goal: AimGoal | JogGoal | HomeGoal | None = None
+        self._sensing = Sensing(settings.axis, settings.window, settings.calibration, fastest_dps)
+        self._ends = EndCalibration(settings.limits, settings.missing, settings.calibration)
+        self._condition = NORMAL
+        """What the rotor reported with the latest reading."""
+
+    @property
+    @abstractmethod
+    def fault(self) -> Fault | None: ...
+
+    @property
+    @abstractmethod
+    def confirmable(self) -> bool: ...
+
+    @abstractmethod
+    def moving(self, now_s: float) -> bool: ...
+
+    @property
+    def missing(self) -> tuple[Missing, ...]:
+        return (*self._ends.missing, Missing.HOMING) if self._condition.lost else self._ends.missing
+
+    @property
+    def angle_deg(self) -> float | None:
+        return self._sensing.angle_deg
+
+    @property
+    def aiming(self) -> AimGoal | None:
+        return self._goal if isinstance(self._goal, AimGoal) else None
+
+    @property
+    def busy(self) -> bool:
+        return self._goal is not None
+
+    @property
+    def jog_is_held(self) -> bool:
+        return isinstance(self._goal, JogGoal) and (self._goal.held or self._goal.until_s is None)
+
+    @property
+    def homing(self) -> bool:
+        return isinstance(self._goal, HomeGoal)
+
+    def aim(self, goal: AimGoal) -> None:
+        self._goal = goal
+
+    def jog(self, direction: Direction, seconds: float | None, now_s: float, *, held: bool = False) -> None:
+        self._goal = jog(direction, seconds, now_s, commissioned=not self.missing, held=held)
+
+    def halt(self) -> None:
+        self._goal = None
+
+    def forget_path(self) -> None:
+        if isinstance(self._goal, AimGoal):
+            self._goal = self._goal.standing()
+
+    def confirmed(self) -> None:
+        self._sensing.begin_anew(self._sensing.calibration)
+
+    def _status(
+        self, now_s: float, starts: int | None, *, drive: Direction, noise_deg: float, notices: tuple[Notice, ...]
+    ) -> AxisStatus:
+        """The axis as others see it, but for what only relays have."""
+        return AxisStatus(
+            min_deg=self._settings.limits.min_deg,
+            max_deg=self._settings.limits.max_deg,
+            angle_deg=self._sensing.angle_deg,
+            seen=now_s <= self._sensing.ridden_until_s,
+            raw=self._sensing.raw,
+            source=self._settings.source,
+            target_deg=self.aiming.target_deg if self.aiming else None,
+            tolerance_deg=self.aiming.tolerance_deg if self.aiming else None,
+            drive=drive,
+            moving=self.moving(now_s),
+            starts=starts,
+            missing=self.missing,
+            lost=self._condition.lost,
+            confirmable=self.confirmable,
+            fault=self.fault,
+            homing=self.homing,
+            notices=notices,
+            noise_deg=noise_deg,
+        )

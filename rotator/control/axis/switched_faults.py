@@ -1,0 +1,97 @@
+"""What is wrong with a switched axis: by its readings, by what the rotor reports, and by what it was tried for in vain.
+
+Knows the watches that find faults, and the latch that keeps one. Does not stop the motor.
+"""
+
+from __future__ import annotations
+
+from rotator.control.axis.attempts import Attempts
+from rotator.control.axis.relay_gate import RelayGate
+from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.sensing import Reading, Sensing
+from rotator.control.axis.settings import SwitchedSettings
+from rotator.control.axis.vain_presses import VainPresses
+from rotator.control.axis.weld_watch import TURNS
+from rotator.control.sky.mount import Range
+from rotator.faults import Fault, FaultKind, Notice
+
+WHY_IT_TURNS = (FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF)
+"""Faults that say more than the notice TURNS."""
+
+
+class SwitchedFaults:
+    """Give it every reading (`look`) and every change of the relays (`note_relays`), in order of time."""
+
+    def __init__(self, settings: SwitchedSettings, gate: RelayGate) -> None:
+        self._counts = settings.homing is not None
+        self._gate = gate
+        self._attempts = Attempts(settings.axis, settings.limits, settings.sensor)
+        self._vain = VainPresses()
+        self._astray: Fault | None = None
+        """What is wrong with the motion, by the latest reading."""
+
+    @property
+    def fault(self) -> Fault | None:
+        """What stopped the axis; None: it may be driven."""
+        return self._attempts.fault
+
+    @property
+    def limits(self) -> Range:
+        """How far the axis may turn now."""
+        return self._attempts.limits
+
+    @property
+    def vain_presses(self) -> bool:
+        """Whether presses without a calibration did not move the axis often enough."""
+        return self._vain.enough
+
+    def look(
+        self, reading: Reading, sensing: Sensing, unbelievable: Fault | None, now_s: float, *, homing: bool
+    ) -> bool:
+        """Find what the latest reading shows. Returns whether a new fault is kept.
+
+        `unbelievable`: what is wrong with the sensor itself.
+        """
+        for at_s, angle_deg in sensing.places:
+            found = self._gate.see(at_s, angle_deg, reading.condition)
+            if sensing.calibration is None:
+                self._vain.see(at_s, angle_deg, self._gate.noise_deg)
+            elif not self._counts:
+                found = found or self._attempts.see(at_s, angle_deg, self._gate.noise_deg)
+            self._astray = None if homing else found
+        # The rotor's own report says more than what can be seen of it from here.
+        reported, present = reading.condition.fault, self._gate.blind(unbelievable, now_s) or self._astray
+        cause = present if reading.condition.latched else reported or present
+        if homing and reported and not reported.cut:
+            # At its end stop missing pulses are normal. A motor that turns by itself is still a fault.
+            reported = None
+        return self._attempts.note(reported or present, now_s, cause=cause)
+
+    def fail(self, fault: Fault) -> bool:
+        """The axis is stopped by this fault. Returns whether it is kept."""
+        return self._attempts.fail(fault)
+
+    def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
+        """Returns whether the fault is acknowledged."""
+        if by_person:
+            self._vain.forget()
+        acknowledged = self._attempts.acknowledge(now_s, by_person=by_person)
+        if acknowledged:
+            self._gate.acknowledge()
+        return acknowledged
+
+    def forget(self) -> None:
+        """The readings mean other places than before."""
+        self._attempts.forget()
+
+    def note_relays(self, relays: RelayState, speed_dps: float) -> None:
+        """The relays have changed. `speed_dps`: of the motor that runs now; 0: none runs."""
+        self._gate.note_relays(relays)
+        self._attempts.note_relays(relays, speed_dps)
+        self._vain.note_relays(relays)
+
+    def notices(self, now_s: float) -> tuple[Notice, ...]:
+        """What a person should know of its motion though it stops nothing."""
+        told = self.fault is not None and self.fault.kind in WHY_IT_TURNS
+        gate = (notice for notice in self._gate.notices(now_s) if not (told and notice == TURNS))
+        return (*gate, *self._attempts.notices)
