@@ -1,4 +1,4 @@
-"""What a motor was tried for in vain: its fault, who may try it again, and how near to where it stood still.
+"""Failed runs of a motor: the fault, who may try again, and where the axis stopped.
 
 Knows the axis's latest faults, its short runs, and the places at which it stood still. Does not find any other fault,
 and stops nothing.
@@ -10,7 +10,7 @@ from hw.ports import Axis
 from rotator.control.axis.fault_latch import FaultLatch
 from rotator.control.axis.met_stops import MetStops
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.short_runs import STANDING, ShortRuns
+from rotator.control.axis.short_runs import STANDING_FAULTS, ShortRuns
 from rotator.control.sky.mount import Range
 from rotator.faults import POT, Fault, FaultKind, Notice
 
@@ -51,12 +51,12 @@ class Attempts:
         return self._short_runs.see(at_s, angle_deg, noise_deg)
 
     def note(self, found: Fault | None, now_s: float, *, cause: Fault | None) -> bool:
-        """What is wrong at this moment, and as much of it as acknowledging would not end. Returns whether it is new."""
+        """What is wrong now; `cause`: the part that is still present. Returns whether a new fault is kept."""
         self._now_s = now_s
         return self._struck(self._faults.note(found, now_s, cause=cause, tries=self._tries(found)))
 
     def fail(self, fault: Fault) -> bool:
-        """The axis is stopped by this fault. Returns whether there was none before."""
+        """The axis is stopped by this fault. Returns whether it is kept."""
         return self._struck(self._faults.fail(fault, self._now_s, tries=self._tries(fault)))
 
     def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
@@ -76,11 +76,11 @@ class Attempts:
         """How often the motor was on in vain before this fault: it runs now, or its last runs were short."""
         if self._relays.closed or found is None:
             return int(self._relays.closed)
-        return max(1, self._short_runs.tries) if found.kind in {*STANDING, FaultKind.WRONG_WAY} else 0
+        return max(1, self._short_runs.tries) if found.kind in {*STANDING_FAULTS, FaultKind.WRONG_WAY} else 0
 
     def _struck(self, new: bool) -> bool:
         if new and self.fault is not None:
             self._short_runs.struck(self.fault.kind)
-            if self.fault.kind in STANDING and self._relays.last and self._angle_deg is not None:
+            if self.fault.kind in STANDING_FAULTS and self._relays.last and self._angle_deg is not None:
                 self._stops.stood_still(self.fault.kind, self._relays.last, self._angle_deg)
         return new

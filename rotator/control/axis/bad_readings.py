@@ -10,11 +10,11 @@ from collections import deque
 from rotator.faults import Notice
 
 LOOKED_AT = 100
-"""So many of the latest readings count: five seconds at 20 Hz, two at 50 Hz."""
+"""Number of latest readings that count: five seconds at 20 Hz, two at 50 Hz."""
 NOTICED, NOTICED_NO_MORE = 4, 1
 TOO_MANY = 8
 HEALED_S = 1.0
-"""A fault for too many bad readings can be acknowledged so long after the last one."""
+"""A fault for too many bad readings can be acknowledged this long after the last bad one."""
 NOTICE = Notice(
     "bad readings now and then: look for a loose wire, a worn pot, or motor cables beside the sensor's", "BAD READINGS"
 )
@@ -53,7 +53,7 @@ class BadReadings:
         self._too_many = self._too_many or self._count >= TOO_MANY
 
     def too_many(self, now_s: float) -> bool:
-        """Whether the sensor is not good enough to move with. Once it was not, it has to be good for a while."""
+        """Whether the sensor is too bad to move the axis. It is good again after a while without a bad reading."""
         if self._too_many and self._bad_s is not None and now_s - self._bad_s >= HEALED_S:
             self._too_many = False
             self._bad.clear()

@@ -2,7 +2,7 @@
 
 Knows when the contact changed, what the relays do, and on which sides of the axis another edge of the contact lies
 before its stop. A contact that is silent shows that the motor has no current only where that motor would soon have
-changed it: after a run in which it did, and with an edge ahead. Else the relay is in doubt, as `opening_watch` has it.
+changed it: after a run in which it did, and with an edge ahead. Otherwise the relay is in doubt, as in `opening_watch`.
 Times are compared with those of the latest run; before one, with those of a motor at a third of its speed.
 """
 
@@ -21,17 +21,17 @@ from rotator.status import Trust
 SLOWEST_SHARE = 0.3
 """A motor with current turns at this share of its speed at least."""
 SURE = 1.4
-"""A contact that is silent for so many times the longest pause between two changes of a run is silent."""
-READ_S = 0.1
+"""A contact is silent after this many times the longest pause between two changes of a run."""
+CHANGE_READ_S = 0.1
 """A change of the contact has been read after this time."""
 UNSURE_PERIODS = 2.0
 """Where a change of the contact may have been counted the wrong way, no stop may be nearer than this."""
 BLIND_PERIODS = 3.0
-"""Driven for so many periods in all without a change, an axis was not seen to turn."""
+"""An axis driven for this many periods in all without a change of its contact was not seen to turn."""
 TURNING_CHANGES = 2
-"""So many late changes make a motor with current. One alone does not: a coasting axis may end just beyond an edge.
+"""Two late changes mean that the motor still has current. One may come from a coast that ends just beyond an edge.
 
-Where the count is lost one is enough, for the next may lie behind a stop.
+Where the count is lost, one is enough: the next edge may lie behind a stop.
 """
 
 
@@ -59,25 +59,25 @@ class ContactWatch:
         self._read_s = -math.inf
         """When the latest reading was taken."""
         self._late_changes = 0
-        """The changes at a time when a motor without current stands, until the contact is silent again."""
+        """The changes of the contact when a motor without current would stand, until it is silent again."""
         self._changed_s = -math.inf
         self._angle_deg = 0.0
         self._ahead: frozenset[Direction] = frozenset()
         self._turned_back = False
-        """A change after the latest run was counted as a turn back: it may as well have been the next edge ahead."""
+        """A change after the latest run counted as a turn back. It may be an edge ahead: the count is uncertain."""
         self._moments_s: deque[float] = deque(maxlen=3)
         """The latest changes of the present or latest run."""
         self._blind_s = 0.0
         """For how long relays were closed since the contact last changed."""
         self.turns = False
-        """The contact has changed though the relays are off, and it has not been silent since."""
+        """The contact has changed while the relays were off, and has not been silent since then."""
         self._settled = False
         """The contact has been silent for long enough since the latest run."""
         self._ran_since = dict.fromkeys(BOTH_WAYS, False)
         """Whether a relay has been closed again since it was doubted."""
 
     def waits(self, direction: Direction) -> bool:
-        """Whether that relay stays open, because nothing has shown yet that its opposite is open."""
+        """Whether that relay has to wait, because nothing has shown yet that its opposite is open."""
         if self._relays.direction is direction:
             return False
         # A late change may be the first of a motor with current: the contact must be silent first.
@@ -91,7 +91,7 @@ class ContactWatch:
 
     @property
     def unsure(self) -> bool:
-        """A relay may be closed, and the contact has been silent for so long that it will not show that any more."""
+        """A relay may be closed, and the contact has been silent for too long: it will not show that any more."""
         return self._settled and Trust.DOUBTED in self._trusts.both
 
     def checked(self) -> None:
@@ -100,7 +100,7 @@ class ContactWatch:
         self._blind_s, self.turns = 0.0, False
 
     def silent(self) -> None:
-        """Driven, and its contact did not change: a fault has ended the run."""
+        """A fault has ended a run in which the contact did not change."""
         self._blind_s = math.inf
 
     def note_relays(self, relays: RelayState) -> None:
@@ -133,7 +133,7 @@ class ContactWatch:
             self._supplied_s = None
         else:
             self._supplied_s = at_s if self._supplied_s is None else self._supplied_s
-            still_s = relays.since_s + self._coast_s + READ_S
+            still_s = relays.since_s + self._coast_s + CHANGE_READ_S
             if before_s > still_s:
                 self._late_changes += changes
             if changed and self._late_changes >= (1 if condition.lost else TURNING_CHANGES):
@@ -160,17 +160,17 @@ class ContactWatch:
         if not lost:
             return self._blind_s <= BLIND_PERIODS * self._period_s
         measured = len(self._moments_s) == self._moments_s.maxlen
-        # It may have met its stop at any place: it must have changed as lately as one that turns.
+        # It may have met its stop anywhere: the last change must be as recent as that of an axis that turns.
         return self._blind_s <= (self._moments_s[-1] - self._moments_s[0] if measured else self._period_s)
 
     @property
     def _room_deg(self) -> float:
-        """From where it is counted to the stop in the direction of the latest run."""
+        """From the counted angle to the stop in the direction of the latest run."""
         limits = self._limits
         return limits.max_deg - self._angle_deg if self._relays.last > 0 else self._angle_deg - limits.min_deg
 
     def _turns_by_itself(self) -> None:
-        """The contact changes, and does not say which way the axis turns."""
+        """The contact changes by itself. It does not show in which direction the axis turns."""
         self.turns = True
         for way in BOTH_WAYS:
             if self._trusts.of(way) is not Trust.OPEN and way is self._relays.last:

@@ -11,7 +11,7 @@ from rotator.control.sky.mount import Range
 from rotator.faults import Missing
 
 BEYOND_DEG = 1.0
-"""So far beyond the calibrated ends an axis may stand by its coast and the noise of its sensor."""
+"""An axis may stand this far beyond its calibrated ends, by its coast and the noise of its sensor."""
 
 
 class EndCalibration:

@@ -13,7 +13,7 @@ from rotator.faults import POT, Fault
 
 TRIES = 3
 TRIES_WITHIN_S = 600.0
-"""A motor that so many faults have stopped within this time is not tried again because a program says so."""
+"""After this many faults within this time only a person may have the motor tried again, or the time."""
 
 
 class FaultLatch:
@@ -24,14 +24,15 @@ class FaultLatch:
         """What reads the angle, in a word: each fault names it."""
         self.fault: Fault | None = None
         self._cause: Fault | None = None
-        """What acknowledging does not end, because it is there now."""
+        """The fault whose cause is still present. It stays after an acknowledgement."""
         self._tries_s: deque[float] = deque(maxlen=TRIES)
         """When faults last stopped the motor."""
 
     def note(self, found: Fault | None, now_s: float, *, cause: Fault | None, tries: int) -> bool:
-        """What is wrong at this moment, and as much of it as acknowledging would not end. Returns whether it is new.
+        """What is wrong at this moment. Returns whether a new fault is kept.
 
-        `tries`: how often the motor was on in vain before; 0: it was not.
+        `cause`: the part that is still present, so it returns after an acknowledgement. `tries`: how often the motor
+        was on in vain before.
         """
         self._cause = cause
         if self.fault and self.fault.passing:
@@ -39,7 +40,7 @@ class FaultLatch:
         return self.fail(found, now_s, tries=tries)
 
     def fail(self, fault: Fault | None, now_s: float, *, tries: int) -> bool:
-        """Keep this fault, if there is none yet or only this one asks for the supply to be cut. Returns whether."""
+        """Store it if no fault is stored, or if it cuts the supply and the stored one does not. Returns whether."""
         if fault is None or (self.fault is not None and (self.fault.cut or not fault.cut)):
             return False
         if not fault.passing:
@@ -57,7 +58,7 @@ class FaultLatch:
         return len(self._tries_s) == TRIES and now_s - self._tries_s[0] < TRIES_WITHIN_S
 
     def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
-        """End the fault. While its cause is there, it comes back at once. Returns whether it has been acknowledged."""
+        """End the fault. While its cause is present, it returns at once. Returns whether it has been acknowledged."""
         if by_person:
             self._tries_s.clear()
         elif self.needs_person(now_s):
@@ -66,5 +67,5 @@ class FaultLatch:
         return True
 
     def _named(self, fault: Fault | None) -> Fault | None:
-        """In the words of this axis's sensor."""
+        """The same fault, naming the sensor of this axis."""
         return fault if fault is None or fault.sensor == self._sensor else replace(fault, sensor=self._sensor)

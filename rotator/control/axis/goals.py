@@ -1,4 +1,4 @@
-"""What an axis may be at beside following a target: a jog, and the way to its end stop.
+"""The goals of an axis beside a target: a jog, and the way to its end stop.
 
 Knows values. `sky.pointing.AimGoal` is the third kind of goal. Knows no motor.
 """
@@ -22,11 +22,11 @@ class JogGoal:
     until_s: float | None
     """None: until it is halted, or at its limit."""
     waits_s: float = LONGEST_WAIT_S
-    """For so long more its time does not pass while its relay may not close yet."""
+    """How much longer a waiting relay may postpone the end of the jog."""
     held: bool = False
     """Its sender holds a button, and renews it."""
     end_deg: float | None = None
-    """Where it comes to rest before a forbidden sector; None: no sector was near yet."""
+    """Where it comes to rest before a forbidden sector; None: no sector is near."""
 
     def put_off(self, by_s: float) -> JogGoal:
         """Its relay waited for `by_s`."""

@@ -1,4 +1,4 @@
-"""Whether a control box turns its axis though it is to hold: it does not hear its chip, or its own pot is broken.
+"""Whether a control box turns its axis when it has to hold: it does not hear its chip, or its own pot is broken.
 
 Knows the axis's readings as a line, and since when its drive holds. Decides nothing: it returns a fault, and the supply
 goes, where the box can switch it.
@@ -12,14 +12,14 @@ from rotator.control.axis.trend import Trend
 from rotator.faults import Fault, FaultKind
 
 COASTS_S = 1.0
-"""For so long after its last order a box may turn on: its relay, its coast, and the step of a stop."""
+"""A box may turn on for this long after its last order: its relay, its coast, and the step of a stop."""
 LOOKED_AT_S = 1.0
-"""The speed of so long a time counts."""
-TURNING_SHARE = 0.25
+"""The speed is the mean over this time."""
+HELD_TURNING_SHARE = 0.25
 """An axis that is faster than this share of its motor's speed is turned by its motor."""
-CLEAR_ERRORS = 4.0
+TURNS_ERRORS = 4.0
 TURNED_DEG = 4.0
-"""And it has turned so far since it was to hold: a pot that disagrees with the box's own moves it by less."""
+"""It must also have turned this far since it had to hold. Two pots that disagree move it by less."""
 ADVICE = "Check the wires of its digital pot and of the control box's own pot"
 NO_RELAY = "; fit a relay in the boxes' supply (digipot.enable): without it they also turn at power-on"
 
@@ -35,10 +35,10 @@ class HeldWatch:
 
     def __init__(self, axis: Axis, speed_dps: float, *, master: bool) -> None:
         self._axis = axis
-        self._limit_dps = TURNING_SHARE * speed_dps
+        self._limit_dps = HELD_TURNING_SHARE * speed_dps
         self._master = master
         self._held_s: float | None = None
-        """Since when it is to hold; None: it is sent somewhere."""
+        """Since when it has to hold; None: it is sent somewhere."""
         self._held_deg: float | None = None
         """Where it came to rest, or should have."""
 
@@ -54,7 +54,7 @@ class HeldWatch:
         from_s = now_s - LOOKED_AT_S
         seen_through = max(self._held_s + COASTS_S, readings.since_s) <= from_s
         slope = readings.slope(from_s) if seen_through else None
-        if slope is None or abs(slope.speed_dps) < max(self._limit_dps, CLEAR_ERRORS * slope.rough_dps):
+        if slope is None or abs(slope.speed_dps) < max(self._limit_dps, TURNS_ERRORS * slope.error_dps):
             return None
         if abs(angle_deg - self._held_deg) < TURNED_DEG:
             return None

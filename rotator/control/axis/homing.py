@@ -2,9 +2,9 @@
 
 Down until the end shows: the limit switch opens, or, without one, no pulse comes for three periods. A dead contact and
 a branch look the same. So up again until pulses have come, and down once more: when the same number comes back, the
-axis is home; else it tries again. Changes are counted only while the shaft stands, for a shaft that coasts over an edge
-of the contact and turns back there changes it at any moment. Knows what the relays do, the contact and the switch. Does
-not know an angle, and cannot tell a stop from a branch that holds the antenna: the person can.
+axis is home; otherwise it tries again. Changes are counted only while the shaft stands: a shaft that coasts over an
+edge of the contact, and turns back there, changes it at any moment. Knows what the relays do, the contact and the
+switch. Does not know an angle, and cannot tell a stop from a branch that holds the antenna: the person can.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ TRIES = 3
 """Times that the way up and back is tried. A shaft that trembles on an edge changes the contact more often."""
 STUCK = 8
 """Changes of the contact on the way up after which a limit switch that is still open does not work."""
-READ_S = 0.2
+CHANGE_SURELY_READ_S = 0.2
 """The time after which a change of the contact has been read for certain."""
 
 
@@ -72,13 +72,13 @@ class Homing:
         self.home_deg = settings.home_deg
         self.homed = False
         self.failure = ""
-        """Why homing has given up; empty: it has not."""
+        """Why homing has given up; empty: homing continues."""
         self._settings = settings
         self._quiet_after_s = QUIET_PERIODS * settings.period_s
         self._longest_s = 1.5 * settings.travel_s + 2.0 * self._quiet_after_s
         self._phase = _Phase.DOWN
         self._since_s: float | None = None
-        """Since when it has been in this phase; None: it has not begun."""
+        """Since when it has been in this phase; None: before the first step."""
         self._still_s = 0.0
         """Since when neither the contact nor the relays have changed."""
         self._driven = Direction.OFF
@@ -87,7 +87,7 @@ class Homing:
         self._base = 0
         """The changes of the contact at the latest rest."""
         self._up: int | None = None
-        """How many changes came on the way up; None: it has not been up yet."""
+        """How many changes came on the way up; None: before the first way up."""
         self._tries = 0
 
     @property
@@ -109,7 +109,7 @@ class Homing:
             return self._fail("its motor ran for longer than the whole travel takes, and pulses still come")
         still_s = now_s - self._still_s
         quiet = driven is _MOTOR[self._phase] and still_s > self._quiet_after_s
-        stands = driven is Direction.OFF and still_s >= self._settings.coast_s + READ_S
+        stands = driven is Direction.OFF and still_s >= self._settings.coast_s + CHANGE_SURELY_READ_S
         at_switch = Direction.MINUS in condition.ends
         match self._phase:
             case _Phase.DOWN if at_switch or (quiet and not self._settings.switch):

@@ -13,9 +13,9 @@ from rotator.control.sky.mount import Range
 from rotator.faults import FaultKind, Notice
 
 KEPT_OFF_DEG = 2.0
-"""An axis ends so far before a stop that it has met."""
+"""The axis ends this far before a stop that it has met."""
 SAME_DEG = 3.0
-"""Where it stands still in mid-travel twice, no further apart, there is a stop."""
+"""Two places where it stood still in mid-travel are one stop if they are no further apart."""
 
 
 class MetStops:

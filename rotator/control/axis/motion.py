@@ -19,11 +19,11 @@ JUMP_DEG = 3.0
 """A reading this far from the model is a spark on the wire, unless it stays."""
 JUMP_READINGS = 3
 LAGS_READINGS, LAGS_DEG = 20, 0.3
-"""A model that has been behind by this much, on average over so many readings at full speed, is too slow."""
-SETTLE_S = 0.8
+"""The model is too slow if it was behind by this much, on average over this many readings at full speed."""
+RESTS_AFTER_S = 0.8
 """How long a motor takes to come to rest for certain; the readings after that show where it stopped."""
 LANDING_READINGS = 10
-LEARN = 0.35
+LEARN_SHARE = 0.35
 """How far one run moves what has been learnt."""
 LEAST_RUN_DEG = 1.0
 """Shorter runs teach nothing: the noise of the readings is as large as they are."""
@@ -60,12 +60,12 @@ class _Landing:
     run: _Run
     off_s: float
     wanted_deg: float
-    at_speed: float
+    speed_share: float
     readings: list[float]
 
 
 class Motion:
-    """One axis. Give it every reading (`see`) and every change of the relays (`driven`), in order of time."""
+    """One axis. Give it every reading (`see`) and every change of the relays (`note_drive`), in order of time."""
 
     def __init__(self, motors: Mapping[Direction, Motor]) -> None:
         self.motors = dict(motors)
@@ -82,7 +82,7 @@ class Motion:
     def resting(self) -> bool:
         return self._run is None and self._landing is None
 
-    def driven(self, now_s: float, direction: Direction, wanted_deg: float) -> None:
+    def note_drive(self, now_s: float, direction: Direction, wanted_deg: float) -> None:
         """From now on the relays drive that way. OFF: the run is to come to rest at `wanted_deg`."""
         if self.angle_deg is None or direction is (self._run.direction if self._run else Direction.OFF):
             return
@@ -93,8 +93,8 @@ class Motion:
             self._run = _Run(direction, now_s, self.angle_deg if self._landing is None else None)
             self._landing = None
         elif run is not None:
-            at_speed = self._speed_dps * run.direction / self.motors[run.direction].speed_dps
-            self._landing = _Landing(run, now_s, wanted_deg, at_speed, [])
+            speed_share = self._speed_dps * run.direction / self.motors[run.direction].speed_dps
+            self._landing = _Landing(run, now_s, wanted_deg, speed_share, [])
 
     def forget_run(self) -> None:
         """Learn nothing from the present or latest run: something was wrong with it."""
@@ -195,7 +195,7 @@ class Motion:
     def _land(self, at_s: float, angle_deg: float) -> None:
         """Once the axis has come to rest, learn from how far the run took it and from how far it missed its goal."""
         landing = self._landing
-        if landing is None or at_s - landing.off_s < SETTLE_S:
+        if landing is None or at_s - landing.off_s < RESTS_AFTER_S:
             return
         landing.readings.append(angle_deg)
         if len(landing.readings) < LANDING_READINGS:
@@ -211,9 +211,9 @@ class Motion:
             # speed times the time for which it was on.
             gone_deg = (rest_deg - run.from_deg) * run.direction
             if gone_deg > LEAST_RUN_DEG:
-                trust = LEARN * min(1.0, gone_deg / (4 * LEAST_RUN_DEG))
+                trust = LEARN_SHARE * min(1.0, gone_deg / (4 * LEAST_RUN_DEG))
                 speed_dps += trust * (gone_deg / (landing.off_s - run.started_s) - speed_dps)
-        if landing.at_speed > FULL_SPEED:
+        if landing.speed_share > FULL_SPEED:
             missed_deg = (rest_deg - landing.wanted_deg) * run.direction
-            coast_deg = min(max(coast_deg + LEARN * missed_deg, 0.0), 3.0 * speed_dps)
+            coast_deg = min(max(coast_deg + LEARN_SHARE * missed_deg, 0.0), 3.0 * speed_dps)
         self.motors[run.direction] = Motor(speed_dps, coast_deg)

@@ -111,7 +111,7 @@ class MotionWatch:
 
     @property
     def noise_deg(self) -> float:
-        """Scatter of the readings, rms, as seen so far."""
+        """Scatter of the readings, rms, as seen up to now."""
         return self._seen.trend.noise_deg
 
     @property

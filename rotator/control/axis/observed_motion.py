@@ -17,12 +17,12 @@ from rotator.control.sky.mount import Range
 
 SLOWEST_DPS = 0.5
 """Until an axis has shown how fast it turns it may be as slow as this, whatever the configuration says of its motor."""
-RELAY_S = 0.05
+RELAY_SETTLES_S = 0.05
 """A relay and the cycle in which it closed take this long at most."""
 
 
 @dataclass(frozen=True, slots=True)
-class Window:
+class SpeedWindow:
     """For how long the readings are looked at before a speed is believed, in seconds."""
 
     least_s: float
@@ -44,7 +44,7 @@ class ObservedMotion:
         self.motor = motors[Direction.PLUS]
         """The motor of the present or latest run, as it was known when the run began."""
         self.shown_dps: float | None = None
-        """The fastest that the axis has been seen to turn for certain; None: it has not yet."""
+        """The fastest speed seen for certain; None: the axis was not seen to turn yet."""
 
     def note_relays(self, relays: RelayState) -> None:
         """The relays have changed."""
@@ -62,15 +62,15 @@ class ObservedMotion:
 
     @property
     def reference_dps(self) -> float:
-        """What the axis must live up to: the speed of its motor as known, but no more than it has shown."""
+        """The speed that is expected of the axis: that of its motor as known, but not more than it has shown."""
         return min(self.motor.speed_dps, SLOWEST_DPS if self.shown_dps is None else self.shown_dps)
 
-    def speed(self, at_s: float, window: Window, rough_dps: float) -> Slope | None:
-        """The speed over a stretch long enough for `rough_dps`, since the relays are as they are; None: too early."""
+    def speed(self, at_s: float, window: SpeedWindow, error_dps: float) -> Slope | None:
+        """The speed over a stretch long enough for `error_dps`, since the relays are as they are; None: too early."""
         shown, relays, lag_s = self.shown_dps is not None, self.relays, self.motor.lag_s
-        width_s = min(max(window.least_s, self.trend.window_s(rough_dps)), window.most_s if shown else window.first_s)
-        turns_s = relays.begun_s + RELAY_S + lag_s
-        rests_s = relays.since_s + RELAY_S + (2.0 * lag_s + 3.0 * RELAY_S)
+        width_s = min(max(window.least_s, self.trend.window_s(error_dps)), window.most_s if shown else window.first_s)
+        turns_s = relays.begun_s + RELAY_SETTLES_S + lag_s
+        rests_s = relays.since_s + RELAY_SETTLES_S + (2.0 * lag_s + 3.0 * RELAY_SETTLES_S)
         from_s = max(turns_s if relays.closed else rests_s, self.trend.since_s)
         if at_s - width_s < from_s:
             return None
@@ -79,7 +79,7 @@ class ObservedMotion:
 
     def whole_run(self, at_s: float, least_s: float) -> Slope | None:
         """The speed since the motor of the present run was due to turn; None: that is not `least_s` ago yet."""
-        from_s = max(self.relays.begun_s + RELAY_S + self.motor.lag_s, self.trend.since_s)
+        from_s = max(self.relays.begun_s + RELAY_SETTLES_S + self.motor.lag_s, self.trend.since_s)
         return self.trend.slope(from_s) if at_s - from_s >= least_s else None
 
     def name(self, direction: Direction) -> str:

@@ -23,7 +23,7 @@ from rotator.control.axis.observed_motion import ObservedMotion
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
 from rotator.control.axis.run_on import RunOn
-from rotator.control.axis.seen_run import END_WINDOWS_S, FED_SHARE, UNSEEN_S, EndedRun, SeenRun
+from rotator.control.axis.seen_run import END_WINDOWS_S, HELD_UNSEEN_S, POWERED_SHARE, EndedRun, SeenRun
 from rotator.control.axis.standing import HeldPlaces, RestPlace
 from rotator.control.axis.trend import Slope
 from rotator.status import Trust
@@ -31,7 +31,7 @@ from rotator.status import Trust
 DOUBTS_AFTER_S = 0.5
 GAP_S = 0.5
 """No command to a relay holds for longer without being renewed."""
-LATE_S = 0.2
+EXTRAPOLATED_AFTER_S = 0.2
 """If the last reading is older, the angle is extrapolated."""
 BLIND_S = 1.0
 """In short runs of this length in all an axis may not be seen to turn."""
@@ -96,8 +96,8 @@ class OpeningWatch:
             return True
         # It is turning the other way, perhaps by the opposite relay: wait.
         slope = self._seen.trend.slope(self._seen.trend.last_s - END_WINDOWS_S[1])
-        fed_dps = FED_SHARE * self._run.motor_dps
-        return slope is not None and -slope.speed_dps * direction - 2.0 * slope.rough_dps > fed_dps
+        powered_dps = POWERED_SHARE * self._run.motor_dps
+        return slope is not None and -slope.speed_dps * direction - 2.0 * slope.error_dps > powered_dps
 
     def found_closed(self, direction: Direction) -> None:
         self._trusts.found_closed(direction)
@@ -156,7 +156,7 @@ class OpeningWatch:
         if self._run.line is None:
             self._blind_s += now_s - max(now_s - lasted_s, self._run.turned_s)
         place_deg = self._place_deg if self._latest else 0.0
-        if self._run.line is not None and now_s - self._seen_s > LATE_S:
+        if self._run.line is not None and now_s - self._seen_s > EXTRAPOLATED_AFTER_S:
             # Without readings it has gone on with current until now.
             place_deg += self._run.line.speed_dps * (now_s - self._seen_s)
         self._run.end(now_s, direction, lasted_s, place_deg)
@@ -181,14 +181,14 @@ class OpeningWatch:
             self._trusts.seen_open(ended.direction)
 
     def _stands(self, at_s: float) -> bool:
-        trend, fed_dps = self._seen.trend, self._run.fed_dps
-        window_s = min(max(SHORTEST_WINDOW_S, trend.window_s(fed_dps / 6.0)), LONGEST_WINDOW_S)
+        trend, powered_dps = self._seen.trend, self._run.powered_dps
+        window_s = min(max(SHORTEST_WINDOW_S, trend.window_s(powered_dps / 6.0)), LONGEST_WINDOW_S)
         assert self._supplied_s is not None
         from_s = max(self._supplied_s, self._run.ended.off_s if self._run.ended else -math.inf, trend.since_s)
         if at_s - window_s < from_s:
             return False
         slope = trend.slope(at_s - window_s)
-        return slope is not None and abs(slope.speed_dps) + slope.rough_dps < fed_dps
+        return slope is not None and abs(slope.speed_dps) + slope.error_dps < powered_dps
 
     def _note_standing(self, at_s: float) -> None:
         self.looked = True
@@ -238,7 +238,7 @@ class OpeningWatch:
     @property
     def _doubts_after_s(self) -> float:
         """An axis stands this long before a doubt is raised: more readings may still show that it has moved."""
-        return DOUBTS_AFTER_S + 2.0 * (self._run.unseen_s - UNSEEN_S)
+        return DOUBTS_AFTER_S + 2.0 * (self._run.unseen_s - HELD_UNSEEN_S)
 
     @property
     def _moved_deg(self) -> float:

@@ -10,15 +10,15 @@ import math
 from collections import deque
 
 from hw.ports import AngleSource
-from rotator.control.axis.reach import FASTER
+from rotator.control.axis.reach import FASTER_THAN_FILE
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.sky.mount import Range
 
-SLOWEST = 0.3
+SLOWEST_SHARE = 0.3
 """A motor whose angle is modelled turns at this share of its speed at least."""
 OVER_S = 0.15
 """The speed is taken over this time. Within it the drive may have gathered more."""
-LATE_S = 0.1
+OBEYS_S = 0.1
 """A drive obeys within this time."""
 STANDS_DEG = 0.3
 """An axis without a known acceleration stands when its readings of that time differ by less."""
@@ -34,18 +34,20 @@ class Pace:
         self._place_deg: float | None = None
         """Where it was sent last, to rest there."""
         self._stops = False
-        """It could come to rest there when it was sent, and so it will not go beyond."""
+        """It had room to brake, so it will not overshoot."""
 
     def see(self, at_s: float, angle_deg: float) -> None:
         """A new good reading."""
         behind = self._behind or Range(angle_deg, angle_deg)
-        follows_deg = SLOWEST * self._settings.speed_dps * (at_s - self._readings[-1][0] if self._readings else 0.0)
+        follows_deg = (
+            SLOWEST_SHARE * self._settings.speed_dps * (at_s - self._readings[-1][0] if self._readings else 0.0)
+        )
         self._behind = Range(min(angle_deg, behind.min_deg + follows_deg), max(angle_deg, behind.max_deg - follows_deg))
         self._readings.append((at_s, angle_deg))
 
-    def sent(self, now_s: float, place_deg: float | None) -> None:
-        """It is sent to rest there from now on. None: it moves on with its target, or holds."""
-        if place_deg is None or not self._readings:
+    def sent(self, now_s: float, place_deg: float) -> None:
+        """It is sent to rest there from now on."""
+        if not self._readings:
             return
         if place_deg != self._place_deg:
             self._place_deg, self._stops = place_deg, False
@@ -55,7 +57,7 @@ class Pace:
         self._stops = self._stops or able
 
     def moves_on(self) -> None:
-        """Its target moves: it may go beyond the place where it was sent last."""
+        """Its target moves: it may go beyond the place to which it was sent last."""
         self._place_deg, self._stops = None, False
 
     def span(self, now_s: float) -> Range:
@@ -77,7 +79,7 @@ class Pace:
         if self._modelled:
             assert self._behind is not None
             return self._behind.widened(self._settings.near_deg)
-        blind_s = now_s - at_s + LATE_S
+        blind_s = now_s - at_s + OBEYS_S
         for speed_dps in self._speeds_dps(at_s, angle_deg):
             ahead_deg = abs(speed_dps) * blind_s + self.braking_deg(speed_dps)
             span = span.spanning(angle_deg + math.copysign(ahead_deg, speed_dps))
@@ -91,7 +93,7 @@ class Pace:
     def _speeds_dps(self, at_s: float, angle_deg: float) -> tuple[float, ...]:
         """The least and the greatest speed that it may have."""
         before_s, before_deg = next(each for each in self._readings if each[0] >= at_s - OVER_S - 1e-6)
-        fastest_dps, accel_dps2 = FASTER * self._settings.speed_dps, self._settings.accel_dps2
+        fastest_dps, accel_dps2 = FASTER_THAN_FILE * self._settings.speed_dps, self._settings.accel_dps2
         gone_deg = angle_deg - before_deg
         if accel_dps2 is None:
             return () if abs(gone_deg) < STANDS_DEG else (math.copysign(fastest_dps, gone_deg),)

@@ -48,7 +48,7 @@ class ControlledAxis(Protocol):
 
     @property
     def pressed_in_vain(self) -> bool:
-        """Whether presses did not move it often enough, where it has no calibration that could show why."""
+        """Whether presses without a calibration did not move it, often enough to ask a person to look."""
 
     @property
     def confirmable(self) -> bool:
@@ -92,14 +92,14 @@ class ControlledAxis(Protocol):
         """Stop and have no goal."""
 
     def forget_path(self) -> None:
-        """Keep the target where it is now: its further path is not known any more."""
+        """Keep the target where it is now: its path is not known any more."""
 
     def fail(self, fault: Fault) -> None:
         """Stop until the fault is acknowledged."""
 
     def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
-        """A person, or a stop on a link, acknowledges the fault. While its cause is there, the fault stays; and a
-        link alone does not let a motor be tried for ever. Returns whether it counts.
+        """A person, or a stop on a link, acknowledges the fault. It stays while its cause is present. A link may not
+        have a motor tried again too often. Returns whether the acknowledgement counts.
         """
 
     @property
@@ -113,27 +113,27 @@ class ControlledAxis(Protocol):
         """A person has looked at both relays: they are open. Raises Refused where there are none."""
 
     def decide(self, now_s: float) -> Decision:
-        """What the drive is to do from now on: what the goal asks for, as far as it is safe."""
+        """What the drive has to do from now on: what the goal asks for, if it is safe."""
 
     def sweep(self, now_s: float, command: Command | None) -> Range:
         """The angles that the axis may pass from now until it has come to rest, if this command is the last one.
 
-        None: if it is to stop now. `UNKNOWN` where its angle cannot be told.
+        A command of None: it is to stop now. Returns `UNKNOWN` where its angle is not known.
         """
 
     @property
     def room_deg(self) -> float:
-        """How far it may go on, at its first start too, before a command can end that."""
+        """Distance it may travel after a start before a command can stop it."""
 
     @property
     def about_deg(self) -> float:
-        """So far from a place where it stands it may be, as far as is known."""
+        """Possible error of the known angle."""
 
     def hold_back(self, now_s: float, why: str) -> None:
-        """Its latest command is not carried out, for this reason. A jog and the way to an end stop end with that."""
+        """Its latest command is not carried out, for this reason. This ends a jog and the way to an end stop."""
 
     def shortened(self, now_s: float, command: Steer) -> None:
-        """This is carried out in place of its latest command, which would lead too far. A jog ends there."""
+        """This command replaces its latest one, which would lead too far. A jog ends there."""
 
     def note_driven(self, now_s: float, driven: Direction) -> None:
         """After the cycle: the direction in which its relays are really closed (OFF where there are none)."""

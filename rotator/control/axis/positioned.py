@@ -16,7 +16,7 @@ from rotator.control.axis.goals import JogGoal
 from rotator.control.axis.held_watch import HeldWatch
 from rotator.control.axis.pace import Pace
 from rotator.control.axis.positioned_law import PositionedLaw, Sent
-from rotator.control.axis.reach import UNSEEN_S, lost
+from rotator.control.axis.reach import LOST_AFTER_S, lost
 from rotator.control.axis.relay_faults import limit_reached, unstoppable
 from rotator.control.axis.sensing import Reading
 from rotator.control.axis.settings import PositionedSettings
@@ -192,7 +192,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         return self._law.blocked(steer, self._sensing.angle_deg, self._condition.ends)
 
     def sweep(self, now_s: float, command: Command | None) -> Range:
-        if self.missing or now_s - self._sensing.believed_s > UNSEEN_S or lost(self.fault):
+        if self.missing or now_s - self._sensing.believed_s > LOST_AFTER_S or lost(self.fault):
             return UNKNOWN
         span = self._pace.span(now_s)
         if not isinstance(command, Steer):

@@ -19,16 +19,16 @@ from rotator.control.sky.mount import Range
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind
 
-FASTER, FASTER_LEARNT = 1.5, 1.2
-"""A motor may be so much faster than the file says, or than its runs have shown."""
-RELAY_S = 0.03
+FASTER_THAN_FILE, FASTER_THAN_LEARNT = 1.5, 1.2
+"""How many times faster a motor may be than the file says, or than its runs have shown."""
+RELAY_OPENS_S = 0.03
 """A relay opens within this time."""
 START_S = 0.15
-"""A motor starts only where it may run for so long."""
+"""A motor starts only where it may run for this long."""
 NEAR_MODEL_DEG = 3.0
-"""A reading further from the model is a spark on the wire, which the model leaves out too."""
-UNSEEN_S = 0.3
-"""Without a good reading for so long the axis may be anywhere."""
+"""A reading further from the model is a spark on the wire. The model ignores it too."""
+LOST_AFTER_S = 0.3
+"""After this time without a good reading the axis may be anywhere."""
 TRUSTED = frozenset({FaultKind.LIMIT_SWITCH, FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF, FaultKind.CONTROL_LATE})
 """Faults that leave the angle true. With any other one the axis may be anywhere."""
 
@@ -47,7 +47,7 @@ class Bounds:
 
     @property
     def coast_deg(self) -> float:
-        return self.speed_dps * (self.lag_s + RELAY_S)
+        return self.speed_dps * (self.lag_s + RELAY_OPENS_S)
 
     @property
     def room_deg(self) -> float:
@@ -55,7 +55,7 @@ class Bounds:
 
 
 def bounds(described: Motor, learnt: Motor) -> Bounds:
-    fastest_dps = max(FASTER * described.speed_dps, FASTER_LEARNT * learnt.speed_dps)
+    fastest_dps = max(FASTER_THAN_FILE * described.speed_dps, FASTER_THAN_LEARNT * learnt.speed_dps)
     return Bounds(fastest_dps, max(described.lag_s, learnt.lag_s))
 
 
@@ -64,7 +64,7 @@ class Reach:
         self._described = settings.motor
         homing = settings.homing
         self._step_deg = homing.period_s * settings.motor.speed_dps if homing else 0.0
-        """How far it may be from where it was read: a count tells no more than the pulse that came last."""
+        """How far the axis may be from its reading: a count knows only the latest pulse."""
 
     def room_deg(self, motion: Motion) -> float:
         """How far it may go on before a command can end that, at its first start too."""
@@ -73,7 +73,7 @@ class Reach:
     def swept(self, now_s: float, sensing: Sensing, motion: Motion, relays: RelayState, run: Run | None) -> Range:
         """Where the axis may pass until it rests, if this run is the last one; None: if it is to stop now."""
         angle_deg, seen_s = sensing.angle_deg, sensing.believed_s
-        if angle_deg is None or now_s - seen_s > UNSEEN_S:
+        if angle_deg is None or now_s - seen_s > LOST_AFTER_S:
             return UNKNOWN
         model_deg = motion.angle_at(now_s)
         near = abs(angle_deg - model_deg) <= NEAR_MODEL_DEG
@@ -96,7 +96,7 @@ def _going_on_deg(motor: Bounds, relays: RelayState, age_s: float, now_s: float)
     """How far it has gone since it was seen, and goes on until it rests."""
     if relays.closed:
         return motor.speed_dps * age_s + motor.coast_deg
-    return motor.coast_deg * math.exp(-relays.off_for_s(now_s) / (FASTER * motor.lag_s))
+    return motor.coast_deg * math.exp(-relays.off_for_s(now_s) / (FASTER_THAN_FILE * motor.lag_s))
 
 
 def _further(span: Range, direction: Direction, by_deg: float) -> Range:

@@ -43,7 +43,7 @@ class RelayGate:
         self._relays = RelayState()
         self._watch = _new_watch(settings, motors, placed=placed)
         self._waits_s = math.inf
-        """Since when a run waits for the opposite relay to be seen open; infinite: none waits."""
+        """Since when a run waits for the opposite relay to be seen open; infinite: no run waits."""
 
     @property
     def trusts(self) -> Trusts:
@@ -59,7 +59,7 @@ class RelayGate:
 
     @property
     def unsure(self) -> bool:
-        """A relay of this axis may be closed, and only its supply, which the box can switch, is sure to stop it."""
+        """A relay may be stuck. Only cutting the supply, which the box can do, is sure to stop the motor."""
         return self._settings.master and self._watch.unsure
 
     def see(self, at_s: float, reading: float, condition: Condition) -> Fault | None:
@@ -87,7 +87,7 @@ class RelayGate:
         self._watch.checked()
 
     def accuse(self, direction: Direction) -> Fault | None:
-        """The fault of an order that way while the opposite relay may be closed; None: there is no such suspicion."""
+        """The fault of an order in this direction; None: the opposite relay is not suspected."""
         return None if self._passes_doubt(direction) else self._watch.accuse(direction)
 
     def rests(self) -> None:
@@ -100,11 +100,11 @@ class RelayGate:
             self._waits_s = math.inf
             return run
         self._waits_s = min(self._waits_s, now_s)
-        # With its supply alone a motor shows whether a relay has not opened; without a master it has it always.
+        # With the supply on, a motor shows whether a relay has not opened. Without a master it always has its supply.
         return Feed(now_s + self._lease_s) if self._settings.master else Run(Direction.OFF, now_s)
 
     def blind(self, fault: Fault | None, now_s: float) -> Fault | None:
-        """A sensor's fault, as it is; where it hides whether the motor has stopped, the supply is to stop it."""
+        """This fault of the sensor. If it hides whether the motor has stopped, the fault cuts the supply."""
         relays = self._relays
         if fault is None or relays.last is Direction.OFF:
             return fault
@@ -123,7 +123,7 @@ class RelayGate:
     def _passes_doubt(self, direction: Direction) -> bool:
         """Whether the opposite relay is only in doubt, and a person watches who has driven the axis to its stop.
 
-        The look at the supply alone comes first: a person may not have seen what it shows.
+        The first look at the axis with its supply on comes before that: a person may not have seen what it shows.
         """
         if self._watch.looks:
             return False

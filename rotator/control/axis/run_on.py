@@ -6,7 +6,7 @@ branch, or a stop that is nearer than the sensor says.
 
 from __future__ import annotations
 
-from rotator.control.axis.observed_motion import RELAY_S, ObservedMotion
+from rotator.control.axis.observed_motion import RELAY_SETTLES_S, ObservedMotion
 from rotator.control.axis.seen_run import SLOWED_SHARE, STEADY_S, EndedRun, SeenRun
 from rotator.control.axis.trend import Slope
 
@@ -47,11 +47,11 @@ class RunOn:
 
         `free`: a powered motor could turn on from there.
         """
-        slope = self._seen.trend.slope(ended.off_s + RELAY_S)
+        slope = self._seen.trend.slope(ended.off_s + RELAY_SETTLES_S)
         if slope is None:
             return False
-        least_dps = abs(line.speed_dps) - 2.0 * line.rough_dps
-        slowed = slope.speed_dps * line.way + 3.0 * slope.rough_dps < SLOWED_SHARE * least_dps
+        least_dps = abs(line.speed_dps) - 2.0 * line.error_dps
+        slowed = slope.speed_dps * line.way + 3.0 * slope.error_dps < SLOWED_SHARE * least_dps
         passed_s = at_s - ended.off_s
         gone_deg = (place_deg - ended.angle_deg) * line.way
         coasts = not self._went_far(ended, gone_deg)
@@ -84,7 +84,7 @@ class RunOn:
         sure_deg = COASTS_NOISES * self._seen.trend.noise_deg
         if self._lagged_deg is None:
             behind_deg = abs(line.speed_dps) * passed_s - gone_deg
-            if behind_deg > sure_deg + 3.0 * line.rough_dps * passed_s:
+            if behind_deg > sure_deg + 3.0 * line.error_dps * passed_s:
                 self._lagged_deg = gone_deg
             return False
         return gone_deg - self._lagged_deg > sure_deg
@@ -97,8 +97,8 @@ class RunOn:
         """Whether it has gone further than it coasts, since its relay was switched off."""
         lag_s = self._seen.motor.lag_s
         longest_s = max(LATE_OPEN_S + lag_s, COASTS_SHARE * lag_s)
-        rough_dps = ended.line.rough_dps if ended.line else 0.0
-        return gone_deg - self._seen.trend.noise_deg > longest_s * (self._full_dps(ended) + rough_dps)
+        error_dps = ended.line.error_dps if ended.line else 0.0
+        return gone_deg - self._seen.trend.noise_deg > longest_s * (self._full_dps(ended) + error_dps)
 
     def _full_dps(self, ended: EndedRun) -> float:
         """Its full speed: in a short run the motor was still gathering it."""

@@ -106,7 +106,7 @@ class RunWatch:
         self._motors, self._angle_deg = motors, None
 
     def homes(self, *, homing: bool, failed: bool) -> None:
-        """A person watches: the axis may stand at its stop, also until it has been seen to stand there."""
+        """A person watches, until the axis has been seen to stand at its stop."""
         if homing:
             self._silent.forget()
         self._contact.homing = homing or (self._contact.homing and not failed and self._contact.settles)

@@ -15,18 +15,18 @@ from rotator.control.axis.trend import Slope
 
 SLOWED_SHARE = 0.6
 """An axis slower than this share of its run's speed has lost its current."""
-FED_SHARE, FED_BELIEVED_SHARE = 0.5, 0.2
-"""A motor with current turns at this share of its speed at least: of the speed measured, or of the one believed."""
+POWERED_SHARE, POWERED_BELIEVED_SHARE = 0.5, 0.2
+"""A powered motor turns at this share of its speed at least: of the measured speed, or of the believed one."""
 END_WINDOWS_S = (0.25, 0.5, 1.0, 2.0, 4.0)
-"""The end of a run is looked at for so long, in turn, until its speed is certain."""
+"""The end of a run is looked at for these times, one after the other, until its speed is certain."""
 MEASURED_AFTER_S = 0.6
 """A run as long as this shows the motor's speed; in a shorter one it is still gathering it."""
 STEADY_S = 1.5
 """After this time the motor runs at its full speed, and the run's last second shows it exactly."""
-UNSEEN_S = 0.3
-"""An axis that was held for less than this at the end of a run seems to turn until the end."""
+HELD_UNSEEN_S = 0.3
+"""An axis that was held for a shorter time at the end of a run seems to turn until the end."""
 EXACT_ERRORS = 6.0
-"""A speed is measured when it is so many times its standard error."""
+"""A speed is measured when it is this many times its standard error."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,24 +58,24 @@ class SeenRun:
 
     @property
     def measured_dps(self) -> float | None:
-        """The slower of the speeds that the latest runs have shown; None: there was none yet."""
+        """The slower of the speeds that the latest runs have shown; None: no run has shown one."""
         return min(self._measured.values(), default=None)
 
     @property
     def motor_dps(self) -> float:
-        """The speed as measured, else as believed."""
+        """The measured speed; before the first measurement, the believed one."""
         return self.measured_dps or min(motor.speed_dps for motor in self._seen.motors.values())
 
     @property
-    def fed_dps(self) -> float:
-        """What a motor with current turns at least."""
+    def powered_dps(self) -> float:
+        """The least speed of a powered motor."""
         measured_dps = self.measured_dps
-        return FED_BELIEVED_SHARE * self.motor_dps if measured_dps is None else FED_SHARE * measured_dps
+        return POWERED_BELIEVED_SHARE * self.motor_dps if measured_dps is None else POWERED_SHARE * measured_dps
 
     @property
     def unseen_s(self) -> float:
-        """For so long the noise may hide that a motor with current turns."""
-        return max(UNSEEN_S, self._seen.trend.window_s(self.fed_dps / 3.5))
+        """A powered motor may go unseen this long because of noise."""
+        return max(HELD_UNSEEN_S, self._seen.trend.window_s(self.powered_dps / 3.5))
 
     def begin(self) -> None:
         self.line = self.ended = None
@@ -85,15 +85,15 @@ class SeenRun:
         """A reading was taken while a relay is closed."""
         self.line = self._turning(at_s, self._seen.relays.begun_s)
         if self.line is not None:
-            if abs(self.line.speed_dps) >= 2.0 * EXACT_ERRORS * self.line.rough_dps:
-                self._fastest_dps = max(self._fastest_dps, abs(self.line.speed_dps) - 2.0 * self.line.rough_dps)
+            if abs(self.line.speed_dps) >= 2.0 * EXACT_ERRORS * self.line.error_dps:
+                self._fastest_dps = max(self._fastest_dps, abs(self.line.speed_dps) - 2.0 * self.line.error_dps)
             self.turned_s = at_s
 
     def end(self, now_s: float, direction: Direction, lasted_s: float, angle_deg: float) -> None:
         line, self.line = self.line, None
         if line is not None and lasted_s >= MEASURED_AFTER_S:
             line = self._exactly(line, now_s) if lasted_s >= STEADY_S else line
-            if abs(line.speed_dps) >= EXACT_ERRORS * line.rough_dps:
+            if abs(line.speed_dps) >= EXACT_ERRORS * line.error_dps:
                 self._measured[direction] = abs(line.speed_dps)
         self.ended = EndedRun(direction, now_s, lasted_s, line, angle_deg)
 
@@ -104,20 +104,20 @@ class SeenRun:
             slope = trend.slope(max(since_s, at_s - window_s))
             if slope is None:
                 continue
-            if abs(slope.speed_dps) + 3.0 * slope.rough_dps < max(self.fed_dps, FED_SHARE * self._fastest_dps):
-                return None  # it stands, though the longer windows still hold its way
-            if abs(slope.speed_dps) < 3.5 * slope.rough_dps:
+            if abs(slope.speed_dps) + 3.0 * slope.error_dps < max(self.powered_dps, POWERED_SHARE * self._fastest_dps):
+                return None  # it stands, though the longer windows still contain its motion
+            if abs(slope.speed_dps) < 3.5 * slope.error_dps:
                 continue
             # It may have stopped within this window: then its end is slower than the whole.
             latest = trend.slope(max(since_s, at_s - max(END_WINDOWS_S[0], window_s / 4.0)))
             if latest is None:
                 return None
-            going_dps = latest.speed_dps * math.copysign(1.0, slope.speed_dps) + 2.0 * latest.rough_dps
+            going_dps = latest.speed_dps * math.copysign(1.0, slope.speed_dps) + 2.0 * latest.error_dps
             return slope if going_dps >= SLOWED_SHARE * abs(slope.speed_dps) else None
         return None
 
     def _exactly(self, line: Slope, now_s: float) -> Slope:
         """The same speed from a longer stretch, where the axis did not change its speed within it."""
         longer = self._seen.trend.slope(now_s - 1.0)
-        steady = longer is not None and abs(longer.speed_dps - line.speed_dps) <= 3.0 * line.rough_dps
-        return longer if longer is not None and steady and longer.rough_dps < line.rough_dps else line
+        steady = longer is not None and abs(longer.speed_dps - line.speed_dps) <= 3.0 * line.error_dps
+        return longer if longer is not None and steady and longer.error_dps < line.error_dps else line

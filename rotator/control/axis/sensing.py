@@ -13,15 +13,15 @@ from dataclasses import dataclass
 from hw.ports import Axis, Direction
 from rotator.control.axis.bad_readings import LOOKED_AT, TOO_MANY, BadReadings
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.sparks import Place, Sparks
+from rotator.control.axis.sparks import SeenAt, Sparks
 from rotator.faults import Fault, FaultKind, Notice
 
 BAD_FOR_S = 0.09
 """Bad readings are a fault after this time (the third one in a row at 20 Hz, the sixth at 50 Hz)."""
 COUNTED_IN_A_ROW = 2
-"""More bad readings in a row are one gap, which is a fault of its own or over before it matters."""
+"""Longer gaps do not enter this count; BAD_FOR_S handles them."""
 RIDDEN_S = 0.16
-"""A motor that runs may go on for so long after the last good reading."""
+"""A running motor may go on for this long after the last good reading."""
 STALE_S = 0.2
 """A reading older than this does not show where the antenna is now."""
 JUMP_DEG = 5.0
@@ -29,9 +29,9 @@ JUMPS = 3
 JUMPS_WITHIN_S = 0.3
 """A spark is two jumps, out and back. One more jump within this time means a loose wire."""
 MOVES, MOVES_WITHIN_S = 3, 120.0
-"""A reading that jumps to another place and stays there so many times does not show where the axis is."""
+"""A sensor whose readings jump to another place and stay there this often does not show where the axis is."""
 UNCALIBRATED_SPAN_DEG = 360.0
-"""A pot's whole range counts as so many degrees until it is calibrated."""
+"""Until a pot is calibrated its whole range counts as this many degrees."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +53,7 @@ class Condition:
     changes: int = 0
     """How often its contact has changed."""
     missed: int = 0
-    """How many orders its controller has not answered so far."""
+    """How many orders its controller has left without an answer up to now."""
     closed: bool = False
     """Its contact is closed since the last of these changes."""
     ends: frozenset[Direction] = frozenset()
@@ -111,7 +111,7 @@ class Sensing:
         """The last believable angle; None before the first and without a calibration."""
         self.believable = False
         """Whether the latest reading is a good one."""
-        self.places: tuple[Place, ...] = ()
+        self.places: tuple[SeenAt, ...] = ()
         """The angles that the latest reading shows for the first time, each with its moment: one, or none; or some at
         once where the axis turns out to be somewhere else. Without a calibration, in degrees of the sensor's span."""
         self._sparks = Sparks(fastest_dps)
@@ -128,9 +128,9 @@ class Sensing:
         self.believed_s = -math.inf
         """When the latest good reading was taken."""
         self._bad_since_s: float | None = None
-        self._last: Place | None = None
+        self._last: SeenAt | None = None
         self._jumped: Fault | None = None
-        self._jumps: deque[Place] = deque(maxlen=JUMPS)
+        self._jumps: deque[SeenAt] = deque(maxlen=JUMPS)
         self._moved_s: deque[float] = deque(maxlen=MOVES)
 
     @property

@@ -44,11 +44,11 @@ class SwitchedSettings:
     trusts: Trusts = ALL_OPEN
     """What an earlier run of the program knew of its two relays."""
     look: bool = False
-    """The axis is to be seen standing before its first relay closes."""
+    """The axis must be seen to stand before its first relay closes."""
     sensor: str = "pot"
     """What reads the angle, in a word for the messages of faults."""
     attended: bool = False
-    """A person watches the antenna, and drives it to its stops on purpose: a relay in doubt forbids nothing then."""
+    """A person watches the antenna, and drives it to its stops on purpose. A relay in doubt forbids nothing then."""
 
 
 @dataclass(frozen=True, slots=True)

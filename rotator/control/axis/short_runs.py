@@ -1,38 +1,33 @@
 """Whether an axis turns at all when it is driven, from one short run to the next.
 
-Knows the readings, and how long the relays were on. A run that is too short to be judged by itself counts with those
-before it: what was seen lasts until the axis is seen to move. Decides nothing: it returns a fault, and the axis stops.
+Knows the readings, and how long the relays were on. A run that is too short to be judged by itself counts together with
+those before it, until the axis is seen to move. Decides nothing: it returns a fault, and the axis stops.
 """
 
 from __future__ import annotations
 
 import math
-from collections import deque
 from dataclasses import dataclass
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.sparks import Place
+from rotator.control.axis.smoothing import SETTLES_S, Smoothed
 from rotator.faults import Fault, FaultKind
 
-SMOOTHED = 5
-"""The mean of so many readings is where the axis is."""
 MOVED_DEG, MOVED_NOISES = 0.3, 2.5
 """An axis has moved when it is further from where it stood than both."""
 STOOD_RUNS = 3
 SLOW_SHARE, TOLD_SHARE = 0.2, 0.4
-"""So many runs that do not move the axis are enough, where even a motor at this share of its speed would have."""
+"""A fault after this many runs that did not move the axis, though a motor at this share of its speed would have."""
 STOOD_S, UNKNOWN_STOOD_S = 1.5, 2.5
-"""And so is so long in all; longer until the axis has moved once: its motor may be slower than the file says."""
-STANDING = frozenset({FaultKind.STANDS_STILL, FaultKind.END_STOP})
+"""Or after runs of this time in all. More until the axis has moved once: its motor may be slower than the file says."""
+STANDING_FAULTS = frozenset({FaultKind.STANDS_STILL, FaultKind.END_STOP})
 """The faults of a motor that does not turn."""
 UNKNOWN_RUN_S = 0.5
 """A shorter run says nothing of a motor that has not turned yet."""
 LEAST_RUN_S = 0.15
 """A shorter run may be over before a motor turns."""
-SETTLE_S = 0.6
-"""Relay, coast and the mean of the readings take so long after a run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,11 +42,11 @@ class ShortRuns:
 
     def __init__(self, axis: Axis) -> None:
         self._axis = axis
-        self._latest: deque[Place] = deque(maxlen=SMOOTHED)
+        self._smoothed = Smoothed()
         self._stands_deg: float | None = None
         """Where it was when it was last seen to move."""
         self._run: RelayState | None = None
-        """The present run; None: there is none, or it does not count."""
+        """The present run; None: no run counts now."""
         self._ended: _Ended | None = None
         """The last run, until its end is seen."""
         self._way = Direction.PLUS
@@ -73,19 +68,19 @@ class ShortRuns:
         self._stood_s = 0.0
         self._backwards = 0
         self.tries = 0
-        """How many runs were in vain since the last fault."""
+        """Runs without motion since the last fault."""
 
     def forget(self) -> None:
         """The fault is acknowledged, or the readings mean other places."""
-        self._latest.clear()
+        self._smoothed.forget()
         self._stands_deg = self._run = self._ended = self._from_deg = None
         self._runs = self._backwards = self.tries = 0
         self._stood_s = 0.0
 
     def struck(self, kind: FaultKind) -> None:
-        """A fault has stopped the axis. Where it stood still, one more run in vain is enough for the next fault."""
+        """A fault has stopped the axis. If it stood still, one more run without motion is enough for the next fault."""
         self._run, self._ended, self._counted, self.tries = None, None, False, 0
-        if kind in STANDING:
+        if kind in STANDING_FAULTS:
             self._runs, self._stood_s = STOOD_RUNS - 1, 0.0
 
     def note_relays(self, relays: RelayState, speed_dps: float) -> None:
@@ -98,14 +93,14 @@ class ShortRuns:
         if relays.closed:
             self._count()
             if self._moved:
-                self._stands_deg = self._smoothed_deg
-            self._run, self._from_deg, self._moved = relays, self._smoothed_deg, False
+                self._stands_deg = self._smoothed.deg
+            self._run, self._from_deg, self._moved = relays, self._smoothed.deg, False
             self._speed_dps = speed_dps
 
     def see(self, at_s: float, angle_deg: float, noise_deg: float) -> Fault | None:
         """A good reading. Returns the fault that it shows, if any."""
-        self._latest.append((at_s, angle_deg))
-        smoothed_deg = self._smoothed_deg
+        self._smoothed.see(angle_deg)
+        smoothed_deg = self._smoothed.deg
         if smoothed_deg is None:
             return None
         moved_deg = max(MOVED_DEG, MOVED_NOISES * noise_deg)
@@ -117,7 +112,7 @@ class ShortRuns:
             self._stands_deg, self._runs, self._stood_s, self._moved = smoothed_deg, 0, 0.0, True
             self.tries = 0
         self._moved_deg = moved_deg
-        if self._ended is not None and at_s - self._ended.off_s >= SETTLE_S:
+        if self._ended is not None and at_s - self._ended.off_s >= SETTLES_S:
             self._count()
         if not self._counted:
             return None
@@ -143,16 +138,10 @@ class ShortRuns:
             return
         way, run_s = self._ended.direction, self._ended.lasted_s
         self._ended, self._counted, self._way = None, True, way
-        if self._from_deg is not None and self._smoothed_deg is not None:
-            gone_deg = (self._smoothed_deg - self._from_deg) * way
+        if self._from_deg is not None and self._smoothed.deg is not None:
+            gone_deg = (self._smoothed.deg - self._from_deg) * way
             self._backwards = self._backwards + 1 if gone_deg <= -self._moved_deg else 0
         if not self._moved and run_s >= LEAST_RUN_S:
             self._runs += run_s >= self._telling_s
             self._stood_s += run_s
             self.tries += 1
-
-    @property
-    def _smoothed_deg(self) -> float | None:
-        if len(self._latest) < SMOOTHED:
-            return None
-        return sum(angle_deg for _, angle_deg in self._latest) / SMOOTHED

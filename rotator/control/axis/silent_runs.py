@@ -1,8 +1,8 @@
 """Whether an axis that counts turns at all when it is driven, from one short run to the next.
 
-Knows when the motor was driven and when its contact changed. A run that is too short to be judged by itself counts with
-those before it in the same direction, until the contact changes. Decides nothing: it returns a fault, and the axis
-stops.
+Knows when the motor was driven and when its contact changed. A run that is too short to be judged by itself counts
+together with those before it in the same direction, until the contact changes. Decides nothing: it returns a fault, and
+the axis stops.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from rotator.control.axis.relay_state import RelayState
 from rotator.faults import Fault, FaultKind
 
 SILENT_PERIODS = 3.0
-"""Driven one way for so many periods in all without a change of its contact, an axis does not turn."""
+"""An axis does not turn if it was driven one way for this many periods in all without a change of its contact."""
 START_S = 0.15
-"""So much of each run passes before the motor turns at its speed."""
+"""A motor needs this long in each run before it turns at its speed."""
 
 
 class SilentRuns:
@@ -28,7 +28,7 @@ class SilentRuns:
         self._turns_s = 0.0
         """From when on the present run counts."""
         self._silent_s = 0.0
-        """How long the runs before it were, that count with it."""
+        """Total time of earlier runs without a pulse."""
 
     def forget(self) -> None:
         """A person watches the axis press against its stop."""
@@ -45,7 +45,7 @@ class SilentRuns:
             self._turns_s = relays.since_s + START_S
 
     def see(self, at_s: float, changes: int, period_s: float) -> Fault | None:
-        """So many changes of the contact there were so far. `period_s`: from pulse to pulse, at the motor's speed.
+        """`changes`: of the contact, up to now. `period_s`: from pulse to pulse, at the motor's speed.
 
         Returns the fault that this shows, if any.
         """

@@ -8,21 +8,21 @@ from __future__ import annotations
 
 from collections import deque
 
-Place = tuple[float, float]
+SeenAt = tuple[float, float]
 """A moment in seconds, and the angle in degrees read then."""
 
 SPARK_DEG = 3.0
-NOISES = 6.0
-"""A reading further off than both, and than the axis can have turned, is a spark."""
+SPARK_NOISES = 6.0
+"""A reading further off than both, and further than the axis can have turned, is a spark."""
 AGREE = 3
-"""So many sparks in a row that agree with each other are no sparks: the axis is there."""
-FASTER = 2.0
-"""An axis may be so many times faster than is known."""
+"""This many sparks in a row that agree with each other are not sparks: the axis is there."""
+FASTER_THAN_KNOWN = 2.0
+"""How many times faster than known an axis may be."""
 
 
 def spark_deg(passed_s: float, fastest_dps: float, noise_deg: float) -> float:
     """Two readings further apart than this cannot be the motor's doing."""
-    return max(SPARK_DEG, NOISES * noise_deg) + FASTER * fastest_dps * passed_s
+    return max(SPARK_DEG, SPARK_NOISES * noise_deg) + FASTER_THAN_KNOWN * fastest_dps * passed_s
 
 
 class Sparks:
@@ -30,16 +30,16 @@ class Sparks:
 
     def __init__(self, fastest_dps: float) -> None:
         self._fastest_dps = fastest_dps
-        self._believed: Place | None = None
-        self._off: deque[Place] = deque(maxlen=AGREE)
+        self._believed: SeenAt | None = None
+        self._off: deque[SeenAt] = deque(maxlen=AGREE)
 
     def begin_anew(self) -> None:
         """The readings mean other places than before."""
         self._believed = None
         self._off.clear()
 
-    def believe(self, at_s: float, angle_deg: float, noise_deg: float) -> tuple[Place, ...]:
-        """The readings that are believed with this new one: none, itself, or some that agree on another place."""
+    def believe(self, at_s: float, angle_deg: float, noise_deg: float) -> tuple[SeenAt, ...]:
+        """Returns the readings that are believed now: none, the new one, or some that agree on another place."""
         place = at_s, angle_deg
         if self._believed is None or self._near(self._believed, place, noise_deg):
             self._believed = place
@@ -55,6 +55,6 @@ class Sparks:
         self._off.clear()
         return places
 
-    def _near(self, before: Place, place: Place, noise_deg: float) -> bool:
+    def _near(self, before: SeenAt, place: SeenAt, noise_deg: float) -> bool:
         passed_s = place[0] - before[0]
         return abs(place[1] - before[1]) <= spark_deg(passed_s, self._fastest_dps, noise_deg)

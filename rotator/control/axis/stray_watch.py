@@ -16,16 +16,16 @@ from rotator.control.commands import Steer
 from rotator.faults import Fault, FaultKind
 
 STRAY_DEG, STRAY_S = 5.0, 1.7
-"""An axis this far from where it was sent, and not coming nearer for so long, does not follow."""
+"""An axis does not follow if it is this far from where it was sent, and does not come nearer for this long."""
 SERVO_STRAY_DEG = 1.5
 """A motor that holds its angle with an encoder of its own rests nearer than this, also with a loaded antenna."""
 TURNED_BACK_S = 0.4
-"""An axis that has to turn back first is seen to come nearer so long after it stood: a moteus at 20°/s² from 30°/s
+"""An axis that has to turn back first is seen to come nearer this long after it stood: a moteus at 20°/s² from 30°/s
 takes 1.5 s and this."""
 ARRIVED_S = 0.5
-"""Where a target stays near for so long, it is not left behind."""
+"""An axis that stays near its target for this long is not left behind."""
 MEAN_OF = 5
-"""The axis is at the mean of so many readings: one alone scatters by more than a slow motor turns."""
+"""The axis is at the mean of this many readings: one alone scatters by more than a slow motor turns."""
 COMING_DEG, COMING_NOISES = 0.5, 2.7
 """An axis that has moved further than both towards its place is coming nearer."""
 SLOW_SHARE = 0.25
@@ -35,7 +35,7 @@ SLOW_SHARE = 0.25
 class StrayWatch:
     """`speed_dps`: of the motor; `accel_dps2`: how hard it brakes, None: it stops at once.
 
-    `near_deg`: so far beside its place it may rest. `stray_deg`: further from it, it strays.
+    `near_deg`: it may rest this far from its place. `stray_deg`: further from it, it strays.
     """
 
     def __init__(
@@ -52,7 +52,7 @@ class StrayWatch:
         self._speed_dps = speed_dps
         self._stray_s = max(STRAY_S, speed_dps / accel_dps2 + TURNED_BACK_S) if accel_dps2 else STRAY_S
         self._apart_deg = max(stray_deg, 2.0 * near_deg)
-        """A target that has moved so far has left its dead band, wherever in it the axis was."""
+        """A target that has moved this far has left the dead band, wherever in it the axis was."""
         self._latest_deg: deque[float] = deque(maxlen=MEAN_OF)
         self._sent_for_s = 0.0
         """For how long, in all, it was sent somewhere."""
@@ -67,8 +67,8 @@ class StrayWatch:
         self._elsewhere_s = 0.0
         """For how long, in all, it was sent somewhere else than where it was."""
         self._kept: deque[tuple[float, float]] = deque()
-        """How far it had come nearer by the latest of these seconds. A target that comes back to an axis that stands
-        shows nothing of its motor, so what was seen before still counts."""
+        """Moments, and how far it had come nearer by then. If the target returns to a standing axis, the motor is not
+        proved: the old evidence stays."""
         self._vain = VainMoves()
         self._left = LeftBehind()
         self._away_s = 0.0
@@ -91,8 +91,8 @@ class StrayWatch:
     def see(
         self, now_s: float, steered: Steer | None, angle_deg: float | None, noise_deg: float = 0.0, *, settling: bool
     ) -> Fault | None:
-        """`noise_deg`: the scatter of the readings. `settling`: the axis does not follow yet, for a reason that passes
-        by itself.
+        """Returns the fault of an axis that does not follow. `noise_deg`: the scatter of the readings. `settling`: the
+        axis does not follow yet, for a reason that passes by itself.
         """
         if angle_deg is not None:
             self._latest_deg.append(angle_deg)

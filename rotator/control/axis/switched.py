@@ -40,7 +40,7 @@ BLIND = Notice("a broken pot wire would look like an angle: fit end resistors")
 
 
 class SwitchedAxis(AxisBase[SwitchedSettings]):
-    """The kind of `ControlledAxis` that relays drive. It can be homed where `settings.homing` says how."""
+    """The kind of `ControlledAxis` that relays drive."""
 
     def __init__(self, settings: SwitchedSettings, *, lease_s: float, period_s: float) -> None:
         # A count does not scatter, and it is corrected by as much as a pulse at once. In a calibration the sensor's
@@ -58,7 +58,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         self._seen = False
         """There has been a reading."""
         self._decided_s: float | None = None
-        """When it decided last: each order that comes makes it decide anew."""
+        """When it decided last. An order makes it decide again between two cycles."""
 
     @property
     def speed_dps(self) -> float:
@@ -123,7 +123,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         return self._faults.acknowledge(now_s, by_person=by_person)
 
     def checked(self) -> None:
-        """A person has looked at both relays, and they are open: no doubt is left."""
+        """A person has looked at both relays: they are open."""
         self._gate.checked()
 
     def decide(self, now_s: float) -> Decision:

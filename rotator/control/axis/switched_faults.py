@@ -92,6 +92,6 @@ class SwitchedFaults:
 
     def notices(self, now_s: float) -> tuple[Notice, ...]:
         """What a person should know of its motion though it stops nothing."""
-        told = self.fault is not None and self.fault.kind in WHY_IT_TURNS
-        gate = (notice for notice in self._gate.notices(now_s) if not (told and notice == TURNS))
+        explained = self.fault is not None and self.fault.kind in WHY_IT_TURNS
+        gate = (notice for notice in self._gate.notices(now_s) if not (explained and notice == TURNS))
         return (*gate, *self._attempts.notices)

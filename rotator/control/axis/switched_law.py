@@ -23,10 +23,10 @@ from rotator.control.sky.plan import Path, next_place_deg
 from rotator.control.sky.pointing import AimGoal
 from rotator.status import JOG_ENDS_DEG, LearntMotor
 
-FLOOR = 0.55
+LEAST_SHARE = 0.55
 """Below this share of the tolerance no error starts a motor, however slow the target: whole degrees are no better."""
 LEAST_MOVE_DEG = 0.3
-AGAIN_S = 0.5
+RESTARTS_AFTER_S = 0.5
 """A motor that has been switched off for a target that stands is not switched on for it again sooner: what its readings
 show by then is where it stands. A count that waits for its contact would else make its relay chatter."""
 
@@ -71,7 +71,7 @@ class SwitchedLaw:
         self._relays = relays
         self._note_stop(now_s)
         wanted_deg = self._goal_deg if self._running else self._rest_deg(now_s)
-        self.motion.driven(now_s, relays.direction, wanted_deg)
+        self.motion.note_drive(now_s, relays.direction, wanted_deg)
 
     @property
     def learnt(self) -> tuple[LearntMotor, LearntMotor]:
@@ -95,7 +95,7 @@ class SwitchedLaw:
         error_deg = target_deg - self._rest_deg(now_s)
         if self._running is Direction.OFF and abs(error_deg) <= tolerance_deg:
             return self.rest(now_s)
-        again = target_deg == self._goal_deg and self._relays.off_for_s(now_s) < AGAIN_S
+        again = target_deg == self._goal_deg and self._relays.off_for_s(now_s) < RESTARTS_AFTER_S
         if self._running is Direction.OFF and again:
             return self.rest(now_s)
         return self._go(now_s, target_deg)
@@ -137,7 +137,7 @@ class SwitchedLaw:
             then_deg = path.angle_deg(crossing_s)
             staying_deg, going_deg = abs(then_deg - rest_deg), abs(then_deg - place_deg)
             on_sky_deg = staying_deg * math.sqrt(path.weight(crossing_s))
-            if staying_deg < going_deg or on_sky_deg < FLOOR * tolerance_deg:
+            if staying_deg < going_deg or on_sky_deg < LEAST_SHARE * tolerance_deg:
                 return Run(Direction.OFF, now_s)
             if abs(place_deg - rest_deg) < LEAST_MOVE_DEG:
                 return Run(Direction.OFF, now_s)
@@ -179,7 +179,7 @@ class SwitchedLaw:
 
     def _note_stop(self, now_s: float) -> None:
         if self._stop_s is not None and now_s >= self._stop_s:
-            self.motion.driven(self._stop_s, Direction.OFF, self._goal_deg)
+            self.motion.note_drive(self._stop_s, Direction.OFF, self._goal_deg)
             self._running = Direction.OFF
             self._stop_s = None
             self._planned = None

@@ -11,19 +11,19 @@ from collections import deque
 from dataclasses import dataclass
 
 from hw.ports import Direction
-from rotator.control.axis.sparks import Place, spark_deg
+from rotator.control.axis.sparks import SeenAt, spark_deg
 
 KEPT_S = 5.0
 LEAST_GAP_S = 0.035
 """A reading that comes sooner after the last one is left out: a fast loop would only make the sums longer."""
 LONGEST_GAP_S = 0.3
-"""After a longer gap the line begins anew: the motion in between is not known."""
+"""After a longer gap a new line begins: the motion in between is not known."""
 LEAST_READINGS = 3
-"""A line needs so many."""
+"""A line needs this many readings."""
 
 _FIRST_NOISE_DEG = 0.1
 _FIRST_READINGS = 20
-"""The mean scatter of so many readings is where the noise begins."""
+"""The first estimate of the noise is the mean scatter of this many readings."""
 _MEAN = 0.7979
 """The mean of the size of what scatters by one."""
 _LEAST_NOISE_DEG, _MOST_NOISE_DEG = 0.02, 1.5
@@ -35,7 +35,7 @@ _MEDIAN = 0.6745
 @dataclass(frozen=True, slots=True)
 class Slope:
     speed_dps: float
-    rough_dps: float
+    error_dps: float
     """Standard error of the speed, from the noise of the readings."""
 
     @property
@@ -46,8 +46,8 @@ class Slope:
 class Trend:
     def __init__(self) -> None:
         self.noise_deg = _FIRST_NOISE_DEG
-        """Scatter of the readings, rms, as seen so far."""
-        self._kept: deque[Place] = deque()
+        """Scatter of the readings, rms, as seen up to now."""
+        self._kept: deque[SeenAt] = deque()
         self._first: list[float] = []
         """How far each of the first readings is off, in the size of the noise."""
 
@@ -63,7 +63,7 @@ class Trend:
     def see(self, at_s: float, angle_deg: float, fastest_dps: float) -> bool:
         """A good reading of an axis that turns at most that fast. Returns whether the line was continued, or begun.
 
-        Where the axis is elsewhere than it can have turned to, the line begins anew.
+        A new line begins where the axis cannot have turned so far.
         """
         passed_s = at_s - self.last_s
         if passed_s < LEAST_GAP_S:
@@ -103,12 +103,12 @@ class Trend:
         near = [angle_deg for seen_s, angle_deg in self._kept if abs(seen_s - at_s) <= half_s]
         return sum(near) / len(near) if near else None
 
-    def window_s(self, rough_dps: float) -> float:
-        """How long the line must be for a standard error of `rough_dps`."""
+    def window_s(self, error_dps: float) -> float:
+        """How long the line must be for a standard error of `error_dps`."""
         gap_s = LEAST_GAP_S
         if len(self._kept) > 1:
             gap_s = (self.last_s - self.since_s) / (len(self._kept) - 1)
-        return float((self.noise_deg * math.sqrt(12.0 * gap_s) / rough_dps) ** (2.0 / 3.0))
+        return float((self.noise_deg * math.sqrt(12.0 * gap_s) / error_dps) ** (2.0 / 3.0))
 
     def _note_noise(self) -> None:
         """Follow the median of how far a reading is off the line through its neighbours: starting motors hardly change

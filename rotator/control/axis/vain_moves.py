@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 LEAST_TRY_S = 0.4
-"""Sent elsewhere for less, a motor may not have started yet."""
+"""In a shorter move a motor may not have started yet."""
 
 
 class VainMoves:
@@ -17,9 +17,9 @@ class VainMoves:
 
     def __init__(self) -> None:
         self.count = 0
-        """Since the axis was last seen to come nearer, or a fault counted them; without the present one."""
+        """Moves in vain since the axis last came nearer, or since a fault counted them; without the present one."""
         self._since_s: float | None = None
-        """When the present move began; None: the axis is where it is sent, it comes nearer, or the move is counted."""
+        """When the present move began; None: the axis is there, it came nearer, or the move is counted."""
         self._lasts_s = 0.0
         self._least_deg = 0.0
 
@@ -48,13 +48,13 @@ class VainMoves:
 
 
 class LeftBehind:
-    """Where the target was while the axis stood: however far beside its place it stands, it has to follow."""
+    """Where the target was while the axis stood. It must follow a moving target from anywhere in its dead band."""
 
     def __init__(self) -> None:
         self.begin()
 
     def begin(self) -> None:
-        """It is sent anew."""
+        """It is sent to another place."""
         self._stands_deg = math.inf
         self._low_deg, self._high_deg = math.inf, -math.inf
         self._since_s: float | None = None

@@ -1,27 +1,21 @@
 """Presses that do not turn an axis without a calibration, by its raw readings: it may stand at its stop.
 
 Knows the readings, in degrees of the sensor's span, and how long the relays were on. Such an axis has no angle and no
-limits; all that can be told is whether a press has moved it. Stops nothing: who presses decides.
+limits; one can only see whether a press has moved it. Stops nothing: the person who presses decides.
 """
 
 from __future__ import annotations
 
-from collections import deque
-
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.sparks import Place
+from rotator.control.axis.smoothing import SETTLES_S, Smoothed
 from rotator.faults import Notice
 
 ENOUGH, ENOUGH_S = 3, 1.0
-"""So many presses in a row, and so long in all, that did not move it."""
+"""It is pressed in vain after this many presses in a row, and this time in all, that did not move it."""
 LONG_S = 4.5
-"""Or so long in all: presses that follow each other without a pause look like one."""
-SMOOTHED = 5
-"""The mean of so many readings is where it is."""
+"""Or after this time in all: presses that follow each other without a pause look like one."""
 MOVED_DEG, MOVED_NOISES = 0.3, 4.0
 """It has moved when it is further from where it stood than both."""
-SETTLES_S = 0.6
-"""Relay, coast and the mean of the readings take so long after a press."""
 IN_VAIN = Notice("presses did not move it: no program turns it before a person has, or says resume", "NOT TURNING")
 
 
@@ -29,7 +23,7 @@ class VainPresses:
     """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time."""
 
     def __init__(self) -> None:
-        self._latest: deque[Place] = deque(maxlen=SMOOTHED)
+        self._smoothed = Smoothed()
         self.forget()
 
     def forget(self) -> None:
@@ -61,15 +55,15 @@ class VainPresses:
             self._counted()
             self._since_s = relays.since_s
             if self._stands_deg is None:
-                self._stands_deg = self._place_deg
+                self._stands_deg = self._smoothed.deg
 
     def see(self, at_s: float, place_deg: float, noise_deg: float) -> None:
         """A good reading. `noise_deg`: the scatter of the readings, rms."""
-        self._latest.append((at_s, place_deg))
-        if self._stands_deg is None or self._place_deg is None:
+        self._smoothed.see(place_deg)
+        if self._stands_deg is None or self._smoothed.deg is None:
             return
-        if abs(self._place_deg - self._stands_deg) >= max(MOVED_DEG, MOVED_NOISES * noise_deg):
-            self._count, self._pressed_s, self._stands_deg, self._ended_s = 0, 0.0, self._place_deg, None
+        if abs(self._smoothed.deg - self._stands_deg) >= max(MOVED_DEG, MOVED_NOISES * noise_deg):
+            self._count, self._pressed_s, self._stands_deg, self._ended_s = 0, 0.0, self._smoothed.deg, None
             self._moved, self._present_s = self._since_s is not None, 0.0
         elif self._since_s is not None and not self._moved:
             self._present_s = at_s - self._since_s
@@ -80,9 +74,3 @@ class VainPresses:
         """The last press is over, and has not moved it."""
         self._count += self._ended_s is not None
         self._ended_s = None
-
-    @property
-    def _place_deg(self) -> float | None:
-        if len(self._latest) < SMOOTHED:
-            return None
-        return sum(place_deg for _, place_deg in self._latest) / SMOOTHED

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from hw.ports import Direction
-from rotator.control.axis.observed_motion import ObservedMotion, Window
+from rotator.control.axis.observed_motion import ObservedMotion, SpeedWindow
 from rotator.control.axis.opening_watch import OpeningWatch
 from rotator.control.axis.relay_faults import CUT_BY_HAND, accusation, unstoppable
 from rotator.control.axis.relay_state import RelayState
@@ -18,18 +18,18 @@ from rotator.control.axis.trend import Slope
 from rotator.faults import Fault, FaultKind, Notice
 from rotator.status import Trust
 
-TURNING = Window(1.0, 4.0, 4.0)
+TURNING_WINDOW = SpeedWindow(1.0, 4.0, 4.0)
 TURNING_SHARE = 0.5
 """An axis faster than this share of its motor's speed is turned by its motor."""
 NOTICED_SHARE = 0.2
-"""An axis slower than this share stands; one between the two is noticed."""
+"""An axis below this share stands. Between the two shares a notice is shown."""
 TURNS = Notice("turning with no relay on: wind, or a hand at the control box's switch", "TURNS BY SELF")
-CLEAR_ERRORS = 4.0
+TURNS_ERRORS = 4.0
 STILL_FAST_S = 0.4
 NOTICED_FOR_S = 3.0
 """A notice stays this long after its cause, so that it can be read."""
 CUT_IN_S = 3.0
-"""What still turns so long after the supply was to be cut is beyond this box."""
+"""If it still turns this long after its supply was cut, this box cannot stop it."""
 
 
 class WeldWatch:
@@ -79,15 +79,15 @@ class WeldWatch:
     def _turning(self, at_s: float) -> Fault | None:
         seen, motor_dps = self._seen, self._motor_dps
         limit_dps = (TURNING_SHARE if self._knows_speed else NOTICED_SHARE) * motor_dps
-        exact = seen.speed(at_s, TURNING, limit_dps / 6.0)
+        exact = seen.speed(at_s, TURNING_WINDOW, limit_dps / 6.0)
         slope = exact or self._clearly(at_s)
         if slope is None:
             return None
         speed_dps = abs(slope.speed_dps)
-        if exact and speed_dps < max(NOTICED_SHARE * motor_dps, 6.0 * slope.rough_dps):
+        if exact and speed_dps < max(NOTICED_SHARE * motor_dps, 6.0 * slope.error_dps):
             self._rested, self._fast_s = True, math.inf
             return None
-        if self._rested and speed_dps < 6.0 * slope.rough_dps:
+        if self._rested and speed_dps < 6.0 * slope.error_dps:
             self._fast_s = math.inf  # noise alone may look like this once in a while: it is at rest still
             return None
         self._noticed_s = at_s
@@ -101,8 +101,8 @@ class WeldWatch:
 
     def _clearly(self, at_s: float) -> Slope | None:
         """The speed of an axis that turns like its motor, where noise asks for a longer look at a slower one."""
-        slope = self._seen.speed(at_s, TURNING, math.inf)
-        if slope is None or abs(slope.speed_dps) - CLEAR_ERRORS * slope.rough_dps < TURNING_SHARE * self._motor_dps:
+        slope = self._seen.speed(at_s, TURNING_WINDOW, math.inf)
+        if slope is None or abs(slope.speed_dps) - TURNS_ERRORS * slope.error_dps < TURNING_SHARE * self._motor_dps:
             return None
         return slope
 
@@ -130,7 +130,7 @@ class WeldWatch:
 
     def _still_turns(self, at_s: float, way: Direction, limit_dps: float) -> bool:
         """Whether the axis, at rest before, turns for good: a push may be over while the window still holds it."""
-        latest = self._seen.trend.slope(at_s - TURNING.least_s / 2.0)
+        latest = self._seen.trend.slope(at_s - TURNING_WINDOW.least_s / 2.0)
         going = latest is not None and latest.speed_dps * way >= limit_dps / 2.0
         return going and at_s - self._fast_s >= STILL_FAST_S
 
@@ -142,7 +142,7 @@ class WeldWatch:
         after = " after its relay was switched off" if welded else ""
         measured = f"it turns {seen.name(way)} at {abs(slope.speed_dps):.1f}°/s{after}"
         kind = FaultKind.RELAY_WELDED if welded else FaultKind.TURNS_BY_ITSELF
-        return self._closed(kind, measured, f"{limit_dps:.2g}°/s for {TURNING.least_s:g} s")
+        return self._closed(kind, measured, f"{limit_dps:.2g}°/s for {TURNING_WINDOW.least_s:g} s")
 
     def _closed(self, kind: FaultKind, measured: str, limit: str) -> Fault:
         return unstoppable(Fault(kind, self._seen.axis, measured, limit), master=self._master)

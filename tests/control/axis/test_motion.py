@@ -11,7 +11,7 @@ import math
 import pytest
 
 from hw.ports import Direction
-from rotator.control.axis.motion import JUMP_DEG, JUMP_READINGS, LANDING_READINGS, SETTLE_S, Motion, Motor
+from rotator.control.axis.motion import JUMP_DEG, JUMP_READINGS, LANDING_READINGS, RESTS_AFTER_S, Motion, Motor
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05
@@ -30,7 +30,7 @@ class Axis:
 
     def drive(self, way: Direction, wanted_deg: float = 0.0) -> None:
         self.way = way
-        self.model.driven(self.now_s, way, wanted_deg)
+        self.model.note_drive(self.now_s, way, wanted_deg)
 
     def turn(self, seconds: float, *, seen: bool = True) -> None:
         for _ in range(round(seconds / STEP_S)):
@@ -47,7 +47,7 @@ class Axis:
         self.drive(way)
         self.turn(seconds)
         self.drive(OFF, self.model.rest_deg(self.now_s))
-        self.turn(SETTLE_S + (LANDING_READINGS + 2) * STEP_S)
+        self.turn(RESTS_AFTER_S + (LANDING_READINGS + 2) * STEP_S)
 
 
 def motor(speed_dps: float = 6.0, lag_s: float = 0.2) -> Motor:
@@ -63,7 +63,7 @@ def test_before_the_first_reading_there_is_no_angle() -> None:
     model = Motion({PLUS: motor(), MINUS: motor()})
     assert model.angle_deg is None
     assert model.rest_deg(3.0) == 0.0
-    model.driven(1.0, PLUS, 0.0)
+    model.note_drive(1.0, PLUS, 0.0)
     assert model.resting, "what the relays do before is not known to have moved it"
     model.see(2.0, 77.0)
     assert model.angle_deg == 77.0
@@ -100,7 +100,7 @@ def test_it_rests_once_it_has_landed(way: Direction) -> None:
     assert not axis.model.resting
     axis.turn(2.0)
     axis.drive(OFF)
-    axis.turn(SETTLE_S + (LANDING_READINGS - 2) * STEP_S)
+    axis.turn(RESTS_AFTER_S + (LANDING_READINGS - 2) * STEP_S)
     assert not axis.model.resting, "it may still coast"
     axis.turn(3 * STEP_S)
     assert axis.model.resting
@@ -168,7 +168,7 @@ def test_a_coast_is_never_negative_and_at_most_three_seconds_of_full_speed() -> 
         axis.drive(PLUS)
         axis.turn(3.0)
         axis.drive(OFF, axis.angle_deg + 1.2 - misses_deg)
-        axis.turn(SETTLE_S + (LANDING_READINGS + 2) * STEP_S)
+        axis.turn(RESTS_AFTER_S + (LANDING_READINGS + 2) * STEP_S)
         assert axis.model.motors[PLUS].coast_deg == pytest.approx(coast_deg, rel=0.01)
 
 
@@ -193,7 +193,7 @@ def test_a_run_from_a_coast_teaches_no_speed() -> None:
     axis.drive(PLUS)
     axis.turn(2.0)
     axis.drive(OFF, axis.model.rest_deg(axis.now_s))
-    axis.turn(SETTLE_S + (LANDING_READINGS + 2) * STEP_S)
+    axis.turn(RESTS_AFTER_S + (LANDING_READINGS + 2) * STEP_S)
     assert axis.model.motors[PLUS].speed_dps == 6.0
 
 
@@ -205,7 +205,7 @@ def test_the_same_command_again_changes_nothing() -> None:
     axis.turn(1.0)
     axis.drive(OFF, axis.model.rest_deg(axis.now_s))
     axis.drive(OFF, 0.0)
-    axis.turn(SETTLE_S + (LANDING_READINGS + 2) * STEP_S)
+    axis.turn(RESTS_AFTER_S + (LANDING_READINGS + 2) * STEP_S)
     assert axis.model.motors[PLUS].speed_dps == pytest.approx(6.0, rel=0.01)
     assert axis.model.motors[PLUS].coast_deg == pytest.approx(1.2, abs=0.05)
 

@@ -6,14 +6,14 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.observed_motion import ObservedMotion, Window
+from rotator.control.axis.observed_motion import ObservedMotion, SpeedWindow
 from rotator.control.sky.mount import Range
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
 STEP_S = 0.05
 LAG_S = 0.5
-WINDOW = Window(least_s=1.0, first_s=1.5, most_s=3.0)
+WINDOW = SpeedWindow(least_s=1.0, first_s=1.5, most_s=3.0)
 RIGHT, LEFT = Motor(6.0, 6.0 * LAG_S), Motor(4.0, 4.0 * LAG_S)
 
 
@@ -22,10 +22,10 @@ def seen() -> ObservedMotion:
     return ObservedMotion(Axis.AZIMUTH, Range(0.0, 450.0), {PLUS: RIGHT, MINUS: LEFT})
 
 
-def first_told_s(seen: ObservedMotion, from_s: float, rough_dps: float = 1e6) -> float:
+def first_told_s(seen: ObservedMotion, from_s: float, error_dps: float = 1e6) -> float:
     """How long after `from_s` a speed is told, of readings that do not scatter."""
     at_s = from_s
-    while seen.speed(at_s, WINDOW, rough_dps) is None:
+    while seen.speed(at_s, WINDOW, error_dps) is None:
         at_s += STEP_S
         seen.see(at_s, 100.0)
     return at_s - from_s
@@ -109,11 +109,11 @@ def test_noise_asks_for_a_longer_window_but_not_before_it_has_turned(seen: Obser
     ready(seen)
     switch = Switch(seen.note_relays)
     switch.to(10.0, PLUS)
-    assert first_told_s(seen, 10.0, rough_dps=1e-6) == pytest.approx(0.05 + LAG_S + 1.5, abs=STEP_S)
+    assert first_told_s(seen, 10.0, error_dps=1e-6) == pytest.approx(0.05 + LAG_S + 1.5, abs=STEP_S)
     seen.show(6.0)
     switch.to(30.0, OFF)
     switch.to(40.0, PLUS)
-    assert first_told_s(seen, 40.0, rough_dps=1e-6) == pytest.approx(0.05 + LAG_S + 3.0, abs=STEP_S)
+    assert first_told_s(seen, 40.0, error_dps=1e-6) == pytest.approx(0.05 + LAG_S + 3.0, abs=STEP_S)
 
 
 def test_a_first_run_is_looked_at_whole_and_a_later_one_at_its_end() -> None:

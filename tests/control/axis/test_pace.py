@@ -8,7 +8,7 @@ import random
 import pytest
 
 from hw.ports import AngleSource, Axis
-from rotator.control.axis.pace import SLOWEST, Pace
+from rotator.control.axis.pace import SLOWEST_SHARE, Pace
 from rotator.control.axis.sensing import Window
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.sky.mount import Range
@@ -33,7 +33,7 @@ def pace(source: AngleSource, accel_dps2: float | None = None) -> Pace:
 
 
 @pytest.mark.parametrize("seed", range(20))
-@pytest.mark.parametrize("share", [SLOWEST, 0.6, 1.0])
+@pytest.mark.parametrize("share", [SLOWEST_SHARE, 0.6, 1.0])
 def test_a_servo_behind_its_model_is_where_it_may_be_also_after_the_model_has_turned_back(
     seed: int, share: float
 ) -> None:

@@ -11,7 +11,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motion, Motor
-from rotator.control.axis.reach import FASTER, RELAY_S, START_S, Bounds, Reach, bounds, lost
+from rotator.control.axis.reach import FASTER_THAN_FILE, RELAY_OPENS_S, START_S, Bounds, Reach, bounds, lost
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.sensing import Reading, Sensing, Window
 from rotator.control.axis.settings import SwitchedSettings
@@ -50,7 +50,7 @@ class Reached:
 
     def relays(self, way: Direction) -> None:
         self.motor.coils(plus=way is PLUS, minus=way is MINUS, now_s=self.now_s)
-        self.motion.driven(self.now_s, way, self.motion.rest_deg(self.now_s))
+        self.motion.note_drive(self.now_s, way, self.motion.rest_deg(self.now_s))
         self.relay_state = self.relay_state.changed(self.now_s, way)
 
     def swept(self, way: Direction | None = None, for_s: float = 0.25, later_s: float = 0.0) -> Range:
@@ -78,7 +78,7 @@ def test_a_motor_is_bounded_by_what_the_file_says_and_by_what_it_has_shown() -> 
     assert Bounds(9.0, 0.2).room_deg == pytest.approx(9.0 * 0.38)
 
 
-@pytest.mark.parametrize("share", [0.3, 1.0, FASTER])
+@pytest.mark.parametrize("share", [0.3, 1.0, FASTER_THAN_FILE])
 @pytest.mark.parametrize("seed", range(6))
 def test_wherever_a_run_begins_and_ends_the_real_motor_rests_within_its_bounds(seed: int, share: float) -> None:
     """The motor is up to half as fast again as the file says, and reversed and tapped at random."""
@@ -105,7 +105,7 @@ def test_at_rest_it_stays_where_it_is() -> None:
 @BOTH_WAYS
 def test_from_rest_it_may_go_as_far_as_the_run_lasts_and_coast(way: Direction) -> None:
     swept = Reached().swept(way, for_s=0.25)
-    far_deg = 9.0 * 0.25 + 9.0 * (0.2 + RELAY_S)
+    far_deg = 9.0 * 0.25 + 9.0 * (0.2 + RELAY_OPENS_S)
     assert (swept.max_deg - 200.0, 200.0 - swept.min_deg)[::way] == pytest.approx((far_deg, 0.0))
 
 
@@ -160,9 +160,9 @@ def test_a_count_may_be_off_by_a_pulse() -> None:
 
 def test_its_room_is_that_of_its_faster_direction() -> None:
     reached = Reached()
-    assert reached.room_deg == pytest.approx(9.0 * (START_S + 0.2 + RELAY_S))
+    assert reached.room_deg == pytest.approx(9.0 * (START_S + 0.2 + RELAY_OPENS_S))
     reached.motion.motors[MINUS] = Motor(10.0, 2.0)
-    assert reached.room_deg == pytest.approx(12.0 * (START_S + 0.2 + RELAY_S))
+    assert reached.room_deg == pytest.approx(12.0 * (START_S + 0.2 + RELAY_OPENS_S))
 
 
 @pytest.mark.parametrize(

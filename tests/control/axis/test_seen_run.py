@@ -60,7 +60,7 @@ def test_before_the_first_run_its_speed_is_the_believed_one() -> None:
     runs = Runs()
     assert runs.seen.measured_dps is None
     assert runs.seen.motor_dps == 6.0
-    assert runs.seen.fed_dps == pytest.approx(0.2 * 6.0), "it may be a fifth of that"
+    assert runs.seen.powered_dps == pytest.approx(0.2 * 6.0), "it may be a fifth of that"
 
 
 @BOTH_WAYS
@@ -71,7 +71,7 @@ def test_a_run_shows_its_speed(way: Direction, dps: float, run_s: float) -> None
     runs.run(way, run_s, dps)
     assert runs.seen.measured_dps == pytest.approx(dps, rel=0.15 if run_s < 1.0 else 0.04)
     assert runs.seen.motor_dps == runs.seen.measured_dps
-    assert runs.seen.fed_dps == pytest.approx(0.5 * runs.seen.motor_dps)
+    assert runs.seen.powered_dps == pytest.approx(0.5 * runs.seen.motor_dps)
 
 
 def test_the_slower_direction_is_its_speed_and_the_latest_run_that_way_counts() -> None:

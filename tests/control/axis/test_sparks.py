@@ -7,13 +7,13 @@ import random
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.control.axis.sparks import AGREE, Place, Sparks
+from rotator.control.axis.sparks import AGREE, SeenAt, Sparks
 
 STEP_S = 0.05
 FASTEST_DPS = 6.0
 
 
-def believed(angles_deg: list[float | None], noise_deg: float = 0.1) -> list[tuple[Place, ...]]:
+def believed(angles_deg: list[float | None], noise_deg: float = 0.1) -> list[tuple[SeenAt, ...]]:
     """What each reading makes; None: there is no reading."""
     sparks = Sparks(FASTEST_DPS)
     return [

@@ -20,7 +20,7 @@ def test_noise_is_measured_whatever_the_axis_does(noise_deg: float) -> None:
     assert trend.noise_deg == pytest.approx(max(noise_deg, 0.02), rel=0.4)
     slope = trend.slope(400 * STEP_S - 2.0)
     assert slope is not None
-    assert slope.speed_dps == pytest.approx(6.0, abs=max(4.0 * slope.rough_dps, 1e-6))
+    assert slope.speed_dps == pytest.approx(6.0, abs=max(4.0 * slope.error_dps, 1e-6))
 
 
 def test_after_a_gap_the_line_begins_anew() -> None:
