@@ -20,7 +20,7 @@ from benchmarks.stops import free_port
 from hw.ports import AngleSensor, AngleSource, Axis, Direction
 from rotator.assembly.settings import build_controller
 from rotator.config.load import parse
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 from rotator.control.commands import Command, Errand
 from rotator.rotors.common import PlainRotor
 from rotator.rotors.port import AddAlarm

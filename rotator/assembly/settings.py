@@ -17,7 +17,7 @@ from rotator.config.sim import SimAxisTable
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.sensing import ANYTHING, Window
+from rotator.control.axis.readings import ANYTHING, Window
 from rotator.control.axis.settings import NEAR_DEG, AxisSettings, PositionedSettings, SwitchedSettings
 from rotator.control.controller import Controller
 from rotator.control.settings import Settings

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
 from rotator.control.axis.build import build_axis
-from rotator.control.axis.sensing import Reading
+from rotator.control.axis.readings import Reading
 from rotator.control.boom import with_boom
 from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.cycles import Cycles

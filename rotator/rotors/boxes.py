@@ -13,7 +13,7 @@ from hw.drives.digipot import ASTRAY_DEG, DigipotDrive
 from hw.ports import AngleSensor, Axis
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.held_watch import turns_by_itself
-from rotator.control.axis.sensing import Condition, Window
+from rotator.control.axis.readings import Condition, Window
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import Notice
 from rotator.rotors.common import BlockedDirections, no_switches

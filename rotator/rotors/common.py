@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 from hw.ports import AngleSensor, Axis, Direction
 from hw.safety.guard import Expiring, Guard
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 from rotator.control.commands import Errand
 from rotator.rotors.port import AddAlarm
 

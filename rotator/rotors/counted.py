@@ -13,8 +13,8 @@ from collections.abc import Callable, Mapping
 from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, AngleSource, Axis, Direction
 from hw.sensors.pulses import PulseCounter
+from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import unstoppable
-from rotator.control.axis.sensing import Condition
 from rotator.control.commands import Command, Errand, Place, Run
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import Fault, FaultKind

@@ -12,7 +12,7 @@ from hw.moteus.bus import MoteusBus
 from hw.moteus.drive import MoteusDrive
 from hw.moteus.wire import MoteusInStep
 from hw.ports import AngleSensor, Axis, Direction, HardwareError
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 from rotator.control.commands import Acknowledge, Command, Errand, Place
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import Fault, FaultKind, Notice

@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Protocol
 
 from hw.ports import AngleSensor, Axis, Direction
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 from rotator.control.commands import Command, Errand
 
 AddAlarm = Callable[[Callable[[], float | None], Callable[[float], None]], None]

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from hw.drives.relays import RelayBank
 from hw.ports import AngleSensor, Axis, Direction
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 from rotator.control.commands import Command, Feed, Run, Unfed
 from rotator.rotors.common import BlockedDirections, GuardedRotor, no_switches
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from hw.drives.servo import ServoDrive
 from hw.ports import AngleSensor, Axis
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import Fault, FaultKind
 from rotator.rotors.common import BlockedDirections, no_switches

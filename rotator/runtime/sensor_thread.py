@@ -9,7 +9,7 @@ import threading
 from collections.abc import Callable
 
 from hw.ports import AngleSensor, Axis, HardwareError
-from rotator.control.axis.sensing import Reading
+from rotator.control.axis.readings import Reading
 from rotator.rotors.port import Rotor
 from rotator.runtime.journal import Journal
 

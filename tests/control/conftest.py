@@ -12,7 +12,7 @@ from hw.ports import AngleSource, Axis, Direction
 from rotator.control.axis.calibration_table import Calibration, between_ends
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.sensing import ANYTHING, Condition, Reading, Window
+from rotator.control.axis.readings import ANYTHING, Condition, Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
 from rotator.control.controller import Controller

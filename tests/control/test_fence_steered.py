@@ -7,7 +7,7 @@ import pytest
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.positioned import PositionedAxis
-from rotator.control.axis.sensing import Reading, Window
+from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.commands import HOLD, Command, Run, Steer
 from rotator.control.fence import Fence

@@ -11,7 +11,7 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.sensing import ANYTHING, Reading
+from rotator.control.axis.readings import ANYTHING, Reading
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.commands import Steer
 from rotator.control.controller import Controller

@@ -14,7 +14,7 @@ from hw.ports import Axis, Direction
 from rotator.control.admission import refusal
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.sensing import Reading, Window
+from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
 from rotator.control.controller import Controller

@@ -10,7 +10,7 @@ from hw.drives.digipot import DigipotDrive
 from hw.drives.servo import ServoDrive
 from hw.ports import AngleSource, Axis, Direction, HardwareError
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.sensing import Window
+from rotator.control.axis.readings import Window
 from rotator.control.commands import Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import FaultKind

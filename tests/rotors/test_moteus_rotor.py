@@ -17,7 +17,7 @@ from hw.moteus.drive import MoteusDrive
 from hw.moteus.orders import MoteusSpec
 from hw.moteus.wire import MoteusInStep
 from hw.ports import Axis, Direction
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 from rotator.control.commands import HOLD, Acknowledge, Place, Steer
 from rotator.control.sky.offsets import Offsets
 from rotator.faults import FaultKind

@@ -15,7 +15,7 @@ from rotator.assembly.rotors import Assembly
 from rotator.assembly.settings import own_points
 from rotator.assembly.simulated_axes import SimulatedAxes
 from rotator.control.axis.calibration_table import Calibration
-from rotator.control.axis.sensing import ANYTHING, Window
+from rotator.control.axis.readings import ANYTHING, Window
 from rotator.rotors.boxes import BoxRotor, FollowedBox
 
 

@@ -11,7 +11,8 @@ from typing import Generic, TypeVar
 from hw.ports import Direction
 from rotator.control.axis.end_calibration import EndCalibration
 from rotator.control.axis.goals import HomeGoal, JogGoal, jog
-from rotator.control.axis.sensing import NORMAL, Sensing
+from rotator.control.axis.readings import NORMAL
+from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import AxisSettings
 from rotator.control.sky.pointing import AimGoal
 from rotator.faults import Fault, Missing, Notice

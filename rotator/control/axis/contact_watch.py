@@ -12,9 +12,9 @@ import math
 from collections import deque
 
 from hw.ports import Direction
+from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
-from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range
 from rotator.status import Trust
 

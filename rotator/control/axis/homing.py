@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import Direction
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 
 QUIET_PERIODS = 3.0
 PROOF = 2

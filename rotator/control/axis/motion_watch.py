@@ -13,9 +13,9 @@ from rotator.control.axis.driven_watch import DrivenWatch
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.observed_motion import ObservedMotion
 from rotator.control.axis.opening_watch import OpeningWatch
+from rotator.control.axis.readings import NORMAL, Condition
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import RelayTrusts
-from rotator.control.axis.sensing import NORMAL, Condition
 from rotator.control.axis.weld_watch import WeldWatch
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, Notice

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from hw.ports import Direction
-from rotator.control.axis.sensing import Reading
+from rotator.control.axis.readings import Reading
 from rotator.control.commands import Command, Decision, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.pointing import AimGoal

@@ -17,8 +17,8 @@ from rotator.control.axis.held_watch import HeldWatch
 from rotator.control.axis.pace import Pace
 from rotator.control.axis.positioned_law import PositionedLaw, Sent
 from rotator.control.axis.reach import LOST_AFTER_S, lost
+from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_faults import limit_reached, unstoppable
-from rotator.control.axis.sensing import Reading
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import SERVO_STRAY_DEG, STRAY_DEG, StrayWatch
 from rotator.control.axis.trend import Trend

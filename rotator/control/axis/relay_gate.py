@@ -13,11 +13,11 @@ from dataclasses import replace
 from hw.ports import Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
+from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import WAYS, doubts, unstoppable
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_watch import RelayWatch
 from rotator.control.axis.run_watch import RunWatch
-from rotator.control.axis.sensing import Condition
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Feed, Run
 from rotator.faults import Fault, Notice

@@ -10,8 +10,8 @@ from typing import Protocol
 
 from hw.ports import Direction
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.sensing import Condition
 from rotator.faults import Fault, Notice
 from rotator.status import Trusts
 

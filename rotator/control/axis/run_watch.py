@@ -12,10 +12,10 @@ from collections.abc import Mapping
 from hw.ports import Axis, Direction
 from rotator.control.axis.contact_watch import ContactWatch
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.readings import NORMAL, Condition
 from rotator.control.axis.relay_faults import WAYS, accusation
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import RelayTrusts
-from rotator.control.axis.sensing import NORMAL, Condition
 from rotator.control.axis.silent_runs import SilentRuns
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, FaultKind, Notice

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from dataclasses import dataclass
 
-from hw.ports import Axis, Direction
+from hw.ports import Axis
 from rotator.control.axis.bad_readings import LOOKED_AT, TOO_MANY, BadReadings
 from rotator.control.axis.calibration_table import Calibration
+from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.sparks import SeenAt, Sparks
 from rotator.faults import Fault, FaultKind, Notice
 
@@ -32,69 +32,6 @@ MOVES, MOVES_WITHIN_S = 3, 120.0
 """A sensor whose readings jump to another place and stay there this often does not show where the axis is."""
 UNCALIBRATED_SPAN_DEG = 360.0
 """Until a pot is calibrated its whole range counts as this many degrees."""
-
-
-@dataclass(frozen=True, slots=True)
-class Condition:
-    """What a rotor reports of one of its axes beside the angle."""
-
-    fault: Fault | None = None
-    """What is wrong with the axis now, as the rotor itself knows."""
-    latched: bool = False
-    """The rotor itself keeps that fault until it is acknowledged."""
-    notice: Notice | None = None
-    """What a person should know though it stops nothing."""
-    lost: str = ""
-    """Why the axis has to be homed before its angle is known; empty: the angle is right."""
-    scale: int = 0
-    """When this number changes, the same reading means another place from then on."""
-    settling: bool = False
-    """The axis does not follow yet, for a reason that passes by itself."""
-    changes: int = 0
-    """How often its contact has changed."""
-    missed: int = 0
-    """How many orders its controller has left without an answer up to now."""
-    closed: bool = False
-    """Its contact is closed since the last of these changes."""
-    ends: frozenset[Direction] = frozenset()
-    """The directions that a limit switch forbids."""
-    ahead: frozenset[Direction] = frozenset()
-    """The directions in which its contact would change again before the stop."""
-    supplied: bool = True
-    """The motors have their supply, as far as the box knows: no master is open."""
-
-
-NORMAL = Condition()
-"""The rotor has nothing to say."""
-
-
-@dataclass(frozen=True, slots=True)
-class Reading:
-    """What a sensor read: its raw value, or why there is none (`problem`); and the condition of the axis."""
-
-    at_s: float
-    raw: float | None
-    problem: str = ""
-    condition: Condition = NORMAL
-
-
-@dataclass(frozen=True, slots=True)
-class Window:
-    """Readings of a healthy sensor. With end resistors and a pulled wiper, a broken wire reads outside."""
-
-    low_raw: float
-    high_raw: float
-    pot: bool = True
-    """The sensor is a pot. With a broken wire a chip does not answer; a pot answers with a wrong reading."""
-
-    @property
-    def blind(self) -> bool:
-        """Whether a broken wire of the pot would read like an angle, because there are no end resistors."""
-        return self.pot and (self.low_raw <= 0.0 or self.high_raw >= 1.0)
-
-
-ANYTHING = Window(-math.inf, math.inf, pot=False)
-"""A sensor in degrees that reports itself when it cannot be believed."""
 
 
 class Sensing:

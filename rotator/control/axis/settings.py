@@ -11,7 +11,7 @@ from hw.ports import AngleSource, Axis
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.sensing import Window
+from rotator.control.axis.readings import Window
 from rotator.control.sky.mount import Range
 from rotator.faults import Missing
 from rotator.status import ALL_OPEN, Trusts

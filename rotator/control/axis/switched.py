@@ -17,11 +17,11 @@ from rotator.control.axis.goals import HomeGoal, JogGoal
 from rotator.control.axis.homing import Homing
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.reach import Reach, lost
+from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS
 from rotator.control.axis.run_permit import RunPermit
-from rotator.control.axis.sensing import Reading
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_faults import SwitchedFaults
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing

@@ -6,9 +6,10 @@ Knows the watches that find faults, and the latch that keeps one. Does not stop 
 from __future__ import annotations
 
 from rotator.control.axis.attempts import Attempts
+from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_gate import RelayGate
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.sensing import Reading, Sensing
+from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.vain_presses import VainPresses
 from rotator.control.axis.weld_watch import TURNS

@@ -11,7 +11,7 @@ from rotator.control.axis.build import build_axis
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.port import ControlledAxis
-from rotator.control.axis.sensing import ANYTHING
+from rotator.control.axis.readings import ANYTHING
 from rotator.control.axis.settings import AxisSettings, PositionedSettings, SwitchedSettings
 from rotator.control.refused import Refused
 from rotator.control.sky.mount import Range

@@ -6,8 +6,8 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.readings import Condition
 from rotator.control.axis.run_watch import RunWatch
-from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range
 from rotator.status import Trust
 from tests.control.axis.switch import Switch

@@ -13,7 +13,7 @@ from firmware_sim.rotors.relay_pulse import U100_MOTOR
 from hw.ports import Direction
 from hw.sensors.cam import Cam
 from rotator.control.axis.homing import Homing, HomingSettings
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 from tests.hw.sensors.pulse_rig import AZ, CAM, CYCLE_S, PulseRig
 from tests.search import examples
 

@@ -9,7 +9,7 @@ import pytest
 
 from hw.ports import AngleSource, Axis
 from rotator.control.axis.pace import SLOWEST_SHARE, Pace
-from rotator.control.axis.sensing import Window
+from rotator.control.axis.readings import Window
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.sky.mount import Range
 

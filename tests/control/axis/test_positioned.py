@@ -7,7 +7,8 @@ import pytest
 from hw.ports import AngleSource, Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.positioned import PositionedAxis
-from rotator.control.axis.sensing import RIDDEN_S, Condition, Reading, Window
+from rotator.control.axis.readings import Condition, Reading, Window
+from rotator.control.axis.sensing import RIDDEN_S
 from rotator.control.axis.settings import PositionedSettings
 from rotator.control.axis.stray_watch import STRAY_S
 from rotator.control.commands import HOLD, Steer

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import AngleSource, Direction
-from rotator.control.axis.sensing import Condition, Reading
+from rotator.control.axis.readings import Condition, Reading
 from rotator.control.commands import HOLD, Steer
 from rotator.control.sky.mount import Range
 from rotator.control.sky.pointing import AimGoal

@@ -12,8 +12,9 @@ from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.homing import HomingSettings
 from rotator.control.axis.motion import Motion, Motor
 from rotator.control.axis.reach import FASTER_THAN_FILE, RELAY_OPENS_S, START_S, Bounds, Reach, bounds, lost
+from rotator.control.axis.readings import Reading, Window
 from rotator.control.axis.relay_state import RelayState
-from rotator.control.axis.sensing import Reading, Sensing, Window
+from rotator.control.axis.sensing import Sensing
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Run
 from rotator.control.sky.mount import Range

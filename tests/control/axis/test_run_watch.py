@@ -6,9 +6,9 @@ import pytest
 
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
+from rotator.control.axis.readings import Condition
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.run_watch import RunWatch
-from rotator.control.axis.sensing import Condition
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
 from tests.control.axis.switch import Switch

@@ -11,7 +11,7 @@ from firmware_sim.parts.motor import MotorSpec, SimMotor
 from hw.ports import Axis, Direction
 from rotator.control.axis.motion import Motor
 from rotator.control.axis.motion_watch import MotionWatch
-from rotator.control.axis.sensing import Condition
+from rotator.control.axis.readings import Condition
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
 from rotator.status import ALL_OPEN, Trusts

@@ -12,7 +12,7 @@ from firmware_sim.parts.motor import MotorSpec, SimMotor
 from hw.ports import Axis, Direction
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.motion import Motor
-from rotator.control.axis.sensing import Condition, Reading, Window
+from rotator.control.axis.readings import Condition, Reading, Window
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched import SwitchedAxis
 from rotator.control.commands import Feed, Run, Unfed
