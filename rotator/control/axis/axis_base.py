@@ -44,6 +44,22 @@ class AxisBase(ABC, Generic[Settings]):
     def moving(self, now_s: float) -> bool: ...
 
     @property
+    def pressed_in_vain(self) -> bool:
+        return False
+
+    @property
+    def has_relays(self) -> bool:
+        return False
+
+    @property
+    def homeable(self) -> bool:
+        return False
+
+    @property
+    def cooling(self) -> bool:
+        return False
+
+    @property
     def missing(self) -> tuple[Missing, ...]:
         return (*self._ends.missing, Missing.HOMING) if self._condition.lost else self._ends.missing
 

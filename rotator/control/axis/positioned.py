@@ -70,24 +70,8 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         return self._drive is not Direction.OFF
 
     @property
-    def pressed_in_vain(self) -> bool:
-        return False  # without a calibration there is nowhere to send it
-
-    @property
     def confirmable(self) -> bool:
         return self._settings.confirmable
-
-    @property
-    def has_relays(self) -> bool:
-        return False
-
-    @property
-    def homeable(self) -> bool:
-        return False
-
-    @property
-    def cooling(self) -> bool:
-        return False
 
     def moving(self, now_s: float) -> bool:
         return self.driven

@@ -14,12 +14,20 @@ from rotator.control.axis.endurance import Endurance
 from rotator.control.axis.relay_faults import limit_reached
 from rotator.control.axis.relay_gate import RelayGate
 from rotator.control.axis.relay_state import RelayState
+from rotator.control.axis.relay_trust import BOTH_WAYS
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.commands import Feed, Run
+from rotator.control.sky.mount import Range
 from rotator.faults import Fault, Notice
 
 LAPSED_S = 1.0
 """After a late cycle the relay stays open this long, so that a slow computer does not make the relay chatter."""
+
+
+def at_ends(angle_deg: float, limits: Range) -> tuple[Direction, ...]:
+    """The directions in which an axis at this angle is at its limit, or past it."""
+    beyond = angle_deg >= limits.max_deg, angle_deg <= limits.min_deg
+    return tuple(way for way, there in zip(BOTH_WAYS, beyond, strict=True) if there)
 
 
 class RunPermit:

@@ -21,7 +21,7 @@ from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate
 from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS
-from rotator.control.axis.run_permit import RunPermit
+from rotator.control.axis.run_permit import RunPermit, at_ends
 from rotator.control.axis.settings import SwitchedSettings
 from rotator.control.axis.switched_faults import SwitchedFaults
 from rotator.control.axis.switched_law import ANYWHERE, SwitchedLaw, Timing
@@ -55,8 +55,8 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         self._faults = SwitchedFaults(settings, self._gate)
         self._reach = Reach(settings)
         self._relays = RelayState()
-        self._seen = False
-        """There has been a reading."""
+        self._scale: int | None = None
+        """The scale of the latest reading; None: there was no reading yet."""
         self._decided_s: float | None = None
         """When it decided last. An order makes it decide again between two cycles."""
 
@@ -102,9 +102,9 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         self._goal = HomeGoal(Homing(self._settings.homing))
 
     def see(self, reading: Reading, now_s: float) -> None:
-        before, self._condition = self._condition, reading.condition
-        first, self._seen = not self._seen, True
-        if self._condition.scale != before.scale and not first:
+        self._condition = reading.condition
+        scale, self._scale = self._scale, reading.condition.scale
+        if scale is not None and scale != self._scale:
             self._begin_anew(self._sensing.calibration)
         unbelievable = self._sensing.take(reading, now_s, self._gate.noise_deg)
         if self._sensing.calibration is not None:
@@ -112,8 +112,6 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
                 self._law.see(at_s, angle_deg)
         if self._faults.look(reading, self._sensing, unbelievable, now_s, homing=self.homing):
             self._law.forget_run()
-        if self._condition.lost and not before.lost and not first and not self.homing:
-            self.fail(Fault(FaultKind.COUNT_LOST, self._settings.axis, f"homing ({self._condition.lost})"))
 
     def fail(self, fault: Fault) -> None:
         if self._faults.fail(fault):
@@ -142,7 +140,9 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
 
     def _safe(self, run: Run, now_s: float, past_s: float) -> Run | Feed:
         """The run, as far as it is permitted. `past_s`: since the cycle before."""
-        permitted = self._permit.permitted(run, now_s, past_s, ends=self._at_ends(), switches=self._condition.ends)
+        angle_deg = None if self.missing or self.homing else self._sensing.angle_deg
+        ends = () if angle_deg is None else at_ends(angle_deg, self._faults.limits)
+        permitted = self._permit.permitted(run, now_s, past_s, ends=ends, switches=self._condition.ends)
         if isinstance(permitted, Fault):
             self.fail(permitted)
         if permitted is None or isinstance(permitted, Fault):
@@ -150,14 +150,6 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         if self._gate.waiting and isinstance(self._goal, JogGoal):
             self._goal = self._goal.put_off(past_s)
         return permitted
-
-    def _at_ends(self) -> tuple[Direction, ...]:
-        """The directions in which the axis is at its limit, or past it."""
-        if self.missing or self._sensing.angle_deg is None or self.homing:
-            return ()
-        limits, angle_deg = self._faults.limits, self._sensing.angle_deg
-        beyond = angle_deg >= limits.max_deg, angle_deg <= limits.min_deg
-        return tuple(way for way, there in zip(BOTH_WAYS, beyond, strict=True) if there)
 
     def sweep(self, now_s: float, command: Command | None) -> Range:
         if self.missing or lost(self.fault):

@@ -24,12 +24,15 @@ class SwitchedFaults:
     """Give it every reading (`look`) and every change of the relays (`note_relays`), in order of time."""
 
     def __init__(self, settings: SwitchedSettings, gate: RelayGate) -> None:
+        self._axis = settings.axis
         self._counts = settings.homing is not None
         self._gate = gate
         self._attempts = Attempts(settings.axis, settings.limits, settings.sensor)
         self._vain = VainPresses()
         self._astray: Fault | None = None
         """What is wrong with the motion, by the latest reading."""
+        self._lost: str | None = None
+        """Why the count was lost, by the latest reading; None: there was no reading yet."""
 
     @property
     def fault(self) -> Fault | None:
@@ -66,7 +69,15 @@ class SwitchedFaults:
         if homing and reported and not reported.cut:
             # At its end stop missing pulses are normal. A motor that turns by itself is still a fault.
             reported = None
-        return self._attempts.note(reported or present, now_s, cause=cause)
+        lost = None if homing else self._newly_lost(reading.condition.lost)
+        self._lost = reading.condition.lost
+        return self._attempts.note(reported or present or lost, now_s, cause=cause)
+
+    def _newly_lost(self, why: str) -> Fault | None:
+        """The fault of a count that has just been lost. At the start it is known to be lost, and no fault."""
+        if not why or self._lost != "":
+            return None
+        return Fault(FaultKind.COUNT_LOST, self._axis, f"homing ({why})")
 
     def fail(self, fault: Fault) -> bool:
         """The axis is stopped by this fault. Returns whether it is kept."""
