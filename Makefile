@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 # Tests start some hundred processes. Without kept bytecode each of them compiles the whole program first.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: run test check tests docs reference drills test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
+.PHONY: run test check tests docs reference drills planted test-search test-hamlib test-kernel test-install test-dist test-gpredict test-clients test-rotors test-machines test-page test-terminal bench fuzz soak mutants picture picture-page picture-gpredict drawings dist deb lock clean
 
 run: $(VENV)/.run
 	@$(BIN)/rotator run
@@ -98,6 +98,10 @@ fuzz: $(VENV)/.dev
 # Twenty simulated hours of drills at random, a new seed each time: what may never happen, on every kind of rotor.
 drills: $(VENV)/.dev
 	$(BIN)/python -m benchmarks.drills --hours $(or $(HOURS),20) $(if $(SEED),--seed $(SEED))
+
+# Bugs that were planted on purpose, each in a copy of the source: do the judges of the drills still see it?
+planted: $(VENV)/.dev
+	$(BIN)/python -m benchmarks.drills.planted --scripts
 
 # The busy box for an hour in real time, or HOURS, then 24 simulated hours: memory, files and threads must stay.
 soak: $(VENV)/.dev

@@ -6,6 +6,7 @@ source without the bug: else the campaign has found a bug that nobody planted, a
 
 from __future__ import annotations
 
+import compileall
 import json
 import os
 import shutil
@@ -55,10 +56,11 @@ class CampaignError(Exception):
 
 @contextmanager
 def copied(root: Path = ROOT) -> Iterator[Path]:
-    """A copy of the source in a temporary folder."""
+    """A copy of the source in a temporary folder, with its bytecode: a bug costs only its own file anew."""
     with tempfile.TemporaryDirectory(prefix="planted-") as folder:
         for package in PACKAGES:
-            shutil.copytree(root / package, Path(folder) / package, ignore=shutil.ignore_patterns("__pycache__"))
+            shutil.copytree(root / package, Path(folder) / package)
+            compileall.compile_dir(Path(folder) / package, quiet=2)
         yield Path(folder)
 
 
@@ -92,7 +94,7 @@ def scripted(bug: Bug, sound: Path) -> str:
     with copied(sound) as tree:
         plant(bug, tree)
         shown = _replay(tree, script)
-    return "" if _replay(sound, script) else shown
+        return shown if shown and not _replay(sound, script, folder=tree) else ""
 
 
 def _script(bug: Bug) -> str:
@@ -108,9 +110,9 @@ def _campaign(tree: Path, arguments: list[str], kind: str) -> dict[str, Any]:
     return content
 
 
-def _replay(tree: Path, script: str) -> str:
-    """The judge that this script calls on that source; empty: none."""
-    path = tree / "script.json"
+def _replay(tree: Path, script: str, folder: Path | None = None) -> str:
+    """The judge that this script calls on that source; empty: none. `folder`: where the script is put; None: there."""
+    path = (folder or tree) / "script.json"
     path.write_text(script, encoding="utf-8")
     result = _run(tree, ["--replay", str(path)])
     if result.returncode not in (NOTHING, FOUND):
