@@ -42,6 +42,7 @@ START_S = 0.5
 GOING_SHARE = 0.1
 MET_S = 0.7
 """What holds an axis so soon after its relay opened might as well be the end of its coast."""
+FAR_DEG = 10.0
 CHATTER_S, CHATTER_STARTS, STARTS_AN_ORDER = 10.0, 20, 2
 """An order starts each axis once; so many more in that time are no control."""
 
@@ -291,6 +292,20 @@ class Judges:
         """The axes whose control box stands as it was sent, as far as the box can see."""
         pairs = zip(axes, self.cases, strict=True)
         return frozenset(truth.name for truth, case in pairs if self._is_there(truth, case))
+
+    def elsewhere(self, axes: list[AxisTruth]) -> frozenset[str]:
+        """The axes that every order in force for them sends far from where they stand."""
+        return frozenset(
+            truth.name
+            for truth, case in zip(axes, self.cases, strict=True)
+            if self._orders.holds(truth.name) and not self.goes_round and self._far(truth, case)
+        )
+
+    def _far(self, truth: AxisTruth, case: AxisCase) -> bool:
+        goals, here_deg = self._orders.axes[truth.name].goals.values(), truth.shaft_deg + case.shift_deg
+        far_deg = FAR_DEG + case.tolerance_deg + case.slack_deg
+        places_deg = [place_deg for goal in goals for place_deg in (*goal.angles_deg, *goal.ends_deg)]
+        return all(goal.angles_deg for goal in goals) and all(abs(place - here_deg) > far_deg for place in places_deg)
 
     def _is_there(self, truth: AxisTruth, case: AxisCase) -> bool:
         """Whether a control box of its own drives it where the box sees it arrived: nothing shows the current.

@@ -160,7 +160,9 @@ class _Play:
         self._sectors.look(now_s, self._world.axes)
         ordered = self._orders.sure and any(map(self._orders.holds, self._orders.axes))
         there = self._judges.there(self._world.axes)
-        self._silence.look(now_s, self._world.axes, self._box.loop.status, ordered=ordered, there=there)
+        elsewhere = self._judges.elsewhere(self._world.axes) if self._orders.sure else frozenset()
+        status = self._box.loop.status
+        self._silence.look(now_s, self._world.axes, status, ordered=ordered, there=there, elsewhere=elsewhere)
 
     def _happen(self, event: Event, late_s: float) -> None:
         match event.who:

@@ -1,8 +1,8 @@
 """The last line of the table: a fault that lasts, without a word to anybody.
 
-Knows which faults of the simulators can be seen, and when: at once, while the axis is driven, while it turns. The only
-judge that listens to the box: a fault of the axis counts, a notice of the axis or of the box that was not shown before,
-and a line of the log that names the axis. A part that serves both may be told at either.
+Knows how long each fault of the simulators has been to be seen (`told` says which, and when). The only judge that
+listens to the box: a fault of the axis counts, a notice of the axis or of the box that was not shown before, and a line
+of the log that names the axis. A part that serves both may be told at either.
 """
 
 from __future__ import annotations
@@ -12,21 +12,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from benchmarks.drills.judges import LOOK_S, SILENCE, AxisCase, Violation
+from benchmarks.drills.told import Rule, Shows, plain, rule
 from benchmarks.drills.world import AxisTruth
 from hw.ports import Axis
 from rotator.status import Status
 
-SILENT_S = 5.0
-AT_ONCE = ("adc-gone", "pot-open", "pot-shorted", "pot-loose", "silent", "hung")
-ORDERED = ("board-unpowered",)
-"""Only with an order in force is the part in use."""
-DRIVEN = ("motor-stalled", "pot-stuck", "stands", "jammed", "contact-stuck-open", "contact-stuck-closed")
-"""Only while the motor has current is there anything to be seen."""
-CRACKLES, GAP = ("every", "pot-crackles"), 20
-"""Each so many-th reading is bad: from 4 of 100 on that is told."""
-SHARED = ("adc-gone", "hung", "board-unpowered")
-"""Parts that serve both axes."""
 IGNORED = "orders from"
+CURRENT = (Shows.DRIVEN, Shows.PRESSED, Shows.TURNED)
 IN_VAIN = "presses did not move it"
 """What stays true, and shown, of an axis that is held for another reason than at first."""
 AXES = tuple(axis.value for axis in Axis)
@@ -35,6 +27,7 @@ TRACKING = "rotator.tracking"
 """That a target is tracked no longer tells no fault."""
 TURNING_SHARE = 0.5
 """A welded contact or a hand turns it as fast as this share of its speed: slower is a wind, and only a notice."""
+BLOWN_SHARE = 0.2
 
 
 class Words(logging.Handler):
@@ -62,6 +55,7 @@ class Words(logging.Handler):
 class _Lasting:
     name: str
     axis: str
+    rule: Rule
     since_s: float
     before: frozenset[str] = frozenset()
     """The notices that were shown already."""
@@ -82,16 +76,13 @@ class Silence:
 
     def begin(self, name: str, now_s: float) -> None:
         axis = "elevation" if name.startswith("elevation") else "azimuth"
-        plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
-        seen = plain in (*AT_ONCE, *ORDERED) or (plain in DRIVEN and self._cases[axis].feels)
-        seen = seen or (plain in CRACKLES and int(name.partition(":")[2] or 0) <= GAP)
-        # A count that is lost already cannot be lost once more by a hand.
-        if seen or plain.startswith("relay-welded") or (plain == "hand-turns" and not self._cases[axis].counts):
-            self._lasting.append(_Lasting(plain, axis, now_s, self._shown))
+        case, must = self._cases[axis], rule(name)
+        if must is None or (must.felt and not case.feels) or (must.measured and (case.counts or not case.feels)):
+            return
+        self._lasting.append(_Lasting(plain(name), axis, must, now_s, self._shown))
 
     def end(self, name: str) -> None:
-        plain = name.partition(":")[0].removeprefix("azimuth-").removeprefix("elevation-")
-        self._lasting = [each for each in self._lasting if each.name != plain]
+        self._lasting = [each for each in self._lasting if each.name != plain(name)]
 
     def pause(self, now_s: float) -> None:
         """The program had no turn until now: nothing could be said."""
@@ -100,9 +91,18 @@ class Silence:
             each.seen_s = 0.0
 
     def look(
-        self, now_s: float, axes: list[AxisTruth], status: Status, *, ordered: bool, there: frozenset[str] = frozenset()
+        self,
+        now_s: float,
+        axes: list[AxisTruth],
+        status: Status,
+        *,
+        ordered: bool,
+        there: frozenset[str] = frozenset(),
+        elsewhere: frozenset[str] = frozenset(),
     ) -> None:
-        """`ordered`: an order is in force. `there`: axes whose control box stands as it was sent."""
+        """`ordered`: an order is in force. `there`: axes whose control box stands as it was sent. `elsewhere`: axes
+        that an order for certain sends away from where they are.
+        """
         past_s, self._looked_s = now_s - self._looked_s, now_s
         each_axis = [notice.text for axis in Axis for notice in status.axis(axis).notices]
         self._shown = frozenset((*each_axis, *_of_the_box(status)))
@@ -112,39 +112,52 @@ class Silence:
                 continue
             truth = axes[0 if each.axis == "azimuth" else 1]
             # Bad readings are counted: of those that come late there are fewer.
-            more_s = min(past_s, PERIOD_S) if each.name in CRACKLES else past_s
-            each.seen_s = each.seen_s + more_s if self._to_be_seen(each, truth, ordered=ordered, there=there) else 0.0
+            more_s = min(past_s, PERIOD_S) if each.rule.shows is Shows.AS_READ else past_s
+            wanted = ordered, truth.name in elsewhere
+            each.seen_s = each.seen_s + more_s if self._to_be_seen(each, truth, wanted, there) else 0.0
             if each.seen_s > self._most_s(each) + LOOK_S:
                 self.found.append(Violation(now_s, SILENCE, each.axis, f"{each.name} for {each.seen_s:.2f} s"))
                 self._lasting.remove(each)
 
     def _told(self, fault: _Lasting, status: Status) -> bool:
-        places = AXES if fault.name in SHARED else (fault.axis,)
+        places = AXES if fault.rule.shared else (fault.axis,)
         shown = _of_the_box(status)
         for place in places:
             axis = status.axis(Axis(place))
             if axis.fault is not None or self._words.named_s[place] >= fault.since_s:
                 return True
             shown |= {notice.text for notice in axis.notices}
-        held = fault.name in DRIVEN and any(text.startswith(IN_VAIN) for text in shown)
+        held = fault.rule.shows in CURRENT and any(text.startswith(IN_VAIN) for text in shown)
         return held or not shown <= fault.before
 
     def _most_s(self, fault: _Lasting) -> float:
         """A contact that stands still shows nothing before three of its periods."""
         case = self._cases[fault.axis]
-        waits = case.counts and (fault.name in DRIVEN or fault.name.startswith("relay-welded"))
-        return max(SILENT_S, case.patience_s) if waits else SILENT_S
+        waits = case.counts and fault.rule.shows in (*CURRENT, Shows.WITHOUT_CURRENT)
+        return max(fault.rule.within_s, case.patience_s) if waits else fault.rule.within_s
 
-    def _to_be_seen(self, fault: _Lasting, truth: AxisTruth, *, ordered: bool, there: frozenset[str]) -> bool:
-        if fault.name in CRACKLES:
-            return not self._cases[fault.axis].repeats
-        if fault.name in AT_ONCE:
-            return True
-        if fault.name in ORDERED:
-            return ordered
-        if fault.name in DRIVEN:
-            return truth.coil != 0 and truth.name not in there
-        return truth.coil == 0 and abs(truth.speed_dps) > TURNING_SHARE * truth.full_dps
+    def _to_be_seen(self, fault: _Lasting, truth: AxisTruth, wanted: tuple[bool, bool], there: frozenset[str]) -> bool:
+        ordered, elsewhere = wanted
+        fed, turns = truth.coil != 0 and truth.name not in there, abs(truth.speed_dps) / truth.full_dps
+        match fault.rule.shows:
+            case Shows.AT_ONCE:
+                return True
+            case Shows.AS_READ:
+                return not self._cases[fault.axis].repeats
+            case Shows.ORDERED:
+                return ordered
+            case Shows.ELSEWHERE:
+                return elsewhere
+            case Shows.DRIVEN:
+                return fed
+            case Shows.PRESSED:
+                return fed and truth.stands
+            case Shows.TURNED:
+                return fed and turns > TURNING_SHARE
+            case Shows.WITHOUT_CURRENT:
+                return truth.coil == 0 and turns > TURNING_SHARE
+            case Shows.BLOWN:
+                return truth.coil == 0 and turns > BLOWN_SHARE
 
 
 def _of_the_box(status: Status) -> set[str]:

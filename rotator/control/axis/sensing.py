@@ -30,6 +30,8 @@ JUMPS_WITHIN_S = 0.3
 """A spark is two jumps, out and back. One more jump within this time means a loose wire."""
 MOVES, MOVES_WITHIN_S = 3, 120.0
 """A sensor whose readings jump to another place and stay there this often does not show where the axis is."""
+JUMPED_SHOWN_S = 60.0
+JUMPED = Notice("its readings jumped to another place and stay there: look at the sensor and its wires", "JUMPED")
 UNCALIBRATED_SPAN_DEG = 360.0
 """Until a pot is calibrated its whole range counts as this many degrees."""
 
@@ -73,7 +75,8 @@ class Sensing:
     @property
     def notice(self) -> Notice | None:
         """What a person should know of the sensor though it stops nothing."""
-        return self._rate.notice
+        jumped = bool(self._moved_s) and self._seen_s - self._moved_s[-1] < JUMPED_SHOWN_S
+        return self._rate.notice or (JUMPED if jumped else None)
 
     @property
     def ridden_until_s(self) -> float:

@@ -9,7 +9,7 @@ import pytest
 from hw.ports import Axis
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.readings import ANYTHING, Reading, Window
-from rotator.control.axis.sensing import BAD_FOR_S, STALE_S, Sensing
+from rotator.control.axis.sensing import BAD_FOR_S, JUMPED, JUMPED_SHOWN_S, STALE_S, Sensing
 from rotator.faults import Fault, FaultKind
 
 HALF_CIRCLE = Calibration(((0.05, 0.0), (0.95, 180.0)))
@@ -140,3 +140,16 @@ def test_a_silent_sensor_says_why(bench: Bench) -> None:
 )
 def test_only_a_pot_can_be_blind_to_its_wires(window: Window, blind: bool) -> None:
     assert window.blind is blind
+
+
+def test_an_axis_that_reads_elsewhere_all_at_once_is_believed_and_it_is_said() -> None:
+    """As with the ends of a pot swapped at rest: no motor has turned it there."""
+    bench = Bench()
+    bench.sensing = Sensing(Axis.ELEVATION, Window(0.02, 0.98), HALF_CIRCLE, fastest_dps=3.0)
+    bench.read_for(1.0, 0.2)
+    assert bench.sensing.notice is None
+    bench.read_for(0.2, 0.8)
+    assert bench.sensing.angle_deg == pytest.approx(150.0)
+    assert bench.sensing.notice == JUMPED
+    bench.read_for(JUMPED_SHOWN_S, 0.8)
+    assert bench.sensing.notice is None

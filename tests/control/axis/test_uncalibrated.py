@@ -154,7 +154,7 @@ def test_then_it_takes_a_person_who_turns_it_or_says_resume(fresh: Any) -> None:
     fresh.place(AZ, 300.0)
     assert fresh.step(Jog(AZ, MINUS), by=Source("console"))[AZ] is MINUS
     fresh.run(15.0)
-    assert fresh.status.azimuth.notices == ()
+    assert [notice.lcd for notice in fresh.status.azimuth.notices] == ["JUMPED"], "it was carried to 300 degrees"
     assert pressed(fresh, 0.1) > 1.0
 
 

@@ -1,0 +1,77 @@
+"""Every fault of every simulated rotor is judged, or it is said in words why nobody need be told of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+import tomlkit
+
+from benchmarks.drills.boxes import PANEL, SWITCHES
+from benchmarks.drills.told import PANEL as OF_THE_PANEL
+from benchmarks.drills.told import SEEN, UNTOLD, plain, rule
+from firmware_sim.clock import SimClock
+from rotator.assembly.station import Station
+from rotator.cli.rehearse import simulated
+from rotator.config.load import ConfigError, parse, profiles, shipped
+
+BARE = ("panel", "limits", "lcd")
+MORE: tuple[dict[str, Any], ...] = (
+    {"lcd": {"kind": "pcf8574"}},
+    {"limits": SWITCHES, "lcd": {"kind": "none"}},
+    {"lcd": {"kind": "none"}, "panel": PANEL},
+    {"azimuth": {"sensor": {"kind": "as5600"}}, "elevation": {"sensor": {"kind": "mpu6050"}}},
+    {axis: {"sensor": {"kind": "pot"}} for axis in ("azimuth", "elevation")},
+    {"compass": {"kind": "bno055"}},
+)
+
+
+def every_fault() -> Iterator[str]:
+    """Of each shipped configuration, one after the other with a display, switches, a panel, other sensors."""
+    for profile in profiles():
+        for more in MORE:
+            values = tomlkit.parse(shipped(profile)).unwrap()
+            for table in BARE:
+                values.pop(table, None)
+            for table, keys in more.items():
+                values.setdefault(table, {}).update(keys)
+            values["rotor"]["hardware"] = "sim"
+            try:
+                config = simulated(parse(tomlkit.dumps(values), profile))
+            except ConfigError:
+                continue  # this kind of rotor has no such part
+            clock = SimClock()
+            station = Station(config, clock, clock.sleep, (90.0, 45.0))
+            assert station.world is not None
+            yield from station.world.faults
+            station.close()
+
+
+FAULTS = sorted({plain(name) for name in every_fault() if not name.startswith(OF_THE_PANEL)})
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_each_fault_is_judged_or_excused_in_words(name: str) -> None:
+    assert (name in SEEN) != (name in UNTOLD)
+
+
+def test_no_rule_and_no_excuse_is_about_a_fault_that_there_is_not() -> None:
+    of_the_drills = {"hung", "every"}
+    assert (set(SEEN) | set(UNTOLD)) - of_the_drills == set(FAULTS)
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("azimuth-pot-crackles", True),
+        ("azimuth-pot-crackles:20", True),
+        ("azimuth-pot-crackles:21", False),
+        ("azimuth-every:2", True),
+        ("elevation-replies-lost:13", False),
+        ("azimuth-low-switch-open", False),
+        ("elevation-relay-welded-down", True),
+    ],
+)
+def test_what_is_seldom_bad_need_not_be_told(name: str, *, told: bool) -> None:
+    assert (rule(name) is not None) == told
