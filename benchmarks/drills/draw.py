@@ -11,8 +11,9 @@ from benchmarks.drills.arcs import draw_arc
 from benchmarks.drills.boxes import BOTH, KINDS, ROTORS, Mast, draw_mast
 from benchmarks.drills.browser import draw_browser
 from benchmarks.drills.mounts import mounted
-from benchmarks.drills.script import CLOCK, LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
+from benchmarks.drills.script import CLOCK, COMMON_LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
 from benchmarks.drills.stories import stories
+from benchmarks.drills.unusual import prolonged, relinked, tabled, unusual
 
 STORIES = 0.9
 SHORTEST_S, LONGEST_S = 30.0, 900.0
@@ -26,12 +27,13 @@ def draw(seed: str, kind: str = "") -> Drill:
     chance = random.Random(seed)
     rotor = KINDS[kind] if kind else chance.choice(ROTORS)
     mast = mounted(random.Random(f"{seed} mount"), draw_mast(chance, rotor))
+    mast = unusual(random.Random(f"{seed} unusual"), mast)
     if chance.random() < STORIES:
         told, ends_s = stories(chance, mast, lambda: _trouble(chance, mast))
         return _drill(mast, ends_s, told, seed)
     seconds = round(SHORTEST_S * (LONGEST_S / SHORTEST_S) ** chance.random(), 1)
     events: list[Event] = []
-    for who in chance.sample(LINKS, chance.choice((1, 1, 1, 2, 3))):
+    for who in chance.sample(COMMON_LINKS, chance.choice((1, 1, 1, 2, 3))):
         events += _program(chance, mast, who, seconds)
     for who in PEOPLE:
         if chance.random() < 0.4:
@@ -47,6 +49,8 @@ def draw(seed: str, kind: str = "") -> Drill:
 
 def _drill(mast: Mast, seconds: float, events: list[Event], seed: str) -> Drill:
     events = events + draw_browser(seed, mast, seconds, [event.at_s for event in events] or [0.0])
+    other = random.Random(f"{seed} other")
+    events, seconds = prolonged(other, mast, tabled(other, relinked(other, events)), seconds)
     return Drill(
         kind=mast.rotor.kind,
         profile=mast.rotor.profile,

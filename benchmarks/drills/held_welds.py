@@ -15,7 +15,7 @@ from pathlib import Path
 
 from benchmarks.drills.boxes import BOTH, KINDS, Mast, draw_mast
 from benchmarks.drills.play import play
-from benchmarks.drills.script import LINKS, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
+from benchmarks.drills.script import COMMON_LINKS, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
 
 WAYS = (("cw", "ccw"), ("up", "down"))
 LONGEST_S = 1.5
@@ -31,7 +31,7 @@ class HeldWeld:
         self._chance = random.Random(f"{seed} {kind}")
         self._mast = draw_mast(self._chance, KINDS[kind])
         self._axis, self._way = self._chance.randrange(2), self._chance.randrange(2)
-        self._link, self._other = self._chance.sample(LINKS, 2)
+        self._link, self._other = self._chance.sample(COMMON_LINKS, 2)
         self._person = self._chance.choice(PEOPLE)
         self._now_s = 0.2
         self._events: list[Event] = []

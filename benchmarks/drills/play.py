@@ -21,7 +21,7 @@ from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, b
 from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
 from benchmarks.drills.sectors import Sectors
 from benchmarks.drills.silence import Silence, Words
-from benchmarks.drills.speech import said
+from benchmarks.drills.speech import parts, said
 from benchmarks.drills.trouble import Troubles
 from benchmarks.drills.world import World
 from firmware_sim.clock import SimClock
@@ -198,7 +198,10 @@ class _Play:
         if self._stalled_s is not None:
             self._unheard.append(event)
             return
-        if event.what == "leave":
+        if parts(event) != [event]:
+            for part in parts(event):
+                self._hear(part)
+        elif event.what == "leave":
             self._orders.note(event)
             self._box.leave(event.who)
         elif event.what == "recognised":
