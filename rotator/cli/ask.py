@@ -152,14 +152,16 @@ def _what_next(dialogue: Dialogue, path: Path, answers: dict[str, str]) -> None:
     dialogue.say(f"{path} is written. Next:")
     installed = path == INSTALLED
     file = "" if installed else f" --config {path}"
-    next_ones = ["sudo systemctl restart rotator" if installed else f"rotator run{file}"]
-    if answers["hardware"] == "pi":
-        next_ones += [f"rotator doctor --config {path}", f"rotator calibrate --config {path}"]
-    if answers["network"] != "here":
-        next_ones.append(f"sudo rotator setup network{file}")
+    next_ones = []
     if answers.get("port") == USB_CABLE:
         next_ones.append(f"sudo rotator setup usb-serial{file}")
-    click.echo("\n".join(f"  {command}" for command in next_ones))
+    if answers["network"] != "here":
+        next_ones.append(f"sudo rotator setup network{file}")
+    if answers["hardware"] == "pi":
+        next_ones += [f"rotator doctor --config {path}", f"rotator calibrate --config {path}"]
+    next_ones.append("sudo systemctl restart rotator" if installed else f"rotator run{file}")
+    for command in next_ones:
+        dialogue.say(command, "  ", " " * 6)
 
 
 def _line() -> str:

@@ -6,6 +6,7 @@ tables and keys what a caller says.
 
 from __future__ import annotations
 
+import difflib
 import re
 import tomllib
 from collections.abc import Collection, Mapping
@@ -66,18 +67,32 @@ def mended(text: str, tables: Collection[str], lists: Collection[str], sorts: Ma
 
 
 def _brackets(text: str, tables: Collection[str], lists: Collection[str]) -> tuple[str, list[Mistake]]:
-    """[link] where [[link]] belongs, and the other way round: mended before anything else, for they look like TOML."""
+    """Headings with the wrong brackets, without any, or with a slip in the name: mended before anything else, for they
+    look like TOML, or make keys of other tables of what stands below."""
     rows = text.split("\n")
     mistakes = []
     for each in statements(text):
-        name = ".".join(each.keys)
-        right = f"[[{name}]]" if name in lists else f"[{name}]" if name in tables else None
-        if each.brackets and right and each.brackets != (2 if name in lists else 1):
-            found = shown(rows[each.line - 1].partition("#")[0])
-            rows[each.line - 1] = right
+        found = shown(rows[each.line - 1].partition("#")[0])
+        said = ".".join(each.keys) if each.keys else found.rstrip(":").strip()
+        if each.keys and not each.brackets:
+            continue
+        name = said if said in (*tables, *lists) else _near(said.lower(), (*tables, *lists), same=not each.brackets)
+        if name is None or (said == name and each.brackets == (2 if name in lists else 1)):
+            continue
+        rows[each.line - 1] = right = f"[[{name}]]" if name in lists else f"[{name}]"
+        if not each.brackets:
+            why = "a heading stands in brackets"
+        elif said != name:
+            why = "there is no such table"
+        else:
             why = "there may be several, so it has two brackets" if name in lists else "there is one, with one bracket"
-            mistakes.append(Mistake(f"{found}: {why}: write {right}", (each.line,)))
+        mistakes.append(Mistake(f"{found}: {why}: write {right}", (each.line,)))
     return "\n".join(rows), mistakes
+
+
+def _near(name: str, known: Collection[str], *, same: bool) -> str | None:
+    """The table that is meant. `same`: only capitals may differ."""
+    return next(iter(difflib.get_close_matches(name, known, n=1, cutoff=1.0 if same else 0.75)), None)
 
 
 def _mistake(text: str, reason: str, sorts: Mapping[str, Sort]) -> tuple[Mistake, int, str | None, str]:

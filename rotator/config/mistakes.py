@@ -19,6 +19,7 @@ from rotator.config.model import Config
 from rotator.config.statements import Place, places
 from rotator.config.wording import explain, sorts, tables
 
+_ORDER = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 _PATHS = re.compile(r"[a-z_0-9]+(?:\[\d+\])?(?:\.[a-z_0-9]+)*")
 """What may be a key in the words of a mistake."""
 
@@ -35,6 +36,7 @@ def mistakes_in(text: str) -> list[Mistake]:
     values = {key: value for key, value in keys.items() if key[:1] != mending.SCRATCH}
     lines = places(mended.text)
     replaced: set[Place] = set()
+    seen: list[Mistake] = []
     for _ in range(mending.MOST):
         try:
             Config.model_validate(values)
@@ -44,8 +46,9 @@ def mistakes_in(text: str) -> list[Mistake]:
         # A line that could not be read may hold just what is missing.
         told = [error for error in errors if mended.whole or error["type"] not in ("missing", "value_error")]
         told = [error for error in told if not _follows(error, replaced)]
-        new = [mistake for error in told for mistake in _located(error, lines) if mistake not in found]
-        for mistake in new:
+        new = [mistake for error in told for mistake in _located(error, lines) if mistake not in seen]
+        seen += new
+        for mistake in (Mistake(_counted(each.text, several), each.lines) for each in new):
             _tell(mistake, found, mended.whys)
         if any(not error["loc"] for error in errors) or (told and not new):
             break
@@ -54,6 +57,19 @@ def mistakes_in(text: str) -> list[Mistake]:
         for error in errors:
             _mend(values, list(error["loc"]))
     return found
+
+
+def _counted(text: str, several: Collection[str]) -> str:
+    """`link[0].pty` as people count: `the first [[link]]: pty` at the beginning, else `pty of the first [[link]]`."""
+
+    def words(found: re.Match[str]) -> str:
+        name, number, key = found.groups()
+        if name not in several:
+            return found[0]
+        one = f"the {_ORDER[int(number)] if int(number) < len(_ORDER) else f'{int(number) + 1}th'} [[{name}]]"
+        return one if not key else f"{one}: {key}" if found.start() == 0 else f"{key} of {one}"
+
+    return re.sub(r"(?<![\w.\"])([a-z_.]+)\[(\d+)\](?:\.([a-z_][\w.\[\]]*\w\]?))?", words, text)
 
 
 def _tell(mistake: Mistake, found: list[Mistake], whys: Mapping[int, str]) -> None:

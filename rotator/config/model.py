@@ -286,10 +286,21 @@ class Config(Table):
         for number, link in enumerate(self.link):
             users.setdefault((link.where, link.connect, link.udp), []).append(number)
         return [
-            f"{len(numbers)} links use {where}: {' and '.join(f'link[{number}]' for number in numbers)}"
+            f"{len(numbers)} links use {where}: {' and '.join(f'link[{number}]' for number in numbers)}: "
+            f"{self._another_place(self.link[numbers[-1]])}"
             for (where, *_), numbers in users.items()
             if len(numbers) > 1
         ]
+
+    def _another_place(self, link: Link) -> str:
+        """What to write where a place is taken."""
+        if not (listens := link.tcp or link.udp):
+            return "give one of them another place" if link.pty else "leave one of them"
+        host, port = listens.rpartition(":")[::2]
+        used = {each.where.rpartition(":")[2] for each in self.link}
+        free = next(number for number in range(int(port) + 1, int(port) + 1000) if str(number) not in used)
+        key = "tcp" if link.tcp else "udp"
+        return f'each needs a port of its own: write {key} = "{host}:{free}" into one of them'
 
     def _needs_station(self) -> list[str]:
         return [

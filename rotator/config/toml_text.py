@@ -23,7 +23,10 @@ class NoTextError(Exception):
 def read(path: Path) -> str:
     """Raises OSError, NoTextError."""
     data = read_plain(path)
-    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) or b"\0" in data[:4]:
+    is_utf16 = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    if b"\0" in data and not is_utf16 and not _every_second_is_zero(data):
+        raise NoTextError(Mistake(_damaged(path)))
+    if b"\0" in data or is_utf16:
         raise NoTextError(
             Mistake(
                 'is saved as UTF-16 (as PowerShell\'s ">" and "Unicode" in Notepad do): save it as UTF-8, '
@@ -32,7 +35,7 @@ def read(path: Path) -> str:
         )
     try:
         # Windows' editor begins a file with a byte order mark, which is no TOML.
-        return data.decode("utf-8-sig")
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError as fault:
         line = data[: fault.start].count(b"\n") + 1
         row = data.split(b"\n")[line - 1].decode("cp1252", "replace")
@@ -42,3 +45,25 @@ def read(path: Path) -> str:
                 (line,),
             )
         ) from fault
+    if begins_as := next((what for mark, what in _OTHERS if text.lstrip()[:1] == mark), None):
+        raise NoTextError(Mistake(f"{begins_as}: `rotator config --list` shows the shipped files, and how to get one"))
+    return text
+
+
+_OTHERS = (
+    ("{", "is JSON, and this file is TOML, with lines such as min_deg = 0"),
+    ("<", "is a web page (HTML) that was saved in place of the file behind its link"),
+)
+
+
+def _every_second_is_zero(data: bytes) -> bool:
+    """UTF-16 and UTF-32 without a byte order mark have a zero beside each plain character."""
+    return data.count(0) * 3 >= len(data) and data.strip(b"\0") != b"" and b"\0\0\0\0" not in data
+
+
+def _damaged(path: Path) -> str:
+    copies = [path.with_name(path.name + ".bak"), *path.parent.glob(f"{path.name}.before-rotator-*")]
+    there = [copy for copy in copies if copy.is_file() and b"\0" not in copy.read_bytes()[:4096]]
+    newest = max(there, key=lambda copy: copy.stat().st_mtime, default=None)
+    cure = f"take its copy: cp {newest} {path}" if newest else "write it anew: `rotator config --ask --to FILE`"
+    return f"is damaged: it holds zero bytes, as a power cut leaves them: {cure}"

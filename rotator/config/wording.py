@@ -34,7 +34,7 @@ _SYNONYMS = {
     "port": ("serial", "tcp"), "com": ("serial",), "comport": ("serial",), "device": ("serial",), "tty": ("serial",),
     "host": ("tcp",), "listen": ("tcp",), "address": ("tcp",), "ip": ("tcp",), "speed": ("speed_dps", "baud"),
     "lat": ("latitude_deg",), "lon": ("longitude_deg",), "long": ("longitude_deg",), "height": ("altitude_m",),
-    "grid": ("locator",), "gridsquare": ("locator",), "qth": ("locator",), "model": ("type",), "name": ("type",),
+    "grid": ("locator",), "gridsquare": ("locator",), "qth": ("locator",), "model": ("type",),
     "tolerance": ("tolerance_deg",), "cw": ("azimuth_cw",), "ccw": ("azimuth_ccw",), "left": ("azimuth_ccw",),
     "right": ("azimuth_cw",), "up": ("elevation_up",), "down": ("elevation_down",), "min": ("min_deg",),
     "max": ("max_deg",), "offset": ("offset_deg",),
@@ -44,6 +44,8 @@ _PROTOCOL_OF = {
     "hamlib": "rotctld", "gpredict": "rotctld", "easycomm": "easycomm2", "spid": "rot2prog", "arduino": "gs232-f1efw",
 }  # fmt: skip
 """What a person calls a protocol, in small letters and digits, and the one that is meant."""
+_EVERYWHERE = ("name", "type", "kind")
+"""Keys of tables that have nothing to do with each other: in another table they would mean something else."""
 _LISTENS = ("tcp", "listen")
 """Keys for a port of this machine: a bare number is the port."""
 _LISTS_OF_TEXTS = ("allow", "names", "broker_names")
@@ -57,10 +59,13 @@ def explain(error: ErrorDetails) -> str:
     value = error["input"]
     context: Mapping[str, Any] = error.get("ctx", {})
     match error["type"]:
+        case "extra_forbidden" if len(place) == 1 and isinstance(value, dict):
+            return f"[{key}]: no such table; there are {', '.join(name for name, *_ in tables() if '.' not in name)}"
         case "extra_forbidden":
-            return f"{key} = {show(value)}: no such key{_right_key(place)}"
+            return f"{key} = {show(value)}: no such key{_right_key(place, value)}"
         case "missing":
-            return f"{key}: must be given"
+            choices = _choices_of(place)
+            return f"{key}: must be given{', one of ' if choices else ''}{', '.join(choices)}"
         case "literal_error":
             allowed = [str(choice) for choice in _choices(context)]
             said = f"{key} = {show(value)}: must be one of {', '.join(allowed)}"
@@ -120,17 +125,28 @@ def _tables_in(prefix: str, table: type[BaseModel]) -> Iterator[tuple[str, type[
                 yield from _tables_in(f"{prefix}{name}.", kind)
 
 
-def _right_key(place: list[int | str]) -> str:
+def _choices_of(place: list[int | str]) -> list[str]:
+    """The words from which a key takes one; empty: any."""
+    here = ".".join(part for part in place[:-1] if isinstance(part, str))
+    models = [model for table, model, _ in tables() if table == here]
+    field = models[0].model_fields.get(str(place[-1])) if models else None
+    return [choice for choice in get_args(field.annotation) if isinstance(choice, str)] if field else []
+
+
+def _right_key(place: list[int | str], value: object) -> str:
     """What was meant by a key that the table at `place` does not have."""
     name = str(place[-1])
     here = ".".join(str(part) for part in place[:-1] if isinstance(part, str))
     models = {table: model for table, model, _ in tables()}
     known = list(models.get(here, Config).model_fields)
+    if name.lower() == "name" and "type" in known and isinstance(value, str) and type_of(value):
+        return f"; did you mean type? {type_of(value)}"
     if meant := [key for key in _SYNONYMS.get(name.lower(), ()) if key in known]:
         return f"; did you mean {' or '.join(meant)}?"
     if near := _near(name.lower(), known, 0.75):
         return f"; did you mean {near}?"
     elsewhere = [table for table, model in models.items() if name in model.model_fields and table != here]
+    elsewhere = [] if name in _EVERYWHERE else elsewhere
     if elsewhere:
         return f"; it belongs below {_or([_heading(table) for table in elsewhere[:4]])}"
     near = _near(name.lower(), known, 0.6)

@@ -63,11 +63,11 @@ def questions(answers: Answers, machine: Machine) -> Iterator[Question]:
         azimuth, elevation = TURNS[rotor]
         yield Question(
             "azimuth", "How many degrees does azimuth turn, from stop to stop?",
-            "360, or 450 for a rotor with overlap. The box never turns beyond.", azimuth, (), _degrees(90, 720),
+            "360, or 450 for a rotor with overlap. The box never turns beyond.", azimuth, (), _degrees(90, 720, "360"),
         )  # fmt: skip
         yield Question(
             "elevation", "How many degrees does elevation turn?",
-            "90, or 180 for a rotor that goes over the top.", elevation, (), _degrees(20, 200),
+            "90, or 180 for a rotor that goes over the top.", elevation, (), _degrees(20, 200, "90"),
         )  # fmt: skip
     yield Question(
         "program", "Which program turns the antenna?",
@@ -171,16 +171,18 @@ def place(text: str) -> str:
     longitude = -longitude if "W" in found[4] + found[6] else longitude
     if abs(latitude) > 90 or abs(longitude) > 180:
         raise ValueError("latitude goes from -90 to 90, longitude from -180 to 180: latitude comes first")
-    return f"{latitude:.6g} {longitude:.6g}"
+    return f"{latitude:.8g} {longitude:.8g}"
 
 
-def _degrees(least: float, most: float) -> Callable[[str], str]:
+def _degrees(least: float, most: float, usual: str) -> Callable[[str], str]:
     def understood(text: str) -> str:
         bare = re.sub(r"\s*(?:°|deg(?:rees)?)\s*$", "", text.strip()).replace(",", ".")
         try:
             angle_deg = float(bare)
         except ValueError:
-            raise ValueError(f'"{text.strip()}" is no number: type degrees, such as {least * 2:g}') from None
+            raise ValueError(
+                f'"{text.strip()}" is no number: type degrees from {least:g} to {most:g}, such as {usual}'
+            ) from None
         if not least <= angle_deg <= most:
             raise ValueError(f"{angle_deg:g}° cannot be: from {least:g} to {most:g}")
         return f"{angle_deg:g}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rotator.config.load import parse
-from tests.config.texts import faults, link
+from tests.config.texts import FIRST, faults, link
 
 
 def test_it_has_a_place_and_a_pace() -> None:
@@ -18,28 +18,31 @@ def test_it_has_a_place_and_a_pace() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        (link("rotctld-follow"), "link[0]: rotctld-follow must have connect, and none of pty, serial, tcp"),
+        (link("rotctld-follow"), "the first [[link]]: rotctld-follow must have connect, and none of pty, serial, tcp"),
         (
             link("rotctld-follow", tcp="127.0.0.1:4533"),
-            "link[0]: rotctld-follow must have connect, and none of pty, serial, tcp",
+            "the first [[link]]: rotctld-follow must have connect, and none of pty, serial, tcp",
         ),
         (
             link("rotctld-follow", connect="127.0.0.1:4534", pty="x"),
-            "link[0]: rotctld-follow must have connect, and none of pty, serial, tcp",
+            "the first [[link]]: rotctld-follow must have connect, and none of pty, serial, tcp",
         ),
         (
             link("rotctld", connect="127.0.0.1:4533"),
-            "link[0]: connect is for rotctld-follow only; rotctld must have exactly one of pty, serial, tcp",
+            "the first [[link]]: connect is for rotctld-follow only; rotctld must have exactly one of pty, serial, tcp",
         ),
         (
             link("rotctld-follow", connect="4533"),
-            'link[0].connect: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
+            FIRST + 'connect: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
         ),
         (
             link("rotctld-follow", connect="a:1") + "poll_s = 0\n",
-            "link[0].poll_s = 0: must be greater than or equal to 0.02",
+            "the first [[link]]: poll_s = 0: must be greater than or equal to 0.02",
         ),
-        (link("rotctld-follow", connect="a:1") * 2, "2 links use a:1: link[0] and link[1]"),
+        (
+            link("rotctld-follow", connect="a:1") * 2,
+            "2 links use a:1: the first [[link]] and the second [[link]]: leave one of them",
+        ),
     ],
 )
 def test_one_fault(text: str, said: str) -> None:
@@ -67,7 +70,8 @@ def test_a_misspelt_protocol_is_one_fault() -> None:
 def test_it_does_not_follow_itself(tcp: str, connect: str) -> None:
     (fault,) = faults(link("rotctld", tcp=tcp) + link("rotctld-follow", connect=connect))
     assert fault == (
-        f'link[1].connect = "{connect}" is the box itself (link[0].tcp = "{tcp}"): give one of the two another port'
+        f'the second [[link]]: connect = "{connect}" is the box itself (tcp of the first [[link]] = "{tcp}"): '
+        "give one of the two another port"
     )
 
 

@@ -119,15 +119,18 @@ def test_it_may_be_read_by_path(tmp_path: Path) -> None:
             'relays.active = "hihg": must be one of high, low; did you mean high?',
         ),
         ("[adc]\nrate_sps = 100\n", "adc.rate_sps = 100: must be one of 128, 250, 475, 860"),
-        ("[[link]]\npty = 'x'\n", "link[0].protocol: must be given"),
-        ("[[link]]\nprotocol = 'rotctld'\n", "link[0]: must have exactly one of pty, serial, tcp"),
+        (
+            "[[link]]\npty = 'x'\n",
+            "the first [[link]]: protocol: must be given, one of " + ", ".join(get_args(ProtocolName)),
+        ),
+        ("[[link]]\nprotocol = 'rotctld'\n", "the first [[link]]: must have exactly one of pty, serial, tcp"),
         (
             "[[link]]\nprotocol = 'rotctld'\npty = 'x'\ntcp = 'localhost:1'\n",
-            "link[0]: must have exactly one of pty, serial, tcp",
+            "the first [[link]]: must have exactly one of pty, serial, tcp",
         ),
         (
             "[[link]]\nprotocol = 'rotctld'\ntcp = '4533'\n",
-            'link[0].tcp: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
+            'the first [[link]]: tcp: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
         ),
         ("[azimuth]\nmin_deg = 360\nmax_deg = 0\n", "azimuth: min_deg (360) must be below max_deg (0): swap the two"),
         (
@@ -170,16 +173,46 @@ def test_a_misspelt_key_gets_a_suggestion() -> None:
 @pytest.mark.parametrize(
     ("text", "key", "meant"),
     [
-        ("[azimut]\nmin_deg = 0\n", "azimut", "azimuth"),
         ("[sim.azimuth]\nspeed = 6\n", "sim.azimuth.speed", "speed_dps"),
-        ("[sim.elevatoin]\nspeed_dps = 6\n", "sim.elevatoin", "elevation"),
-        (LINK + "buad = 9600\n", "link[0].buad", "baud"),
+        (LINK + "buad = 9600\n", "the first [[link]]: buad", "baud"),
     ],
 )
 def test_wherever_it_is_misspelt(text: str, key: str, meant: str) -> None:
     (fault,) = faults(text)
     assert fault.startswith(f"{key} = ")
     assert fault.endswith(f": no such key; did you mean {meant}?")
+
+
+@pytest.mark.parametrize(
+    ("heading", "right"),
+    [
+        ("[azimut]", "[azimuth]"), ("[Azimuth]", "[azimuth]"), ("[sim.elevatoin]", "[sim.elevation]"),
+        ("[Link]", "[[link]]"), ("rotor", "[rotor]"), ("Azimuth:", "[azimuth]"), ("link  # mine", "[[link]]"),
+    ],
+)  # fmt: skip
+def test_a_heading_that_is_misspelt_or_has_no_brackets_is_told_as_it_stands(heading: str, right: str) -> None:
+    said = faults(f"{heading}\n")
+    assert said[0].startswith(f"{heading.partition('#')[0].strip()}: ")
+    assert said[0].endswith(f": write {right}")
+    assert len(said) == (3 if right == "[[link]]" else 1), "a link has to have a protocol and a place"
+
+
+def test_a_heading_like_no_other() -> None:
+    (said,) = faults("[qqq]\nx = 1\n")
+    assert said.startswith("[qqq]: no such table; there are rotor, azimuth, ")
+
+
+def test_a_name_of_the_rotor_is_no_type() -> None:
+    (said,) = faults('[rotor]\nname = "Dachständer"\n')
+    assert said == 'rotor.name = "Dachständer": no such key; known here: type, hardware'
+    (said,) = faults('[rotor]\nname = "G-5500"\n')
+    assert 'did you mean type? write "relay-pot"' in said
+
+
+def test_a_locator_that_is_short_and_without_quotes_is_one_message() -> None:
+    (said,) = faults("[station]\nlocator = JN58\n")
+    assert said.startswith("locator = JN58: a text stands in quotes; and station.locator: ")
+    assert said.endswith('must be a locator of 6, 8, 10 or 12 characters, such as "JO62qm"')
 
 
 def test_a_key_like_no_other_gets_no_suggestion() -> None:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from rotator.config.load import ConfigError, parse
 from rotator.config.model import Config
-from tests.config.texts import faults
+from tests.config.texts import FIRST, faults
 
 LINK = '[[link]]\nprotocol = "gs232b"\npty = "run/gs232"\n'
 
@@ -55,11 +55,11 @@ def test_every_fault_at_once() -> None:
         "azimuth.tolerance_deg = -1: must be greater than 0",
         "elevation: min_deg (90) must be below max_deg (0): swap the two",
         'relays.azimuth_cw = "22": must be a whole number; write 22 without quotes',
-        'link[0].protocol = "gs232": must be one of gs232a, gs232b, gs232-f1efw, rotctld, rotctld-follow, easycomm1, '
+        FIRST + 'protocol = "gs232": must be one of gs232a, gs232b, gs232-f1efw, rotctld, rotctld-follow, easycomm1, '
         "easycomm2, easycomm3, rot1prog, rot2prog, md01, dcu1, pstrotator, n1mm, macdoppler, wsjtx, "
         "lx200, stellarium, pstrotatoraz, prosistel-d, prosistel-c, rc2800; "
         "did you mean gs232b?",
-        'link[1].tcp: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
+        'the second [[link]]: tcp: "4533" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:4533"',
     }
     assert any(
         line.endswith("  line 6: azimuth.tolerence_deg = 4: no such key; did you mean tolerance_deg?") for line in rest
@@ -102,8 +102,8 @@ def test_one_fault_does_not_hide_another() -> None:
         'azimuth.tolerance_deg = "x": must be a number',
         "azimuth: min_deg (300) must be below max_deg (200)",
         "relays.dead_time_s = 9: must be less than or equal to 5",
-        'link[0].protocol = "nonsense": must be one of',
-        "link[0]: must have exactly one of pty, serial, tcp",
+        'the first [[link]]: protocol = "nonsense": must be one of',
+        "the first [[link]]: must have exactly one of pty, serial, tcp",
         "GPIO 24 is used by relays.azimuth_cw and relays.elevation_up",
         "2 links use a",
     ):
@@ -126,8 +126,12 @@ def test_no_fault_is_told_twice() -> None:
         ("[lcd]\nkind = 'gpio'\nrs = 22\n", "GPIO 22 is used by relays.azimuth_cw and lcd.rs"),
         ("[lcd]\nkind = 'gpio'\nd4 = 6\n", "GPIO 6 is used by lcd.d4 and lcd.d5"),
         (SENSORS.format(bus=1), "elevation.sensor.address and azimuth.sensor.address are both 0x36 on bus 1"),
-        (LINK * 2, "2 links use run/gs232: link[0] and link[1]"),
-        (LINK * 3, "3 links use run/gs232: link[0] and link[1] and link[2]"),
+        (LINK * 2, "2 links use run/gs232: the first [[link]] and the second [[link]]: give one of them another place"),
+        (
+            LINK * 3,
+            "3 links use run/gs232: the first [[link]] and the second [[link]] and "
+            "the third [[link]]: give one of them another place",
+        ),
         (
             "[adc]\nelevation_channel = 0\n",
             "adc: azimuth_channel, elevation_channel and reference_channel must differ",

@@ -26,18 +26,18 @@ def test_given() -> None:
 @pytest.mark.parametrize(
     ("keys", "fault"),
     [
-        ("allow = [1]", 'link[0].allow[0] = 1: must be text in quotes; write "1"'),
+        ("allow = [1]", 'the first [[link]]: allow[0] = 1: must be text in quotes; write "1"'),
         (
             'allow = "192.168.1.0/24"',
-            'link[0].allow = "192.168.1.0/24": must be a list in brackets; write ["192.168.1.0/24"]',
+            'the first [[link]]: allow = "192.168.1.0/24": must be a list in brackets; write ["192.168.1.0/24"]',
         ),
         (
             'allow = ["192.168.1"]',
-            'link[0].allow: "192.168.1" must be an address or a network, such as "192.168.1.0/24"',
+            'the first [[link]]: allow: "192.168.1" must be an address or a network, such as "192.168.1.0/24"',
         ),
-        ("most_per_s = 0", "link[0].most_per_s = 0: must be greater than or equal to 1"),
-        ('name = "a>b"', "link[0].name: 'a>b' must be printable characters, and none of < > #"),
-        ('name = "a#1"', "link[0].name: 'a#1' must be printable characters, and none of < > #"),
+        ("most_per_s = 0", "the first [[link]]: most_per_s = 0: must be greater than or equal to 1"),
+        ('name = "a>b"', "the first [[link]]: name: 'a>b' must be printable characters, and none of < > #"),
+        ('name = "a#1"', "the first [[link]]: name: 'a#1' must be printable characters, and none of < > #"),
     ],
 )
 def test_what_cannot_be(keys: str, fault: str) -> None:
@@ -49,11 +49,11 @@ def test_what_cannot_be(keys: str, fault: str) -> None:
     [
         (
             '[[link]]\nprotocol = "rotctld-follow"\nconnect = "shack:4533"\nread_only = true',
-            "link[0]: rotctld-follow does nothing but give orders: leave out read_only",
+            "the first [[link]]: rotctld-follow does nothing but give orders: leave out read_only",
         ),
         (
             '[[link]]\nprotocol = "gs232b"\npty = "x"\nallow = ["::1"]',
-            "link[0]: allow is for links that others connect to over a network: leave it out",
+            "the first [[link]]: allow is for links that others connect to over a network: leave it out",
         ),
     ],
 )
@@ -63,8 +63,9 @@ def test_what_makes_no_sense(text: str, fault: str) -> None:
 
 def test_a_wrong_item_of_a_list_hides_no_other_fault() -> None:
     said = faults(f"{LINK}allow = [1, 2]\nbaud = 1\n[azimuth]\ncalibration = [[0.1, 0], [0.9]]\nmin_deg = 500\n")
-    assert {fault.split(" ")[0].rstrip(":") for fault in said} == {
-        "link[0].allow[0]", "link[0].allow[1]", "link[0].baud", "azimuth.calibration[1][1]", "azimuth",
+    assert {fault.partition(" = ")[0].partition(": min")[0] for fault in said} == {
+        "the first [[link]]: allow[0]", "the first [[link]]: allow[1]", "the first [[link]]: baud",
+        "azimuth.calibration[1][1]: must be given", "azimuth",
     }  # fmt: skip
 
 

@@ -17,13 +17,16 @@ def test_a_name_is_enough() -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("[[sky.follow]]\npriority = 2\n", "sky.follow[0].name: must be given"),
+        ("[[sky.follow]]\npriority = 2\n", "the first [[sky.follow]]: name: must be given"),
         (
             "[[sky.follow]]\nname = 25544\n",
-            "1 mistake\n  line 2: sky.follow[0].name = 25544: must be text in quotes; wr",
+            "1 mistake\n  line 2: the first [[sky.follow]]: name = 25544: must be text in quotes; wr",
         ),
         ('[[sky.follow]]\nname = "ISS"\nprio = 2\n', "no such key; did you mean priority?"),
-        ('[[sky.follow]]\nname = "ISS"\npriority = 0\n', "sky.follow[0].priority = 0: must be greater than 0"),
+        (
+            '[[sky.follow]]\nname = "ISS"\npriority = 0\n',
+            "the first [[sky.follow]]: priority = 0: must be greater than 0",
+        ),
         ('[[sky.follow]]\nname = "ISS"\nmin_culmination_deg = 91\n', "must be less than or equal to 90"),
         ('[sky.follow]\nname = "ISS"\n', "there may be several, so it has two brackets: write [[sky.follow]]"),
         ('[sky]\nfollow = ["ISS"]\n', 'has a table of its own: write [[sky.follow]] and below it name = "ISS"'),

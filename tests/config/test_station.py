@@ -37,7 +37,7 @@ def test_what_is_a_place(keys: str) -> None:
 
 @pytest.mark.parametrize("protocol", ["lx200", "stellarium"])
 def test_a_telescope_program_needs_it(protocol: str) -> None:
-    with pytest.raises(ConfigError, match=rf"link\[0\]: {protocol} needs \[station\]"):
+    with pytest.raises(ConfigError, match=rf"the first \[\[link\]\]: {protocol} needs \[station\]"):
         parse(f'[[link]]\nprotocol = "{protocol}"\ntcp = "127.0.0.1:1"\n', "x")
 
 

@@ -147,6 +147,34 @@ def test_utf_16(tmp_path: Path, encoding: str) -> None:
     assert "iconv -f UTF-16 -t UTF-8" in said
 
 
+@pytest.mark.parametrize("data", [b"\0" * 4096, LINK.encode() + b"\0" * 512, b"\0"])
+@pytest.mark.parametrize("copy", ["a.toml.bak", "a.toml.before-rotator-2026-11-25", None])
+def test_zero_bytes_of_a_power_cut(tmp_path: Path, data: bytes, copy: str | None) -> None:
+    if copy:
+        (tmp_path / copy).write_text(LINK)
+    said = read(tmp_path / "a.toml", data)
+    assert said.startswith("is damaged: it holds zero bytes, as a power cut leaves them: ")
+    assert said.endswith(f"cp {tmp_path / copy} {tmp_path / 'a.toml'}" if copy else "`rotator config --ask --to FILE`")
+
+
+def test_a_copy_that_is_damaged_too_is_not_advised(tmp_path: Path) -> None:
+    (tmp_path / "a.toml.bak").write_bytes(b"\0" * 9)
+    assert "cp " not in read(tmp_path / "a.toml", b"\0" * 9)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('{"rotor": {}}', "is JSON"),
+        ('\n{\n  "rotor": {}\n}\n', "is JSON"),
+        ("<!DOCTYPE html>\n<html>", "is a web page"),
+        ("\ufeff<html>", "is a web page"),
+    ],
+)
+def test_another_kind_of_file_is_one_message(tmp_path: Path, text: str, said: str) -> None:
+    assert read(tmp_path / "a.toml", text.encode()).startswith(said)
+
+
 def test_latin_1(tmp_path: Path) -> None:
     said = read(tmp_path / "a.toml", "[rotor]\n# Grüße aus Köln\n".encode("latin-1"))
     assert said.startswith("line 2: # Grüße aus Köln: is not saved as UTF-8")

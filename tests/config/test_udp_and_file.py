@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from rotator.config.load import parse
-from tests.config.texts import faults, link
+from tests.config.texts import FIRST, faults, link
 
 
 def n1mm(udp: str = "0.0.0.0:12040", **keys: str) -> str:
@@ -27,7 +27,8 @@ def test_tcp_and_udp_are_different_places() -> None:
     both = link("rotctld", tcp="127.0.0.1:12000") + link("pstrotator", udp="127.0.0.1:12000")
     assert faults(both) == []
     assert faults(link("n1mm", udp="0.0.0.0:1") + link("macdoppler", udp="0.0.0.0:1")) == [
-        "2 links use 0.0.0.0:1: link[0] and link[1]"
+        "2 links use 0.0.0.0:1: the first [[link]] and the second [[link]]: "
+        'each needs a port of its own: write udp = "0.0.0.0:2" into one of them'
     ]
 
 
@@ -46,47 +47,53 @@ def test_a_status_line_for_n1mm(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        (link("pstrotator"), "link[0]: pstrotator must have udp, and none of pty, serial, tcp"),
-        (link("pstrotator", pty="x"), "link[0]: pstrotator must have udp, and none of pty, serial, tcp"),
-        (link("n1mm", udp="a:1", tcp="a:1"), "link[0]: n1mm must have udp, and none of pty, serial, tcp"),
-        (link("wsjtx", udp="a:1"), "link[0]: udp is for pstrotator, n1mm, macdoppler only; wsjtx must have file"),
+        (link("pstrotator"), "the first [[link]]: pstrotator must have udp, and none of pty, serial, tcp"),
+        (link("pstrotator", pty="x"), "the first [[link]]: pstrotator must have udp, and none of pty, serial, tcp"),
+        (link("n1mm", udp="a:1", tcp="a:1"), "the first [[link]]: n1mm must have udp, and none of pty, serial, tcp"),
+        (
+            link("wsjtx", udp="a:1"),
+            "the first [[link]]: udp is for pstrotator, n1mm, macdoppler only; wsjtx must have file",
+        ),
         (
             link("gs232b", udp="a:1"),
-            "link[0]: udp is for pstrotator, n1mm, macdoppler only; gs232b must have exactly one of pty, serial, tcp",
+            FIRST + "udp is for pstrotator, n1mm, macdoppler only; gs232b must have exactly one of pty, serial, tcp",
         ),
-        (link("pstrotator", file="x"), "link[0]: file is for wsjtx only; pstrotator must have udp"),
-        (link("pstrotator", connect="a:1"), "link[0]: connect is for rotctld-follow only; pstrotator must have udp"),
+        (link("pstrotator", file="x"), "the first [[link]]: file is for wsjtx only; pstrotator must have udp"),
+        (
+            link("pstrotator", connect="a:1"),
+            "the first [[link]]: connect is for rotctld-follow only; pstrotator must have udp",
+        ),
         (
             link("pstrotator", udp="12000"),
-            'link[0].udp: "12000" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:12000"',
+            FIRST + 'udp: "12000" must be "host:port" with a port from 1 to 65535, such as "127.0.0.1:12000"',
         ),
         (
             link("pstrotator", udp="127.0.0.1:65535"),
-            "link[0]: pstrotator answers one port higher: 65535 leaves none",
+            "the first [[link]]: pstrotator answers one port higher: 65535 leaves none",
         ),
         (
             n1mm(status_to="192.168.1.20:13010"),
-            "link[0]: status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name",
+            "the first [[link]]: status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name",
         ),
         (
             link("macdoppler", udp="0.0.0.0:9932", rotor_name="x", status_to="192.168.1.20:13010"),
-            "link[0]: status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name",
+            "the first [[link]]: status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name",
         ),
         (
             n1mm("127.0.0.1:12040", rotor_name="x", status_to="192.168.1.20:13010"),
-            'link[0]: udp = "127.0.0.1:12040" reaches this machine only, and status_to is not on it: use 0.0.0.0',
+            FIRST + 'udp = "127.0.0.1:12040" reaches this machine only, and status_to is not on it: use 0.0.0.0',
         ),
         (
             n1mm(rotor_name="x", status_to="shack.local:13010"),
-            'link[0].status_to: "shack.local:13010" must be an IPv4 address and a port, such as "192.168.1.20:13010"',
+            FIRST + 'status_to: "shack.local:13010" must be an IPv4 address and a port, such as "192.168.1.20:13010"',
         ),
         (
             link("macdoppler", udp="0.0.0.0:9932") + "read_only = true\n",
-            "link[0]: macdoppler does nothing but give orders: leave out read_only",
+            "the first [[link]]: macdoppler does nothing but give orders: leave out read_only",
         ),
         (
             link("wsjtx", file="x") + 'allow = ["10.0.0.0/8"]\n',
-            "link[0]: allow is for links that others connect to over a network: leave it out",
+            "the first [[link]]: allow is for links that others connect to over a network: leave it out",
         ),
     ],
 )
@@ -108,4 +115,4 @@ def test_a_misspelt_protocol_is_one_fault(text: str, meant: str) -> None:
 
 def test_a_body_that_is_not_in_the_file() -> None:
     (fault,) = faults(link("wsjtx", file="x", body="moon"))
-    assert fault == 'link[0].body = "moon": must be one of Moon, Sun, Source; did you mean Moon?'
+    assert fault == 'the first [[link]]: body = "moon": must be one of Moon, Sun, Source; did you mean Moon?'

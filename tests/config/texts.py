@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from rotator.config.load import ConfigError, parse
 
+FIRST = "the first [[link]]: "
+
 
 def faults(text: str) -> list[str]:
     """Its mistakes; none: it can be used."""
