@@ -310,7 +310,7 @@ def pins(undo: bool, yes: bool, root: Path, path: Path | None) -> None:
 @STATION
 @click.option("--allow", metavar="NETWORK", help="Who may: a network such as 192.168.1.0/24, an address, or all.")
 def network(undo: bool, yes: bool, root: Path, path: Path | None, allow: str | None) -> None:
-    """Open rotctld to the local network. Says what to type on the PC, and waits for it."""
+    """Open rotctld and the page to the local network. Says what to type on the PC, and waits for it."""
     from rotator.cli.network import open_network
 
     open_network(root, path, allow, undo=undo, yes=yes)

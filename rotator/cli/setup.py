@@ -16,6 +16,7 @@ from pathlib import Path
 
 import click
 
+from rotator.cli.lines import say
 from rotator.config.load import load
 from rotator.setup import gadget, pins, tree, usb_serial
 from rotator.setup.pi import SHORT_NAMES, Pi, known
@@ -137,7 +138,7 @@ def _refuse_overlay(command_line: str) -> None:
 def propose(plan: ChangeSet, *, yes: bool, done: str, today: Callable[[], date] = date.today) -> bool:
     """Show the changes, ask, and make them, all or none. `done` is said then. Returns whether there were any."""
     for note in plan.notes:
-        click.echo(note)
+        say(note)
     if not plan.changes:
         click.echo("Nothing to change: everything is as it should be.")
         return False
@@ -153,7 +154,7 @@ def propose(plan: ChangeSet, *, yes: bool, done: str, today: Callable[[], date] 
             raise SetupError("nothing was changed (--yes does it without asking)") from None
     for copy in tree.carry_out(plan, today()):
         click.echo(f"The file as it was: {copy}")
-    click.echo(done)
+    say(done)
     return True
 
 

@@ -128,7 +128,7 @@ class Link(Table):
             return self
         if self.protocol != "n1mm" or self.rotor_name is None:
             raise ValueError("status_to is for n1mm, and needs rotor_name: N1MM shows a rotor by its name")
-        if self.udp and _is_here(address(self.udp)[0]) and not _is_here(address(self.status_to)[0]):
+        if self.udp and is_this_machine(address(self.udp)[0]) and not is_this_machine(address(self.status_to)[0]):
             raise ValueError(f'udp = "{self.udp}" reaches this machine only, and status_to is not on it: use 0.0.0.0')
         return self
 
@@ -243,6 +243,6 @@ def is_same_place(server: str, client: str) -> bool:
     return listens == goes_to or (here and (listens in _THIS_MACHINE or listens.startswith("127.")))
 
 
-def _is_here(host: str) -> bool:
+def is_this_machine(host: str) -> bool:
     """Whether only programs on this machine reach the address."""
     return host in ("localhost", "::1") or host.startswith("127.")

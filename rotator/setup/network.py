@@ -1,23 +1,28 @@
-"""Plans how rotctld is opened to the local network: the `[[link]]` in rotator.toml, and its announcement by Avahi.
+"""Plans how rotctld and the page are opened to the local network: the `[[link]]` and `[page]` in rotator.toml, and the
+announcement by Avahi.
 
-Knows the lines of that link and the announcement. Works on texts and writes no file. What it replaces stays in the file
+Knows these lines and the announcement. Works on texts and writes no file. What it replaces stays in the file
 as a remark, so that the way back gives the same bytes.
 """
 
 from __future__ import annotations
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from rotator.config.links import address
+from rotator.config.links import address, is_this_machine
 from rotator.config.load import parse
-from rotator.config.statements import places, statements
+from rotator.config.mistake import ConfigError
+from rotator.config.statements import Place, places, statements
 from rotator.setup.plan import Change, ChangeSet, Files, SetupError, changes
 
 BEGIN, END = "# rotator setup network: begin", "# rotator setup network: end"
 _WAS = "# was: "
-_OURS = re.compile(r'tcp = "0\.0\.0\.0:\d+"|allow = \["[^"]*"(?:, "[^"]*")?\]|\[\[link\]\]|protocol = "rotctld"|')
+_OURS = re.compile(
+    r'(?:tcp|listen) = "0\.0\.0\.0:\d+"|allow = \["[^"]*"(?:, "[^"]*")?\]|\[\[link\]\]|\[page\]|protocol = "rotctld"|'
+)
 USUAL_PORT = 4533
 ANNOUNCEMENT = Path("etc/avahi/services/rotator.service")
 _SERVICE = """\
@@ -36,14 +41,17 @@ _SERVICE = """\
 
 @dataclass(frozen=True, slots=True)
 class Opened:
-    """A rotator.toml whose rotctld is open to the network."""
+    """A rotator.toml whose rotctld and page are open to the network."""
 
     text: str
     port: int
+    page: int | None
+    """The page's port; None: the file has no page."""
 
 
-def plan(files: Files, root: Path, settings: Path, allow: str | None) -> tuple[ChangeSet, int]:
-    """The changes, and the port. `allow`: the network that may; None: every machine. Raises SetupError, ConfigError."""
+def plan(files: Files, root: Path, settings: Path, allow: str | None) -> tuple[ChangeSet, Opened]:
+    """The changes, and the new file. `allow`: the network that may; None: every machine. Raises SetupError,
+    ConfigError."""
     before = _text(files, settings)
     opened = open_to(before, allow)
     parse(opened.text, str(settings))
@@ -57,7 +65,7 @@ def plan(files: Files, root: Path, settings: Path, allow: str | None) -> tuple[C
             "Avahi is not installed: the PC then needs the address, not the name. "
             "For the name: sudo apt install avahi-daemon, and this command again."
         )
-    return ChangeSet(changes(*wanted), tuple(notes)), opened.port
+    return ChangeSet(changes(*wanted), tuple(notes)), opened
 
 
 def undone(files: Files, root: Path, settings: Path) -> ChangeSet:
@@ -69,30 +77,58 @@ def undone(files: Files, root: Path, settings: Path) -> ChangeSet:
 
 
 def open_to(text: str, allow: str | None) -> Opened:
-    """The text with its first rotctld link, or a new one, open to the network. Raises SetupError, ConfigError."""
+    """The text with its first rotctld link, or a new one, and its page open to the network. A page that is open, or
+    switched off, stays as it is. Raises SetupError, ConfigError."""
     text = closed(text)
-    links = parse(text, "rotator.toml").link
-    number = next((at for at, link in enumerate(links) if link.protocol == "rotctld" and link.tcp), None)
-    rows = text.split("\n")
+    config = parse(text, "rotator.toml")
+    number = next((at for at, link in enumerate(config.link) if link.protocol == "rotctld" and link.tcp), None)
     if number is None:
-        rows += [] if rows[-1] == "" else [""]
-        rows[-1:-1] = [BEGIN, "[[link]]", 'protocol = "rotctld"', *_ours(USUAL_PORT, allow), END]
-        return Opened("\n".join(rows), USUAL_PORT)
-    port = address(links[number].tcp or "")[1]
-    lines = places(text)
-    end = "\r" if rows[lines["link", number, "tcp"][0] - 1].endswith("\r") else ""
-    was: list[str] = []
+        port = USUAL_PORT
+        text = _appended(text, ["[[link]]", 'protocol = "rotctld"', *_ours("tcp", port, allow)])
+    else:
+        port = address(config.link[number].tcp or "")[1]
+        text = _replaced(text, ("link", number), _ours("tcp", port, allow))
+    host, page = address(config.page.listen)
+    if config.page.enabled and is_this_machine(host):
+        text = _replaced(text, ("page",), _ours("listen", page, allow))
+        _check_page(text, f"0.0.0.0:{page}")
+    return Opened(text, port, page if config.page.enabled else None)
+
+
+def _check_page(text: str, listen: str) -> None:
+    """A page that is written in another form than a table of lines is left to the person. Raises SetupError."""
+    with suppress(ConfigError):
+        if parse(text, "rotator.toml").page.listen == listen:
+            return
+    raise SetupError(f'[page] has no heading of its own here: write listen = "{listen}" there, and run this again')
+
+
+def _appended(text: str, lines: list[str]) -> str:
+    rows = text.split("\n")
+    rows += [] if rows[-1] == "" else [""]
+    rows[-1:-1] = [BEGIN, *lines, END]
+    return "\n".join(rows)
+
+
+def _replaced(text: str, table: Place, ours: list[str]) -> str:
+    """Our lines in place of the table's own of these keys, which stay as remarks; without such, below its heading."""
+    rows, lines = text.split("\n"), places(text)
     taken: list[int] = []
-    for key in ("tcp", "allow"):
-        if given := lines.get(("link", number, key)):
+    for key in (ours[0].partition(" = ")[0], "allow"):
+        if given := lines.get((*table, key)):
             last = next(each.last for each in statements(text) if each.line == given[0])
             taken += range(given[0] - 1, last)
-    for at in sorted(taken):
-        was.append(_WAS + rows[at])
-    block = [row + end for row in (BEGIN, *(row.removesuffix("\r") for row in was), *_ours(port, allow), END)]
-    first = min(taken)
+    heading = next(
+        (each.line for each in statements(text) if each.brackets and each.line in lines.get(table, ())), None
+    )
+    if not taken and heading is None:
+        return _appended(text, [f"[{table[0]}]", *ours])
+    first = min(taken, default=heading or 0)
+    end = "\r" if rows[min(first, len(rows) - 1)].endswith("\r") else ""
+    was = [_WAS + rows[at] for at in sorted(taken)]
+    block = [row + end for row in (BEGIN, *(row.removesuffix("\r") for row in was), *ours, END)]
     kept = [row for at, row in enumerate(rows) if at not in taken]
-    return Opened("\n".join([*kept[:first], *block, *kept[first:]]), port)
+    return "\n".join([*kept[:first], *block, *kept[first:]])
 
 
 def closed(text: str) -> str:
@@ -120,8 +156,8 @@ def allowed(network: str) -> str:
     return f'allow = ["127.0.0.1", "{network}"]'
 
 
-def _ours(port: int, allow: str | None) -> list[str]:
-    return [f'tcp = "0.0.0.0:{port}"', *([allowed(allow)] if allow else [])]
+def _ours(key: str, port: int, allow: str | None) -> list[str]:
+    return [f'{key} = "0.0.0.0:{port}"', *([allowed(allow)] if allow else [])]
 
 
 def _has_avahi(root: Path) -> bool:

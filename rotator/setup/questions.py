@@ -140,10 +140,17 @@ def _serial_port(text: str) -> str:
 
 def network(text: str) -> str:
     """`192.168.1.5/24` as its network. Raises ValueError."""
+    bare = text.strip()
     try:
-        return str(ipaddress.ip_network(text.strip(), strict=False))
+        found = ipaddress.ip_network(bare, strict=False)
     except ValueError:
-        raise ValueError(f'"{text.strip()}" is no network: type one such as 192.168.1.0/24') from None
+        raise ValueError(f'"{bare}" is no network: type one such as 192.168.1.0/24') from None
+    if found.version != 4:
+        raise ValueError(f'"{bare}" is IPv6, and the box listens on IPv4: type one such as 192.168.1.0/24')
+    if "/" not in bare and bare.rpartition(".")[2] in ("0", "255"):
+        whole = ipaddress.ip_network(f"{bare}/24", strict=False)
+        raise ValueError(f'"{bare}" is the address of no computer: did you mean {whole}?')
+    return str(found)
 
 
 def place(text: str) -> str:

@@ -1,4 +1,4 @@
-"""`rotator setup network`: rotctld opens for one network by one question, and closes again to the byte."""
+"""`rotator setup network`: rotctld and the page open for one network by one question, and close again to the byte."""
 
 from __future__ import annotations
 
@@ -12,12 +12,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotator.cli.network import wait_for_the_pc
+from rotator.cli.network import Asked, wait_for_the_pc
 from rotator.config.load import SIMULATED, parse, profiles, shipped
 from rotator.links.addresses import addresses
 from rotator.monitor.transcript import LinkNote, Peer, Way, encode_link, encode_peer, encode_piece
 from rotator.orders import Source
 from rotator.setup.network import BEGIN, END, closed, open_to
+from rotator.setup.plan import SetupError
 from tests.setup.conftest import ROTATOR, Card
 
 PORT = 4533
@@ -29,6 +30,14 @@ tcp = "0.0.0.0:4533"
 allow = ["127.0.0.1", "192.168.1.0/24"]
 {END}
 """
+PAGE = f"""\
+{BEGIN}
+[page]
+listen = "0.0.0.0:8232"
+allow = ["127.0.0.1", "192.168.1.0/24"]
+{END}
+"""
+OPENED = ROTATOR.replace('tcp = "127.0.0.1:4533"\n', BLOCK) + PAGE
 
 
 @pytest.fixture
@@ -41,12 +50,13 @@ def with_avahi(card: Card) -> Card:
 def test_one_link_opens_and_the_rest_of_the_file_stays(with_avahi: Card) -> None:
     said = with_avahi.setup("network", "--allow", "192.168.1.7/24", "--yes")
     assert said.code == 0, said.text
-    assert with_avahi.rotator.read_text() == ROTATOR.replace('tcp = "127.0.0.1:4533"\n', BLOCK)
+    assert with_avahi.rotator.read_text() == OPENED
     link = parse(with_avahi.rotator.read_text(), "x").link[0]
     assert (link.tcp, link.allow) == ("0.0.0.0:4533", ["127.0.0.1", "192.168.1.0/24"])
     assert "<port>4533</port>" in (with_avahi.root / ANNOUNCED).read_text()
     assert "Host shack.local, Port 4533" in said.text
     assert "rotctl -m 2 -r shack.local:4533 p" in said.text
+    assert "Browser    http://shack.local:8232" in said.text
 
 
 def test_it_is_shown_first_and_no_is_the_default(with_avahi: Card) -> None:
@@ -69,7 +79,7 @@ def test_the_way_back(with_avahi: Card) -> None:
 def test_another_network_takes_the_place_of_the_first(with_avahi: Card) -> None:
     with_avahi.setup("network", "--allow", "10.0.0.0/8", "--yes")
     with_avahi.setup("network", "--allow", "192.168.1.0/24", "--yes")
-    assert with_avahi.rotator.read_text() == ROTATOR.replace('tcp = "127.0.0.1:4533"\n', BLOCK)
+    assert with_avahi.rotator.read_text() == OPENED
 
 
 def test_the_question(with_avahi: Card) -> None:
@@ -115,12 +125,42 @@ def test_a_file_without_rotctld_gets_one(card: Card) -> None:
 
 @pytest.mark.parametrize(
     ("words", "said"),
-    [(("--allow", "192.168.1"), "--allow: "), (("--allow", "all", "--config", "none.toml"), "there is no none.toml")],
+    [
+        (("--allow", "192.168.1"), "--allow: "),
+        (("--allow", "192.168.1.0"), "did you mean 192.168.1.0/24?"),
+        (("--allow", "::1/64"), '"::1/64" is IPv6, and the box listens on IPv4'),
+        (("--allow", "all", "--config", "none.toml"), "there is no none.toml"),
+    ],
 )
 def test_what_cannot_be(card: Card, words: tuple[str, ...], said: str) -> None:
     before = card.files()
     done = card.setup("network", *words, "--yes")
     assert (done.code, said in done.text) == (1, True)
+    assert card.files() == before
+
+
+def test_what_hinders_is_said_before_the_question(card: Card) -> None:
+    card.rotator.unlink()
+    said = card.setup("network", answer="1\ny\n")
+    assert said.code == 1
+    assert f"there is no {card.rotator}: say with --config" in said.text
+    assert "Who may" not in said.text
+
+
+def test_a_page_that_is_open_or_switched_off_stays(card: Card) -> None:
+    for page in ('[page]\nlisten = "0.0.0.0:80"\n', "[page]\nenabled = false\n"):
+        card.rotator.write_text(ROTATOR + page)
+        said = card.setup("network", "--allow", "192.168.1.0/24", "--yes")
+        assert card.rotator.read_text().endswith(END + "\n" + page)
+        assert ("Browser" in said.text) is ("listen" in page)
+
+
+@pytest.mark.parametrize("page", ['page.listen = "127.0.0.1:99"\n', 'page = { listen = "127.0.0.1:99" }\n'])
+def test_a_page_without_a_heading_is_left_to_the_person(card: Card, page: str) -> None:
+    card.rotator.write_text(page + ROTATOR)
+    before = card.files()
+    said = card.setup("network", "--allow", "192.168.1.0/24", "--yes")
+    assert 'write listen = "0.0.0.0:99" there, and run this again' in said.text
     assert card.files() == before
 
 
@@ -145,16 +185,25 @@ def test_the_installer_announces_the_same(with_avahi: Card) -> None:
     st.sampled_from([None, "10.0.0.0/8"]),
     st.sampled_from(["\n", "\r\n"]),
     st.sampled_from(["", '\nallow = [\n  "10.1.0.0/16",  # home\n]', '\nallow = ["10.1.0.0/16"]']),
+    st.sampled_from(["", "[page]\n", '[page]\nreading = "paired"\nallow = ["10.1.0.0/16"]\n', "[page]  # mine\n"]),
 )
-def test_every_shipped_file_opens_and_comes_back_to_the_byte(name: str, allow: str | None, end: str, more: str) -> None:
-    text = shipped(name).replace('tcp = "127.0.0.1:4533"', f'tcp = "127.0.0.1:4533"{more}').replace("\n", end)
+def test_every_shipped_file_opens_and_comes_back_to_the_byte(
+    name: str, allow: str | None, end: str, more: str, page: str
+) -> None:
+    text = shipped(name).replace('tcp = "127.0.0.1:4533"', f'tcp = "127.0.0.1:4533"{more}')
+    text = (text + page).replace("\n", end)
     opened = open_to(text, allow)
     link = next(link for link in parse(opened.text, name).link if link.protocol == "rotctld")
     assert (link.tcp, link.allow) == ("0.0.0.0:4533", allow and ["127.0.0.1", allow])
+    table = parse(opened.text, name).page
+    assert (table.listen, table.allow) == ("0.0.0.0:8232", allow and ["127.0.0.1", allow])
     assert closed(opened.text) == text
 
 
 # --- the test from the PC
+
+
+SETTINGS = {"tcp": f"0.0.0.0:{PORT}", "allow": ["127.0.0.1", "192.168.1.0/24"]}
 
 
 class Box:
@@ -175,6 +224,38 @@ def box(tmp_path: Path) -> Iterator[Box]:
     made.monitor.close()
 
 
+def tells(box: Box, *lines: str) -> threading.Thread:
+    def show() -> None:
+        watcher, _ = box.monitor.accept()
+        watcher.sendall("".join(f"{line}\n" for line in lines).encode())
+        watcher.close()
+
+    shower = threading.Thread(target=show)
+    shower.start()
+    return shower
+
+
+@pytest.mark.parametrize("keys", [{"tcp": f"127.0.0.1:{PORT}"}, SETTINGS | {"allow": ["127.0.0.1", "10.0.0.0/8"]}])
+def test_a_box_with_the_old_settings_proves_nothing(box: Box, keys: dict[str, object]) -> None:
+    """It answers the PC too, until it is started again."""
+    pc = Source("rotctld", 2)
+    asked = encode_piece(datetime.now(), pc, Way.IN, b"p\n", text=True)
+    lines = encode_link(LinkNote("rotctld", keys)), encode_peer(Peer(pc, "192.168.1.20")), asked
+    shower = tells(box, *lines)
+    with pytest.raises(SetupError, match="the running box has the old settings: start it again first"):
+        wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
+    shower.join()
+
+
+def test_a_pc_that_may_not_is_no_success(box: Box, capsys: pytest.CaptureFixture[str]) -> None:
+    pc = Source("rotctld", 2)
+    asked = encode_piece(datetime.now(), pc, Way.IN, b"p\n", text=True)
+    shower = tells(box, encode_link(LinkNote("rotctld", SETTINGS)), encode_peer(Peer(pc, "10.9.9.9")), asked)
+    assert not wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
+    shower.join()
+    assert "10.9.9.9 has just asked, and is not in 192.168.1.0/24" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("question", [b"p\n", b"+p\n", b"\\get_pos\n", b"\\dump_state\np\n"])
 def test_the_first_question_is_told_with_the_address_of_the_pc(
     box: Box, capsys: pytest.CaptureFixture[str], question: bytes
@@ -185,7 +266,7 @@ def test_the_first_question_is_told_with_the_address_of_the_pc(
         watcher, _ = box.monitor.accept()
         lines = [
             "# rotator",
-            encode_link(LinkNote("rotctld", {"tcp": f"0.0.0.0:{PORT}"})),
+            encode_link(LinkNote("rotctld", SETTINGS)),
             encode_peer(Peer(here, "127.0.0.1")),
             encode_peer(Peer(there, "192.168.1.20")),
             encode_piece(datetime.now(), there, Way.IN, b"\\dump_state\n", text=True),
@@ -197,7 +278,7 @@ def test_the_first_question_is_told_with_the_address_of_the_pc(
 
     shower = threading.Thread(target=show)
     shower.start()
-    assert wait_for_the_pc(box.config, PORT, 20.0)
+    assert wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
     shower.join()
     said = capsys.readouterr().out.splitlines()
     assert said[-1] == "192.168.1.20 has just asked for the position: it works."
@@ -210,6 +291,6 @@ def test_a_box_that_ends_is_no_answer(box: Box, capsys: pytest.CaptureFixture[st
 
     shower = threading.Thread(target=end)
     shower.start()
-    assert not wait_for_the_pc(box.config, PORT, 20.0)
+    assert not wait_for_the_pc(box.config, Asked(PORT, "192.168.1.0/24"), 20.0)
     shower.join()
     assert "No computer has asked" in capsys.readouterr().out
