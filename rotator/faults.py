@@ -206,7 +206,7 @@ class Fault:
         text, _, advice = self._words
         advice = (self.advice or advice).replace("AXIS", self.axis.value)
         seen = f"{self.axis.value}: {text}: {self.measured}{limit}"
-        return f"{loud}{seen}. {advice} (see {self.page}#{self.kind.anchor})"
+        return f"{loud}{seen}. {advice} (rotator help {self.kind.anchor})"
 
 
 class Missing(Enum):

@@ -65,7 +65,7 @@ def test_no_two_have_the_same_texts() -> None:
 @pytest.mark.parametrize("sensor", ["encoder", "contact", "tilt sensor"])
 def test_where_no_pot_is_read_no_word_is_of_a_pot(kind: FaultKind, sensor: str) -> None:
     fault = Fault(kind, Axis.AZIMUTH, "measured", sensor=sensor)
-    said = str(fault).removesuffix(f"(see {fault.page}#{kind.anchor})")
+    said = str(fault).removesuffix(f"(rotator help {kind.anchor})")
     assert "pot" not in said.replace("potent", "")
     assert "SENSOR " not in said
     assert "POT" not in fault.lcd

@@ -70,7 +70,8 @@ def open_compass(config: Config, board: Board) -> Compass:
     table = config.compass
     if table.kind == "none":
         raise HardwareError(
-            'the file has no compass: fit a BNO055 to the boom and write [compass] kind = "bno055" (docs/sensors.md)'
+            'the file has no compass: fit a BNO055 to the boom and write [compass] kind = "bno055" '
+            "(rotator help sensors)"
         )
     return compass_chip(table, board.bus(table.bus), board.clock, board.sleep)
 

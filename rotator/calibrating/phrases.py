@@ -97,7 +97,7 @@ class Phrases:
     def reads_backwards(self) -> str:
         return (
             f"Refused: it turned {self.plus}, and the reading fell. `forward` and `up` of {self.axis}.sensor do not "
-            "match how the board is mounted (docs/sensors.md). Nothing is saved."
+            "match how the board is mounted (rotator help sensors). Nothing is saved."
         )
 
     @property

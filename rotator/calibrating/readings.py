@@ -62,7 +62,7 @@ def measure(readings: Sequence[float], lowest: float, highest: float, unit: Read
         if not lowest <= reading <= highest:
             raise NotTrusted(
                 f"reads {unit.text(reading)}, outside lowest_reading {lowest:g} to highest_reading {highest:g}: "
-                "a broken wire, or a pot without end resistors (docs/wiring.md)"
+                "a broken wire, or a pot without end resistors (rotator help wiring)"
             )
     if noise > unit.noisy:
         raise NotTrusted(

@@ -178,7 +178,7 @@ def axis_guide(config: Config, axis: Axis) -> AxisGuide:
         raise HardwareError(
             f"{axis.value}: this rotor is sent angles, so it can be turned only when its {table.sensor.kind} is "
             "calibrated: turn it by hand or by its own control box, and write `calibration` into the file "
-            "(docs/calibration.md#by-hand)"
+            "(rotator help calibration by-hand)"
         )
     facts = AxisFacts(
         axis, table.min_deg, table.max_deg, table.lowest_reading, table.highest_reading, *SCALES_DEG[axis]

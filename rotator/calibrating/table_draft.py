@@ -110,5 +110,5 @@ class TableDraft:
             shown = ", ".join(filter(None, (f"{margin * self.deg_per_raw:.0f}°", volts(margin))))
             rows.append(f"  {margin:.4f} ({shown}) {where}")
             if margin < LEAST_MARGIN:
-                rows.append(f"  That is little: some drift would be taken for {drift}. See docs/wiring.md.")
+                rows.append(f"  That is little: some drift would be taken for {drift}. See: rotator help wiring")
         return rows

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
@@ -82,6 +83,10 @@ def say_mistake(mistake: click.ClickException) -> None:
         click.echo(f"{mistake.ctx.get_usage()}\n`{mistake.ctx.command_path} --help` says more.", err=True)
 
 
+PAGE_ROWS = 40
+"""A longer text is shown a screen at a time."""
+
+
 class Commands(click.Group):
     """A group whose commands stand in `--help` under headings, in the order they were added."""
 
@@ -97,12 +102,14 @@ class Commands(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """`help WORDS` is `WORDS --help`."""
+        """`help WORDS` is `WORDS --help`; of no command, it is a section of the documentation."""
         if args[0] != "help":
             return super().resolve_command(ctx, args)
         if not args[1:]:
             click.echo(ctx.get_help())
             ctx.exit()
+        if args[1] not in self.commands:
+            _print_section(ctx, args[1:])
         return super().resolve_command(ctx, [*args[1:], "--help"])
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -115,3 +122,15 @@ class Commands(click.Group):
                 formatter.write_dl(
                     [(f"{name:<{width}}", self.commands[name].get_short_help_str(200)) for name in names]
                 )
+
+
+def _print_section(ctx: click.Context, words: list[str]) -> None:
+    """Print it and end; returns where there is none, and nothing like it."""
+    from rotator.cli import pages  # noqa: PLC0415 - only help needs them
+
+    if section := pages.found(words):
+        text = pages.plain(section.text)
+        click.echo_via_pager(text) if sys.stdout.isatty() and text.count("\n") > PAGE_ROWS else click.echo(text)
+        ctx.exit()
+    if names := pages.near(words):
+        raise click.UsageError(f"there is no help on {' '.join(words)!r}. Did you mean {' or '.join(names)}?", ctx)

@@ -19,7 +19,7 @@ WAIT = click.option("--no-wait", "wait", is_flag=True, flag_value=False, default
 
 @click.command(epilog=examples("rotator where", "rotator where --json", "rotator where && echo healthy"))
 @CONFIG
-@click.option("--json", "as_json", is_flag=True, help="One object; its fields: docs/reference/commands.md.")
+@click.option("--json", "as_json", is_flag=True, help="One object; its fields: rotator help commands.")
 def where(path: Path | None, as_json: bool) -> None:
     """Show where the antenna is, who moves it, and what is wrong.
 

@@ -32,7 +32,7 @@ def configuration(path: Path | None) -> Iterator[Finding]:
         config = load(path)
     except ConfigError as fault:
         readable = path is None or os.access(path, os.R_OK)
-        advice = "Change that in the file; docs/reference/keys.md has every key." if readable else NO_FILE
+        advice = "Change that in the file; `rotator help keys` has every key." if readable else NO_FILE
         yield from (wrong(f"{fault.name}: {each}", advice) for each in fault.mistakes)
     else:
         rotor = "a simulated rotor" if config.rotor.hardware == "sim" else "a real rotor"

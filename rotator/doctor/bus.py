@@ -117,20 +117,20 @@ def _reading(axis: str, table: AxisTable, pin: str, supply_v: float, volts: list
     if most - least > UNSTEADY:
         return wrong(
             f"{axis}: unsteady, {least:.3f} to {most:.3f} on {pin}",
-            "A loose wire or plug, an input that is not wired, or RF: see pot jumps in docs/troubleshooting.md.",
+            "A loose wire or plug, an input that is not wired, or RF: see: rotator help pot-jumps",
         )
     found = f"{axis}: {mean:.3f} of the supply, {fmean(volts):.2f} V on {pin}"
     if table.lowest_reading <= mean <= table.highest_reading:
         return fine(found)
     outside = f"{found}, outside {table.lowest_reading:g} to {table.highest_reading:g}"
     if mean > 1 + AT_RAIL:
-        return wrong(outside, "The pot's supply is above adc.supply_v: is it 5 V? See pots on 5 V in docs/wiring.md.")
+        return wrong(outside, "The pot's supply is above adc.supply_v: is it 5 V? See: rotator help pots-on-5-v")
     if mean >= 1 - AT_RAIL:
         return wrong(outside, "The pot's ground lead is broken, or its wiper is shorted to the supply.")
     if mean <= AT_RAIL:
         return wrong(outside, "Wiper or supply lead broken, wiper shorted to ground, or the pots' supply is off.")
     return wrong(
         outside,
-        f"If the antenna stands at an end: fit end resistors (docs/wiring.md), or widen {axis}.lowest_reading "
+        f"If the antenna stands at an end: fit end resistors (rotator help wiring), or widen {axis}.lowest_reading "
         f"and {axis}.highest_reading.",
     )

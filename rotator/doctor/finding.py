@@ -71,7 +71,9 @@ def skipped(found: str, advice: str = "") -> Finding:
 def refused(about: str, fault: HardwareError) -> Finding:
     """A driver's error as a finding about this part. The text after the error's first semicolon is the advice."""
     problem, _, cure = str(fault).partition("; ")
-    return wrong(f"{about}: {problem}", f"{cure[:1].upper()}{cure[1:]}." if cure else "See docs/troubleshooting.md.")
+    return wrong(
+        f"{about}: {problem}", f"{cure[:1].upper()}{cure[1:]}." if cure else "See: rotator help troubleshooting"
+    )
 
 
 def always(_config: Any) -> bool:

@@ -57,7 +57,7 @@ def controllers(machine: Machine, config: Config) -> Iterator[Finding]:
         yield skipped(
             "servo.timeout_mode, servopos.position_min and position_max cannot be asked for from here",
             "Look once with tview: 10 decelerates and holds when the box is silent (as sold, 12, the antenna may sag); "
-            "the positions stand a little outside of min_deg and max_deg. See docs/paths/isel.md.",
+            "the positions stand a little outside of min_deg and max_deg. See: rotator help isel",
         )
 
 

@@ -24,7 +24,7 @@ LEAST_INDEX, MOST_INDEX = -7, 8
 """The range of the index by which the jog switches shift an order."""
 DATA_LIT_S = 0.1
 """How long the data lamp is lit after bytes from a program."""
-KNOB_OPEN = "a wire is broken, it moves nothing (see docs/troubleshooting.md#knob-open-or-shorted)"
+KNOB_OPEN = "a wire is broken, it moves nothing (rotator help knob-open-or-shorted)"
 LAMPS = ("manual", "park", "auto", "jog", "data", "motor", "stop", "azimuth_pulse", "elevation_pulse", "switch")
 
 

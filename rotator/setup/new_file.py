@@ -28,7 +28,7 @@ _REAL_POTS = re.compile(r"^((?:calibration|lowest_reading|highest_reading|supply
 """What is true of the real pots only: the simulated ones have readings of their own."""
 _LCD = {
     "none": 'kind = "none"                 # "gpio" for one on six lines, "pcf8574" for an I2C backpack',
-    "gpio": 'kind = "gpio"                 # on six lines: docs/wiring.md; "pcf8574" for an I2C backpack',
+    "gpio": 'kind = "gpio"                 # on six lines: rotator help wiring; "pcf8574" for an I2C backpack',
 }
 
 

@@ -49,7 +49,7 @@ USB_CABLE, ON_THIS_MACHINE = "/dev/ttyGS0", "pty"
 def questions(answers: Answers, machine: Machine) -> Iterator[Question]:
     """All questions that these answers lead to, in their order; later ones depend on earlier answers."""
     yield Question(
-        "rotor", "Which rotor?", "The file begins as the shipped one of this rotor. docs/wiring.md shows each.",
+        "rotor", "Which rotor?", "The file begins as the shipped one of this rotor. `rotator help wiring` shows each.",
         "g5500", ROTORS, _rotor,
     )  # fmt: skip
     yield Question(
@@ -71,7 +71,7 @@ def questions(answers: Answers, machine: Machine) -> Iterator[Question]:
         )  # fmt: skip
     yield Question(
         "program", "Which program turns the antenna?",
-        "One is enough to begin; a [[link]] more for each other. docs/reference/programs.md lists them all.",
+        "One is enough to begin; a [[link]] more for each other. `rotator help programs` lists them all.",
         NETWORK_PROGRAM, PROGRAMS,
     )  # fmt: skip
     if answers.get("program") not in (NETWORK_PROGRAM, NONE_YET, *UDP, None):

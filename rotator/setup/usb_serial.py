@@ -38,7 +38,7 @@ TWO_ADAPTERS = """\
 Without it the Pi and the PC still meet over two USB serial adapters (3.3 V or RS-232, both of one kind):
   one in the Pi, one in the PC, TX of each to RX of the other, GND to GND, nothing else.
   In rotator.toml: a [[link]] with serial = "/dev/ttyUSB0" and the protocol of your program.
-The page docs/usb-serial.md has the details."""
+`rotator help usb-serial` has the details."""
 
 
 @dataclass(frozen=True, slots=True)

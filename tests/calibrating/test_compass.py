@@ -80,7 +80,7 @@ def test_its_thread_reads_until_it_is_stopped() -> None:
 
 def test_a_file_without_a_compass() -> None:
     clock = SimClock()
-    with pytest.raises(HardwareError, match=r"\[compass\] kind = \"bno055\" \(docs/sensors.md\)"):
+    with pytest.raises(HardwareError, match=r"\[compass\] kind = \"bno055\" \(rotator help sensors\)"):
         open_compass(
             parse("", "test"),
             Board(SimServoRotor(ServoAxisSpec(0), ServoAxisSpec(1), clock), ExitStack(), clock, clock.sleep),

@@ -223,7 +223,7 @@ def test_degrees_that_are_not_trusted(readings: list[float], reason: str) -> Non
 
 
 def test_a_rotor_that_is_sent_angles_cannot_be_driven_to_the_ends_of_a_pot(calibration: Any) -> None:
-    with pytest.raises(HardwareError, match=r"docs/calibration.md#by-hand"):
+    with pytest.raises(HardwareError, match=r"rotator help calibration by-hand"):
         calibration(BOXES + '[azimuth.sensor]\nkind = "pot"\n')
 
 

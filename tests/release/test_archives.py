@@ -59,7 +59,8 @@ def test_a_person_who_has_only_the_sdist_builds_the_same(built: Archives, tmp_pa
 def test_the_wheel_has_every_file_of_the_program_and_no_other(built: Archives) -> None:
     with zipfile.ZipFile(built.wheel) as packed:
         inside = {name for name in packed.namelist() if ".dist-info/" not in name}
-    assert inside == {name for name in tracked() if name.startswith(PACKAGES)}
+    pages = {f"rotator/{name}" for name in tracked() if name.startswith("docs/") and name.endswith(".md")}
+    assert inside == {name for name in tracked() if name.startswith(PACKAGES)} | pages
 
 
 def test_the_sdist_has_every_file_of_the_project(built: Archives) -> None:

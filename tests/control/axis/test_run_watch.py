@@ -56,7 +56,7 @@ def test_one_that_does_not_end_is_told_with_its_way_and_its_limit(watch: RunWatc
     assert str(fault) == (
         f"azimuth: motor on longer than the travel takes: its motor ran {WAYS[Axis.AZIMUTH, way]} for 83 s without a "
         "pause, limit 83 s. Look for a slow motor, or a pot that slips on its shaft "
-        "(see docs/troubleshooting.md#motor-on-longer-than-the-travel-takes)"
+        "(rotator help motor-on-longer-than-the-travel-takes)"
     )
 
 

@@ -110,7 +110,7 @@ def test_a_broken_pot_explains_itself(bench: Bench) -> None:
     assert fault == Fault(FaultKind.POT_OPEN, Axis.ELEVATION, "reads 0.004", "0.02 to 0.98")
     assert str(fault) == (
         "elevation: pot open or shorted: reads 0.004, limit 0.02 to 0.98. Check the pot's wires and its supply"
-        " (see docs/troubleshooting.md#pot-open-or-shorted)"
+        " (rotator help pot-open-or-shorted)"
     )
     assert bench.sensing.raw == 0.004, "the raw value is shown, for whoever looks for the break"
 
