@@ -1,26 +1,27 @@
 """Which orders are refused outright, so that the protocol can answer in its own words.
 
-Knows the mount and the latest status. An order that is admitted may still have no effect (a latched stop, a silenced
-stream): it is answered like any other. The controller checks again what is admitted, for things change in between.
+Knows the mount and the latest status. An admitted order may still have no effect, because a stop is latched or its
+stream is silenced; it is answered like any other. The controller checks again, for the status may change meanwhile.
 """
 
 from __future__ import annotations
 
 from hw.ports import AngleSource, Axis
-from rotator.control.sky.joining import joined
+from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.orders import Aim, Calibrate, Confirm, Fly, Home, Jog, LoadTimed, Order, Park, Refusal, RelaysChecked
 from rotator.status import Status
 
 SENT_DEG = {Axis.AZIMUTH: (-180.0, 540.0), Axis.ELEVATION: (-90.0, 180.0)}
-"""The angles that a program may send, as in Hamlib. What the rotor can reach of them is the mount's matter."""
+"""The angles that a program may send, as in Hamlib. The mount knows which of them the rotor can reach."""
 
 
 def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
     """Why `order` will not be obeyed, or None."""
     match order:
         case Aim():
-            aim = joined(mount, order, (status.wanted_azimuth_deg, status.wanted_elevation_deg), _places(status))
+            stands = places(*((axis.target_deg, axis.angle_deg) for axis in (status.azimuth, status.elevation)))
+            aim = joined(mount, order, (status.wanted_azimuth_deg, status.wanted_elevation_deg), stands)
             return _uncalibrated(order, status) or _unreachable(((aim.azimuth_deg, aim.elevation_deg),), mount)
         case LoadTimed(_, points):
             return _uncalibrated(order, status) or _unreachable(points, mount)
@@ -40,14 +41,6 @@ def refusal(order: Order, status: Status, mount: Mount) -> Refusal | None:
             return Refusal(f"nothing is in doubt about the relays of {axis.value}")
         case _:
             return None
-
-
-def _places(status: Status) -> tuple[float | None, float | None]:
-    """Where each axis goes, or stands where it has no target."""
-    places = [
-        axis.angle_deg if axis.target_deg is None else axis.target_deg for axis in (status.azimuth, status.elevation)
-    ]
-    return places[0], places[1]
 
 
 def _uncalibrated(order: Order, status: Status) -> Refusal | None:

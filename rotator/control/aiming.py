@@ -14,7 +14,8 @@ from rotator.control.axis.port import ControlledAxis
 from rotator.control.flight import Flight
 from rotator.control.following import Following
 from rotator.control.going_round import GoingRound
-from rotator.control.sky.joining import joined
+from rotator.control.sky.angles import Coordinates
+from rotator.control.sky.joining import joined, places
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.nudges import Nudges
 from rotator.control.sky.pointing import AimGoal, Goals, Pointing
@@ -120,12 +121,12 @@ class Aiming:
         if not self._flight.following.agrees(source, aim, now_s):
             return False
         self._asked, self._asked_s = aim, now_s
-        # Should the stream depart, it is followed on from here.
+        # If the stream leaves the path later, it is followed from here.
         self._pointing.accompany(now_s, aim, self._flight.way(now_s))
         return True
 
     def end_following(self) -> None:
-        """No pass is flown in place of a stream any longer: the antenna stands until the next order."""
+        """End the pass that is flown in place of a stream. The antenna stands until the next order."""
         if self._flight is not None and self._flight.following is not None:
             self._flight = self._asked = None
             self._pointing.end_stream()
@@ -138,7 +139,7 @@ class Aiming:
         self._set_goals(goals)
 
     def nudge(self, axis: Axis, offset_deg: float) -> None:
-        """Shift this axis by so much, for all orders from now on."""
+        """Shift all orders for this axis by this angle from now on."""
         self._nudges.set(axis, offset_deg)
 
     def clear_nudges(self) -> None:
@@ -159,13 +160,13 @@ class Aiming:
         return False
 
     def drop(self) -> None:
-        """The order in force is not to be repeated, nor followed on: an axis that still aims stays at its target."""
+        """Do not repeat or extend the order in force. An axis that still aims keeps its target."""
         self._asked = self._flight = None
         self._pointing.end_stream()
         self._round.forget_paths()
 
     def end_stream(self) -> None:
-        """No more orders come from that sender: the target stands at the last one."""
+        """That sender sends no more orders: the target stands at the last one."""
         self.end_following()
         self._pointing.end_stream()
 
@@ -177,9 +178,9 @@ class Aiming:
         self.forget(axes)
 
     def forget(self, axes: tuple[Axis, ...]) -> None:
-        """Nothing is asked of these axes any more. A path needs both, so the other axis stays where it is.
+        """Forget the order for these axes. A path needs both axes, so the other axis keeps its present target.
 
-        Half a planned pass is none: the other axis stops.
+        A flight needs both axes too: the other axis stops.
         """
         if self._flight is not None:
             for axis in set(self._axes) - set(axes):
@@ -189,7 +190,7 @@ class Aiming:
         self._round.forget_paths()
 
     def look_ahead(self, now_s: float) -> None:
-        """Keep the goals up with a target that moves, on the axes that still aim at it, and round the sectors."""
+        """Move the goals on with a moving target, for the axes that still aim at it, and lead them round sectors."""
         if self._flight is not None:
             self._fly_on(now_s)
             self._round.lead(now_s)
@@ -233,13 +234,10 @@ class Aiming:
         """What a forbidden sector keeps this axis from."""
         return self._round.notices(axis)
 
-    def _places(self) -> tuple[float | None, float | None]:
-        """Where each axis goes, or stands where it has no target."""
-        places = []
-        for name, axis in self._axes.items():
-            wish = self._round.wish(name)
-            places.append(wish.target_deg if wish else axis.angle_deg)
-        return places[0], places[1]
+    def _places(self) -> Coordinates:
+        """Where each axis goes, or stands if it has no target."""
+        wishes = ((self._round.wish(name), axis) for name, axis in self._axes.items())
+        return places(*((wish.target_deg if wish else None, axis.angle_deg) for wish, axis in wishes))
 
     def _set_goals(self, goals: Goals) -> None:
         azimuth_goal, elevation_goal = goals

@@ -7,40 +7,43 @@ from __future__ import annotations
 
 import math
 
-from rotator.control.rights import Deed, State, at_mode, hindrance, mode_words
-from rotator.control.senders import PAUSE_S, Pair, Senders
+from rotator.control.rights import Deed, State, hindrance, standing_holds
+from rotator.control.senders import PAUSE_S, Senders
+from rotator.control.sky.angles import Coordinates
 from rotator.orders import CONSOLE, PAGE, PANEL, Mode, Source
-from rotator.spoken import held_by
 from rotator.status import Latch
 
 AGREE_DEG = 4.0
 LET_GO_S = 0.5
-"""A jog switch that is held sends orders closer together than this: a stop ends them until it was let go."""
+"""A held jog switch sends orders closer together than this. After a stop they have no effect until it is released."""
 KNOB_S = 1.0
-"""A knob's order comes within this after the knob was turned: one that follows a stop sooner began before it."""
+"""The longest time from the turn of a knob to its order. An order sooner after a stop was turned before the stop."""
 MOST_SHOWN = 4
-"""So many ignored sources are named at a time, the latest first."""
+"""The most ignored sources that are named at a time, the latest first."""
 SWITCH_HELD = "a stop came while the jog switch was held: release the switch first"
 KNOB_TURNED = "a stop came while the knob was turned: turn it again"
 
 
 class Authority:
-    """Every order that would move an axis asks here first. `agree_deg`: so far apart, two directions are the same."""
+    """Every order that would move an axis asks here first.
+
+    `agree_deg`: two directions closer than this count as equal.
+    """
 
     def __init__(self, mode: Mode = Mode.AUTO, agree_deg: float = AGREE_DEG, latch: Latch | None = None) -> None:
-        """`latch`: what was in force when the program ended. A storm park is not driven on: a person orders it anew."""
+        """`latch`: what was in force when the program ended. A storm park is not continued by itself."""
         self.latched = latch.by if latch else ""
-        """The source of a stop or storm park that only a person releases; empty: there is none."""
+        """The source of a stop or storm park that only a person releases; empty: nothing is latched."""
         self.storm = latch is not None and latch.storm
-        """The latch is a storm park that goes on."""
+        """What is latched is a storm park in progress."""
         self.mode = mode
         self.controlled_by: Source | None = None
         self.held_by: Source | None = None
         """The person who has taken the antenna, and has not given it back."""
         self._panel: Source | None = None
-        """Who switched to this mode: the panel, or a person. In MANUAL and JOG nobody else moves the antenna."""
+        """Who has set the mode: the panel, or a person. In MANUAL and JOG only this source may move the antenna."""
         self._held_on_s = -math.inf
-        """When somebody else last stopped it, or the panel's jog switch, held on since then, sent an order."""
+        """Time of the last stop by another source; later, of the last jog order while that switch is still held."""
         self._senders = Senders(agree_deg)
         self._ignored: dict[str, tuple[str, float]] = {}
         """By the name of a source: why its latest order had no effect, and when that was. The latest is the last."""
@@ -59,13 +62,13 @@ class Authority:
         self.controlled_by = source
 
     def stopped_axis(self, source: Source, now_s: float) -> None:
-        """`source` stopped an axis or both. A jog switch that is held has no effect until it is let go."""
+        """`source` stopped an axis or both. A held jog switch has no effect until it is released."""
         if source != self._panel:
             self._held_on_s = now_s
         self._end_storm(source)
 
     def _end_storm(self, source: Source) -> None:
-        """What a storm park has latched stays so, and says that it is no park now."""
+        """End the storm park. The stop stays latched; its text names the storm park."""
         if self.storm:
             self.latched, self.storm = f"{source}, in a storm park", False
 
@@ -91,14 +94,14 @@ class Authority:
         return self._panel is not None and self._panel.link != PANEL
 
     def _end_mode_of_a_person(self) -> None:
-        """What is set at no switch ends when somebody takes the antenna, or gives it back."""
+        """A mode set on the page or console ends when a person takes or gives back the antenna."""
         if self._has_mode_of_a_person:
             self.mode, self._panel = Mode.AUTO, None
 
     def _set_this_mode(self, source: Source) -> bool:
-        """Whether this is who set the mode: on the console, which has a connection for each command, any of them.
+        """Whether this source set the mode. All console connections count as one.
 
-        A person at the panel is held off by its own switch alone.
+        A person at the panel is held off only by the panel's own switch.
         """
         if self._panel is None or source == self._panel:
             return self._panel is not None
@@ -113,8 +116,8 @@ class Authority:
             self.controlled_by = None
 
     def give_back(self, source: Source) -> None:
-        """A person gives back what was taken: the next order of a program counts, unless another one's stop silences
-        it. Another person on the page takes the antenna over first."""
+        """A person gives the antenna back: the next order of a program counts, unless the stop of another program
+        silences it. Another person on the page must take the antenna over first."""
         if self.held_by is None and not self._has_mode_of_a_person:
             return
         if self.held_by not in (None, source) and source.may_be_held_off:
@@ -134,7 +137,13 @@ class Authority:
         return streamed
 
     def may_move(
-        self, source: Source, now_s: float, aims: Pair | None = None, *, deed: Deed = Deed.AIM, homing: bool = False
+        self,
+        source: Source,
+        now_s: float,
+        aims: Coordinates | None = None,
+        *,
+        deed: Deed = Deed.AIM,
+        homing: bool = False,
     ) -> bool:
         """Whether an order from `source` that moves an axis has an effect now. The source counts as sending.
 
@@ -153,7 +162,7 @@ class Authority:
         return True
 
     def allows(self, source: Source, now_s: float, deed: Deed, *, homing: bool = False) -> bool:
-        """Whether this order from `source` has an effect now; if not, `ignored` tells why."""
+        """Whether this order from `source` has an effect now. If not, `ignored` gives the reason."""
         self._ignored.pop(str(source), None)
         held = self._holds(source, now_s) | ({State.HOMING: "an axis is homing"} if homing else {})
         if (state := hindrance(held, deed)) is None:
@@ -169,19 +178,16 @@ class Authority:
         return tuple(f"orders from {name} are ignored: {why}" for name, why in reversed(lately[-MOST_SHOWN:]))
 
     def _holds_on(self, now_s: float) -> bool:
-        """Whether what a person does at the panel began before the stop: in each mode its own parts count."""
+        """Whether the jog switch (JOG) or knob (MANUAL) was already in use when the stop came."""
         return now_s - self._held_on_s < (LET_GO_S if self.mode is Mode.JOG else KNOB_S)
 
     def _holds(self, source: Source, now_s: float) -> dict[State, str]:
         """The states that hold the antenna back from `source`, the strongest first, and the words for each."""
-        held = {}
-        if self.latched:
-            held[State.STORM if self.storm else State.STOPPED] = held_by(self.latched, storm=self.storm)
         own = self._set_this_mode(source)
-        # The switches and knobs of a panel are themselves what each mode allows.
+        # In MANUAL and JOG a panel sends only what its own switch allows.
         at_panel = own and source.link == PANEL and self.mode in (Mode.MANUAL, Mode.JOG)
-        if not at_panel and (state := at_mode(self.mode, own=own)):
-            held[state] = mode_words(self.mode, self.mode_by)
+        mode = Mode.AUTO if at_panel else self.mode
+        held = standing_holds(self.latched, mode, self.mode_by, storm=self.storm, own=own)
         if at_panel and self._holds_on(now_s):
             held[State.SILENCED] = SWITCH_HELD if self.mode is Mode.JOG else KNOB_TURNED
         if self.held_by is not None and self.held_by != source and source.may_be_held_off:

@@ -21,7 +21,7 @@ class Run:
 
 @dataclass(frozen=True, slots=True)
 class Feed:
-    """Drive nothing, but keep the motors' supply on until the moment `until_s`: a welded relay then shows itself."""
+    """Drive nothing, but keep the motors' supply on until `until_s`: then a welded relay can be seen."""
 
     until_s: float
 
@@ -42,7 +42,7 @@ class Hold:
 
 @dataclass(frozen=True, slots=True)
 class Unfed:
-    """Drive nothing, and keep no supply on for it: a relay of this axis may not have opened."""
+    """Drive nothing, and switch off the supply: a relay of this axis may not have opened."""
 
 
 HOLD, UNFED = Hold(), Unfed()
@@ -59,7 +59,7 @@ class Acknowledge:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """The axis stands at this angle: its end stop was found, or a person has said so."""
+    """The axis stands at this angle: its end stop was found, or a person has confirmed the angle."""
 
     axis: Axis
     angle_deg: float
@@ -74,4 +74,4 @@ class Decision:
 
     command: Command
     homed_deg: float | None = None
-    """The axis has just found its end stop, which is at this angle; None: it has not."""
+    """The end stop was found in this cycle, at this angle; None: no end stop was found in this cycle."""

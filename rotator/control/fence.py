@@ -18,7 +18,7 @@ from rotator.control.sky.sectors import UNKNOWN, Box, kept, may_sweep
 from rotator.faults import Notice
 
 GOING_ON_PERIODS = 1.5
-"""A motor that runs may run on for so many cycles at least: the next command comes after one."""
+"""A running motor may run on for at least this many cycles: the next command comes after one."""
 NOTICED_FOR_S = 3.0
 """A notice stays this long after its cause, so that it can be read."""
 
@@ -38,7 +38,7 @@ class Fence:
         self._held: dict[Axis, tuple[Notice, float]] = {}
 
     def passed(self, now_s: float, wishes: Mapping[Axis, Command]) -> dict[Axis, Command]:
-        """What is left of these commands."""
+        """These commands, shortened or stopped where a sector is in the way."""
         commands = dict(wishes)
         moves = [axis for axis in Axis if _moves(commands[axis])]
         if not self._sectors or not moves:
@@ -77,7 +77,7 @@ class Fence:
         return (notice,) if notice is not None and now_s - since_s < NOTICED_FOR_S else ()
 
     def _shorter(self, now_s: float, axis: Axis, command: Command, swept: Box) -> list[Command]:
-        """The same command for as short a time, or as short a way, as makes sense; none where it is that already."""
+        """The same command for the shortest useful time, or on the way to the last free angle; empty: it stands."""
         match command:
             case Run():
                 least_s = GOING_ON_PERIODS * self._period_s if self._axes[axis].driven else START_S
@@ -88,7 +88,7 @@ class Fence:
                 return []
 
     def _last_places(self, now_s: float, axis: Axis, command: Steer, swept: Box) -> list[float]:
-        """Where an axis that moves on may still come to rest: before the nearest sector ahead. Empty: it is there."""
+        """The angle before the nearest sector at which a moving axis may come to rest. Empty: it has reached it."""
         angle_deg, room_deg = self._axes[axis].angle_deg, self._axes[axis].room_deg
         there = swept.but(axis, self._axes[axis].sweep(now_s, command))
         edges = [each.box.of(axis) for each in self._sectors if each.box.meets(there)]
@@ -117,7 +117,7 @@ class Fence:
                 f"does not turn: the angle of {unknown} is not known, and {name} may be in the way", "HELD BACK"
             )
         if self._axes[axis].aiming is None or not swept.known:
-            # The way of an axis that aims is found elsewhere, and what keeps it from its target is said there.
+            # For an axis that aims, `going_round` finds the way, and says what keeps it from its target.
             self._held[axis] = (notice, now_s)
         return notice
 

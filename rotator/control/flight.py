@@ -24,7 +24,7 @@ AGAIN_S = 0.5
 
 
 class Flight:
-    """`following`: the stream in whose place it is flown; None: it is flown for itself.
+    """`following`: the stream in whose place the pass is flown; None: the pass itself was ordered.
 
     Raises Unreachable where the plan leaves the limits of an axis.
     """
@@ -47,21 +47,21 @@ class Flight:
         return Aim(*self._path.direction(now_s))
 
     def way(self, now_s: float) -> Way:
-        """The way that it has chosen, as far as it is flown."""
+        """The way on which the antenna follows the target now."""
         azimuth_deg, elevation_deg = (_angle_deg(plan, now_s) for plan in self._plans.values())
         return Way(azimuth_deg, self._mount.model.over_the_top(elevation_deg))
 
     def ended(self, now_s: float) -> bool:
-        """Whether it is over: the target stands still from now on, or the stream has ended in whose place it is flown.
+        """Whether the flight is over: the target has set, or the stream in whose place the pass is flown has ended.
 
-        The program may go on for a while after the target has set.
+        A program may send for a while after the target has set.
         """
         if self.following is not None:
             return self.following.silent(now_s)
         return now_s >= self._path.end_s and all(now_s >= _end_s(plan) for plan in self._plans.values())
 
     def begin_goals_anew(self) -> None:
-        """Those of this moment are to be given once more."""
+        """Give the goals of this moment once more."""
         self._given.clear()
 
     def goals(self, now_s: float) -> dict[Axis, AimGoal]:

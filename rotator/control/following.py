@@ -1,19 +1,18 @@
 """Whether a program's orders still agree with the satellite's path that is flown in their place.
 
-Knows the path, and how far ahead of the true time the program's clock may be: each order tells it better. Knows nothing
-of axes, nor of how the satellite was recognised.
+Knows the path, and how far the program's clock may be ahead of the true time: each order narrows that. Knows nothing of
+axes, nor of how the satellite was recognised.
 """
 
 from __future__ import annotations
 
-from rotator.control.sky.angles import ZENITH_DEG, great_circle_deg
+from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG, great_circle_deg
 from rotator.control.sky.known_path import KnownPath
-from rotator.control.sky.nudges import FULL_TURN_DEG
 from rotator.orders import Aim, Fly, Source, Stream
 
 CLOCK_STEP_S = 0.25
 QUIET_S = 20.0
-"""A stream without an order for so long has ended. Some programs send only when a whole degree has changed."""
+"""A stream has ended after this time without an order. Some programs send only when a whole degree has changed."""
 
 
 class Following:

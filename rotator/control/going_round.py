@@ -11,10 +11,9 @@ from collections.abc import Mapping
 
 from hw.ports import Axis
 from rotator.control.axis.port import ControlledAxis
-from rotator.control.sky.angles import ZENITH_DEG
+from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.control.sky.detour import BESIDE_DEG, Detour, Detours
 from rotator.control.sky.mount import Mount
-from rotator.control.sky.nudges import FULL_TURN_DEG
 from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.route import Speeds
@@ -42,14 +41,14 @@ class GoingRound:
         self._detour: Detour | None = None
         """The rest of the way to that target; None: straight on."""
         self._stopped: set[Axis] = set()
-        """Axes that an order or a fault has stopped since the latest order: they stay, also where the other axis would
-        need the room."""
+        """Axes that an order or a fault has stopped since the latest order. They stay there, even if they block the
+        other axis."""
         self._waits_deg: dict[Axis, float] = {}
-        """Where the other axis waits meanwhile."""
+        """Angle at which the moving axis waits while the stopped axis blocks it."""
         self._noticed: dict[Axis, Notice] = {}
 
     def wish(self, axis: Axis) -> AimGoal | None:
-        """What this axis was asked for, as far as it still aims."""
+        """The goal as ordered; None: the axis does not aim."""
         aiming = self._axes[axis].aiming
         return self._wishes.get(axis, aiming) if aiming is not None and self.detours is not None else aiming
 
@@ -91,7 +90,7 @@ class GoingRound:
         self._stopped.update(axes)
 
     def forget_paths(self) -> None:
-        """Keep the targets where they are now: their further path is not known any more."""
+        """Keep the present targets: how they move on is not known any more."""
         for axis in self._axes.values():
             axis.forget_path()
         self._wishes = {axis: goal.standing() for axis, goal in self._wishes.items()}
@@ -109,7 +108,7 @@ class GoingRound:
         wishes = {axis: wish for axis in Axis if (wish := self.wish(axis)) is not None}
         self._wishes = dict(wishes)
         self._noticed.clear()
-        # An axis that jogs or homes is led by nothing: the fence ends it in time.
+        # An axis that jogs or homes is not led round sectors: the fence stops it in time.
         free = all(axis in wishes or not self._axes[axis].busy for axis in Axis)
         here = self._here(now_s)
         if not wishes or not free or not here.known:

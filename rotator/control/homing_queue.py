@@ -47,7 +47,7 @@ class HomingQueue:
         self._axes[self._waiting.popleft()].home()
 
     def clear(self) -> None:
-        """No axis waits any more. The one that homes goes on until it is halted."""
+        """Forget the axes that wait. The axis that homes now goes on until it is halted."""
         self._waiting.clear()
 
     @property

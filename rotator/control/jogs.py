@@ -1,9 +1,9 @@
 """Who jogs which axis, and for how long: a jog without a time ends with the connection that ordered it.
 
 An axis that is not commissioned has no limits that could stop it, and a program may press a thousand times. So the
-presses of a link make one turn of two seconds at most, and then the axis rests for 0.4 of that time, whatever comes. So
-it is with the page, whose held button is pressed anew several times a second. A person at the console, at the
-panel or in a calibration may press as it suits. After three presses that did not move it a program presses no more.
+presses of a link turn it for two seconds at most. Then it rests 0.8 s, whatever orders arrive. The same holds for the
+page, which repeats the order several times a second while its button is held. A person at the console, at the panel or
+in a calibration may press as often as needed. After three presses that moved nothing a program's presses are ignored.
 
 Knows both axes, the source of the last jog of each, and how long each has been driven. Knows no other order.
 """
@@ -18,7 +18,7 @@ from rotator.control.axis.port import ControlledAxis
 from rotator.orders import PAGE, Jog, Source
 
 REST_SHARE = 0.4
-"""A turn of one second is followed by a rest of so many."""
+"""Rest after a turn, as a share of the turn's time."""
 
 
 class Jogs:

@@ -1,7 +1,7 @@
 """How often each motor has been started in this pass.
 
-A pass begins with the first order, or the first motor that runs, after PAUSE_S in which there was neither: so it begins
-as the target rises, and its count stays readable after the target has set. Knows moments and relays. Knows no target.
+A pass begins with the first order or motor run after a pause of PAUSE_S. So the count begins as the target rises, and
+can still be read after the target has set. Knows moments and relays. Knows no target.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class PassStarts:
         return self._counts[axis]
 
     def ordered(self, now_s: float) -> None:
-        """An order moves the antenna, or would if it were not there already."""
+        """An order to move came."""
         if now_s - self._busy_s >= PAUSE_S:
             self._counts = dict.fromkeys(Axis, 0)
         self._busy_s = now_s

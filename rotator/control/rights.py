@@ -35,7 +35,7 @@ from rotator.status import Status
 
 
 class State(Enum):
-    """What goes on, or who holds the antenna. Several may hold at a time: each must allow an order."""
+    """What the antenna is doing, or who holds it. In several states at a time, each must allow an order."""
 
     TRACKING = "follows a target"
     JOGGING = "jogs"
@@ -57,7 +57,7 @@ class Deed(Enum):
     """An order, as the table's columns have it. The first four come over links, the others from persons."""
 
     AIM = "aim, list, `O`, `F`"
-    """A calibration too moves what every later order means."""
+    """Calibrate is in this column: it changes the meaning of all later angles."""
     JOG = "jog"
     PARK = "park"
     S = "`S`"
@@ -75,13 +75,13 @@ class Effect(Enum):
     """What an order does in a state."""
 
     ACTS = "acts"
-    """It does its own, and ends what goes on."""
+    """The order is carried out. It ends the present motion."""
     BESIDE = "beside"
-    """It does its own, and what goes on goes on."""
+    """The order is carried out. The present motion continues."""
     STOPS = "stops"
-    """It stops what goes on, and does its own."""
+    """The present motion stops first, then the order is carried out."""
     NONE = "–"
-    """It has no effect. A link's order is answered all the same; a person gets the reason."""
+    """The order has no effect. A program gets its usual answer, a person gets the reason."""
 
 
 _WORDS = {"a": Effect.ACTS, "b": Effect.BESIDE, "s": Effect.STOPS, "-": Effect.NONE}
@@ -111,7 +111,7 @@ _OF_ONE = {Mode.PARK: State.AT_PARK, Mode.JOG: State.OWN_JOG}
 
 
 def at_mode(mode: Mode, *, own: bool) -> State | None:
-    """The state in which a mode puts somebody; None: it holds nothing back. `own`: who has set it."""
+    """The state of a sender in this mode; None: the mode holds no order back. `own`: the sender has set the mode."""
     return (_OF_ONE if own else _OF_OTHERS).get(mode)
 
 
@@ -120,13 +120,26 @@ def mode_words(mode: Mode, by: str) -> str:
     return f"the panel's switch is at {mode.name}" if by in ("", PANEL) else f"{by} has set the mode {mode.name}"
 
 
+def standing_holds(latched: str, mode: Mode, mode_by: str, *, storm: bool, own: bool) -> dict[State, str]:
+    """What holds the antenna back whatever was sent: a latched stop first, then the mode. With the words for each.
+
+    `own`: the sender has set the mode.
+    """
+    held = {}
+    if latched:
+        held[State.STORM if storm else State.STOPPED] = held_by(latched, storm=storm)
+    if state := at_mode(mode, own=own):
+        held[state] = mode_words(mode, mode_by)
+    return held
+
+
 def hindrance(states: Iterable[State], deed: Deed) -> State | None:
-    """The first of these states in which the order has no effect; None: it has one."""
+    """The first of these states that prevents the order; None: the order has an effect."""
     return next((state for state in states if TABLE[state][deed] is Effect.NONE), None)
 
 
 def deed_of(order: Order) -> Deed | None:
-    """The table's column for an order; None: it neither moves nor stops an axis, nor releases it."""
+    """The table's column for an order; None: the order does not move, stop or release an axis."""
     match order:
         case Aim() | Fly() | LoadTimed() | RunTimed() | Calibrate():
             return Deed.AIM
@@ -160,14 +173,9 @@ def holds(status: Status, source: Source | None = None) -> dict[State, str]:
     held = {}
     if source is not None and source.may_be_held_off and status.held_by not in ("", str(source)):
         held[State.HELD] = f"{status.held_by} holds the antenna: take it over first"
-    if status.latched:
-        state = State.STORM if status.storm else State.STOPPED
-        held[state] = held_by(status.latched, storm=status.storm)
     # A person on the console has a connection for each command.
     own = status.mode_by.partition("#")[0] == CONSOLE if source is None else str(source) == status.mode_by
-    if mode := at_mode(status.mode, own=own):
-        held[mode] = mode_words(status.mode, status.mode_by)
-    return held
+    return held | standing_holds(status.latched, status.mode, status.mode_by, storm=status.storm, own=own)
 
 
 def table() -> str:

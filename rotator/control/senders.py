@@ -1,7 +1,7 @@
 """Who has sent orders lately, which of them are streams, and whose orders have no effect at present.
 
-Knows connections, moments, the directions that they asked for, and who silenced a connection. Does not know the stops
-and the switch that hold every connection back: `authority` does.
+Knows connections, moments, the directions that they asked for, and who silenced a connection. The stops and the switch
+that hold back every connection are in `authority`.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass, replace
 
-from rotator.control.sky.angles import great_circle_deg, turn_deg
+from rotator.control.sky.angles import Coordinates, great_circle_deg, turn_deg
 from rotator.orders import Aim, Order, Source
 
 PAUSE_S = 10.0
@@ -20,14 +20,11 @@ STREAM_ORDERS = 4
 """From the fourth order on, each within PAUSE_S of the one before, a connection sends a stream."""
 FIGHT_S = 60.0
 FIGHT_TAKES = 3
-"""After so many takes within FIGHT_S a new connection of the same link does not end the silence either: its program
-connects anew by itself."""
-
-Pair = tuple[float | None, float | None]
-"""The azimuth and elevation of an order, in degrees; None: not ordered."""
+"""After this many takes within FIGHT_S a new connection of the link does not end the silence: its program connects
+again by itself."""
 
 
-def aims_of(order: Order) -> Pair | None:
+def aims_of(order: Order) -> Coordinates | None:
     """Where an order points; None: it is no order for a direction."""
     return (order.azimuth_deg, order.elevation_deg) if isinstance(order, Aim) and order.engaged else None
 
@@ -35,7 +32,7 @@ def aims_of(order: Order) -> Pair | None:
 @dataclass(frozen=True, slots=True)
 class _Sender:
     heard_s: float
-    aims: Pair | None = None
+    aims: Coordinates | None = None
     """Where its latest order points; None: it was no order for a direction."""
     in_a_row: int = 1
     own: int = 1
@@ -59,7 +56,7 @@ class _Sender:
         """The pause after which it has an effect again."""
         return PAUSE_S if self.streams else SINGLE_PAUSE_S
 
-    def heard(self, now_s: float, aims: Pair | None) -> _Sender:
+    def heard(self, now_s: float, aims: Coordinates | None) -> _Sender:
         """The same sender after one more order."""
         sender = self.freed() if now_s - self.heard_s >= self.pause_s else self
         return replace(sender, heard_s=now_s, aims=aims, in_a_row=self.in_a_row + 1, own=self.own + 1)
@@ -71,7 +68,7 @@ class _Sender:
 class Senders:
     """Every order that would move an axis is noted here, whether it has an effect or not.
 
-    `agree_deg`: directions no further apart than this are the same one.
+    `agree_deg`: two directions closer than this count as equal.
     """
 
     def __init__(self, agree_deg: float) -> None:
@@ -81,7 +78,7 @@ class Senders:
         """By link: the last connection that ended there, for a program that connects anew for each order."""
         self._takes_s: deque[float] = deque(maxlen=FIGHT_TAKES)
 
-    def note(self, source: Source, now_s: float, aims: Pair | None) -> None:
+    def note(self, source: Source, now_s: float, aims: Coordinates | None) -> None:
         """`source` sends an order that points at `aims`; None: another order that moves an axis."""
         self._forget(now_s)
         known = self._senders.get(source)
@@ -107,7 +104,7 @@ class Senders:
         return sender is not None and sender.own >= STREAM_ORDERS
 
     def stop(self, source: Source, now_s: float) -> None:
-        """Every other connection that has sent lately has no effect until it pauses or connects anew."""
+        """Silence every other connection that has sent lately, until it pauses or connects again."""
         self._forget(now_s)
         self._senders = {
             each: sender.freed() if each == source else replace(sender.freed(), stopped_by=source)
@@ -120,7 +117,7 @@ class Senders:
         }
 
     def take(self, source: Source, now_s: float) -> None:
-        """The latest order of `source` has an effect: streams that point elsewhere have none until they pause."""
+        """The latest order of `source` has an effect. Silence every stream that points elsewhere, until it pauses."""
         aims = self._senders[source].aims
         lost = [each for each, sender in self._senders.items() if each != source and self._loses(sender, aims)]
         gone = [link for link, sender in self._gone.items() if self._loses(sender, aims)]
@@ -132,30 +129,30 @@ class Senders:
             self._takes_s.append(now_s)
 
     def free_all(self) -> None:
-        """No connection is silenced any longer, and no fight goes on."""
+        """End the silence of all connections, and their fight."""
         self._senders = {source: sender.freed() for source, sender in self._senders.items()}
         self._gone.clear()
         self._takes_s.clear()
 
     def free_taken(self) -> None:
-        """What lost the antenna to an order is silenced no longer; what a stop silenced still is."""
+        """End the silence of connections that lost the antenna to an order. Those that a stop silenced stay silent."""
         self._senders = {source: replace(sender, taken_by=None) for source, sender in self._senders.items()}
         self._gone = {link: replace(sender, taken_by=None) for link, sender in self._gone.items()}
         self._takes_s.clear()
 
     def left(self, source: Source, now_s: float) -> None:
-        """The connection has ended. The next one on its link continues the row of orders, and is heard all the same,
-        unless its program connects anew by itself: for every few orders, or in a fight."""
+        """The connection has ended. The next one on its link continues the row of orders. It is not silenced, unless
+        the program connects again for every few orders, or in a fight."""
         self._forget(now_s)
         if (sender := self._senders.pop(source, None)) is not None:
             recurs = sender.own < STREAM_ORDERS or self._fighting(now_s)
             self._gone[source.link] = replace(sender, recurs=recurs)
 
-    def _loses(self, sender: _Sender, aims: Pair | None) -> bool:
+    def _loses(self, sender: _Sender, aims: Coordinates | None) -> bool:
         return sender.streams and not sender.silenced and not self._agree(sender.aims, aims)
 
-    def _agree(self, one: Pair | None, other: Pair | None) -> bool:
-        """Whether both orders can be met. An order without a direction, such as a jog, agrees with none."""
+    def _agree(self, one: Coordinates | None, other: Coordinates | None) -> bool:
+        """Whether both orders can be met. An order without a direction, such as a jog, agrees with no other."""
         if one is None or other is None:
             return False
         (az_1, el_1), (az_2, el_2) = one, other

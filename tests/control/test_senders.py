@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from hw.ports import Axis, Direction
-from rotator.control.senders import FIGHT_TAKES, Pair, Senders, aims_of
+from rotator.control.senders import FIGHT_TAKES, Senders, aims_of
+from rotator.control.sky.angles import Coordinates
 from rotator.orders import Aim, Jog, Order, Source, Stop
 
 ONE, OTHER, THIRD = Source("gs232b", 1), Source("rotctld", 1), Source("easycomm2", 1)
@@ -18,7 +19,7 @@ def senders() -> Senders:
 
 
 def stream(
-    senders: Senders, source: Source, aims: Pair | None = HERE, *, from_s: float = 0.0, orders: int = 4
+    senders: Senders, source: Source, aims: Coordinates | None = HERE, *, from_s: float = 0.0, orders: int = 4
 ) -> float:
     """One order a second. Returns the moment of the last."""
     for count in range(orders):
@@ -36,7 +37,7 @@ def stream(
         (Stop(), None),
     ],
 )
-def test_where_an_order_points(order: Order, aims: Pair | None) -> None:
+def test_where_an_order_points(order: Order, aims: Coordinates | None) -> None:
     assert aims_of(order) == aims
 
 
@@ -75,7 +76,7 @@ def test_orders_ten_seconds_apart_do_not_belong_together(senders: Senders, pause
     ],
 )
 def test_a_stream_loses_the_antenna_to_an_order_for_another_direction(
-    senders: Senders, aims: Pair | None, agrees: bool
+    senders: Senders, aims: Coordinates | None, agrees: bool
 ) -> None:
     now_s = stream(senders, ONE)
     senders.note(OTHER, now_s + 0.5, aims)

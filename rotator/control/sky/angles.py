@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 
 ZENITH_DEG = 90.0
+FULL_TURN_DEG = 360.0
 
+Coordinates = tuple[float | None, float | None]
+"""Azimuth and elevation in degrees; None: not known, or not ordered."""
 Vector = tuple[float, float, float]
 """To the east, to the north and up."""
 

@@ -10,15 +10,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from rotator.control.sky.angles import ZENITH_DEG
+from rotator.control.sky.angles import ZENITH_DEG, Coordinates
 from rotator.control.sky.mount import Mount
 from rotator.orders import Aim
 
-Pair = tuple[float | None, float | None]
-"""Azimuth and elevation in degrees; None: not known, or not ordered."""
 
-
-def joined(mount: Mount, aim: Aim, wanted: Pair, axes: Pair) -> Aim:
+def joined(mount: Mount, aim: Aim, wanted: Coordinates, axes: Coordinates) -> Aim:
     """The order with both coordinates, where the mount needs both; else the order as it is.
 
     `wanted`: the direction in force, as ordered; `axes`: where the axes go, or stand, on their own scale.
@@ -40,6 +37,12 @@ def joined(mount: Mount, aim: Aim, wanted: Pair, axes: Pair) -> Aim:
     if aim.azimuth_deg is None:
         return replace(aim, azimuth_deg=azimuth_deg)
     return replace(aim, elevation_deg=elevation_deg)
+
+
+def places(*axes: tuple[float | None, float | None]) -> Coordinates:
+    """Where azimuth and elevation go, or stand if they have no target. `axes`: of each its target and its angle."""
+    azimuth_deg, elevation_deg = (angle_deg if target_deg is None else target_deg for target_deg, angle_deg in axes)
+    return azimuth_deg, elevation_deg
 
 
 def direction(azimuth_deg: float, elevation_deg: float) -> tuple[float, float]:

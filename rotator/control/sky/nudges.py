@@ -8,10 +8,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hw.ports import Axis
-from rotator.control.sky.angles import ZENITH_DEG
+from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.orders import Aim
-
-FULL_TURN_DEG = 360.0
 
 
 class Nudges:

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from rotator.control.sky.angles import ZENITH_DEG
+from rotator.control.sky.angles import FULL_TURN_DEG, ZENITH_DEG
 from rotator.control.sky.joining import direction
 from rotator.control.sky.mount import Mount, Unreachable
 from rotator.control.sky.plan import OFFSETS_S, Path
@@ -23,7 +23,7 @@ PLAN_EVERY_S = 0.5
 ROUTE_EVERY_S = 3.0
 SURE_AFTER_S = 45.0
 """A track this long predicts the end of the pass well enough. Until then the antenna stays on its turn."""
-FULL_TURN_DEG, HALF_TURN_DEG = 360.0, 180.0
+HALF_TURN_DEG = 180.0
 LEAST_WEIGHT = 0.1
 """Near the zenith azimuth hardly matters, but an antenna that a person sends there shall turn all the same."""
 WAVERS_DEG = 90.0
