@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from benchmarks.drills.arcs import Arc
-from benchmarks.drills.boxes import RELAYS, Mast
+from benchmarks.drills.boxes import BOTH, RELAYS, Mast
 from benchmarks.drills.script import OTHER_LINKS, Event
 
 SENSORS_SHARE, SECTORS_SHARE, LINKS_SHARE, TABLES_SHARE, HOURS_SHARE = 0.15, 0.1, 0.25, 0.3, 0.0025
@@ -62,6 +62,8 @@ def fenced(chance: random.Random, mast: Mast) -> Mast:
     free = [park_deg, (0.0, 0.0), (180.0, 0.0), (90.0, 90.0), mast.start_deg]
     found: list[dict[str, Any]] = []
     many = chance.choice(SECTORS)
+    tables = [mast.tables.get(axis, {}) for axis in BOTH]
+    ends_deg = [(table.get("min_deg", 0.0), table.get("max_deg", 1e3)) for table in tables]
     for number in range(20):
         spans = []
         for axis in range(2):
@@ -77,7 +79,8 @@ def fenced(chance: random.Random, mast: Mast) -> Mast:
             all(low - ROOM_DEG < at < high + ROOM_DEG for at, (low, high) in zip(place, spans, strict=True))
             for place in free
         )
-        if clear:
+        within = all(low >= least and high <= most for (low, high), (least, most) in zip(spans, ends_deg, strict=True))
+        if clear and within:
             found.append({"name": f"chimney {len(found)}", "azimuth_deg": spans[0], "elevation_deg": spans[1]})
         if len(found) == many:
             break

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 import benchmarks.drills
+from benchmarks.drills import unusual
+from benchmarks.drills.box import configured
 from benchmarks.drills.boxes import BOTH, ROTORS, Rotor
 from benchmarks.drills.campaign import seeds, verdict
 from benchmarks.drills.draw import draw
@@ -97,9 +99,31 @@ def test_a_campaign_fills_its_hours_with_all_kinds() -> None:
         ("page", "hold", ("ccw",), b"hold ccw\n"),
         ("page", "relays-checked", ("azimuth",), b"relays-checked azimuth\n"),
         ("rotctld", "list", (1.0, 2.0), b""),
+        ("md01", "aim", (235.0, 25.0), b"W5950\x0a3850\x0a\x2f "),
+        ("md01", "jog", ("up",), b"W\x04\0\0\0\0\0\0\0\0\0\x14 "),
+        ("prosistel-d", "stop", (), b"\x02AG999\r\x02EG999\r"),
+        ("dcu1", "aim-azimuth", (5.0,), b"AP1005;AM1;"),
+        ("gs232-f1efw", "aim", (5.0, -3.0), b"W005 001\r"),
+        (
+            "console",
+            "track",
+            ("table 0,10,5;9,20,6",),
+            b"table\ntable t,az,el\ntable 0,10,5\ntable 9,20,6\ntrack-table the table\n",
+        ),
     ],
 )
 def test_an_order_in_the_words_of_its_protocol(
     who: str, what: str, args: tuple[float | str, ...], bytes_sent: bytes
 ) -> None:
     assert said(Event(0.0, who, what, args)) == bytes_sent
+
+
+@KINDS
+def test_every_box_that_is_drawn_can_be_configured(
+    rotor: Rotor, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also the unusual ones, which are drawn far more often here."""
+    for share in ("SENSORS_SHARE", "SECTORS_SHARE", "LINKS_SHARE", "TABLES_SHARE", "HOURS_SHARE"):
+        monkeypatch.setattr(unusual, share, 0.7)
+    for number in range(20):
+        configured(draw(f"3.{number}", rotor.kind), tmp_path)
