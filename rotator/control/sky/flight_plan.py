@@ -62,7 +62,7 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
         mount, path.directions(begin_s, STEP_S), antenna.stands_deg, begin_s - now_s, speeds, begin_on=begin_on
     )
     directions = path.directions(begin_s, PLAN_STEP_S)
-    azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs, stepped=azimuth.switched)
+    azimuths_deg, elevations_deg = _axis_angles(mount, directions, route.legs, azimuth)
     up = [1.0 if elevation_deg > 0 else DOWN_WEIGHT for _, elevation_deg in directions]
     flat = [
         max(LEAST_WEIGHT, math.cos(math.radians(direction[1]))) ** 2 * weight
@@ -92,10 +92,15 @@ def _steps(trail: Trail, motor: PlannedMotor, now_s: float) -> tuple[Step, ...]:
 
 
 def _axis_angles(
-    mount: Mount, directions: Sequence[tuple[float, float]], legs: Sequence[Leg], *, stepped: bool
+    mount: Mount, directions: Sequence[tuple[float, float]], legs: Sequence[Leg], azimuth: PlannedMotor
 ) -> tuple[list[float], list[float]]:
-    """Within the limits, every `PLAN_STEP_S`, on the way that is in force at each moment."""
-    begins = [_begin(leg, stepped=stepped) for leg in legs]
+    """Every `PLAN_STEP_S`, on the way that is in force at each moment.
+
+    Elevation within its limits, azimuth beyond them by its tolerance at most: so a step to where the target leaves the
+    range has its place at the limit itself.
+    """
+    begins = [_begin(leg, stepped=azimuth.switched) for leg in legs]
+    low_deg, high_deg = mount.azimuth.min_deg - azimuth.tolerance_deg, mount.azimuth.max_deg + azimuth.tolerance_deg
     azimuths_deg, elevations_deg = [], []
     for leg, begin, end in zip(legs, begins, [*begins[1:], len(directions)], strict=True):
         way = leg.flown.way
@@ -104,9 +109,8 @@ def _axis_angles(
             azimuth_deg, elevation_deg = mount.on_the_way(*direction, azimuth_deg, flipped=way.flipped)
             if moment < begin:
                 continue
-            kept_deg = mount.azimuth.nearest(azimuth_deg)
-            azimuths_deg.append(kept_deg)
-            elevations_deg.append(mount.clear_deg(kept_deg, elevation_deg))
+            azimuths_deg.append(min(max(azimuth_deg, low_deg), high_deg))
+            elevations_deg.append(mount.clear_deg(mount.azimuth.nearest(azimuth_deg), elevation_deg))
     return azimuths_deg, elevations_deg
 
 

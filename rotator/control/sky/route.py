@@ -18,7 +18,7 @@ STEP_S = 5.0
 """The path is looked at this often; `LOOKS` times, or until the target sets."""
 LOOKS = 180
 LOST_DEG = 10.0
-"""With this error the pass is lost: each such second counts as a lost second."""
+"""A second with a larger error is lost. `best_way` counts a smaller error as a part of a lost second."""
 WORTH_S = 5.0
 """A change of way must save this much, so that small changes of the prediction do not turn the antenna."""
 EQUAL_S = 2.0
@@ -75,12 +75,14 @@ def is_seen(mount: Mount, azimuth_deg: float, elevation_deg: float) -> bool:
 
 
 class Flown:
-    """A way flown to the end: where the axes are, and the seconds lost up to each look."""
+    """A way flown to the end: where the axes are, how far they are off, and the seconds lost up to each look."""
 
     def __init__(self, mount: Mount, directions: Sequence[Direction], way: Way) -> None:
         self.way = way
         self.azimuths_deg: list[float] = []
         self.elevations_deg: list[float] = []
+        self.errors_deg: list[float] = []
+        """Nothing where the target is not seen."""
         losses_s = [0.0]
         azimuth_deg = way.azimuth_deg
         for direction_deg, elevation_deg in directions:
@@ -92,7 +94,8 @@ class Flown:
             )
             if mount.sectors:
                 off_deg += mount.inside_deg(kept_az_deg, kept_el_deg)
-            losses_s.append(share_lost(off_deg) * STEP_S if is_seen(mount, direction_deg, elevation_deg) else 0.0)
+            self.errors_deg.append(off_deg if is_seen(mount, direction_deg, elevation_deg) else 0.0)
+            losses_s.append(share_lost(self.errors_deg[-1]) * STEP_S)
             self.azimuths_deg.append(kept_az_deg)
             self.elevations_deg.append(kept_el_deg)
         self.lost_s = list(accumulate(losses_s))

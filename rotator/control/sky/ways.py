@@ -12,13 +12,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rotator.control.sky.mount import Mount
-from rotator.control.sky.route import STEP_S, Direction, Flown, Speeds, Way, share_lost
+from rotator.control.sky.route import LOST_DEG, STEP_S, Direction, Flown, Speeds, Way
 from rotator.control.sky.turning import Place, Turning
 
 EVEN_S = 0.5
-"""Ways that lose so much more are as good as the best: the nearest of them is taken."""
+"""Ways that differ by less are equally good: the nearest of them is taken."""
 CHANGE_S = 0.5
-"""A change to another way must save so much."""
+"""A change to another way must save this much."""
+NEARLY_LOST = 0.1
+"""What a second costs just before it is lost; with half that error a quarter of it. Lost seconds come first, then the
+square of the error."""
 FAR_DEG = 1800.0
 """Of two turns that lose as many seconds, the one with the smaller errors is made: 72° cost 0.04 s a second."""
 
@@ -36,7 +39,7 @@ class Leg:
 class Route:
     legs: tuple[Leg, ...]
     lost_s: float
-    """How many seconds of the pass are lost: at a limit, or on the way from one turn to another."""
+    """How many seconds the antenna is more than `LOST_DEG` off: at a limit, or on the way from one turn to another."""
 
 
 def best_route(
@@ -60,7 +63,7 @@ def best_route(
     changes: list[list[tuple[int, int] | None]] = [[None] * len(directions) for _ in ways]
     for look in reversed(range(len(directions))):
         for index, way in enumerate(ways):
-            cost_s = way.loss_s(look) + cheapest[index][look + 1]
+            cost_s = _cost_s(way.errors_deg[look]) + cheapest[index][look + 1]
             for other, there in enumerate(ways):
                 if other == index or cost_s <= CHANGE_S:
                     continue
@@ -79,7 +82,7 @@ def best_route(
     legs, look, lost_s = [Leg(0, begin.look, begin.way)], begin.look, _lost_s(begin.errors_deg)
     while look < len(directions):
         if (change := changes[index][look]) is None:
-            lost_s += ways[index].loss_s(look)
+            lost_s += _lost_s([ways[index].errors_deg[look]])
             look += 1
             continue
         left, (index, arrival) = index, change
@@ -106,11 +109,12 @@ class _Beginning:
 
 
 def _cost_s(error_deg: float) -> float:
-    return STEP_S * (share_lost(error_deg) + error_deg / FAR_DEG)
+    share = 1.0 if error_deg > LOST_DEG else NEARLY_LOST * (error_deg / LOST_DEG) ** 2
+    return STEP_S * (share + error_deg / FAR_DEG)
 
 
 def _lost_s(errors_deg: Sequence[float]) -> float:
-    return STEP_S * sum(map(share_lost, errors_deg))
+    return STEP_S * sum(error_deg > LOST_DEG for error_deg in errors_deg)
 
 
 def _apart(way: Way, other: Way) -> tuple[float, float]:
