@@ -93,6 +93,10 @@ class Fly:
     """When the target sets, where that is after the end of the path; infinite: it does not set."""
     expected_error_deg: float = 0.0
     """How far the target may be from its path, at most."""
+    beyond_beam: bool = False
+    """That is more than half of the antenna's beam."""
+    table: bool = False
+    """The path is a table that a person has handed in."""
     stream: Stream | None = None
     """The sender's own stream, which this flight takes the place of while its orders agree. None: no stream."""
 

@@ -131,6 +131,10 @@ class AxisStatus:
         return ", ".join(f"{each.text} ({self.lost})" if each is Missing.HOMING else each.text for each in self.missing)
 
 
+SHOWN_ERROR_DEG = 0.1
+"""A smaller expected error is not told."""
+
+
 @dataclass(frozen=True, slots=True)
 class Flown:
     """The target of a planned pass that is flown. Moments are on the clock of `Status.at_s`."""
@@ -141,9 +145,22 @@ class Flown:
     end_s: float
     """When it sets; infinite: it does not."""
     expected_error_deg: float = 0.0
-    """How far it may be from where it is computed, from the age of its elements."""
+    """How far it may be from where it is computed, from the age of its elements and from the clock."""
     recognised: bool = False
     """In the orders of a program that follows it; else the box tracks it by itself."""
+    beyond_beam: bool = False
+    """The expected error is more than half of the antenna's beam."""
+    table: bool = False
+    """A table that a person has handed in: it begins and ends, and does not rise or set."""
+
+    @property
+    def error_text(self) -> str:
+        """`, error up to 0.3°`, with a warning if that is beyond the beam; empty if it is not worth a word."""
+        if self.expected_error_deg < SHOWN_ERROR_DEG or self.recognised:
+            return ""
+        if self.beyond_beam:
+            return f", ERROR UP TO {self.expected_error_deg:.0f}°: BEYOND THE BEAM"
+        return f", error up to {self.expected_error_deg:.1f}°"
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ Knows the parts and what each is given. `assembly.sky` knows the station and its
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -19,8 +20,8 @@ from rotator.control.sky.flight_plan import Antenna, PlannedMotor
 from rotator.control.sky.mount import Mount
 from rotator.control.sky.sectors import Place
 from rotator.orbits.catalogue import Unknown
-from rotator.orbits.sight import NotThere
-from rotator.orders import Aim, Order, Source
+from rotator.orbits.sight import NotThere, beyond_beam
+from rotator.orders import Aim, Fly, Order, Source
 from rotator.runtime.loop import ControlLoop
 from rotator.status import AxisStatus, Status
 from rotator.store.priorities import FILE_NAME, Priorities
@@ -33,6 +34,8 @@ from rotator.tracking.planner import ProcessPlanner
 from rotator.tracking.system_clock import SystemClock
 from rotator.tracking.thread import TrackingThread
 from rotator.tracking.tracker import TRACK, Tracker
+
+log = logging.getLogger(__name__)
 
 
 def build_tracking(config: Config, loop: ControlLoop, mount: Mount) -> TrackingThread:
@@ -127,6 +130,7 @@ class TrackedBox:
         self._loop = loop
         self._mount = mount
         self._motors = planned_motors(config)
+        self._beam_deg = config.station.beam_deg
 
     def status(self) -> Status:
         return self._loop.status
@@ -143,6 +147,12 @@ class TrackedBox:
         return refused.reason if refused else ""
 
     def order(self, order: Order, source: Source = TRACK) -> None:
+        # A program's own stream has shown where the satellite is.
+        if isinstance(order, Fly) and order.stream is None:
+            error_deg = order.expected_error_deg
+            if warning := beyond_beam(error_deg, self._beam_deg):
+                log.warning("%s: expect an error of up to %.0f°%s", order.name, error_deg, warning)
+            order = replace(order, beyond_beam=bool(warning))
         self._loop.post(source, order)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import math
 import time
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import click
@@ -27,9 +28,11 @@ from rotator.orbits.earth import Site
 from rotator.orbits.passes import Pass
 from rotator.orbits.passes import passes as passes_of
 from rotator.orbits.satellite import Satellite
-from rotator.orbits.sight import NotThere, Target, expected_error_deg, motion
+from rotator.orbits.sight import NotThere, Target, beyond_beam, expected_error_deg, motion
 from rotator.orbits.targets import find
+from rotator.tracking.system_clock import TOLD_S, SystemClock
 
+UNSET = f"This computer's clock has reached no time server: {TOLD_S:g} s of error are counted for it."
 NO_PASS = "no pass in this time"
 
 
@@ -39,7 +42,7 @@ def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bo
     at_s = time.time() if at_s is None else at_s
     try:
         target = find(words, site, catalogue)
-        seen, error_deg = motion(target, at_s), expected_error_deg(target, at_s)
+        seen, error_deg = motion(target, at_s), expected_error_deg(target, at_s, clock_error_s(config))
     except (Unknown, NotThere) as reason:
         raise CommandFailed(str(reason)) from None
     if as_json:
@@ -62,7 +65,7 @@ def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bo
     click.echo(f"  azimuth {sight.azimuth_deg:.2f}°, elevation {sight.elevation_deg:.2f}°{under}{far}")
     click.echo(f"  moves {seen.azimuth_dps:+.3f}°/s in azimuth, {seen.elevation_dps:+.3f}°/s in elevation")
     if error_deg >= 0.005:
-        click.echo(f"  expect an error of up to {error_deg:.2f}°{_beyond(error_deg, config.station.beam_deg)}")
+        click.echo(f"  expect an error of up to {error_deg:.2f}°{beyond_beam(error_deg, config.station.beam_deg)}")
 
 
 def show_passes(
@@ -79,21 +82,24 @@ def show_passes(
         (target, each) for target in targets for each in passes_of(target, from_s, from_s + hours * 3600, least_deg)
     ]
     found.sort(key=lambda pair: pair[1].aos_s or from_s)
+    clock_s = clock_error_s(config)
+    errors_deg = [_error_deg(target, each, clock_s) for target, each in found]
     if as_json:
         plan = sky_plan.planned(config, sky_plan.followed_by(config, site, catalogue), from_s, hours)
         # A long pass may be flown in parts: its first one is told.
         parts = {(each.name, each.found.tca_s): each for each in reversed(plan)}
         rows = []
-        for target, each in found:
+        for (_, each), error_deg in zip(found, errors_deg, strict=True):
             how = parts.get((each.name, each.tca_s))
-            error = {"expected_error_deg": round(_error_deg(target, each), 2)}
+            error = {"expected_error_deg": round(error_deg, 2)}
             rows.append({**_as_dict(each), **error, "plan": how and sky_plan.as_dict(how)})
         click.echo(json.dumps(rows))
         return
     if not found:
         click.echo(NO_PASS)
         return
-    _table([each for _, each in found])
+    _table([each for _, each in found], errors_deg)
+    _warn(((each.name, error_deg) for (_, each), error_deg in zip(found, errors_deg, strict=True)), config)
 
 
 def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json: bool) -> None:
@@ -106,10 +112,17 @@ def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json:
         raise CommandFailed("none of the followed targets is known")
     from_s = time.time() if from_s is None else from_s
     plan = sky_plan.planned(config, followed, from_s, hours)
+    targets, clock_s = {each.target.name: each.target for each in followed}, clock_error_s(config)
+    errors_deg = [_error_deg(targets[each.name], each.found, clock_s) for each in plan]
     if as_json:
-        click.echo(json.dumps([{**_as_dict(each.found), **sky_plan.as_dict(each)} for each in plan]))
+        rows = [
+            {**_as_dict(each.found), "expected_error_deg": round(error_deg, 2), **sky_plan.as_dict(each)}
+            for each, error_deg in zip(plan, errors_deg, strict=True)
+        ]
+        click.echo(json.dumps(rows))
         return
-    sky_plan.show(plan, from_s)
+    sky_plan.show(plan, errors_deg, from_s)
+    _warn(((each.name, error_deg) for each, error_deg in zip(plan, errors_deg, strict=True)), config)
     for line in sky_plan.changed(config):
         click.echo(line)
 
@@ -138,11 +151,33 @@ def _all(site: Site, catalogue: Catalogue) -> list[Target]:
     return targets
 
 
-def _error_deg(target: Target, each: Pass) -> float:
-    """The largest that is to be expected in the pass, from the age of the elements."""
+def clock_error_s(config: Config) -> float:
+    """How far this computer's clock may be off. Of a simulated rotor an unset clock is right, too."""
+    clock = SystemClock()
+    clock.look(0.0)
+    if clock.is_set:
+        return clock.error_s
+    if config.rotor.hardware == "sim":
+        return 0.0
+    click.echo(UNSET, err=True)
+    return TOLD_S
+
+
+def _warn(errors: Iterable[tuple[str, float]], config: Config) -> None:
+    """Once for each target of which a pass may be outside the beam."""
+    worst_deg: dict[str, float] = {}
+    for name, error_deg in errors:
+        worst_deg[name] = max(error_deg, worst_deg.get(name, 0.0))
+    for name, error_deg in worst_deg.items():
+        if warning := beyond_beam(error_deg, config.station.beam_deg):
+            click.echo(f"{name}: expect an error of up to {error_deg:.0f}°{warning}")
+
+
+def _error_deg(target: Target, each: Pass, clock_s: float) -> float:
+    """The largest that is to be expected in the pass, from the age of the elements and from the clock."""
     moments_s = [moment_s for moment_s in (each.aos_s, each.tca_s, each.los_s) if moment_s is not None]
     try:
-        return max(expected_error_deg(target, moment_s) for moment_s in moments_s)
+        return max(expected_error_deg(target, moment_s, clock_s) for moment_s in moments_s)
     except NotThere:
         return 0.0
 
@@ -159,12 +194,12 @@ def _as_dict(each: Pass) -> dict[str, object]:
     }
 
 
-def _table(found: list[Pass]) -> None:
+def _table(found: Sequence[Pass], errors_deg: Sequence[float]) -> None:
     table = Table(box=None, pad_edge=False)
     table.add_column("name", overflow="ellipsis", no_wrap=True)
-    for heading in ("rises (UTC)", "here", "for", "from", "highest", "to"):
+    for heading in ("rises (UTC)", "here", "for", "from", "highest", "to", "error"):
         table.add_column(heading, justify="right", no_wrap=True)
-    for each in found:
+    for each, error_deg in zip(found, errors_deg, strict=True):
         table.add_row(
             each.name,
             "is up" if each.aos_s is None else day_and_time(each.aos_s),
@@ -173,13 +208,10 @@ def _table(found: list[Pass]) -> None:
             "" if each.aos is None else f"{each.aos.azimuth_deg:.0f}°",
             f"{each.highest.elevation_deg:.0f}°",
             "stays" if each.los is None else f"{each.los.azimuth_deg:.0f}°",
+            sky_plan.error_words(error_deg),
         )
     Console(highlight=False).print(table)
 
 
 def _km(range_km: float) -> float | None:
     return None if math.isinf(range_km) else round(range_km, 3)
-
-
-def _beyond(error_deg: float, beam_deg: float) -> str:
-    return f": more than half of the beam of {beam_deg:g}°" if error_deg > beam_deg / 2 else ""

@@ -28,7 +28,8 @@ NOTHING = (
 )
 
 NARROW = 64
-"""A table needs so many columns."""
+"""A table needs this many columns."""
+SHOWN_DEG = 0.05
 
 
 def followed_by(config: Config, site: Site, catalogue: Catalogue) -> list[Followed]:
@@ -71,33 +72,44 @@ def as_dict(each: PlannedPass) -> dict[str, object]:
     }
 
 
-def show(plan: Sequence[PlannedPass], from_s: float) -> None:
-    """In the order in which they are flown."""
+def error_words(error_deg: float) -> str:
+    """For a column; empty where it is too small to matter."""
+    if error_deg < SHOWN_DEG:
+        return ""
+    return f"{error_deg:.1f}°" if error_deg < 9.95 else f"{error_deg:.0f}°"
+
+
+def show(plan: Sequence[PlannedPass], errors_deg: Sequence[float], from_s: float) -> None:
+    """In the order in which they are flown. `errors_deg`: to be expected in each pass."""
     if not plan:
         click.echo("no pass in this time")
         return
     console = Console(highlight=False)
-    begins = sorted(((_begin_s(each, from_s), each) for each in plan), key=lambda pair: pair[0])
-    by_day = groupby(begins, key=lambda pair: day(pair[0]))
+    begins = sorted(
+        ((_begin_s(each, from_s), each, error_deg) for each, error_deg in zip(plan, errors_deg, strict=True)),
+        key=lambda row: row[0],
+    )
+    by_day = groupby(begins, key=lambda row: day(row[0]))
     if console.width < NARROW:
         for date, passes in by_day:
             click.echo(f"{date}, UTC")
-            for begin_s, each in passes:
-                when, here, minutes, top, name, words = _row(each, begin_s)
+            for begin_s, each, error_deg in passes:
+                when, here, minutes, top, error, name, words = _row(each, begin_s, error_deg)
                 click.echo(f"{when} ({here} here) {name}, {minutes}, {top}")
+                words += error and f"; error up to {error}"
                 click.echo(textwrap.fill(words, console.width, initial_indent="  ", subsequent_indent="  "))
         return
     table = Table(box=None, pad_edge=False)
     table.add_column("UTC", no_wrap=True)
     table.add_column("here", no_wrap=True)
-    for heading in ("for", "top"):
+    for heading in ("for", "top", "error"):
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("name", overflow="ellipsis", no_wrap=True, max_width=12)
     table.add_column("plan")
     for date, passes in by_day:
         table.add_row(f"[bold]{date}")
-        for begin_s, each in passes:
-            table.add_row(*_row(each, begin_s), style="" if each.flight else "dim")
+        for begin_s, each, error_deg in passes:
+            table.add_row(*_row(each, begin_s, error_deg), style="" if each.flight else "dim")
     console.print(table)
 
 
@@ -108,13 +120,14 @@ def _begin_s(each: PlannedPass, from_s: float) -> float:
     return from_s if each.found.aos_s is None else each.found.aos_s
 
 
-def _row(each: PlannedPass, begin_s: float) -> tuple[str, ...]:
+def _row(each: PlannedPass, begin_s: float, error_deg: float) -> tuple[str, ...]:
     end_s = each.flight.end_s if each.flight else each.found.los_s
     return (
         clock_time(begin_s),
         local_time(begin_s),
         "" if end_s is None else f"{(end_s - begin_s) / 60:.0f} min",
         f"{each.found.highest.elevation_deg:.0f}°",
+        error_words(error_deg),
         each.name,
         _words(each),
     )

@@ -13,6 +13,7 @@ import click
 
 from rotator.cli.box import RunningBox
 from rotator.cli.failed import CommandFailed
+from rotator.status import SHOWN_ERROR_DEG
 
 LOOK_S = 0.2
 MOST_BYTES = 1_000_000
@@ -47,7 +48,7 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
         tracks = _tracks(box)
     if tracks is None:
         raise CommandFailed("the box has a plan, and the antenna did not take it up: `rotator where` tells more")
-    return click.echo(_sentence(tracks, "rises" if table is None else "begins"))
+    return click.echo(_sentence(tracks))
 
 
 def _table(words: str) -> list[str] | None:
@@ -106,19 +107,30 @@ def _tracks(box: RunningBox) -> dict[str, Any] | None:
     return None
 
 
-def _sentence(tracks: dict[str, Any], begins: str = "rises") -> str:
-    wait_s = tracks["begins_in_s"]
+def _sentence(tracks: dict[str, Any]) -> str:
+    wait_s, table = tracks["begins_in_s"], tracks["table"]
+    name = f"The table {tracks['name']}.csv" if table else tracks["name"]
     if wait_s > 0:
-        text = f"{tracks['name']} {begins} in {_time(wait_s)}. The antenna waits for it there."
-    elif begins == "begins":
-        text = f"{tracks['name']} goes on for {_time(tracks['ends_in_s'])} more. The antenna follows it."
+        text = f"{name} {'begins' if table else 'rises'} in {_time(wait_s)}. The antenna waits for it there."
+    elif table:
+        text = f"{name} lasts {_time(tracks['ends_in_s'])} more. The antenna follows it."
     elif tracks["ends_in_s"] is None:
-        text = f"{tracks['name']} is always up. The antenna follows it."
+        text = f"{name} is always up. The antenna follows it."
     else:
-        text = f"{tracks['name']} is up for {_time(tracks['ends_in_s'])} more. The antenna follows it."
-    if tracks["expected_error_deg"] >= 0.1:
-        text += f" Expect an error of up to {tracks['expected_error_deg']:.1f}°, from the age of its elements."
+        text = f"{name} is up for {_time(tracks['ends_in_s'])} more. The antenna follows it."
+    if tracks["expected_error_deg"] >= SHOWN_ERROR_DEG:
+        text += (
+            f" Expect an error of up to {tracks['expected_error_deg']:.1f}°, from the age of its elements and the clock"
+        )
+        text += _beyond(tracks)
     return text
+
+
+def _beyond(tracks: dict[str, Any]) -> str:
+    """The end of the sentence."""
+    if not tracks["beyond_beam"]:
+        return "."
+    return ": MORE THAN HALF OF THE BEAM. It needs newer elements, or the right time."
 
 
 def _time(seconds: float) -> str:

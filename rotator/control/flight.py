@@ -37,7 +37,15 @@ class Flight:
         self._path = KnownPath(order.path)
         self._plans = {Axis.AZIMUTH: order.azimuth, Axis.ELEVATION: order.elevation}
         sets_s = self._path.end_s if order.sets_s is None else order.sets_s
-        self.flown = Flown(order.name, self._path.begin_s, sets_s, order.expected_error_deg, following is not None)
+        self.flown = Flown(
+            order.name,
+            self._path.begin_s,
+            sets_s,
+            order.expected_error_deg,
+            recognised=following is not None,
+            beyond_beam=order.beyond_beam,
+            table=order.table,
+        )
         """For displays."""
         self._given: dict[Axis, int] = {}
         """The number of the step, or of the piece of path, that each axis has."""

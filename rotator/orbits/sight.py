@@ -15,7 +15,7 @@ RATE_OVER_S = 1.0
 
 
 class NotThere(Exception):  # noqa: N818 - a sentence about a target
-    """There is no such place at that moment: a satellite whose elements say that it has come down. The text tells."""
+    """The target has no place at that moment: a satellite whose elements say that it has come down. The text tells."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,3 +75,10 @@ def expected_error_deg(target: Target, utc_s: float, clock_s: float = 0.0) -> fl
     off_s = math.hypot(target.late_s(utc_s), clock_s)
     here = target.sight(utc_s)
     return max(here.apart_deg(target.sight(utc_s - off_s)), here.apart_deg(target.sight(utc_s + off_s)))
+
+
+def beyond_beam(error_deg: float, beam_deg: float) -> str:
+    """The end of a sentence that warns of this error; empty: the antenna's beam still covers it."""
+    if error_deg <= beam_deg / 2:
+        return ""
+    return f", more than half of the beam of {beam_deg:g}°: it needs newer elements, or the right time"

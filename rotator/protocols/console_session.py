@@ -158,11 +158,14 @@ def report(status: Status) -> list[str]:
 
 
 def tracked(flown: Flown, now_s: float) -> str:
-    """The target, and when it rises or sets."""
+    """The target, when it rises or sets, and how far it may be from where it is computed."""
+    begins, lasts = ("begins", "goes on") if flown.table else ("rises", "up")
     wait_s, left_s = flown.begin_s - now_s, max(0.0, flown.end_s - now_s)
     if wait_s > 0:
-        return f"{flown.name}, rises in {_minutes(wait_s)}"
-    return f"{flown.name}, up for {_minutes(left_s)} more" if math.isfinite(left_s) else f"{flown.name}, always up"
+        when = f"{begins} in {_minutes(wait_s)}"
+    else:
+        when = f"{lasts} for {_minutes(left_s)} more" if math.isfinite(left_s) else "always up"
+    return f"{flown.name}, {when}{flown.error_text}"
 
 
 def _minutes(seconds: float) -> str:

@@ -72,6 +72,9 @@ FLOWN_FIELDS: Sequence[Field[tuple[Flown, float]]] = (
           lambda each: round(each[0].end_s - each[1], 1) if isfinite(each[0].end_s) else None),
     Field("expected_error_deg", "number", "how far it may be from where it is computed",
           lambda each: _angle(each[0].expected_error_deg)),
+    Field("beyond_beam", "true or false", "that is more than half of the antenna's beam",
+          lambda each: each[0].beyond_beam),
+    Field("table", "true or false", "a table that a person has handed in", lambda each: each[0].table),
     Field("recognised", "true or false", "in the orders of a program; false: the box tracks it by itself",
           lambda each: each[0].recognised),
 )  # fmt: skip

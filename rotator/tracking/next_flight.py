@@ -42,6 +42,8 @@ class Now:
 
     utc_s: float
     loop_s: float
+    clock_s: float = 0.0
+    """By how much the first may be wrong."""
 
     @property
     def apart_s(self) -> float:
@@ -90,7 +92,7 @@ def flight_between(
     path = target_path(target, begin_s, end_s, now.apart_s)
     order = plan_flight(target.name, path, antenna, now.loop_s, begin_on=begin_on).order
     sets_s = math.inf if found.los_s is None else found.los_s - now.apart_s
-    order = replace(order, sets_s=sets_s, expected_error_deg=_error_deg(target, begin_s, end_s))
+    order = replace(order, sets_s=sets_s, expected_error_deg=_error_deg(target, begin_s, end_s, now.clock_s))
     return NextFlight(begin_s, end_s, order)
 
 
@@ -102,7 +104,7 @@ def rest_flight(wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
         tuple((utc_s - now.apart_s, azimuth_deg, elevation_deg) for utc_s, azimuth_deg, elevation_deg in rest.rows)
     )
     order = plan_flight(target.name, path, antenna, now.loop_s).order
-    error_deg = _error_deg(target, now.utc_s, rest.sets_s + JUDGED_S)
+    error_deg = _error_deg(target, now.utc_s, rest.sets_s + JUDGED_S, now.clock_s)
     return replace(order, sets_s=rest.sets_s - now.apart_s, expected_error_deg=error_deg)
 
 
@@ -125,9 +127,9 @@ def _span(found: Pass, now_s: float) -> tuple[float, float]:
     return begin_s, min(end_s, begin_s + LONGEST_S)
 
 
-def _error_deg(target: Target, begin_s: float, end_s: float) -> float:
+def _error_deg(target: Target, begin_s: float, end_s: float, clock_s: float) -> float:
     count = int((end_s - begin_s) / JUDGED_S) + 1
     try:
-        return max(expected_error_deg(target, begin_s + index * JUDGED_S) for index in range(count))
+        return max(expected_error_deg(target, begin_s + index * JUDGED_S, clock_s) for index in range(count))
     except NotThere:
         return 0.0

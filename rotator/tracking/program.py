@@ -41,7 +41,7 @@ def program_flight(program: Program, antenna: Antenna, now: Now) -> NextFlight:
     begin_s = max(begin_s, now.loop_s)
     piece_s = min(end_s, begin_s + LONGEST_S)
     path = _between([(at_s + later_s, az_deg, el_deg) for at_s, az_deg, el_deg in points], begin_s, piece_s)
-    order = replace(plan_flight(table.name, path, antenna, now.loop_s).order, sets_s=end_s)
+    order = replace(plan_flight(table.name, path, antenna, now.loop_s).order, sets_s=end_s, table=True)
     return NextFlight(begin_s + now.apart_s, piece_s + now.apart_s, order)
 
 

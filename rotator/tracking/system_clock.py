@@ -1,7 +1,8 @@
-"""Whether this computer's clock has been set by a time server: a Raspberry Pi has no clock of its own.
+"""Whether this computer's clock has been set by a time server, and how far it may be off: a Raspberry Pi has no clock
+of its own.
 
 Knows two ways to ask: the kernel, which every time service tells (adjtimex(2)), and systemd's `timedatectl`, which asks
-the kernel for a service that may not. Does not know what hangs on the answer.
+the kernel for a service that may not. Does not know what depends on the answer.
 """
 
 from __future__ import annotations
@@ -9,14 +10,31 @@ from __future__ import annotations
 import ctypes
 import subprocess
 
-_ASK_NOTHING = bytes(512)
-"""A `struct timex` of zeros asks and changes nothing. It has 208 bytes at most on the machines that are known."""
+TOLD_S = 1.0
+"""A clock that a person calls right may be off by this; so may one of which the system tells no less."""
+CRYSTAL_SHARE = 0.1
+"""The kernel lets its largest error grow by 500 ppm. A computer's crystal is off by a tenth of that."""
+
+
+class _Timex(ctypes.Structure):
+    """The beginning of `struct timex`. With zeros in it adjtimex asks, and changes nothing."""
+
+    _fields_ = (
+        ("modes", ctypes.c_uint),
+        ("offset", ctypes.c_long),
+        ("freq", ctypes.c_long),
+        ("maxerror", ctypes.c_long),
+        ("esterror", ctypes.c_long),
+        ("rest", ctypes.c_char * 512),  # 208 bytes in all at most, on the machines that are known
+    )
+
+
 _ERROR = 5
 """TIME_ERROR: the clock is not synchronised."""
 _TIMEDATECTL = ("timedatectl", "show", "--property=NTPSynchronized", "--value")
 PATIENCE_S = 10.0
 SET_AGAIN_S, UNSET_AGAIN_S, LONG_UNSET_AGAIN_S = 600.0, 5.0, 30.0
-"""How long an answer stands: a clock that is set seldom gets lost, and one that is not is waited for."""
+"""How soon it asks again. A clock that is set seldom gets lost; one that is not set is waited for."""
 SOON_S = 120.0
 """After this time without a network it may take hours."""
 
@@ -27,13 +45,16 @@ class SystemClock:
     def __init__(self) -> None:
         self.is_set = False
         """As of the latest look."""
+        self.error_s = TOLD_S
+        """How far it may be off, as of the latest look."""
         self._again_s = 0.0
         self._unset_since_s: float | None = None
 
     def look(self, now_s: float) -> None:
         """Ask again, where the last answer is old. `now_s`: on any clock that only goes forward."""
         if now_s >= self._again_s:
-            self.is_set = _by_kernel() if (told := _by_timedatectl()) is None else told
+            by_kernel, self.error_s = _by_kernel()
+            self.is_set = by_kernel if (told := _by_timedatectl()) is None else told
             if self.is_set:
                 self._unset_since_s = None
                 self._again_s = now_s + SET_AGAIN_S
@@ -52,10 +73,19 @@ def _by_timedatectl() -> bool | None:
     return {"yes": True, "no": False}.get(done.stdout.strip())
 
 
-def _by_kernel() -> bool:
-    """Where the kernel does not tell: no."""
+def _by_kernel() -> tuple[bool, float]:
+    """Whether it is set, and its error in seconds. If the kernel does not tell: it is not."""
+    asked = _Timex()
     try:
-        state = int(ctypes.CDLL(None).adjtimex(ctypes.create_string_buffer(_ASK_NOTHING, len(_ASK_NOTHING))))
+        state = int(ctypes.CDLL(None).adjtimex(ctypes.byref(asked)))
     except (OSError, AttributeError):
-        return False
-    return 0 <= state < _ERROR
+        return False, TOLD_S
+    if not 0 <= state < _ERROR:
+        return False, TOLD_S
+    return True, expected_s(asked.maxerror, asked.esterror)
+
+
+def expected_s(most_us: int, estimated_us: int) -> float:
+    """From the kernel's largest and estimated error in microseconds. Not every time service tells the second one."""
+    error_s = (estimated_us if estimated_us > 0 else CRYSTAL_SHARE * most_us) / 1e6
+    return min(TOLD_S, max(0.0, error_s))

@@ -27,11 +27,7 @@ log = logging.getLogger(__name__)
 LOOK_S = 0.5
 REFRESH_S = 60.0
 AGAIN_S = 2.0
-"""After a mistake of the program the next look waits so long."""
-
-
-def _now() -> Now:
-    return Now(time.time(), time.monotonic())
+"""After a mistake of the program the next look comes this much later."""
 
 
 class TrackingThread:
@@ -79,6 +75,10 @@ class TrackingThread:
         """From any thread: this computer's clock is right, by the system or by a person's word."""
         return self._clock.is_set or self.tracker.clock_told
 
+    def _now(self) -> Now:
+        # A simulated rotor may live at any time: then the clock counts as right.
+        return Now(time.time(), time.monotonic(), self._clock.error_s if self.clock_is_known() else 0.0)
+
     def known_elements(self) -> Sequence[Elements] | None:
         """From any thread: as `KnownSky.elements`."""
         return self.sky.elements
@@ -99,17 +99,17 @@ class TrackingThread:
                 self._failed(failure)
 
     def _turn(self) -> None:
-        if self._new_files or _now().loop_s - self._refreshed_s >= REFRESH_S:
+        if self._new_files or time.monotonic() - self._refreshed_s >= REFRESH_S:
             self._new_files = False
-            self._refreshed_s = _now().loop_s
+            self._refreshed_s = time.monotonic()
             if self.sky.refresh():
                 self._listener.know()
             self._tell()
         self._stopping.wait(LOOK_S)
         self._clock.look(time.monotonic())
-        self._listener.step(_now)
-        self.tracker.step(_now())
-        self._follower.step(_now())
+        self._listener.step(self._now)
+        self.tracker.step(self._now())
+        self._follower.step(self._now())
 
     def _failed(self, failure: Exception) -> None:
         """A mistake of the program ends what is tracked, and the thread goes on: a dead one would answer nothing."""

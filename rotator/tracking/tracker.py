@@ -21,6 +21,7 @@ from rotator.orders import BOTH, TRACKER, Aim, Fly, LetGo, Order, Park, Release,
 from rotator.status import Status
 from rotator.tracking.next_flight import NeverRises, NextFlight, Now, Wanted
 from rotator.tracking.program import CannotFly, Program
+from rotator.tracking.system_clock import TOLD_S
 
 log = logging.getLogger(__name__)
 
@@ -187,6 +188,8 @@ class Tracker:
         self._stop()
 
     def clock_is_right(self) -> None:
+        if not self.clock_told:
+            log.info("a person says that this computer's clock is right: it counts as right to %g s", TOLD_S)
         self.clock_told = True
 
     def clock_trusted(self) -> bool:

@@ -56,6 +56,8 @@ def _notices(status: Status) -> list[str]:
     if status.flown is not None:
         when = rise_or_set(status.flown, status.at_s)
         notices.append(f"{status.flown.name[: COLUMNS - 1 - len(when)]} {when}")
+        if status.flown.beyond_beam:
+            notices.append(f"OFF BY <={status.flown.expected_error_deg:.0f}DEG?")
     return list(dict.fromkeys(notices))
 
 

@@ -83,7 +83,7 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
     if not source:
         return "no orders"
     if status.flown is not None and not status.recognised:
-        return f"tracks {status.flown.name}, {rise_or_set(status.flown, status.at_s)}"
+        return f"tracks {status.flown.name}, {rise_or_set(status.flown, status.at_s)}{status.flown.error_text}"
     # An address of a machine says more than the port at which this box listens.
     where = "" if status.controlled_from else next((w.where for w in wires if source.partition("#")[0] == w.name), "")
     recognised = f": {status.flown.name}, {rise_or_set(status.flown, status.at_s)}" if status.flown else ""
@@ -92,10 +92,11 @@ def orders_from(status: Status, wires: Sequence[WireView] = ()) -> str:
 
 
 def rise_or_set(flown: Flown, now_s: float) -> str:
-    """`AOS 3:20`: the target rises in so many minutes and seconds. LOS: it sets."""
+    """`AOS 3:20`: minutes and seconds until the target rises. LOS: until it sets. IN, ENDS: the same of a table."""
+    begins, ends = ("IN", "ENDS") if flown.table else ("AOS", "LOS")
     if flown.begin_s > now_s:
-        return f"AOS {_countdown(flown.begin_s - now_s)}"
-    return f"LOS {_countdown(flown.end_s - now_s)}" if math.isfinite(flown.end_s) else "always up"
+        return f"{begins} {_countdown(flown.begin_s - now_s)}"
+    return f"{ends} {_countdown(flown.end_s - now_s)}" if math.isfinite(flown.end_s) else "always up"
 
 
 def _countdown(seconds: float) -> str:

@@ -161,7 +161,7 @@ class Scene:
             "off_deg": _short(off_deg(status), 2),
             "starts": _starts(status),
             "tracking": self._tracks(),
-            "rise_or_set": words.rise_or_set(flown, status.at_s) if flown else "",
+            "rise_or_set": words.rise_or_set(flown, status.at_s) + flown.error_text if flown else "",
             "path": self._path.key if flown and flown.name == self._path.name else "",
             "stops": self.stops,
             "utc_s": round(self._utc(), 2),

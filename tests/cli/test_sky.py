@@ -126,8 +126,19 @@ min_culmination_deg = 30
 
 def test_a_plan_as_json(tmp_path: Path) -> None:
     plan = read(told(tmp_path, "plan", "--from", EVENING, "--hours", "12", "--json", more=FOLLOW))
-    fields = ["name", "aos", "los", "tca", "aos_az_deg", "los_az_deg", "max_el_deg", "set_off", "from", "until"]
-    assert list(plan[0]) == [*fields, "wait_az_deg", "wait_el_deg", "over_the_top", "lost_s", "flown", "reason"]
+    fields = ["name", "aos", "los", "tca", "aos_az_deg", "los_az_deg", "max_el_deg", "expected_error_deg"]
+    assert list(plan[0]) == [
+        *fields,
+        "set_off",
+        "from",
+        "until",
+        "wait_az_deg",
+        "wait_el_deg",
+        "over_the_top",
+        "lost_s",
+        "flown",
+        "reason",
+    ]
     flown = [each for each in plan if each["flown"]]
     assert {each["name"] for each in flown} == {"ISS", "SO-50"}
     for each in flown:
@@ -158,7 +169,9 @@ def test_passes_without_anything_followed_have_no_plan(tmp_path: Path) -> None:
 def test_a_plan_for_a_person_on_a_narrow_terminal(tmp_path: Path) -> None:
     text = told(tmp_path, "plan", "--from", EVENING, more=FOLLOW).stdout
     assert "01 Mar" in text
-    assert re.search(r"(\d\d:\d\d:\d\d)  \d\d:\d\d +\d+ min +\d+°  ISS    sets off \d\d:\d\d:\d\d to \d+°", text)
+    assert re.search(
+        r"(\d\d:\d\d:\d\d)  \d\d:\d\d +\d+ min +\d+° +0\.\d°  ISS    sets off \d\d:\d\d:\d\d to \d+°", text
+    )
     assert "– culminates at" in text
     assert max(len(line.rstrip()) for line in text.splitlines()) <= 80
 
@@ -194,3 +207,37 @@ def test_where_no_followed_name_is_known_there_is_no_plan(tmp_path: Path) -> Non
     passes = told(tmp_path, "passes", "--from", EVENING, "--hours", "3", "--json", more=isx)
     assert '"isx" is not among' in passes.stderr
     assert {each["plan"] for each in json.loads(passes.stdout)} == {None}
+
+
+@pytest.mark.parametrize("words", [("passes", "iss", "so50"), ("plan",), ("where", "iss")])
+def test_elements_that_are_old_are_warned_of_wherever_a_pass_is_shown(tmp_path: Path, words: tuple[str, ...]) -> None:
+    when = "--at" if words[0] == "where" else "--from"
+    fresh = told(tmp_path, *words, when, EVENING, more=FOLLOW).stdout
+    assert "half of the beam" not in fresh
+    old = told(tmp_path, *words, when, "2026-03-01T00:00:00Z", more=FOLLOW).stdout
+    assert "more than half of the beam of 20°: it needs newer elements, or the right time" in old
+
+
+@pytest.mark.parametrize("words", [("passes", "iss", "so50"), ("plan",)])
+def test_the_error_to_expect_is_in_the_table_and_in_json(tmp_path: Path, words: tuple[str, ...]) -> None:
+    asked = (*words, "--from", "2025-05-01T00:00:00Z", "--hours", "8")
+    errors_deg = [each["expected_error_deg"] for each in read(told(tmp_path, *asked, "--json", more=FOLLOW))]
+    text = told(tmp_path, *asked, more=FOLLOW).stdout
+    assert "error" in text
+    assert len(errors_deg) > 3
+    assert all(f"{deg:.1f}°" in text or f"{deg:.0f}°" in text for deg in errors_deg)
+
+
+def test_a_clock_that_no_time_server_has_set_counts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tool = tmp_path / "timedatectl"
+    monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
+    more = '[rotor]\nhardware = "pi"\n'
+    errors_deg = {}
+    for answer in ("yes", "no"):
+        tool.write_text(f"#!/bin/sh\necho {answer}\n")
+        tool.chmod(0o755)
+        seen = told(tmp_path, "where", "iss", "--at", "2025-03-01T00:05:00Z", "--json", more=more)
+        errors_deg[answer] = read(seen)["expected_error_deg"]
+        assert ("no time server" in seen.stderr) is (answer == "no")
+    assert errors_deg["no"] >= errors_deg["yes"]
+    assert errors_deg["no"] > 0.3, "a second is most of a degree"

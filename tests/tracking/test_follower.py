@@ -8,7 +8,7 @@ import pytest
 
 from rotator.orders import Aim, GiveBack, Release, Source, Stop, Take
 from tests.search import some
-from tests.tracking.tracked_box import Box, pass_of
+from tests.tracking.tracked_box import FEBRUARY_S, Box, pass_of
 
 FOLLOWS_ISS = """
 [[sky.follow]]
@@ -155,3 +155,34 @@ def test_a_new_order_of_the_targets_is_planned_at_once(rise: Box) -> None:
     rise.follower.plan_again()
     rise.wait(2.0)
     assert len(plans) == 1
+
+
+@pytest.mark.parametrize("clock_s", [0.0, 1.0])
+def test_a_pass_of_old_elements_is_flown_with_a_warning_in_the_log_and_on_the_displays(
+    clock_s: float, caplog: pytest.LogCaptureFixture
+) -> None:
+    found = pass_of("iss", after_s=FEBRUARY_S + 200 * 86_400.0)
+    assert found.aos_s is not None
+    box = Box(found.aos_s - 60.0, follow=FOLLOWS_ISS)
+    box.clock_error_s = clock_s
+    with caplog.at_level(logging.WARNING):
+        assert box.wait(30.0, until=lambda: box.loop.status.flown is not None)
+    flown = box.loop.status.flown
+    assert flown is not None
+    assert flown.beyond_beam
+    assert flown.expected_error_deg > 10.0
+    assert "BEYOND THE BEAM" in flown.error_text
+    assert "more than half of the beam of 20°" in caplog.text
+
+
+def test_the_error_to_expect_counts_the_clock(rise: Box) -> None:
+    errors_deg = []
+    for rise.clock_error_s in (0.0, 30.0):
+        rise.tracker.track("so-50")
+        rise.wait(3.0, until=lambda: rise.loop.status.flown is not None)
+        flown = rise.loop.status.flown
+        assert flown is not None
+        errors_deg.append(flown.expected_error_deg)
+        rise.tracker.off()
+        rise.wait(3.0)
+    assert errors_deg[1] > errors_deg[0] + 1.0

@@ -6,7 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from rotator.tracking.system_clock import LONG_UNSET_AGAIN_S, SET_AGAIN_S, SOON_S, UNSET_AGAIN_S, SystemClock
+from rotator.tracking.system_clock import (
+    LONG_UNSET_AGAIN_S,
+    SET_AGAIN_S,
+    SOON_S,
+    TOLD_S,
+    UNSET_AGAIN_S,
+    SystemClock,
+    expected_s,
+)
 
 
 @pytest.fixture
@@ -62,3 +70,24 @@ def test_without_the_tool_the_kernel_answers(tmp_path: Path, monkeypatch: pytest
     clock = SystemClock()
     clock.look(0.0)
     assert clock.is_set in (True, False)
+
+
+@pytest.mark.parametrize(
+    ("most_us", "estimated_us", "error_s"),
+    [
+        (500_000, 20_000, 0.02),  # chrony tells what it expects
+        (400_000, 0, 0.04),  # timesyncd does not: a crystal drifts by a tenth of what the kernel fears
+        (16_000_000, 0, TOLD_S),
+        (16_000_000, 16_000_000, TOLD_S),
+    ],
+)
+def test_its_error_is_what_the_kernel_expects(most_us: int, estimated_us: int, error_s: float) -> None:
+    assert expected_s(most_us, estimated_us) == pytest.approx(error_s)
+
+
+def test_a_clock_that_is_not_set_may_be_off_by_what_a_person_does_not_see(tool: Path) -> None:
+    tool.write_text("no\n")
+    clock = SystemClock()
+    assert clock.error_s == TOLD_S
+    clock.look(100.0)
+    assert 0.0 <= clock.error_s <= TOLD_S

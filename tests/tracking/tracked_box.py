@@ -95,6 +95,7 @@ class Box:
         self.loop = ControlLoop(build_controller(config), station.rotor, self.clock, PERIOD_S)
         self.planner = InThisProcess()
         self.clock_trusted = True
+        self.clock_error_s = 0.0
         self.known = sky = KnownSky(site, Catalogue((str(ELEMENTS),)))
         self.tracked = tracked = SlowSensors(config, self.loop, mount)
         tracked.read_s = self.clock() + read_after_s
@@ -121,7 +122,7 @@ class Box:
         self.follower.heard(source, order)
 
     def _now(self) -> Now:
-        return Now(self.utc_s, self.clock())
+        return Now(self.utc_s, self.clock(), self.clock_error_s)
 
     @property
     def utc_s(self) -> float:
