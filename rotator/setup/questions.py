@@ -166,7 +166,7 @@ def place(text: str) -> str:
         return bare
     found = re.fullmatch(
         r"([NS]?)\s*([-+]?\d+(?:[.,]\d+)?)\s*([NS]?)(?:\s*[;/]\s*|\s*,\s+|\s+|(?<=[.]\d),|,)\s*"
-        r"([EWO]?)\s*([-+]?\d+(?:[.,]\d+)?)\s*([EWO]?)",
+        r"([EW]?)\s*([-+]?\d+(?:[.,]\d+)?)\s*([EW]?)",
         bare.upper(),
     )
     # "48,85" and "48,85,2,35" may be cut in several ways.
@@ -178,7 +178,7 @@ def place(text: str) -> str:
     longitude = -longitude if "W" in found[4] + found[6] else longitude
     if abs(latitude) > 90 or abs(longitude) > 180:
         raise ValueError("latitude goes from -90 to 90, longitude from -180 to 180: latitude comes first")
-    return f"{latitude:.8g} {longitude:.8g}"
+    return f"{round(latitude, 6):.10g} {round(longitude, 6):.10g}"
 
 
 def _degrees(least: float, most: float, usual: str) -> Callable[[str], str]:

@@ -24,7 +24,7 @@ PROJECT = Path(__file__).parent.parent.parent
 ROOTS = kept("roots")
 WHAT_IT_TAKES = (
     *("install.sh", "install", "pyproject.toml", "README.md", "CHANGELOG.md", "LICENSE"),
-    *("rotator", "hw", "firmware_sim"),
+    *("rotator", "hw", "firmware_sim", "docs"),
 )
 RELEASES = ("trixie", "bookworm")
 PACKAGES_AT = f"{deb.HOME.lstrip('/')}/{environment.PACKAGES}"

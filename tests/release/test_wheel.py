@@ -118,6 +118,10 @@ def test_a_pass_is_rehearsed(place: Place) -> None:
     assert summary["rms_deg"] < 5.0
 
 
+def test_the_pages_to_which_messages_point_are_in_it(place: Place) -> None:
+    assert place.run("rotator", "help", "pot-open-or-shorted").startswith("### pot open or shorted\n")
+
+
 def test_a_moteus_rotor_says_what_it_lacks(place: Place) -> None:
     """The extras are not here: a sentence says so, no traceback."""
     text = place.run("rotator", "config", "isel")

@@ -98,6 +98,7 @@ def test_every_question_has_a_word_of_help_and_offers_its_default() -> None:
         ("-33,9 18,4", "-33.9 18.4"),
         ("33,9 S 18,4 E", "-33.9 18.4"),
         ("40.7N 74W", "40.7 -74"),
+        ("48.208333 -122.419416", "48.208333 -122.419416"),
         ("48 2", "48 2"),
         ("", ""),
     ],
@@ -106,7 +107,7 @@ def test_a_place_in_the_ways_people_write_one(typed: str, meant: str) -> None:
     assert place(typed) == meant
 
 
-@pytest.mark.parametrize("typed", ["48,85,2,35", "JO62", "95 10", "Paris", "48.85", "48,85"])
+@pytest.mark.parametrize("typed", ["48.2 2.35 O", "48,85,2,35", "JO62", "95 10", "Paris", "48.85", "48,85"])
 def test_what_could_be_two_places_or_none_is_asked_again(typed: str) -> None:
     with pytest.raises(ValueError, match=r"type a locator|no locator|latitude goes"):
         place(typed)
@@ -136,6 +137,23 @@ def test_a_comma_is_a_point_and_what_was_understood_is_shown(here: Path) -> None
     done = config_ask("", "", "437,5", *[""] * 10)
     assert "= 437.5" in done.output
     assert load(here / "new.toml").azimuth.max_deg == 437.5
+
+
+def test_what_comes_next_is_named_in_the_order_in_which_it_is_done(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "40")
+    done = config_ask("", "2", "", "", "2", "1", *[""] * 8)
+    last = done.output.partition("is written. Next:")[2]
+    commands = ("sudo rotator setup usb-serial", "rotator doctor", "rotator calibrate", "rotator run")
+    places = [last.index(command) for command in commands]
+    assert places == sorted(places)
+    assert all(len(row) < 40 for row in last.splitlines())
+
+
+@pytest.mark.parametrize("typed", ["COM3", "wide"])
+def test_a_range_that_is_none_is_told_with_one_that_is(here: Path, typed: str) -> None:
+    done = config_ask("", "", "", typed, *[""] * 10)
+    said = " ".join(done.output.split())
+    assert f'"{typed}" is no number: type degrees from 20 to 200, such as 90' in said
 
 
 def test_back_asks_the_question_before_again(here: Path) -> None:
