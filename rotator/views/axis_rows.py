@@ -20,8 +20,8 @@ from rotator.views.words import ALARMS, TURNS, degrees
 
 WIDE = 60
 """From this width on, the numbers stand beside the bars."""
-_NUMBERS, _LAMPS = 18, 10
-"""Cells for the numbers at the left of a bar, and for the lamps at its right."""
+_NUMBERS, _LAMPS = 18, 12
+"""Cells for the numbers at the left of a bar, and for both lamps at its right."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ def axis_rows(status: Status, mount: Mount | None, width: int, ranks: Ranks) -> 
         if width >= WIDE:
             yield from _wide(axis, each, _bar(status, axis, mount, width - _NUMBERS - _LAMPS - 2), ranks)
         else:
-            yield from _narrow(axis, each, _bar(status, axis, mount, width - 2), ranks)
+            yield from _narrow(axis, each, _bar(status, axis, mount, width - 2), ranks, width)
 
 
 def lamps(drives: Mapping[Axis, Direction], axis: Axis) -> list[Text]:
@@ -53,35 +53,54 @@ def lamps(drives: Mapping[Axis, Direction], axis: Axis) -> list[Text]:
 
 def _wide(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]:
     one, other = lamps({axis: each.drive}, axis)
-    if not each.seen and each.drive is Direction.OFF:
-        one = _unseen(each)
+    # An angle that is not measured now must never look as if it were.
+    worth_rank = ranks.bars if each.seen else ranks.numbers
     rows = (
-        (axis.value, each.shown_deg, _filled(bar, each), one, ranks.numbers),
-        ("target", each.target_deg, bar.filled_to(each.target_deg, TARGET_STYLE, names=True), other, ranks.bars),
+        (axis.value, each.shown_deg, _filled(bar, each), Text.assemble(one, " ", other), ranks.numbers),
+        (
+            "target",
+            each.target_deg,
+            bar.filled_to(each.target_deg, TARGET_STYLE, names=True),
+            _worth(each),
+            worth_rank,
+        ),
     )
-    for name, angle_deg, filled, lamp, row_rank in rows:
+    for name, angle_deg, filled, beside, row_rank in rows:
         text = Text(f"{name:<9} {degrees(angle_deg):>7} ", style="bold" if name == axis.value else "")
-        yield Row(Text.assemble(text, "▕", filled, "│ ", lamp), row_rank)
+        yield Row(Text.assemble(text, "▕", filled, "│ ", beside), row_rank)
     off = Text(f"{'off by':<9} {degrees(_off_deg(each), sign=True) if each.target_deg is not None else '':>7} ")
-    yield Row(Text.assemble(off, " ", bar.scale(), "  ", Text(each.source.value, style="dim")), ranks.scales)
+    yield Row(Text.assemble(off, " ", bar.scale()), ranks.scales)
 
 
-def _narrow(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]:
-    words = Text(f"{axis.value[:2] if axis is Axis.ELEVATION else 'az'} {degrees(each.shown_deg)}", style="bold")
-    if not each.seen:
-        words.append(" ").append_text(_unseen(each))
-    elif each.target_deg is not None:
-        words.append(f" → {degrees(each.target_deg)}").append(f" off {degrees(_off_deg(each), sign=True)}")
-    if each.drive is not Direction.OFF:
-        words.append(f" {TURNS[axis, each.drive]}", style="bold green")
-    yield Row(words, ranks.numbers)
+def _narrow(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks, width: int) -> Iterator[Row]:
+    yield Row(_in_a_row(axis, each, width), ranks.numbers)
     yield Row(Text.assemble("▕", _filled(bar, each), "│"), ranks.bars)
     yield Row(Text.assemble("▕", bar.filled_to(each.target_deg, TARGET_STYLE, names=True), "│"), ranks.scales)
     yield Row(Text.assemble(" ", bar.scale()), ranks.scales)
 
 
-def _unseen(each: AxisStatus) -> Text:
-    """What an angle is worth while the sensor is out."""
+def _in_a_row(axis: Axis, each: AxisStatus, width: int) -> Text:
+    """An axis in one row, with what its angle is worth; in shorter words where they do not fit."""
+    text = Text()
+    for off, short in (("off ", False), ("", False), ("", True)):
+        text = Text(f"{'az' if axis is Axis.AZIMUTH else 'el'} {degrees(each.shown_deg)}", style="bold")
+        if each.seen and each.target_deg is not None:
+            text.append(f" → {degrees(each.target_deg)}").append(f" {off}{degrees(_off_deg(each), sign=True)}")
+        if each.drive is not Direction.OFF:
+            text.append(f" {TURNS[axis, each.drive]}", style="bold green")
+        worth = _worth(each)
+        if short and each.seen:
+            worth.plain = f"{worth.plain[:4]}."
+        text.append(" ").append_text(worth)
+        if text.cell_len <= width:
+            break
+    return text
+
+
+def _worth(each: AxisStatus) -> Text:
+    """What the angle is worth: measured, counted, or what it was when the sensor was last heard."""
+    if each.seen:
+        return Text(each.source.value, style="dim")
     return Text("no signal") if each.shown_deg is None else Text("last seen", style=ALARMS)
 
 

@@ -44,7 +44,7 @@ def test_where_it_is_where_it_should_be_and_by_how_much_it_is_off() -> None:
     assert "3.4° off target on the sky" in picture
     assert re.match(r"│ target +--- ▕ ", row(picture, "target", 1))
     narrow = show(size=(40, 12))
-    assert "az 231.3° → 235.0° off +3.7° CW" in narrow
+    assert "az 231.3° → 235.0° +3.7° CW measured" in narrow
     assert "el 24.0° " in narrow
 
 
@@ -120,7 +120,7 @@ def test_without_a_reading_the_angle_is_the_last_one_seen() -> None:
 
 def test_the_angle_s_source() -> None:
     counted = replace(STATUS, azimuth=replace(AZIMUTH, source=AngleSource.COUNTED))
-    assert "counted" in row(show(counted), "off by")
+    assert "counted" in row(show(counted), "target")
 
 
 # --- what else it shows
@@ -213,3 +213,17 @@ def test_log_and_keys() -> None:
     assert "12:00:00 W gs232b: refused" in picture
     for key in ("space STOP", "q quit", "park + Enter: storm park", "resume + Enter: go on"):
         assert key in picture
+
+
+@pytest.mark.parametrize("size", [(40, 12), (60, 16), (80, 24), (200, 50)])
+@pytest.mark.parametrize("drive", Direction)
+def test_what_an_angle_is_worth_stands_beside_the_lamps(size: tuple[int, int], drive: Direction) -> None:
+    """An angle that was last seen is never called measured, whichever relay is on; a healthy one says its source."""
+    out = replace(BOTH_OUT, azimuth=replace(BOTH_OUT.azimuth, drive=drive))
+    picture = show(out, size=size)
+    assert picture.count("last seen") == 2
+    assert "measured" not in picture
+    assert size[0] < 80 or "CW" in picture
+    for source in AngleSource:
+        healthy = replace(STATUS, azimuth=replace(STATUS.azimuth, drive=drive, source=source))
+        assert re.search(rf"{source.value[:4]}", show(healthy, size=size))

@@ -57,7 +57,11 @@ def whole_and_clear(picture: str, status: Status, columns: int, rows: int) -> No
         each = status.axis(axis)
         angle = "---" if each.shown_deg is None else f"{round(each.shown_deg, 1) + 0.0:.1f}°"
         assert re.search(rf"(az|el|azimuth|elevation)\s+{re.escape(angle)}", picture), axis
-        assert each.seen or each.drive or ("no signal" if each.shown_deg is None else "last seen") in picture
+        lines = [line for line in seen if re.search(r" (az|el|azimuth|elevation|target) ", line)]
+        if not each.seen:
+            assert ("no signal" if each.shown_deg is None else "last seen") in "".join(lines)
+        if not (status.azimuth.seen or status.elevation.seen):
+            assert "measured" not in picture and "counted" not in picture
 
 
 ANGLES = st.none() | st.floats(-20.0, 470.0)
