@@ -65,6 +65,8 @@ class AxisStatus:
     drive: Direction = Direction.OFF
     moving: bool = False
     """Driven, or still coasting."""
+    by_itself_dps: float = 0.0
+    """The speed at which it turns though nobody drives it, clockwise or up positive; 0: it stands, or is driven."""
     starts: int | None = None
     """How often its motor has been started in this pass; None: no relay starts it."""
     missing: tuple[Missing, ...] = ()

@@ -44,8 +44,8 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
 
     It prints where programs connect. Ctrl-C ends it, with every relay off.
     """
-    # Before the program is loaded: that takes seconds on a small Pi. For a person; a script reads where to connect.
-    if sys.stdout.isatty() and "list" not in faults:
+    # Before the program is loaded: that takes seconds on a small Pi.
+    if "list" not in faults:
         click.echo(f"rotator {__version__} starts with {path or 'a simulated G-5500'}")
     from rotator.cli.run import run_box
 

@@ -7,6 +7,7 @@ Starts the faults of --fault, and the box anew where the page wants that. `rotat
 from __future__ import annotations
 
 import asyncio
+import itertools
 import logging
 import os
 import shutil
@@ -36,6 +37,9 @@ from rotator.runtime.anew import Anew
 from rotator.runtime.signals import SignalThread
 from rotator.views import plain_lines, terminal
 from rotator.views.sky_plot import Trail
+
+PAGE_LOOKS = 30
+"""The greeting waits so many looks for a page that does not listen yet."""
 
 
 def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
@@ -152,8 +156,14 @@ async def _plain(app: App, stop: asyncio.Event, screen: Output) -> None:
             if told:
                 screen.write(f"{told}\n")
 
+    looks = itertools.count(1)
+
+    def ready() -> bool:
+        """The page begins a moment after the links. Where it cannot listen, the greeting says so in the end."""
+        return app.is_ready and (all(wire.state != "closed" for wire in wires) or next(looks) >= PAGE_LOOKS)
+
     with keys_to(key):
-        await print_lines(greeting, lambda: plain_lines.line(app.loop.status), screen)
+        await print_lines(greeting, lambda: plain_lines.line(app.loop.status), screen, ready)
 
 
 async def _picture(app: App, stop: asyncio.Event, screen: Output, recent: LogRows) -> None:

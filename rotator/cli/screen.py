@@ -26,6 +26,8 @@ from rotator.views.plain_characters import ascii_only
 
 PICTURE_HZ = 5
 LOG_ROWS = 40
+LOOK_S = 0.1
+"""The time between two looks whether the box is ready, in seconds."""
 
 
 class LogRows(logging.Handler):
@@ -81,10 +83,16 @@ async def draw(
             await asyncio.sleep(1 / PICTURE_HZ)
 
 
-async def print_lines(greeting: Callable[[], list[str]], line: Callable[[], str], output: Output) -> None:
-    """For output that is no terminal: print a greeting, then each line that differs from the one before."""
-    # After this pause the links are open, and the greeting can name their ports.
-    await asyncio.sleep(0.1)
+async def print_lines(
+    greeting: Callable[[], list[str]], line: Callable[[], str], output: Output, ready: Callable[[], bool] = lambda: True
+) -> None:
+    """For output that is no terminal: print a greeting, then each line that differs from the one before.
+
+    `ready`: whether the links are open, so that the greeting can name their ports.
+    """
+    await asyncio.sleep(LOOK_S)
+    while not ready():
+        await asyncio.sleep(LOOK_S)
     last = ""
     output.write("\n".join((*greeting(), "")))
     while True:

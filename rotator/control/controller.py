@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 
 from hw.ports import Axis, Direction
 from rotator.control.authority import Authority
@@ -21,6 +22,7 @@ from rotator.control.movements import Movements
 from rotator.control.pass_starts import PassStarts
 from rotator.control.refused import Refused
 from rotator.control.rights import deed_of
+from rotator.control.seen_turning import SeenTurning
 from rotator.control.senders import aims_of
 from rotator.control.settings import Settings
 from rotator.faults import Notice
@@ -67,6 +69,7 @@ class Controller:
         self._movements = Movements(settings, axes)
         self._fence = Fence(settings.mount, axes, period_s=settings.period_s, attended=settings.attended)
         self._starts = PassStarts()
+        self._turning = {axis: SeenTurning() for axis in Axis}
         self._cycles = Cycles(settings.period_s)
         self._speed_level = 4
         self._remarks: dict[Axis, tuple[Notice, ...]] = dict.fromkeys(Axis, ())
@@ -85,6 +88,7 @@ class Controller:
         for axis, control in self._axes.items():
             if axis in readings:
                 control.see(readings[axis], now_s)
+                self._turning[axis].note(now_s, control.angle_deg)
         for source, order in orders:
             with self._noting_refusals():
                 self._take(source, order, now_s)
@@ -152,7 +156,12 @@ class Controller:
     def _axis_status(self, axis: Axis, now_s: float) -> AxisStatus:
         more = self._remarks[axis] + self._movements.notices(axis) + self._fence.notices(axis, now_s)
         starts = self._starts.of(axis) if self._axes[axis].has_relays else None
-        return self._axes[axis].status(now_s, starts=starts, more=more)
+        status = self._axes[axis].status(now_s, starts=starts, more=more)
+        if status.moving or status.drive is not Direction.OFF:
+            self._turning[axis].driven()
+        if not status.seen:
+            return status
+        return replace(status, by_itself_dps=self._turning[axis].speed_dps(status.noise_deg))
 
     @contextmanager
     def _noting_refusals(self) -> Iterator[None]:

@@ -160,7 +160,7 @@ class PtyLink:
             # The group of serial ports may open the terminal, because the client programs run as other users.
             os.chown(self._terminal.name, -1, grp.getgrnam(SERIAL_GROUP).gr_gid)
             os.chmod(self._terminal.name, 0o660)
-        self.wire.state = f"→ {self._terminal.name}"
+        self.wire.state = "ready"
 
     def _remove(self) -> None:
         """Close the terminal; remove the symlink if it still leads there."""

@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Callable
 
-from hw.ports import Axis
+from hw.ports import Axis, Direction
 from rotator.orders import Mode
 from rotator.protocols.console import TURN_WORDS, VERBS, Ask, Pair, TableLine, Track, TrackTable, parse
 from rotator.protocols.lines import LineReader
@@ -183,6 +183,9 @@ def _stands(status: Status, axis: Axis) -> str:
         words.append("homing: turns to its end stop")
     if now.drive:
         words.append(f"turns {TURN_WORDS[axis, now.drive]}")
+    if now.by_itself_dps:
+        way = Direction.PLUS if now.by_itself_dps > 0 else Direction.MINUS
+        words.append(f"TURNS {TURN_WORDS[axis, way]} BY ITSELF at {abs(now.by_itself_dps):.1f}°/s")
     return ", ".join(words)
 
 

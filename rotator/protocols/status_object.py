@@ -51,6 +51,8 @@ AXIS_FIELDS: Sequence[Field[AxisStatus]] = (
     Field("at_target", "true or false", "it stands, near enough to its target",
           lambda axis: axis.at_target),
     Field("moving", "true or false", "it turns, or still coasts", lambda axis: axis.moving),
+    Field("by_itself_dps", "number", "the speed at which it turns though nobody drives it; positive: clockwise or up",
+          lambda axis: round(axis.by_itself_dps, 1)),
     Field("drive", "number", "1: driven clockwise or up; -1: the other way; 0: off", lambda axis: int(axis.drive)),
     Field("homing", "true or false", "it looks for its end stop", lambda axis: axis.homing),
     Field("min_deg", "number", "the low end of its range", lambda axis: _angle(axis.min_deg)),

@@ -16,7 +16,7 @@ from rotator.status import AxisStatus, Status
 from rotator.views.bars import Bar, Zone, forbidden, overlap
 from rotator.views.frame import Row
 from rotator.views.sky_plot import ANTENNA_STYLE, TARGET_STYLE
-from rotator.views.words import ALARMS, TURNS, degrees
+from rotator.views.words import ALARMS, TURNS, by_itself, degrees
 
 WIDE = 60
 """From this width on, the numbers stand beside the bars."""
@@ -69,7 +69,9 @@ def _wide(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks) -> Iterator[Row]
         text = Text(f"{name:<9} {degrees(angle_deg):>7} ", style="bold" if name == axis.value else "")
         yield Row(Text.assemble(text, "▕", filled, "│ ", beside), row_rank)
     off = Text(f"{'off by':<9} {degrees(_off_deg(each), sign=True) if each.target_deg is not None else '':>7} ")
-    yield Row(Text.assemble(off, " ", bar.scale()), ranks.scales)
+    if stray := by_itself(axis, each):
+        off = Text.assemble((f"{stray:<17}", ALARMS), " ")
+    yield Row(Text.assemble(off, " ", bar.scale()), ranks.numbers if stray else ranks.scales)
 
 
 def _narrow(axis: Axis, each: AxisStatus, bar: Bar, ranks: Ranks, width: int) -> Iterator[Row]:
@@ -84,7 +86,9 @@ def _in_a_row(axis: Axis, each: AxisStatus, width: int) -> Text:
     text = Text()
     for off, short in (("off ", False), ("", False), ("", True)):
         text = Text(f"{'az' if axis is Axis.AZIMUTH else 'el'} {degrees(each.shown_deg)}", style="bold")
-        if each.seen and each.target_deg is not None:
+        if stray := by_itself(axis, each):
+            text.append(" ").append(stray, style=ALARMS)
+        elif each.seen and each.target_deg is not None:
             text.append(f" → {degrees(each.target_deg)}").append(f" {off}{degrees(_off_deg(each), sign=True)}")
         if each.drive is not Direction.OFF:
             text.append(f" {TURNS[axis, each.drive]}", style="bold green")

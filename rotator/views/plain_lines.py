@@ -53,6 +53,8 @@ def _axis(status: Status, axis: Axis) -> str:
         words.append(f"to {degrees(each.target_deg)}")
     if each.drive is not Direction.OFF:
         words.append(TURNS[axis, each.drive])
+    if each.by_itself_dps:
+        words.append(f"TURNS {TURNS[axis, Direction.PLUS if each.by_itself_dps > 0 else Direction.MINUS]} BY ITSELF")
     if each.uncalibrated:
         reads = "" if each.raw is None else f"; its sensor reads {round(each.raw, 3)}"
         words.append(f"UNCALIBRATED (needs {each.uncalibrated}{reads})")

@@ -162,8 +162,11 @@ def plot(columns: int, rows: int, status: Status, mount: Mount | None, trail: It
 def _backdrop(columns: int, rows: int, mount: Mount | None) -> _Canvas:
     """What stays the same while the terminal has this size."""
     canvas = _Canvas(columns, rows)
-    for elevation_deg, step_deg in ((0.0, 1.0), (30.0, 6.0), (60.0, 10.0)):
-        _curve(canvas, [(step * step_deg, elevation_deg) for step in range(round(360.0 / step_deg))], "dim")
+    # At any size the horizon is solid, and the others are dotted, with two empty dots between two.
+    for elevation_deg, dots, most_deg in ((0.0, 0.9, 1.0), (30.0, 3.0, 6.0), (60.0, 3.0, 10.0)):
+        radius = max(canvas.radius * (90.0 - elevation_deg) / 90.0, 1.0)
+        step_deg = min(most_deg, math.degrees(dots / radius))
+        _curve(canvas, [(step * step_deg, elevation_deg) for step in range(math.ceil(360.0 / step_deg))], "dim")
     if mount:
         _obstacles(canvas, mount)
     for at, letter in enumerate("NESW"):

@@ -81,8 +81,12 @@ def picture(
         plot_columns, plot_rows = _plot_beside(width, high)
         left = width - plot_columns - _BETWEEN if plot_columns else width
         every = fewer(list(_rows(left, height)), height)
-        if sum(row.rank == _LINK for row in every) < len(wires):
-            every = fewer(list(_rows(left, height, short=True)), height)
+        short_links = sum(row.rank == _LINK for row in every) < len(wires)
+        if short_links:
+            wanted = list(_rows(left, height, short=True))
+            every = fewer(wanted, height)
+            if sum(row.rank == _MORE for row in every) < sum(row.rank == _MORE for row in wanted):
+                every = fewer(list(_rows(left, height, short=True, short_faults=True)), height)
         if plot_columns:
             plotted = sky_plot.plot(plot_columns, plot_rows, status, around.mount, around.trail)
             texts = beside([_padded(row.text, left) for row in every], plotted, _BETWEEN)
@@ -97,8 +101,9 @@ def picture(
             every = [*every[:last], *middle, *every[last:]]
         yield from every
 
-    def _rows(width: int, height: int, *, short: bool = False) -> Iterator[Row]:
-        """`short`: a line in place of the table of links, for a terminal that has no room for all of them."""
+    def _rows(width: int, height: int, *, short: bool = False, short_faults: bool = False) -> Iterator[Row]:
+        """`short`: a line in place of the table of links, for a terminal that has no room for all of them.
+        `short_faults`: a row for each fault, in place of a text that would lose its end."""
         yield from _top(glass, status, wires, width, height)
         yield _BLANK
         yield from axis_rows(status, around.mount, width, Ranks(_ANGLE, _BARS, _SCALES))
@@ -106,9 +111,10 @@ def picture(
         yield _BLANK
         for fault in status.faults:
             # What to do this moment is the headline.
-            yield from _trouble(str(fault).removeprefix(fault.act_now).strip(), width)
+            text = str(fault).removeprefix(fault.act_now).strip()
+            yield from [_cut(text, width)] if short_faults else _trouble(text, width)
         if to_go_on := release(status):
-            yield from _trouble(to_go_on, width)
+            yield from (replace(row, rank=_TROUBLE) for row in _trouble(to_go_on, width))
         noted = [spoken(note) for note in (*status.notices, *lacks(status), *notes(status))]
         for note in noted:
             yield from wrapped(note, width, WARNS, _NOTE)
@@ -149,7 +155,7 @@ def _plot_beside(width: int, height: int) -> tuple[int, int]:
 def _keys(width: int) -> Iterator[Row]:
     """What each key does, in one row where there is room."""
     line = "   ".join(KEYS)
-    narrow = KEYS[0], "park + Enter   resume + Enter"
+    narrow = KEYS[0], "Words: park (storm), resume (go on)"
     for text in (line,) if len(line) <= width else narrow:
         yield Row(Text(text, style="bold"), _KEYS)
 
@@ -164,6 +170,13 @@ def _trouble(text: str, width: int) -> list[Row]:
     """Its first row says where and what. On a low terminal the others make way for the keys and the angles."""
     first, *more = wrapped(text, width, ALARMS, _MORE)
     return [replace(first, rank=_TROUBLE), *more]
+
+
+def _cut(text: str, width: int) -> Row:
+    """In one row, with a sign that it goes on."""
+    words = Text(text, style=ALARMS)
+    words.truncate(width, overflow="ellipsis")
+    return Row(words, _TROUBLE)
 
 
 def _newest_last(lines: Sequence[str]) -> Iterator[tuple[int, str]]:

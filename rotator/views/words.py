@@ -11,9 +11,10 @@ from typing import Protocol
 
 from hw.ports import Axis, Direction
 from rotator.control.rights import mode_words
+from rotator.faults import FaultKind
 from rotator.orders import PANEL, Mode
 from rotator.spoken import sender, spoken
-from rotator.status import Flown, Status
+from rotator.status import AxisStatus, Flown, Status
 from rotator.views.sky_plot import off_deg
 
 TURNS = {
@@ -25,6 +26,15 @@ TURNS = {
 GOOD, PLAIN, WARNS, ALARMS = "bold green", "bold", "bold yellow", "bold white on red"
 RELEASE = "resume + Enter: it may move again"
 RELEASE_FAULT = "resume + Enter: go on when repaired"
+RELEASE_LATER = "resume + Enter: it may move when the cause is gone"
+_FIRST = {
+    FaultKind.RELAY_WELDED: "relays-checked AXIS",
+    FaultKind.RELAY_UNSEEN: "relays-checked AXIS",
+    FaultKind.COUNT_LOST: "home AXIS",
+    FaultKind.NOT_HOMED: "home AXIS",
+    FaultKind.POSITION_UNKNOWN: "confirm AXIS DEGREES",
+}
+"""Faults that no `resume` ends: the command that does, once it is repaired."""
 OUT = ("closed", "waiting for it")
 """States of a link that no program can use."""
 PASSES = "This ends by itself when the cause is gone."
@@ -59,6 +69,8 @@ def headline(status: Status) -> tuple[str, str]:
         return spoken(words[0].upper() + words[1:]), WARNS
     if lacking:
         return f"UNCALIBRATED {' and '.join(lacking)}", WARNS
+    if stray := [axis.value for axis in Axis if status.axis(axis).by_itself_dps]:
+        return f"TURNING BY ITSELF: {' and '.join(stray)}", ALARMS
     if status.moving:
         return "TURNING", GOOD
     if status.flown is not None and status.flown.begin_s > status.at_s:
@@ -131,11 +143,22 @@ def pass_starts(status: Status) -> str:
 
 def release(status: Status) -> str:
     """Which keys let the antenna move again; empty: it may."""
-    if status.latched:
-        return RELEASE
     if not status.faults:
+        return RELEASE if status.latched else ""
+    for fault in status.faults:
+        if command := _FIRST.get(fault.kind):
+            return f"Repaired? rotator {command.replace('AXIS', fault.axis.value)}, then resume"
+    if all(fault.passing for fault in status.faults):
+        return RELEASE_LATER if status.latched else PASSES
+    return RELEASE_FAULT
+
+
+def by_itself(axis: Axis, each: AxisStatus) -> str:
+    """`TURNS CCW 5.9°/s` of an axis that nobody drives; empty: it stands, or is driven."""
+    if not each.by_itself_dps:
         return ""
-    return PASSES if all(fault.passing for fault in status.faults) else RELEASE_FAULT
+    way = Direction.PLUS if each.by_itself_dps > 0 else Direction.MINUS
+    return f"TURNS {TURNS[axis, way]} {abs(each.by_itself_dps):.1f}°/s"
 
 
 def notes(status: Status) -> list[str]:

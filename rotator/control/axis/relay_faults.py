@@ -32,10 +32,12 @@ def unstoppable(fault: Fault, *, master: bool) -> Fault:
 
     `master`: an output switches the supply.
     """
+    usual = (fault.advice or fault.kind.advice).removeprefix("Switch the motors off, and ")
+    then = usual[:1].lower() + usual[1:]
     if master:
-        return replace(fault, measured=f"{fault.measured}; the box has switched the motors' supply off", cut=True)
-    measured = f"{fault.measured}; switch the motors' supply off by hand NOW, the box has no relay for that"
-    return replace(fault, measured=measured, cut=True, act_now=CUT_BY_HAND)
+        return replace(fault, advice=f"The box has switched the motors' supply off. Now {then}", cut=True)
+    by_hand = "Switch the motors' supply off by hand NOW, the box has no relay for that. Then "
+    return replace(fault, advice=by_hand + then, cut=True, act_now=CUT_BY_HAND)
 
 
 def accusation(axis: Axis, direction: Direction, trust: Trust, place: str, *, master: bool) -> Fault | None:

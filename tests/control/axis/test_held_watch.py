@@ -59,13 +59,13 @@ def test_and_so_is_one_that_goes_on_after_its_stop() -> None:
 
 
 @pytest.mark.parametrize(
-    ("master", "act_now", "who"), [(True, "", "the box has"), (False, "CUT MOTOR POWER!", "by hand NOW")]
+    ("master", "act_now", "who"), [(True, "", "The box has"), (False, "CUT MOTOR POWER!", "by hand NOW")]
 )
 def test_the_supply_goes_by_the_box_or_by_a_hand(master: bool, act_now: str, who: str) -> None:
     fault = Box(master=master).turns(6.0, 5.0)
     assert fault is not None
     assert (fault.cut, fault.act_now) == (True, act_now)
-    assert who in fault.measured
+    assert who in fault.advice
     assert ("fit a relay" in str(fault)) is not master
 
 
