@@ -89,6 +89,9 @@ def draw_arc(chance: random.Random, at_s: float) -> str:
 class Arcs:
     """Finds and plans arcs: what `rotator.tracking` is given in place of a catalogue and a process."""
 
+    def has_news(self) -> bool:
+        return False
+
     def find(self, words: str) -> Wanted | Aim:
         """Raises Unknown."""
         try:

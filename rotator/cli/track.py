@@ -43,6 +43,8 @@ def begin(path: Path | None, words: str, *, clock_is_right: bool) -> None:
         state = _planned(box)
         if state.startswith("ended: "):
             raise CommandFailed(state.removeprefix("ended: "))
+        if state.startswith("refused: "):
+            raise CommandFailed(f"{state.removeprefix('refused: ')}; what was tracked goes on")
         if state == "off":
             return click.echo("The antenna goes there, and stays.")
         tracks = _tracks(box)

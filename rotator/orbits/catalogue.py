@@ -110,6 +110,11 @@ class Catalogue:
                 self._names.setdefault(name, set()).add(number)
         return True
 
+    def has_news(self) -> bool:
+        """Whether a file is new, or has changed since it was read. Reads none."""
+        paths, _ = files(self._places, self._to_come)
+        return any(_stamp(path) != (kept.stamp if (kept := self._kept.get(path)) else None) for path in paths)
+
     def find(self, name: str, others: Sequence[str] = ()) -> Elements:
         """By name, by the name in brackets, or by catalogue number; capitals, hyphens and blanks do not count.
 
@@ -138,7 +143,7 @@ class Catalogue:
         earlier, written_s = (before.sets, before.written_s) if before else ((), 0.0)
         try:
             about = path.stat()
-            stamp = (about.st_mtime_ns, about.st_size)
+            stamp = about.st_mtime_ns, about.st_size
             if before is not None and before.stamp == stamp:
                 return before
             if not stat.S_ISREG(about.st_mode):
@@ -161,6 +166,15 @@ class Catalogue:
             has = {each.catalogue_number for each in sets}
             sets += tuple(each for each in earlier if each.catalogue_number not in has)
         return _Kept(stamp, about.st_mtime, sets, wrong)
+
+
+def _stamp(path: Path) -> _Stamp | None:
+    """None: the file cannot be looked at."""
+    try:
+        about = path.stat()
+    except OSError:
+        return None
+    return about.st_mtime_ns, about.st_size
 
 
 def _rank(elements: Elements, written_s: float) -> tuple[bool, float]:
@@ -219,9 +233,10 @@ def _inside(folder: Path) -> list[Path]:
 
 
 def _spoken(elements: Elements) -> set[str]:
-    """`OSCAR 7 (AO-7)` is said whole, or as one of the two; `ISS (ZARYA)` too. And the number."""
+    """`OSCAR 7 (AO-7)` is said whole, or as one of the two; `ISS (ZARYA)` too. And the number, also as in a TLE."""
     names = {elements.name, *_PARENTHESES.findall(elements.name), _PARENTHESES.sub("", elements.name)}
-    return {plain(name) for name in names} - {""} | {str(elements.catalogue_number)}
+    numbers = {str(elements.catalogue_number), plain(tle.alpha5(elements.catalogue_number))}
+    return ({plain(name) for name in names} | numbers) - {""}
 
 
 def plain(name: str) -> str:

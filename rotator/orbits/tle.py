@@ -56,6 +56,14 @@ def read(text: str) -> Iterator[Elements | str]:
         yield f'the end: "{name[:24]}" has no element set'
 
 
+def alpha5(number: int) -> str:
+    """As TLE have it in five characters: 100001 is `A0001`. Empty: the number does not fit."""
+    head, tail = divmod(number, 10_000)
+    if head < 10:
+        return f"{number:05d}"
+    return f"{ALPHA5[head - 10]}{tail:04d}" if head - 10 < len(ALPHA5) else ""
+
+
 def catalogue_number(text: str) -> int:
     """Five characters, the first perhaps a letter. Raises ValueError."""
     text = text.strip()

@@ -45,6 +45,10 @@ class KnownSky:
         """What was read from each file."""
         return self._catalogue.by_file
 
+    def has_news(self) -> bool:
+        """Whether a file is new, or has changed, and has not been read yet. From any thread; reads no file."""
+        return self._catalogue.has_news()
+
     def refresh(self) -> bool:
         """Read the files that have changed. Returns whether one has."""
         fresh = copy.copy(self._catalogue)

@@ -99,11 +99,12 @@ class TrackingThread:
                 self._failed(failure)
 
     def _turn(self) -> None:
-        if self._new_files or time.monotonic() - self._refreshed_s >= REFRESH_S:
+        if self._new_files or self.tracker.wants_new_files or time.monotonic() - self._refreshed_s >= REFRESH_S:
             self._new_files = False
             self._refreshed_s = time.monotonic()
             if self.sky.refresh():
                 self._listener.know()
+            self.tracker.read_new_files()
             self._tell()
         self._stopping.wait(LOOK_S)
         self._clock.look(time.monotonic())

@@ -10,7 +10,7 @@ import logging
 import math
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from rotator.control.sky.flight_plan import Antenna
@@ -29,12 +29,12 @@ TRACK = Source(TRACKER)
 PLAN = "plan"
 """In place of a target: the plan of many passes."""
 TAKES_EFFECT_S = 2.0
-"""So soon after its order the antenna is seen to be this room's."""
+"""Time from an order until the status shows that the antenna is this room's."""
 JUMPED_S = 0.25
 """A clock that was set by more makes a new plan."""
 FRESH_S = 600.0
 BEFORE_S = 120.0
-"""A plan that is older than `FRESH_S` is made again so long before its pass, with the newest elements."""
+"""A plan that is older than `FRESH_S` is made again `BEFORE_S` before its pass, with the newest elements."""
 CLOCK_UNSURE = (
     "nothing is tracked before this computer's clock is right: it has reached no time server yet. Where `date` shows "
     "the right time: rotator track --clock-is-right NAME, or step 8 of the page's Setup"
@@ -55,6 +55,9 @@ class Planner(Protocol):
 class Finder(Protocol):
     def find(self, words: str) -> Wanted | Aim:
         """A target that moves, or a fixed direction. Raises Unknown, NotThere."""
+
+    def has_news(self) -> bool:
+        """Whether a file of elements is new, or has changed, and has not been read yet."""
 
 
 class Box(Protocol):
@@ -80,6 +83,21 @@ class Flown:
     ordered_s: float
 
 
+@dataclass(frozen=True, slots=True)
+class Tracked:
+    """What a person asked for. `program`: what the words stand for, where it is a table and no target.
+
+    `flown`: None before its first plan.
+    """
+
+    words: str
+    program: Program | None = None
+    flown: Flown | None = None
+
+
+NOTHING = Tracked("")
+
+
 class Tracker:
     """`track`, `off` and `clock_is_right` may be called from any thread, `step` from one only.
 
@@ -94,13 +112,15 @@ class Tracker:
         self.clock_told = False
         """A person has said that the clock is right."""
         self._lock = threading.Lock()
-        self._words = ""
-        """What a person asked for; empty: nothing is tracked."""
-        self._program: Program | None = None
-        """What the words stand for, where it is a table and no target."""
+        self._tracked = NOTHING
+        self._before = NOTHING
+        """What was tracked before a request that has no plan yet. If it cannot be planned, this goes on."""
+        self._refused = ""
+        """Why the latest request has been refused, while what was tracked before it goes on."""
         self._asked = 0
         """How many requests there were: a plan for an earlier one is not flown."""
-        self._flown: Flown | None = None
+        self._looks_again = False
+        """The name is not known, and files are new: it is looked for again when they have been read."""
         self._held_by = ""
         """Who has stopped the antenna, or has let it go on after a stop or a fault, since the request."""
         self._mover = ""
@@ -116,7 +136,16 @@ class Tracker:
     def following(self) -> bool:
         """Whether the plan of many passes has the antenna, as far as this room is concerned."""
         with self._lock:
-            return self._follows and not self._words
+            return self._follows and not self._tracked.words
+
+    @property
+    def wants_new_files(self) -> bool:
+        """The files of elements shall be read again before the next `step`."""
+        return self._looks_again
+
+    def read_new_files(self) -> None:
+        """They have been read."""
+        self._looks_again = False
 
     def heard(self, source: Source, order: Order) -> None:
         """An order of any sender. What a stop has ended does not begin by itself, also where a plan is under way."""
@@ -132,49 +161,59 @@ class Tracker:
 
     @property
     def state(self) -> str:
-        """`off`, `planning`, `tracking`, or `ended: ` and the reason."""
+        """`off`, `planning`, `tracking`, or `ended: ` and the reason.
+
+        `refused: ` and the reason: the latest request cannot be tracked, and what was tracked before goes on.
+        """
         with self._lock:
-            if self._words:
-                return "tracking" if self._flown else "planning"
+            if self._tracked.words and self._refused:
+                return f"refused: {self._refused}"
+            if self._tracked.words:
+                return "tracking" if self._tracked.flown else "planning"
             return f"ended: {self._ended}" if self._ended else "off"
 
     def track(self, words: str) -> str:
         """Begin to track. Returns why not; empty: it does. `plan`: what the configuration follows."""
         if words == PLAN:
-            self._begin("", follows=True)
+            self._begin(NOTHING, follows=True)
             return ""
         try:
             wanted = self._finder.find(words)
-        except (Unknown, NotThere) as fault:
+        except Unknown as fault:
+            if not (self.clock_trusted() and self._finder.has_news()):
+                return str(fault)
+            self._begin(Tracked(words), follows=self._follows, looks_again=True)
+            return ""
+        except NotThere as fault:
             return str(fault)
         if isinstance(wanted, Aim):
             if refused := self._box.refusal(wanted):
                 return refused
-            self._begin("", follows=self._follows)
+            self._begin(NOTHING, follows=self._follows)
             with self._lock:
                 self._order(wanted)
             return ""
         if not self.clock_trusted():
             return CLOCK_UNSURE
-        self._begin(words, follows=self._follows)
+        self._begin(Tracked(words), follows=self._follows)
         return ""
 
     def program(self, table: TimedTable) -> str:
         """Begin to track a timed table, once. Returns why not; empty: it does."""
         if table.utc and not self.clock_trusted():
             return CLOCK_UNSURE
-        self._begin(table.name, follows=self._follows, program=Program(table, self._box.status().at_s))
+        self._begin(Tracked(table.name, Program(table, self._box.status().at_s)), follows=self._follows)
         return ""
 
     def off(self) -> None:
         """End it. The antenna stops, where this room moves it."""
-        self._begin("", follows=False)
+        self._begin(NOTHING, follows=False)
         self._stop()
 
     def fly_planned(self, flight: Fly) -> bool:
         """Order a flight of the plan of many passes. Returns whether that plan still has the antenna."""
         with self._lock:
-            if not self._follows or self._words:
+            if not self._follows or self._tracked.words:
                 return False
             self._order(flight)
             return True
@@ -182,7 +221,7 @@ class Tracker:
     def fail(self, reason: str) -> None:
         """End what is tracked, because the program itself has failed. The antenna stops, where this room moves it."""
         with self._lock:
-            words, asked = self._words, self._asked
+            words, asked = self._tracked.words, self._asked
         if words:
             self._end(asked, words, reason)
         self._stop()
@@ -196,12 +235,16 @@ class Tracker:
         """By the system, or by a person's word."""
         return self.clock_told or self._clock_trusted()
 
-    def _begin(self, words: str, *, follows: bool, program: Program | None = None) -> None:
+    def _begin(self, tracked: Tracked, *, follows: bool, looks_again: bool = False) -> None:
         mover = self._box.status().controlled_by
         with self._lock:
-            self._words, self._flown, self._ended, self._follows = words, None, "", follows
-            self._program = program
+            if not tracked.words:
+                self._before = NOTHING
+            elif self._tracked.flown is not None:
+                self._before = self._tracked
+            self._tracked, self._ended, self._refused, self._follows = tracked, "", "", follows
             self._held_by, self._mover = "", mover
+            self._looks_again = looks_again
             self._asked += 1
 
     def _order(self, order: Order) -> None:
@@ -220,26 +263,27 @@ class Tracker:
     def step(self, now: Now) -> None:
         """Look once. It may compute for seconds."""
         with self._lock:
-            words, asked, flown, held_by = self._words, self._asked, self._flown, self._held_by
-            program = self._program
+            tracked, asked, held_by = self._tracked, self._asked, self._held_by
+            words, flown = tracked.words, tracked.flown
         if not words:
             return
         if held_by:
             self._end(asked, words, f"{held_by} stopped it, or let it go on")
         elif flown is not None and (reason := lost(flown, self._box.status(), now)):
             self._end(asked, words, reason)
-        elif flown is None or _is_over(flown, now):
-            self._fly(words, program, asked, now)
+        elif not self._looks_again and (flown is None or _is_over(flown, now)):
+            self._fly(tracked, asked, now)
 
-    def _fly(self, words: str, program: Program | None, asked: int, now: Now) -> None:
+    def _fly(self, tracked: Tracked, asked: int, now: Now) -> None:
+        words, program = tracked.words, tracked.program
         antenna = self._box.antenna()
         if antenna is None:
-            self._end(asked, words, "the antenna's angles are not known")
+            self._refuse(asked, tracked, "the antenna's angles are not known")
             return
         try:
             flight = self._planner.plan_program(program, antenna, now) if program else self._plan(words, antenna, now)
         except (Unknown, NotThere, NeverRises, CannotFly, RuntimeError) as reason:
-            self._end(asked, words, str(reason))
+            self._refuse(asked, tracked, str(reason))
             return
         status = self._box.status()
         with self._lock:
@@ -248,7 +292,8 @@ class Tracker:
                 return
             taken = status.controlled_by not in ("", str(TRACK), self._mover)
             if not taken:
-                self._flown, self._mover = Flown(flight, now, status.at_s), str(TRACK)
+                self._tracked = replace(tracked, flown=Flown(flight, now, status.at_s))
+                self._before, self._mover = NOTHING, str(TRACK)
                 self._order(flight.order)
         if taken:
             self._end(asked, words, f"{status.controlled_by} moves the antenna")
@@ -259,11 +304,26 @@ class Tracker:
             raise Unknown(f'"{words}" is no moving target any more')
         return self._planner.plan(wanted, antenna, now)
 
+    def _refuse(self, asked: int, tracked: Tracked, reason: str) -> None:
+        """It cannot be planned. What was tracked before goes on; if that was itself, its flight ends with it."""
+        with self._lock:
+            if asked != self._asked:
+                return
+            before, self._before = self._before, NOTHING
+            if before.words:
+                self._tracked, self._refused = before, reason
+        if before.words:
+            log.warning("%s is not tracked: %s; %s goes on", tracked.words, reason, before.words)
+            return
+        self._end(asked, tracked.words, reason)
+        if tracked.flown is not None and self._box.status().flown is not None:
+            self._stop()
+
     def _end(self, asked: int, words: str, reason: str) -> None:
         with self._lock:
             if asked != self._asked:
                 return
-            self._words, self._flown, self._ended = "", None, reason
+            self._tracked, self._before, self._ended = NOTHING, NOTHING, reason
         log.warning("tracking of %s has ended: %s", words, reason)
 
 

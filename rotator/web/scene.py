@@ -80,7 +80,7 @@ class _Path:
 class Scene:
     """`status`: the latest. `lcd`: the rows of the display, a code covered.
 
-    `named`: the name of a paired browser by its number. `tracks`: `off`, `planning`, `tracking`, or `ended: ` and why.
+    `named`: the name of a paired browser by its number. `tracks`: as `Tracker.state`.
     `utc`: seconds since 1970 by the box's clock.
     """
 

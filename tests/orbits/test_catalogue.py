@@ -7,7 +7,10 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from rotator.orbits import tle
 from rotator.orbits.catalogue import Catalogue, Found, Unknown, read_file
 from tests.orbits.skyfield_oracle import TLE
 from tests.orbits.test_omm import MESSAGE, as_csv
@@ -212,3 +215,26 @@ def test_a_file_that_goes_takes_its_satellites_along(tmp_path: Path) -> None:
     path.unlink()
     assert catalogue.refresh()
     assert catalogue.satellites == ()
+
+
+@given(number=st.integers(1, 400_000), name=st.sampled_from(("THING", "B0001", "OBJECT A")))
+def test_a_satellite_is_found_by_its_number_in_every_form(
+    tmp_path_factory: pytest.TempPathFactory, number: int, name: str
+) -> None:
+    file = tmp_path_factory.getbasetemp() / "forms.json"
+    sent = MESSAGE | {"OBJECT_NAME": name, "NORAD_CAT_ID": number}
+    file.write_text(json.dumps([sent]), encoding="utf-8")
+    catalogue = Catalogue([str(file)])
+    forms = [str(number), tle.alpha5(number), tle.alpha5(number).lower(), name]
+    assert {catalogue.find(form).catalogue_number for form in forms if form} == {number}
+
+
+def test_news_are_seen_without_reading_them(tmp_path: Path) -> None:
+    catalogue = Catalogue([str(tmp_path)])
+    assert not catalogue.has_news()
+    write(tmp_path / "one.json", json.dumps([MESSAGE]), 1_740_000_000)
+    assert catalogue.has_news()
+    catalogue.refresh()
+    assert not catalogue.has_news()
+    write(tmp_path / "one.json", json.dumps([MESSAGE | NEWER]), 1_740_000_100)
+    assert catalogue.has_news()

@@ -102,3 +102,14 @@ def test_a_damaged_text_gives_sentences_never_another_orbit(data: st.DataObject)
 @given(st.text())
 def test_no_text_is_too_odd(text: str) -> None:
     list(tle.read(text))
+
+
+@given(st.integers(1, 339_999))
+def test_alpha5_goes_both_ways(number: int) -> None:
+    assert tle.catalogue_number(tle.alpha5(number)) == number
+    assert len(tle.alpha5(number)) == 5
+
+
+@pytest.mark.parametrize("number", [340_000, 900_000_000])
+def test_a_number_that_alpha5_cannot_write_has_none(number: int) -> None:
+    assert tle.alpha5(number) == ""

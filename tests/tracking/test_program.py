@@ -8,7 +8,7 @@ from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.timed_table import TimedTable
 from rotator.orders import Aim, Source, Stop
 from rotator.tracking.tracker import CLOCK_UNSURE
-from tests.tracking.tracked_box import FEBRUARY_S, Box
+from tests.tracking.tracked_box import FEBRUARY_S, Box, pass_of
 
 ROWS = ((60.0, 80.0, 5.0), (100.0, 100.0, 30.0), (140.0, 140.0, 45.0), (180.0, 180.0, 20.0))
 
@@ -90,3 +90,74 @@ def test_another_sender_ends_it(box: Box, order: Aim | Stop) -> None:
     box.loop.post(Source("rotctld", 1), order)
     box.wait(5.0)
     assert box.tracker.state.startswith("ended: rotctld")
+
+
+# --- a request that cannot be tracked, while something is
+
+
+PAST, WALLED = "past", "walled"
+
+
+def refused(box: Box, how: str) -> str:
+    """Ask for a table that cannot be flown. Returns the reason."""
+    rows = {
+        PAST: tuple((box.utc_s - 500.0 + at_s, az_deg, el_deg) for at_s, az_deg, el_deg in ROWS),
+        WALLED: tuple((box.utc_s + at_s, (340.0 + at_s) % 360, 20.0) for at_s in (10.0, 20.0, 30.0)),
+    }[how]
+    mast = TimedTable(how, rows, tuple(range(2, 2 + len(rows))), utc=True)
+    box.tracker.program(mast)
+    box.wait(2.0)
+    return {PAST: "past is over", WALLED: "walled, line"}[how]
+
+
+WALL = '[[mount.forbidden]]\nname = "mast"\nazimuth_deg = [352, 359]\nelevation_deg = [0, 90]\n'
+
+
+@pytest.mark.parametrize("how", [PAST, WALLED])
+@pytest.mark.parametrize("first", ["table", "iss"])
+def test_a_refused_request_keeps_what_was_tracked(first: str, how: str) -> None:
+    found = pass_of("iss")
+    assert found.aos_s is not None
+    box = Box(found.aos_s - 60.0, follow=WALL)
+    box.tracker.program(table()) if first == "table" else box.tracker.track("iss")
+    box.wait(2.0)
+    before = box.loop.status.flown
+    assert before is not None
+    reason = refused(box, how)
+    assert box.tracker.state.startswith(f"refused: {reason}")
+    assert box.loop.status.flown == before
+    box.wait(70.0)
+    assert box.loop.status.flown is not None
+    assert box.loop.status.flown.name == before.name
+    box.loop.post(Source("rotctld", 1), Aim(10.0, 10.0))
+    box.wait(5.0)
+    assert box.tracker.state.startswith("ended: rotctld"), "it is watched as before"
+
+
+@pytest.mark.parametrize("how", [PAST, WALLED])
+def test_a_refused_request_with_nothing_before_it_has_ended(how: str) -> None:
+    box = Box(FEBRUARY_S, follow=WALL)
+    reason = refused(box, how)
+    assert box.tracker.state.startswith(f"ended: {reason}")
+    assert box.loop.status.flown is None
+
+
+def test_a_request_after_a_refused_one_counts(box: Box) -> None:
+    box.tracker.program(table())
+    box.wait(2.0)
+    refused(box, PAST)
+    box.tracker.track("iss")
+    box.wait(2.0)
+    assert box.tracker.state == "tracking"
+    assert box.loop.status.flown is not None
+    assert box.loop.status.flown.name.startswith("ISS")
+    box.tracker.off()
+    box.wait(3.0)
+    assert (box.tracker.state, box.loop.status.flown) == ("off", None)
+
+
+def test_a_table_is_told_as_one(box: Box) -> None:
+    box.tracker.program(table())
+    box.wait(2.0)
+    assert box.loop.status.flown is not None
+    assert box.loop.status.flown.table

@@ -81,6 +81,7 @@ class Box:
         read_after_s: float = 0.0,
         restarted: bool = False,
         looks: bool = True,
+        elements: Path = ELEMENTS,
     ) -> None:
         """`follow`: `[[sky.follow]]` of the configuration. `read_after_s`: until then no angle is known.
 
@@ -96,7 +97,7 @@ class Box:
         self.planner = InThisProcess()
         self.clock_trusted = True
         self.clock_error_s = 0.0
-        self.known = sky = KnownSky(site, Catalogue((str(ELEMENTS),)))
+        self.known = sky = KnownSky(site, Catalogue((str(elements),)))
         self.tracked = tracked = SlowSensors(config, self.loop, mount)
         tracked.read_s = self.clock() + read_after_s
         self.tracker = Tracker(sky, self.planner, tracked, lambda: self.clock_trusted)
@@ -146,6 +147,9 @@ class Box:
 
     def look(self) -> None:
         """The tracking thread has its turn."""
+        if self.tracker.wants_new_files:
+            self.known.refresh()
+            self.tracker.read_new_files()
         self.tracker.step(self._now())
         self.follower.step(self._now())
 

@@ -69,7 +69,7 @@ export function Passes({ now: box, station, hello, say }) {
   const track = (target) => act(post("track", { target }), say), tracks = box.status.tracks;
   const shown = (passes ?? []).filter((pass) => pass.max_el_deg >= (number(leastDeg) ?? 0) && !(pass.los && new Date(pass.los) < now));
   return html`<div class="views"><section class="log"><h2>Track</h2>
-    <p><span role="status">${tracks ? html`Tracks <b>${tracks.name}</b>` : STATES[box.tracking] ?? `Tracking has ${box.tracking}`}</span>${tracks && html`, ${box.rise_or_set}`}</p>
+    <p><span role="status">${tracks ? html`Tracks <b>${tracks.name}</b>` : STATES[box.tracking] ?? `Tracking has ${box.tracking}`}</span>${tracks && html`, ${box.rise_or_set}`}${tracks && box.tracking.startsWith("refused: ") && html`. Not tracked: ${box.tracking.slice(9)}`}</p>
     ${paired && html`<div class="chips" role="group" aria-label="Track">
       ${BODIES.map((name) => html`<button type="button" aria-pressed=${tracks?.name === name} onClick=${() => track(name)} aria-label=${`Track ${name}`}>${name}</button>`)}
       <button type="button" onClick=${() => track("plan")}>Follow the plan</button>
