@@ -52,9 +52,7 @@ class BenchBox:
         made_of = (azimuth, elevation, at, missing, at_once, blind)
         if made_of not in _LOOKED:
             self._build(azimuth, elevation, missing, at_once=at_once, blind=blind)
-            self.stands_at(azimuth[0], elevation[0])
-            if at is not None:
-                self.stands_at(*at)
+            self.stands_at(*(at or (azimuth[0], elevation[0])))
             _LOOKED[made_of] = pickle.dumps(vars(self))
         vars(self).update(pickle.loads(_LOOKED[made_of]))
 
