@@ -3,12 +3,11 @@
 A relay that has welded keeps its motor powered: the axis goes on as before, or is held by a stop. So the relay counts
 as open only after readings that no powered motor makes:
 
-* the axis turned when the relay was switched off, and is slower since, inside its limits; speeds are compared with what
-  this run measured, not with what the file says of the motor;
+* the axis turned when the relay was switched off, and is slower since, inside its limits (speeds are compared with
+  what this run measured, not with what the file says);
 * or it stands, inside its limits, after a run in which it was seen to turn.
 
-An axis that stands at a stop, or beyond a limit, or after it ran on, or after a run in which it stood, shows nothing.
-The relay is then in doubt until a run in its direction ends as it should, or a person has looked at it. Readings
+Otherwise the relay is in doubt until a run in its direction ends as it should, or a person has looked at it. Readings
 without a supply (the master is open) do not count. Before the first relay of a run of the program closes, the axis must
 be seen to stand. Knows the motion, the relays and the supply. Decides nothing.
 """
@@ -24,7 +23,7 @@ from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.relay_trust import BOTH_WAYS, RelayTrusts
 from rotator.control.axis.run_on import RunOn
 from rotator.control.axis.seen_run import END_WINDOWS_S, HELD_UNSEEN_S, POWERED_SHARE, EndedRun, SeenRun
-from rotator.control.axis.standing import HeldPlaces, RestPlace
+from rotator.control.axis.standing import Obstacles, RestPlace
 from rotator.control.axis.trend import Slope
 from rotator.status import Trust
 
@@ -35,8 +34,6 @@ EXTRAPOLATED_AFTER_S = 0.2
 """If the last reading is older, the angle is extrapolated."""
 BLIND_S = 1.0
 """In short runs of this length in all an axis may not be seen to turn."""
-BEYOND_DEG = 0.5
-"""An axis may come to rest this far beyond its limit: its stop is at least a degree beyond the limit."""
 MOVED_DEG, MOVED_NOISES = 0.5, 4.0
 """An axis this far, and this many times the noise, from where it stood has been moved."""
 SHORTEST_WINDOW_S, LONGEST_WINDOW_S = 0.3, 4.5
@@ -67,7 +64,7 @@ class OpeningWatch:
         self._rest = RestPlace()
         self._blind_s = 0.0
         """For how long relays were closed since the axis was last seen to turn."""
-        self._held = HeldPlaces()
+        self._obstacles = Obstacles(seen.limits if placed else None)
 
     @property
     def ran_on(self) -> bool:
@@ -107,7 +104,7 @@ class OpeningWatch:
         """A person has looked at both relays: they are open."""
         self._trusts.checked()
         self._run.ended, self._blind_s, self._run_on.ran_on = None, 0.0, False
-        self._held.forget_all()
+        self._obstacles.forget_all()
 
     def note_relays(self, relays: RelayState, was: RelayState) -> None:
         """The relays have changed; `was`: before."""
@@ -147,9 +144,9 @@ class OpeningWatch:
         if run.line is not None:
             self._blind_s = 0.0
             self._rest.turned()
-            self._held.turned_to(self._place_deg)
+            self._obstacles.turned_to(self._place_deg)
         elif at_s - max(relays.begun_s, run.turned_s) > self._longest_blind_s:
-            self._held.note(relays.direction, self._place_deg)
+            self._obstacles.note(relays.direction, self._place_deg)
             self._rest.held(self._place_deg, len(self._latest))
 
     def _end(self, now_s: float, direction: Direction, lasted_s: float) -> None:
@@ -177,7 +174,8 @@ class OpeningWatch:
     def _note_slowing(self, at_s: float, ended: EndedRun, line: Slope) -> None:
         if self._run_on.ran_on or self._trusts.of(ended.direction) is Trust.OPEN:
             return
-        if self._run_on.slows(at_s, self._place_deg, ended, line, free=self._free(line.way, self._place_deg)):
+        free = self._obstacles.free(line.way, self._place_deg)
+        if self._run_on.slows(at_s, self._place_deg, ended, line, free=free):
             self._trusts.seen_open(ended.direction)
 
     def _stands(self, at_s: float) -> bool:
@@ -194,7 +192,7 @@ class OpeningWatch:
         self.looked = True
         if self._rest.since_s is None:
             self._run_on.stands(self._place_deg)
-        self._held.drift(self._rest.stand(at_s))
+        self._obstacles.drift(self._rest.stand(at_s))
         left_deg = self._rest.left_deg(self._seen.trend.noise_deg)
         if left_deg is None:
             return
@@ -202,7 +200,7 @@ class OpeningWatch:
         if self._moved_from(left_deg):
             # It has left what held it, or its readings had stood still.
             self._run.turned_s = -math.inf
-            self._held.left(self._place_deg, self._moved_deg)
+            self._obstacles.left(self._place_deg, self._moved_deg)
 
     def _conclude(self, at_s: float, way: Direction) -> None:
         """What it shows of this relay that the axis stands."""
@@ -216,11 +214,11 @@ class OpeningWatch:
         if trust is Trust.WELDED:
             # The supply may have been switched off by hand: only a run that was seen shows that it opens.
             shown = shown and ended is not None and ended.line is not None
-        if shown and not self._run_on.ran_on and self._free(way, rest.at_deg):
+        if shown and not self._run_on.ran_on and self._obstacles.free(way, rest.at_deg):
             self._trusts.seen_open(way)
         elif trust is Trust.UNSEEN and at_s - rest.since_s >= self._doubts_after_s:
             self._trusts.doubt(way)
-            self._held.note(way, rest.at_deg)
+            self._obstacles.note(way, rest.at_deg)
 
     def _followed(self, ended: EndedRun) -> bool:
         """Whether the axis turned when its latest run ended; after a short run, whether it may have turned."""
@@ -257,11 +255,4 @@ class OpeningWatch:
             # It has been turned away from what may have held it.
             self._trusts.look_again(against)
             self._blind_s, self._run.ended = 0.0, None
-            self._held.forget(against)
-
-    def _free(self, way: Direction, place_deg: float) -> bool:
-        """Whether a powered motor could turn on in this direction from here."""
-        limits = self._seen.limits
-        limit_deg = limits.max_deg if way > 0 else limits.min_deg
-        placed = not self._placed or (place_deg - limit_deg) * way <= BEYOND_DEG
-        return placed and not self._held.hold(way, place_deg)
+            self._obstacles.forget(against)

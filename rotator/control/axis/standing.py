@@ -1,6 +1,6 @@
-"""Where an axis stands, how surely, and where something held it while it was driven: a stop, perhaps.
+"""Where an axis stands, how surely, and what may hold it there.
 
-Knows places and the directions in which it was driven there. Does not know what held it, nor any relay.
+Knows places, the limits, and the directions in which the axis was driven. Does not know what held it, nor any relay.
 """
 
 from __future__ import annotations
@@ -10,12 +10,15 @@ from collections import deque
 from dataclasses import dataclass, replace
 
 from hw.ports import Direction
+from rotator.control.sky.mount import Range
 
 SURE_ERRORS = 4.0
 """Two means differ for certain if they are this many standard errors apart."""
 KEPT_READINGS = 20
 LANDED_READINGS = 3
 """When the axis is first taken to stand, only this many of the latest readings are sure to be later than its coast."""
+BEYOND_DEG = 0.5
+"""An axis may come to rest this far beyond its limit: its stop is at least a degree beyond the limit."""
 HOLDS_DEG = 1.0
 """An axis that is this far past the place where it was held is free of what held it."""
 
@@ -103,14 +106,19 @@ class RestPlace:
         return Rest(sum(self._readings) / len(self._readings), len(self._readings))
 
 
-class HeldPlaces:
-    """Where something held the axis last, for each direction in which it was driven."""
+class Obstacles:
+    """What may hold the axis: its stops, beyond the limits, and what held it last in each direction.
 
-    def __init__(self) -> None:
+    `limits`: None: not known.
+    """
+
+    def __init__(self, limits: Range | None) -> None:
+        self._limits = limits
         self._held_deg: dict[Direction, float] = {}
+        """Where something held it, by the direction in which it was driven."""
 
     def note(self, way: Direction, place_deg: float) -> None:
-        """It stands there while it is driven that way."""
+        """The axis stands there while it is driven that way."""
         self._held_deg[way] = place_deg
 
     def forget(self, way: Direction) -> None:
@@ -133,7 +141,11 @@ class HeldPlaces:
         kept = self._held_deg.items()
         self._held_deg = {way: held_deg for way, held_deg in kept if abs(place_deg - held_deg) <= by_deg}
 
-    def hold(self, way: Direction, place_deg: float) -> bool:
-        """Whether what held it on the way in this direction may hold it here."""
+    def free(self, way: Direction, place_deg: float) -> bool:
+        """Whether a powered motor could turn on in this direction from here."""
         held_deg = self._held_deg.get(way)
-        return held_deg is not None and (held_deg - place_deg) * way < HOLDS_DEG
+        held = held_deg is not None and (held_deg - place_deg) * way < HOLDS_DEG
+        if self._limits is None:
+            return not held
+        limit_deg = self._limits.max_deg if way > 0 else self._limits.min_deg
+        return not held and (place_deg - limit_deg) * way <= BEYOND_DEG

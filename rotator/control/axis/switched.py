@@ -7,7 +7,6 @@ who gave the order.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
 
 from hw.ports import AngleSource, Direction
@@ -15,7 +14,6 @@ from rotator.control.axis.axis_base import AxisBase
 from rotator.control.axis.calibration_table import Calibration
 from rotator.control.axis.goals import HomeGoal, JogGoal
 from rotator.control.axis.homing import Homing
-from rotator.control.axis.motion import Motor
 from rotator.control.axis.reach import Reach, lost
 from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_gate import SETTLED_AFTER_S, RelayGate
@@ -47,9 +45,9 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         # scale and the motor's speed are not known yet, and the person is to hear of every spark.
         unjudged = settings.source is AngleSource.COUNTED or (settings.attended and settings.calibration is None)
         super().__init__(settings, math.inf if unjudged else settings.motor.speed_dps)
-        self._timing = Timing(lease_s=lease_s, period_s=period_s)
-        motors = settings.learnt or (settings.motor, settings.motor)
-        self._law = self._new_law(dict(zip(BOTH_WAYS, motors, strict=True)))
+        motors = dict(zip(BOTH_WAYS, settings.learnt or (settings.motor, settings.motor), strict=True))
+        rests_deg = settings.homing.rest_deg if settings.homing else ANYWHERE
+        self._law = SwitchedLaw(motors, Timing(lease_s=lease_s, period_s=period_s), rests_deg)
         self._gate = RelayGate(settings, self._law.motion.motors, lease_s=lease_s, placed=self._placed)
         self._permit = RunPermit(settings, self._gate, lease_s=lease_s)
         self._faults = SwitchedFaults(settings, self._gate)
@@ -208,7 +206,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         if homing.failure:
             self._goal = None
             self.fail(Fault(FaultKind.NOT_HOMED, self._settings.axis, homing.failure))
-        return Run(direction, now_s + self._timing.lease_s) if direction else self._law.rest(now_s)
+        return self._law.drive(now_s, direction)
 
     def calibrate_end(self, *, high_end: bool) -> None:
         raw = self._sensing.raw if self._sensing.believable else None
@@ -223,9 +221,8 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         """The readings mean other places than before. Only a motor that counts keeps what it has learnt."""
         self._sensing.begin_anew(calibration)
         self._faults.forget()
-        keeps = self._settings.homing is not None
-        motors = self._law.motion.motors if keeps else dict.fromkeys(self._law.motion.motors, self._settings.motor)
-        self._law = self._new_law(motors)
+        motors = self._law.motion.motors if self.homeable else dict.fromkeys(BOTH_WAYS, self._settings.motor)
+        self._law = self._law.renewed(motors)
         self._gate.rescale(self._law.motion.motors, placed=self._placed)
 
     def shortened(self, now_s: float, command: Steer) -> None:
@@ -259,7 +256,3 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
     def _placed(self) -> bool:
         """Whether its readings are angles, and its limits known."""
         return self._sensing.calibration is not None and Missing.LIMITS not in self.missing
-
-    def _new_law(self, motors: Mapping[Direction, Motor]) -> SwitchedLaw:
-        homing = self._settings.homing
-        return SwitchedLaw(motors, self._timing, homing.rest_deg if homing else ANYWHERE)

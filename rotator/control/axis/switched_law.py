@@ -59,6 +59,10 @@ class SwitchedLaw:
         """When the lease will have opened the relay."""
         self._planned: tuple[Path, float] | None = None
 
+    def renewed(self, motors: Mapping[Direction, Motor]) -> SwitchedLaw:
+        """The same law for readings that mean other places than before."""
+        return SwitchedLaw(motors, self._timing, self._reach)
+
     def see(self, at_s: float, angle_deg: float) -> None:
         """A new good reading of the axis."""
         self._note_stop(at_s)
@@ -99,6 +103,10 @@ class SwitchedLaw:
         if self._running is Direction.OFF and again:
             return self.rest(now_s)
         return self._go(now_s, target_deg)
+
+    def drive(self, now_s: float, direction: Direction) -> Run:
+        """In this direction, wherever the axis is; OFF: rest."""
+        return Run(direction, now_s + self._timing.lease_s) if direction else self.rest(now_s)
 
     def aim(self, now_s: float, goal: AimGoal, limits: Range) -> Run:
         """Towards this goal, inside the limits."""
