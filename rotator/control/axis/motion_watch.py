@@ -19,7 +19,7 @@ from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.weld_watch import WeldWatch
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, Notice
-from rotator.status import ALL_OPEN, Trusts
+from rotator.status import Trusts
 
 
 class MotionWatch:
@@ -36,9 +36,9 @@ class MotionWatch:
         motors: Mapping[Direction, Motor],
         *,
         master: bool,
-        trusts: Trusts = ALL_OPEN,
-        placed: bool = True,
-        look: bool = False,
+        trusts: Trusts,
+        placed: bool,
+        look: bool,
     ) -> None:
         self._axis = axis
         self._limits = limits

@@ -6,7 +6,7 @@ Knows what has been reported of them. Does not know how that was found out: `ope
 from __future__ import annotations
 
 from hw.ports import Direction
-from rotator.status import ALL_OPEN, Trust, Trusts
+from rotator.status import Trust, Trusts
 
 BOTH_WAYS = (Direction.PLUS, Direction.MINUS)
 
@@ -14,7 +14,7 @@ BOTH_WAYS = (Direction.PLUS, Direction.MINUS)
 class RelayTrusts:
     """`trusts`: what an earlier run of the program has left."""
 
-    def __init__(self, trusts: Trusts = ALL_OPEN) -> None:
+    def __init__(self, trusts: Trusts) -> None:
         self._of = dict(zip(BOTH_WAYS, trusts, strict=True))
 
     @property

@@ -19,7 +19,7 @@ from rotator.control.axis.relay_trust import RelayTrusts
 from rotator.control.axis.silent_runs import SilentRuns
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, FaultKind, Notice
-from rotator.status import ALL_OPEN, Trusts
+from rotator.status import Trusts
 
 TRAVEL_SHARE, TRAVEL_MORE_S = 1.3, 5.0
 """A motor may run this much longer in one go than the travel from end to end takes."""
@@ -53,9 +53,9 @@ class RunWatch:
         period_s: float,
         coast_s: float,
         *,
-        master: bool = False,
-        trusts: Trusts = ALL_OPEN,
-        look: bool = False,
+        master: bool,
+        trusts: Trusts,
+        look: bool,
     ) -> None:
         self._axis = axis
         self._limits = limits

@@ -32,9 +32,12 @@ LEAST_RUN_S = 0.15
 
 @dataclass(frozen=True, slots=True)
 class _Ended:
+    """A run that is over."""
+
     direction: Direction
     lasted_s: float
     off_s: float
+    """When its relay opened."""
 
 
 class ShortRuns:
@@ -86,10 +89,8 @@ class ShortRuns:
     def note_relays(self, relays: RelayState, speed_dps: float) -> None:
         """The relays have changed. `speed_dps`: of the motor that runs now."""
         if self._run is not None:
-            self._ended, self._run = (
-                _Ended(self._run.direction, relays.since_s - self._run.since_s, relays.since_s),
-                None,
-            )
+            self._ended = _Ended(self._run.direction, relays.since_s - self._run.since_s, relays.since_s)
+            self._run = None
         if relays.closed:
             self._count()
             if self._moved:

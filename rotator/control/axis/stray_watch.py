@@ -42,10 +42,10 @@ class StrayWatch:
         self,
         axis: Axis,
         speed_dps: float,
-        accel_dps2: float | None = None,
+        accel_dps2: float | None,
         *,
-        near_deg: float = 0.0,
-        stray_deg: float = STRAY_DEG,
+        near_deg: float,
+        stray_deg: float,
     ) -> None:
         self._axis = axis
         self._stray_deg = stray_deg

@@ -9,7 +9,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Condition
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
-from rotator.status import Trust
+from rotator.status import ALL_OPEN, Trust
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
@@ -24,9 +24,8 @@ class Shaft:
 
     def __init__(self, *, look: bool = False) -> None:
         motor = Motor(6.0, 0.6)
-        self.watch = RunWatch(
-            Axis.AZIMUTH, Range(0.0, 360.0), {PLUS: motor, MINUS: motor}, PERIOD_S, COAST_S, look=look
-        )
+        motors, limits = {PLUS: motor, MINUS: motor}, Range(0.0, 360.0)
+        self.watch = RunWatch(Axis.AZIMUTH, limits, motors, PERIOD_S, COAST_S, master=False, trusts=ALL_OPEN, look=look)
         self.switch = Switch(self.watch.note_relays)
         self.now_s = 100.0
         self._changes = 0

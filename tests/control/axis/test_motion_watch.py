@@ -12,6 +12,7 @@ from rotator.control.axis.motion_watch import MotionWatch
 from rotator.control.axis.relay_faults import CUT_BY_HAND
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
+from rotator.status import ALL_OPEN
 from tests.control.axis.switch import Switch
 from tests.search import examples
 
@@ -29,7 +30,10 @@ class Bench:
         self, speed_dps: float = 6.0, noise_deg: float = 0.1, *, master: bool = False, at_deg: float = 200.0
     ) -> None:
         motor = Motor(speed_dps, speed_dps * 0.15)
-        self.watch = MotionWatch(Axis.AZIMUTH, Range(0.0, 450.0), {PLUS: motor, MINUS: motor}, master=master)
+        motors = {PLUS: motor, MINUS: motor}
+        self.watch = MotionWatch(
+            Axis.AZIMUTH, Range(0.0, 450.0), motors, master=master, trusts=ALL_OPEN, placed=True, look=False
+        )
         self._switch = Switch(self.watch.note_relays)
         self.speed_dps = speed_dps
         self.now_s = 1000.0

@@ -11,6 +11,7 @@ from rotator.control.axis.relay_faults import WAYS
 from rotator.control.axis.run_watch import RunWatch
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault
+from rotator.status import ALL_OPEN
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
@@ -26,7 +27,8 @@ def motors() -> dict[Direction, Motor]:
 
 @pytest.fixture
 def watch(motors: dict[Direction, Motor]) -> RunWatch:
-    return RunWatch(Axis.AZIMUTH, Range(0.0, 360.0), motors, PERIOD_S, COAST_S)
+    limits = Range(0.0, 360.0)
+    return RunWatch(Axis.AZIMUTH, limits, motors, PERIOD_S, COAST_S, master=False, trusts=ALL_OPEN, look=False)
 
 
 def first_fault(watch: RunWatch, from_s: float, seconds: float) -> tuple[float, Fault] | None:

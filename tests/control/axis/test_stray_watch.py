@@ -25,7 +25,7 @@ class Sent:
         at_deg: float = 90.0,
         stray_deg: float = STRAY_DEG,
     ) -> None:
-        self.watch = StrayWatch(Axis.ELEVATION, speed_dps, accel_dps2, stray_deg=stray_deg)
+        self.watch = StrayWatch(Axis.ELEVATION, speed_dps, accel_dps2, near_deg=0.0, stray_deg=stray_deg)
         self.now_s, self.at_deg = 100.0, at_deg
         self._noise_deg, self._chance = noise_deg, random.Random(3)
 
@@ -173,7 +173,7 @@ def test_a_fast_target_that_leaves_a_stuck_axis_is_told_soon_after_it_is_five_de
 
 
 def test_without_a_reading_nothing_is_told() -> None:
-    watch = StrayWatch(Axis.AZIMUTH, 30.0)
+    watch = StrayWatch(Axis.AZIMUTH, 30.0, None, near_deg=0.0, stray_deg=STRAY_DEG)
     for step in range(200):
         assert watch.see(step * STEP_S, Steer(100.0, 0.0, 1e9), None, settling=False) is None
 
