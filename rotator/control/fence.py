@@ -89,7 +89,7 @@ class Fence:
 
     def _last_places(self, now_s: float, axis: Axis, command: Steer, swept: Box) -> list[float]:
         """The angle before the nearest sector at which a moving axis may come to rest. Empty: it has reached it."""
-        angle_deg, room_deg = self._axes[axis].angle_deg, self._axes[axis].room_deg
+        angle_deg, room_deg = self._axes[axis].angle_deg, self._axes[axis].stopping_room_deg
         there = swept.but(axis, self._axes[axis].sweep(now_s, command))
         edges = [each.box.of(axis) for each in self._sectors if each.box.meets(there)]
         if angle_deg is None or not edges:

@@ -172,11 +172,11 @@ class GoingRound:
                 self._noticed[axis] = Notice(f"the antenna is in {detour.sector}: it may only leave it", "IN FORBIDDEN")
 
     def _room(self) -> Place:
-        return self._axes[Axis.AZIMUTH].room_deg, self._axes[Axis.ELEVATION].room_deg
+        return self._axes[Axis.AZIMUTH].stopping_room_deg, self._axes[Axis.ELEVATION].stopping_room_deg
 
     def _detours(self) -> Detours:
         azimuth, elevation = self._axes[Axis.AZIMUTH], self._axes[Axis.ELEVATION]
-        about_deg = azimuth.about_deg, elevation.about_deg
+        about_deg = azimuth.position_error_deg, elevation.position_error_deg
         return Detours(self._mount, self._room_deg, about_deg, Speeds(azimuth.speed_dps, elevation.speed_dps))
 
     def _keep_room(self) -> None:

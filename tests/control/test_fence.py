@@ -97,7 +97,7 @@ def room_deg(desk: Any, axis: Axis, described: float) -> float:
     """How far a motor as fast as its runs have shown may go before a command can end that."""
     written = Motor(desk.SPEED_DPS[axis] * described, desk.SPEED_DPS[axis] * described * desk.LAG_S)
     learnt = desk.status.axis(axis).learnt
-    return max(bounds(written, Motor(motor.speed_dps, motor.coast_deg)).room_deg for motor in learnt)
+    return max(bounds(written, Motor(motor.speed_dps, motor.coast_deg)).stopping_room_deg for motor in learnt)
 
 
 def test_an_order_for_azimuth_alone_goes_over_it_and_comes_down_again(beside: Any) -> None:

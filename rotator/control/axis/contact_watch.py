@@ -19,7 +19,7 @@ from rotator.control.sky.mount import Range
 from rotator.status import Trust
 
 SLOWEST_SHARE = 0.3
-"""A motor with current turns at this share of its speed at least."""
+"""A powered motor turns at this share of its speed at least."""
 SURE = 1.4
 """A contact is silent after this many times the longest pause between two changes of a run."""
 CHANGE_READ_S = 0.1
@@ -80,7 +80,7 @@ class ContactWatch:
         """Whether that relay has to wait, because nothing has shown yet that its opposite is open."""
         if self._relays.direction is direction:
             return False
-        # A late change may be the first of a motor with current: the contact must be silent first.
+        # A late change may be the first of a powered motor: the contact must be silent first.
         return not self.looked or self._late_changes > 0 or self._trusts.of(Direction(-direction)) is not Trust.OPEN
 
     @property
@@ -148,7 +148,7 @@ class ContactWatch:
 
     @property
     def _pause_s(self) -> float:
-        """For how long the contact of a motor with current may be silent."""
+        """For how long the contact of a powered motor may be silent."""
         if len(self._moments_s) == self._moments_s.maxlen:
             return SURE * (self._moments_s[-1] - self._moments_s[0])
         return self._period_s / SLOWEST_SHARE

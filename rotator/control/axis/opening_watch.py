@@ -154,7 +154,7 @@ class OpeningWatch:
             self._blind_s += now_s - max(now_s - lasted_s, self._run.turned_s)
         place_deg = self._place_deg if self._latest else 0.0
         if self._run.line is not None and now_s - self._seen_s > EXTRAPOLATED_AFTER_S:
-            # Without readings it has gone on with current until now.
+            # Without readings: its motor was powered until now.
             place_deg += self._run.line.speed_dps * (now_s - self._seen_s)
         self._run.end(now_s, direction, lasted_s, place_deg)
 

@@ -122,11 +122,11 @@ class ControlledAxis(Protocol):
         """
 
     @property
-    def room_deg(self) -> float:
+    def stopping_room_deg(self) -> float:
         """Distance it may travel after a start before a command can stop it."""
 
     @property
-    def about_deg(self) -> float:
+    def position_error_deg(self) -> float:
         """Possible error of the known angle."""
 
     def hold_back(self, now_s: float, why: str) -> None:

@@ -190,11 +190,11 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         )
 
     @property
-    def room_deg(self) -> float:
+    def stopping_room_deg(self) -> float:
         return 2.0 * self._settings.near_deg
 
     @property
-    def about_deg(self) -> float:
+    def position_error_deg(self) -> float:
         return 1.1 * self._settings.near_deg
 
     def hold_back(self, now_s: float, why: str) -> None:

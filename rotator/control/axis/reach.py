@@ -50,7 +50,7 @@ class Bounds:
         return self.speed_dps * (self.lag_s + RELAY_OPENS_S)
 
     @property
-    def room_deg(self) -> float:
+    def stopping_room_deg(self) -> float:
         return self.speed_dps * START_S + self.coast_deg
 
 
@@ -66,9 +66,9 @@ class Reach:
         self._step_deg = homing.period_s * settings.motor.speed_dps if homing else 0.0
         """How far the axis may be from its reading: a count knows only the latest pulse."""
 
-    def room_deg(self, motion: Motion) -> float:
+    def stopping_room_deg(self, motion: Motion) -> float:
         """How far it may go on before a command can end that, at its first start too."""
-        return max(bound.room_deg for bound in self._bounds(motion).values()) + self._step_deg
+        return max(bound.stopping_room_deg for bound in self._bounds(motion).values()) + self._step_deg
 
     def swept(self, now_s: float, sensing: Sensing, motion: Motion, relays: RelayState, run: Run | None) -> Range:
         """Where the axis may pass until it rests, if this run is the last one; None: if it is to stop now."""

@@ -18,7 +18,7 @@ COASTS_NOISES, COASTS_S = 5.0, 1.5
 """Two mean angles differ if they are 5 noises apart: each is the mean of three readings. No coast lasts longer."""
 LATE_OPEN_S, COASTS_SHARE = 0.25, 1.5
 """A burnt contact opens late by this time at most, the mean of the readings included. A coast is at most 1.5 times the
-known coast. Only a motor with current turns its axis further."""
+known coast. Only a powered motor turns its axis further."""
 SUDDEN_SHARE, AROUND_S = 0.87, 0.08
 """An axis that has this share of its way behind it when a powered motor would have arrived did not slow down."""
 
@@ -69,7 +69,7 @@ class RunOn:
         gone_deg = abs(place_deg - ended.angle_deg)
         if (place_deg - ended.angle_deg) * ended.line.speed_dps < 0.0 or not self._went_far(ended, gone_deg):
             return
-        # A motor with current would have got here by then; one that coasts is still on its way.
+        # A powered motor would have got here by then; one that coasts is still on its way.
         then_deg = self._seen.trend.place_deg(ended.off_s + gone_deg / self._full_dps(ended), AROUND_S)
         if then_deg is None or abs(then_deg - ended.angle_deg) >= SUDDEN_SHARE * gone_deg:
             self.held_up = True

@@ -156,11 +156,11 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
         return self._reach.swept(now_s, self._sensing, self._law.motion, self._relays, run)
 
     @property
-    def room_deg(self) -> float:
-        return self._reach.room_deg(self._law.motion)
+    def stopping_room_deg(self) -> float:
+        return self._reach.stopping_room_deg(self._law.motion)
 
     @property
-    def about_deg(self) -> float:
+    def position_error_deg(self) -> float:
         return ABOUT_DEG
 
     def hold_back(self, now_s: float, why: str) -> None:

@@ -61,7 +61,7 @@ def test_it_may_be_anywhere_where_its_angle_is_not_known(motor: Motor) -> None:
 
 
 def test_its_room_is_what_it_may_be_off() -> None:
-    assert (Motor().axis.room_deg, Motor().axis.about_deg) == (1.0, 0.55)
+    assert (Motor().axis.stopping_room_deg, Motor().axis.position_error_deg) == (1.0, 0.55)
 
 
 # --- what is held back or shortened

@@ -59,8 +59,8 @@ class Reached:
         return self._reach.swept(self.now_s + later_s, self._sensing, self.motion, self.relay_state, run)
 
     @property
-    def room_deg(self) -> float:
-        return self._reach.room_deg(self.motion)
+    def stopping_room_deg(self) -> float:
+        return self._reach.stopping_room_deg(self.motion)
 
     def would_rest_deg(self, way: Direction, for_s: float) -> float:
         """Where the real motor rests after it was on for so long more."""
@@ -76,7 +76,7 @@ def test_a_motor_is_bounded_by_what_the_file_says_and_by_what_it_has_shown() -> 
     assert bounds(Motor(6.0, 1.5), Motor(10.0, 5.0)) == Bounds(12.0, 0.5)
     assert bounds(Motor(6.0, 3.0), Motor(2.0, 0.1)) == Bounds(9.0, 0.5)
     assert Bounds(9.0, 0.2).coast_deg == pytest.approx(9.0 * 0.23)
-    assert Bounds(9.0, 0.2).room_deg == pytest.approx(9.0 * 0.38)
+    assert Bounds(9.0, 0.2).stopping_room_deg == pytest.approx(9.0 * 0.38)
 
 
 @pytest.mark.parametrize("share", [0.3, 1.0, FASTER_THAN_FILE])
@@ -156,14 +156,14 @@ def test_without_a_reading_for_0_3_s_it_may_be_anywhere() -> None:
 def test_a_count_may_be_off_by_a_pulse() -> None:
     swept = Reached(counted=True).swept()
     assert (swept.min_deg, swept.max_deg) == (pytest.approx(195.0), pytest.approx(205.0))
-    assert Reached(counted=True).room_deg - Reached().room_deg == pytest.approx(5.0)
+    assert Reached(counted=True).stopping_room_deg - Reached().stopping_room_deg == pytest.approx(5.0)
 
 
 def test_its_room_is_that_of_its_faster_direction() -> None:
     reached = Reached()
-    assert reached.room_deg == pytest.approx(9.0 * (START_S + 0.2 + RELAY_OPENS_S))
+    assert reached.stopping_room_deg == pytest.approx(9.0 * (START_S + 0.2 + RELAY_OPENS_S))
     reached.motion.motors[MINUS] = Motor(10.0, 2.0)
-    assert reached.room_deg == pytest.approx(12.0 * (START_S + 0.2 + RELAY_OPENS_S))
+    assert reached.stopping_room_deg == pytest.approx(12.0 * (START_S + 0.2 + RELAY_OPENS_S))
 
 
 @pytest.mark.parametrize(
