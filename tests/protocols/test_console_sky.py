@@ -76,6 +76,6 @@ def test_while_a_stop_is_latched_nothing_is_tracked(feed: Feed) -> None:
 
     sky = Sky()
     session = ConsoleSession(Stopped(), tracking=sky)
-    assert feed(session, b"track iss\n") == [b"error: stopped by panel: nothing moves until resume\n"]
+    assert feed(session, b"track iss\n") == [b"error: stopped by the panel: nothing moves until resume\n"]
     assert feed(session, b"track off\n") == [b"ok\n"]
     assert sky.heard == ["off"]
