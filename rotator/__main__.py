@@ -63,19 +63,19 @@ def _run() -> None:
 
 def _stopped(arguments: list[str]) -> bool:
     from rotator.cli.failed import CommandFailed  # noqa: PLC0415 - a command loads what it needs and no more
-    from rotator.cli.stop import STOPPED, stop_at_once  # noqa: PLC0415
+    from rotator.cli.stop import stop_at_once  # noqa: PLC0415
 
     try:
-        if not stop_at_once(arguments):
+        if not (said := stop_at_once(arguments)):
             return False
     except CommandFailed as fault:
         sys.stderr.write(f"rotator: {fault}\n")
         sys.exit(fault.exit_code)
     try:
-        print(STOPPED, flush=True)  # noqa: T201
+        print(said, flush=True)  # noqa: T201
     except OSError:  # the disk is full, or the reader has gone: the antenna has stopped all the same
         _write_no_more()
-        sys.stderr.write(f"rotator: {STOPPED}\n")
+        sys.stderr.write(f"rotator: {said}\n")
     return True
 
 

@@ -20,7 +20,7 @@ from rotator.cli.lines import say
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 CONFIG = click.option(
-    "--config", "path", type=click.Path(path_type=Path), metavar="FILE", help="The box's file (TOML)."
+    "--config", "path", type=click.Path(path_type=Path, readable=False), metavar="FILE", help="The box's file (TOML)."
 )
 FAULT = click.option(
     "--fault",
@@ -34,9 +34,13 @@ PLAIN = click.option("--plain", is_flag=True, help="Plain lines even in a termin
 ANY_WORDS = {"ignore_unknown_options": True}
 """What the command does not know itself goes to the box as it is: `-12` is a word, not an option."""
 
+HERE = "rotator.toml"
+"""The file that `rotator config --ask` writes into a folder."""
 MINUS = "\u2212"
 """The minus sign of typography. A number that begins with it is not taken for an option; copied texts have it too."""
 _NUMBER = re.compile(r"[-+]?[0-9]{1,9}(?:[.,][0-9]{0,9})?")
+_UNITS = {"degrees": ("°", "degrees", "deg"), "seconds": ("seconds", "sec", "s")}
+"""How a person writes the unit behind a number."""
 _NEGATIVE = re.compile(r"-[0-9.,].*")
 
 
@@ -50,7 +54,11 @@ class Number(click.ParamType[float]):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
         if isinstance(value, float):
             return value
-        text = value.replace(MINUS, "-")
+        text = value.replace(MINUS, "-").strip()
+        for unit in _UNITS.get(self._what, ()):
+            if text.endswith(unit) and (bare := text.removesuffix(unit).rstrip()):
+                text = bare
+                break
         if not _NUMBER.fullmatch(text):
             self.fail(f"{text[:40]!r} is no number of {self._what}; write it like 38.5 or 38,5", param, ctx)
         number = float(text.replace(",", "."))
@@ -77,14 +85,25 @@ def say_mistake(mistake: click.ClickException) -> None:
     if isinstance(mistake, NoArgsIsHelpError):
         mistake.show()
         return
-    text = mistake.format_message()
-    say(f"rotator: {text[:1].lower()}{text[1:]}", err=True)
+    text = _in_our_words(mistake)
+    # A name in capitals stays.
+    say(f"rotator: {text if text[:2].isupper() else text[:1].lower() + text[1:]}", err=True)
     if isinstance(mistake, click.UsageError) and mistake.ctx:
         click.echo(f"{mistake.ctx.get_usage()}\n`{mistake.ctx.command_path} --help` says more.", err=True)
 
 
 PAGE_ROWS = 40
 """A longer text is shown a screen at a time."""
+
+
+def _in_our_words(mistake: click.ClickException) -> str:
+    """click's text, without its quotes round a choice and the list below it."""
+    if isinstance(mistake, click.MissingParameter) and mistake.param is not None:
+        name = mistake.param.make_metavar(mistake.ctx) if mistake.ctx else str(mistake.param.name)
+        if isinstance(mistake.param.type, click.Choice):
+            return f"one word is missing: {' or '.join(map(str, mistake.param.type.choices))}"
+        return f"{name} is missing"
+    return " ".join(mistake.format_message().split())
 
 
 class Commands(click.Group):

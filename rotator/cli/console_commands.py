@@ -106,10 +106,9 @@ def stop(path: Path | None, words: tuple[str, ...]) -> None:
     Without --config it stops every box that you run, in whichever folder, and the service; with sudo every user's.
     """
     from rotator.cli import reach
-    from rotator.cli.stop import STOPPED, stop_boxes
+    from rotator.cli.stop import stop_boxes
 
-    stop_boxes(reach.consoles(path), all_of_them=path is None)
-    click.echo(STOPPED)
+    click.echo(stop_boxes(reach.consoles(path), all_of_them=path is None))
 
 
 @click.command(epilog=examples("rotator resume"))

@@ -16,6 +16,7 @@ from rich.console import Console, RenderableType
 
 from rotator import __version__
 from rotator.cli.box import BoxStatus, RunningBox
+from rotator.cli.commands import HERE
 from rotator.cli.failed import CommandFailed, NoBox
 from rotator.config.load import ConfigError
 from rotator.config.places import INSTALLED
@@ -31,6 +32,9 @@ def examine_box(path: Path | None, *, as_json: bool) -> int:
     machine = this_machine()
     if path is None and machine.at(str(INSTALLED)).exists():
         path = machine.at(str(INSTALLED))
+    here = Path(HERE)
+    if path is None and here.exists():
+        click.echo(f"{HERE} is here: `rotator doctor --config {HERE}` checks that one.\n", err=True)
     examination = examine(replace(machine, ask_box=partial(_ask_box, path)), path)
     if as_json:
         found = as_object(examination.findings, program=__version__, ok=examination.exit_code == 0)

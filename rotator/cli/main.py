@@ -16,7 +16,7 @@ import click
 
 from rotator import __version__
 from rotator.cli import console_commands as console
-from rotator.cli.commands import CONFIG, FAULT, PLAIN, YES, Commands, Number, examples, say_mistake
+from rotator.cli.commands import CONFIG, FAULT, HERE, PLAIN, YES, Commands, Number, examples, say_mistake
 from rotator.cli.failed import MISTAKEN, NOT_DONE, CommandFailed
 from rotator.cli.lines import say
 from rotator.cli.sky_commands import sky
@@ -47,6 +47,8 @@ def run(path: Path | None, faults: tuple[str, ...], plain: bool) -> None:
     # Before the program is loaded: that takes seconds on a small Pi.
     if "list" not in faults:
         click.echo(f"rotator {__version__} starts with {path or 'a simulated G-5500'}")
+        if path is None and Path(HERE).exists():
+            click.echo(f"{HERE} is here: `rotator run --config {HERE}` uses it")
     from rotator.cli.run import run_box
 
     run_box(path, faults, plain=plain or not _draws())

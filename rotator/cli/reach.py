@@ -95,11 +95,16 @@ def _of_the_service() -> tuple[Path, Path]:
     return places.MONITOR_OF_THE_SERVICE, console_path(places.MONITOR_OF_THE_SERVICE)
 
 
-def _which(running: Sequence[Path], here: Path) -> str:
-    names = {here: "the box of this folder"}
+def named(running: Sequence[Path], here: Path | None = None) -> list[str]:
+    """The boxes with these sockets, as a person finds them. `here`: the socket of the box of this folder."""
+    names = {} if here is None else {here: "the box of this folder"}
     names |= {socket_path: each.named for each in boxes() for socket_path in (each.monitor, console_path(each.monitor))}
     names |= dict.fromkeys(_of_the_service(), f"the service (--config {INSTALLED})")
-    told = "; ".join(names.get(place, str(place)) for place in running)
+    return [names.get(place, str(place)) for place in running]
+
+
+def _which(running: Sequence[Path], here: Path) -> str:
+    told = "; ".join(named(running, here))
     return f"{len(running)} boxes run: {told}. Say which: name its file with --config, or go into its folder"
 
 

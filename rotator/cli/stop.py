@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rotator.cli.failed import CommandFailed
-from rotator.cli.reach import connected, no_box, quick_monitors, with_announced
+from rotator.cli.reach import connected, named, no_box, quick_monitors, with_announced
 from rotator.config.places import console_path
 
 STOP = b"stop\n"
@@ -23,8 +23,8 @@ ANSWER_S = 5.0
 STOPPED = "Stopped. Nothing moves until `rotator resume`."
 
 
-def stop_at_once(arguments: Sequence[str]) -> bool:
-    """`arguments`: those after `stop`. Returns whether the antenna has stopped; False: nothing has happened yet.
+def stop_at_once(arguments: Sequence[str]) -> str:
+    """`arguments`: those after `stop`. Returns what to say once it has stopped; empty: nothing has happened yet.
 
     Raises CommandFailed: there is no box, or it has not obeyed.
     """
@@ -34,29 +34,36 @@ def stop_at_once(arguments: Sequence[str]) -> bool:
         case words:
             path = None
     if any(word.startswith("-") for word in words):
-        return False
+        return ""
     usual = quick_monitors(path)
     if not usual:
-        return False
-    stop_boxes([console_path(place) for place in with_announced(usual, path)], all_of_them=path is None)
-    return True
+        return ""
+    return stop_boxes([console_path(place) for place in with_announced(usual, path)], all_of_them=path is None)
 
 
-def stop_boxes(places: Sequence[Path], *, all_of_them: bool) -> None:
-    """Stop the box at the first of `places` where one answers, or the boxes at all of them. Raises CommandFailed."""
-    stopped = 0
+def stop_boxes(places: Sequence[Path], *, all_of_them: bool) -> str:
+    """Stop the box at the first of `places` where one answers, or the boxes at all of them. Returns what to say: of
+    several boxes, which. Raises CommandFailed."""
+    stopped: list[Path] = []
     failed: list[str] = []
     for place in places:
         try:
-            stopped += _stop(place)
+            if _stop(place):
+                stopped.append(place)
         except CommandFailed as fault:
             failed.append(str(fault))
         if stopped and not all_of_them:
-            return
+            return STOPPED
     if failed:
-        raise CommandFailed(f"NOT STOPPED: {'; '.join(failed)}")
+        also = f"; stopped: {_named(stopped)}" if stopped else ""
+        raise CommandFailed(f"NOT STOPPED: {'; '.join(failed)}{also}")
     if not stopped:
         raise no_box(places)
+    return STOPPED if len(stopped) == 1 else f"{STOPPED}\n{len(stopped)} boxes: {_named(stopped)}."
+
+
+def _named(stopped: Sequence[Path]) -> str:
+    return "; ".join(named(stopped))
 
 
 def _stop(place: Path) -> bool:

@@ -43,7 +43,7 @@ def load(path: Path | None) -> Config:
 
 def shipped(name: str = SIMULATED) -> str:
     """The text of a shipped configuration. Capitals do not matter. Raises ConfigError with the list of names."""
-    name = name.lower()
+    name = _as_shipped(name.lower())
     if name == SIMULATED:
         return SIMULATED_FILE.read_text(encoding="utf-8")
     if name not in profiles():
@@ -52,6 +52,16 @@ def shipped(name: str = SIMULATED) -> str:
         meant = f" Did you mean {near[0]}?" if near else ""
         raise ConfigError(name, [Mistake(f"there is no such configuration.{meant} There are: {', '.join(known)}")])
     return files("rotator.config").joinpath("profiles", f"{name}.toml").read_text(encoding="utf-8")
+
+
+def _as_shipped(name: str) -> str:
+    """`g-5500` is what stands on the rotor: a name that differs by no letter and no digit is the shipped one."""
+    plain = {_letters(each): each for each in (SIMULATED, *profiles())}
+    return plain.get(_letters(name), name)
+
+
+def _letters(name: str) -> str:
+    return "".join(character for character in name if character.isalnum())
 
 
 def profiles() -> list[str]:

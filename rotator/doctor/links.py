@@ -95,6 +95,19 @@ def tcp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
         yield _port(machine, name, socket.SOCK_STREAM, link)
 
 
+def page_port(machine: Machine, config: Config) -> Iterator[Finding]:
+    if not config.page.enabled:
+        yield skipped("[page] has switched the page off")
+        return
+    found = _place(machine, config.page.listen, socket.SOCK_STREAM)
+    if isinstance(found, Finding):
+        yield found
+        return
+    state, is_local = found
+    network = "" if is_local else ", and open to the network; who may turn the antenna there is paired"
+    yield fine(f"{config.page.listen}: {state}{network}")
+
+
 def udp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
     links = [(link.udp, link) for link in config.link if link.udp is not None]
     if not links:
@@ -104,6 +117,25 @@ def udp_ports(machine: Machine, config: Config) -> Iterator[Finding]:
 
 
 def _port(machine: Machine, name: str, kind: socket.SocketKind, link: Link) -> Finding:
+    found = _place(machine, name, kind)
+    if isinstance(found, Finding):
+        return found
+    state, is_local = found
+    if is_local:
+        return fine(f"{name}: {state}")
+    if link.read_only:
+        return fine(f"{name}: {state}, and open to the network; it is read_only: nothing there turns the antenna")
+    if link.allow is not None:
+        return fine(f"{name}: {state}, and open to the network for {', '.join(link.allow) or 'no machine'} (allow)")
+    port = address(name)[1]
+    return warn(
+        f"{name}: {state}, and open to the network: every machine on it can turn the antenna",
+        f'allow = ["192.168.1.20"] lets only these machines in; 127.0.0.1:{port} only programs on this one.',
+    )
+
+
+def _place(machine: Machine, name: str, kind: socket.SocketKind) -> Finding | tuple[str, bool]:
+    """Who has that address, and whether only this machine reaches it; a finding where the box cannot have it."""
     host, port = address(name)
     try:
         places = socket.getaddrinfo(host, port, type=kind, flags=socket.AI_PASSIVE)
@@ -128,16 +160,7 @@ def _port(machine: Machine, name: str, kind: socket.SocketKind, link: Link) -> F
             return wrong(f"{name}: only root may listen below 1024", "Take a port above 1023.")
         case [number, *_]:
             return wrong(f"{name}: cannot listen there: {os.strerror(number)}", ANY_ADDRESS)
-    if all(_is_loopback(place) for place in places):
-        return fine(f"{name}: {state}")
-    if link.read_only:
-        return fine(f"{name}: {state}, and open to the network; it is read_only: nothing there turns the antenna")
-    if link.allow is not None:
-        return fine(f"{name}: {state}, and open to the network for {', '.join(link.allow) or 'no machine'} (allow)")
-    return warn(
-        f"{name}: {state}, and open to the network: every machine on it can turn the antenna",
-        f'allow = ["192.168.1.20"] lets only these machines in; 127.0.0.1:{port} only programs on this one.',
-    )
+    return state, all(_is_loopback(place) for place in places)
 
 
 def _refusal(place: Place) -> int | None:

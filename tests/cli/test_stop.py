@@ -18,6 +18,7 @@ from typing import Any
 import pytest
 
 from rotator.cli import stop
+from rotator.cli.announced import announced
 from rotator.cli.box import RunningBox
 from rotator.cli.failed import CommandFailed
 from rotator.cli.reach import monitors
@@ -106,6 +107,22 @@ def test_two_boxes_are_both_stopped(tmp_path: Path) -> None:
     with console(places[0], b"ok\n") as own, console(places[1], b"ok\n") as service:
         stop.stop_boxes(places, all_of_them=True)
     assert own == service == [b"stop\n"]
+
+
+def test_two_boxes_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As `rotator stop` answers where the service runs, and a box that was begun in another folder."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    monkeypatch.setattr("rotator.config.places.MONITOR_OF_THE_SERVICE", tmp_path / "service" / "monitor")
+    (tmp_path / "shack").mkdir()
+    (tmp_path / "service").mkdir()
+    monkeypatch.chdir(tmp_path / "shack")
+    places = [tmp_path / "shack" / "console", tmp_path / "service" / "console"]
+    with console(places[0], b"ok\n"), console(places[1], b"ok\n"), announced(tmp_path / "shack" / "monitor", None):
+        said = stop.stop_boxes(places, all_of_them=True)
+    assert said.splitlines() == [
+        "Stopped. Nothing moves until `rotator resume`.",
+        f"2 boxes: the box in {tmp_path / 'shack'}; the service (--config /etc/rotator/rotator.toml).",
+    ]
 
 
 def test_a_file_names_one_box(tmp_path: Path) -> None:
