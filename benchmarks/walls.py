@@ -16,7 +16,8 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from functools import partial
 
-from benchmarks.sectors import PERSON, PROFILES, TRACK, World
+from benchmarks.sector_worlds import World
+from benchmarks.sectors import PERSON, PROFILES, TRACK
 from hw.ports import Axis, Direction
 from rotator.config.model import Config
 from rotator.control.sky.mount import Mount

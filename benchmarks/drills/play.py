@@ -91,6 +91,7 @@ class _Play:
         self._unheard: list[Event] = []
         """What links and people have sent to it meanwhile."""
         self._acted_s = -1.0
+        self._acknowledged_s = 0.0
         self._back_s = 0.0
         """When the program began: what was sent to it before is lost."""
 
@@ -160,6 +161,9 @@ class _Play:
         self._sectors.look(now_s, self._world.axes)
         ordered = self._orders.sure and any(map(self._orders.holds, self._orders.axes))
         there = self._judges.there(self._world.axes)
+        if self._orders.acknowledged_s != self._acknowledged_s:
+            self._acknowledged_s = self._orders.acknowledged_s
+            self._silence.acknowledged()
         elsewhere = self._judges.elsewhere(self._world.axes) if self._orders.sure else frozenset()
         status = self._box.loop.status
         self._silence.look(now_s, self._world.axes, status, ordered=ordered, there=there, elsewhere=elsewhere)

@@ -84,6 +84,10 @@ class Silence:
     def end(self, name: str) -> None:
         self._lasting = [each for each in self._lasting if each.name != plain(name)]
 
+    def acknowledged(self) -> None:
+        """Somebody has stopped the box or let it go, or the program begins anew."""
+        self._lasting = [each for each in self._lasting if not each.rule.heals]
+
     def pause(self, now_s: float) -> None:
         """The program had no turn until now: nothing could be said."""
         self._looked_s = now_s

@@ -47,6 +47,8 @@ class Rule:
     """The same number of a fault that is begun without one."""
     shared: bool = False
     """The part serves both axes: it may be told at either."""
+    heals: bool = False
+    """A stop, a release or a new start of the program ends it."""
     felt: bool = False
     """Only where something comes back from the axis."""
     measured: bool = False
@@ -104,7 +106,7 @@ SEEN: Mapping[str, Rule] = {
     "power-cycled": AT_ONCE,
     "replies-lost": Rule(Shows.DRIVEN, every=12, usual=10),
     "replies-gaps": Rule(Shows.AS_READ, within_s=10.0, every=60, usual=60),
-    **dict.fromkeys(FAULT_CODES, AT_ONCE),
+    **dict.fromkeys(FAULT_CODES, Rule(Shows.AT_ONCE, heals=True)),
     # troubles of the drills themselves
     "hung": Rule(Shows.AT_ONCE, shared=True),
     "every": BAD,

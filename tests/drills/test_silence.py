@@ -116,3 +116,11 @@ def test_a_contact_that_stands_still_shows_after_three_of_its_periods(counts: bo
     room.silence.begin("azimuth-contact-stuck-closed", 0.0)
     assert room.listen(most_s) == []
     assert room.listen(0.3) == [SILENCE]
+
+
+def test_what_a_stop_heals_need_not_be_told_after_it() -> None:
+    room = Room()
+    room.silence.begin("azimuth-encoder", 0.0)
+    room.listen(1.0)
+    room.silence.acknowledged()
+    assert room.listen(10.0) == []
