@@ -86,6 +86,7 @@ build_version() { # The print goes in last and says that the folder is whole.
     {
         make_environment "$version_at" && put_in "${from[@]}" "$source_at" "${more[@]}" &&
             case $extras in *moteus*) put_in "${from[@]}" --no-deps "$MOTEUS" ;; esac &&
+            launcher "$version_at" >"$version_at/bin/rotator" &&
             cp -r "$HERE/install" "$version_at/install"
     } >"$log" 2>&1 || die "$(what_went_wrong "$log"); nothing has been changed"
     try_out "$version_at" || die "version $version does not work here, it says why above; nothing has been changed"
@@ -95,6 +96,21 @@ build_version() { # The print goes in last and says that the folder is whole.
 
 put_in() { # into $version_at, by pip
     "$version_at/bin/pip" install --quiet --no-cache-dir --retries 1 --timeout 20 "$@"
+}
+
+launcher() { # FOLDER: in place of pip's, prints one in which Ctrl-C waits until Python has started, and ends it without a traceback
+    cat <<END
+#!/usr/bin/env -S --block-signal=INT $1/bin/python
+import signal
+
+if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
+
+from rotator.__main__ import main
+
+main()
+END
 }
 
 make_environment() { # FOLDER. In two steps: in one, venv would keep to itself why pip cannot be put in.

@@ -24,11 +24,18 @@ LIBC = range(17, 37)
 """The C libraries, 2.17 to 2.36, that a wheel may ask for: Debian 12 has 2.36."""
 PACKAGES = Path("lib/python3/site-packages")
 START = """\
-#!{home}/bin/python
+#!/usr/bin/env -S --block-signal=INT {home}/bin/python
+import signal
+
+if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT,))
+
 from rotator.__main__ import main
 
 main()
 """
+"""Ctrl-C while Python itself starts waits until it may end the program without a traceback."""
 
 
 def make(folder: Path, *, home: str, wheel: Path, arch: str, source: Source, scratch: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import signal
 import sys
 
 from rotator.cli.failed import INTERRUPTED, NOT_DONE
@@ -16,6 +17,9 @@ def main() -> None:
     _open_closed_streams()
     _stand_somewhere()
     try:
+        if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:
+            # As a launcher sets it while Python starts. From here on Ctrl-C is an exception: it stops the antenna.
+            signal.signal(signal.SIGINT, signal.default_int_handler)
         _run()
     except KeyboardInterrupt:  # while the program still loads or starts: later each command handles it itself
         sys.exit(INTERRUPTED)

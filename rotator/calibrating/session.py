@@ -32,6 +32,10 @@ from rotator.status import Latch
 
 POLL_S = 0.02
 NORTH, SKY = "north", "sky"
+SIMULATED = (
+    "SIMULATED rotor: nothing real turns. It begins at its low stops: where a question wants the middle of the travel, "
+    "first hold the key for clockwise, or up, for some seconds."
+)
 
 
 class Screen(Protocol):
@@ -82,7 +86,7 @@ class CalibrationSession:
     async def run(self, tasks: Sequence[str], stop: asyncio.Event) -> bool:
         """`tasks`: names of axes, NORTH or SKY. Returns whether every one of them has a result that is saved."""
         if self._config.rotor.hardware == "sim":
-            self._screen.show("SIMULATED rotor: nothing real turns.")
+            self._screen.show(SIMULATED)
         for task in tasks:
             station = self._open_station(self._config)
             try:

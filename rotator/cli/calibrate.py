@@ -18,6 +18,7 @@ from contextlib import asynccontextmanager, suppress
 from functools import partial
 from pathlib import Path
 
+import click
 from rich.console import Console, Group, RenderableType
 from rich.text import Text
 
@@ -36,6 +37,7 @@ from rotator.cli.announced import announced
 from rotator.cli.failed import CommandFailed
 from rotator.cli.faults import parse_faults
 from rotator.cli.reach import connected, consoles
+from rotator.cli.run import make_sure_of
 from rotator.cli.screen import draw, log_to, stop_on_signals
 from rotator.config.load import load
 from rotator.config.model import Config
@@ -52,8 +54,7 @@ from rotator.views.residual_svg import residual_svg
 def calibrate_axes(path: Path | None, faults: tuple[str, ...], what: str | None, *, plain: bool) -> int:
     """`what`: an axis, `north`, or None for both axes. The exit code: 0 when everything has been set up."""
     config = load(path)
-    if config.rotor.hardware != "sim":
-        _refuse_beside_running_box(path)
+    _refuse_beside_running_box(config, path)
     _refuse_stopped(config)
     tasks = [axis.value for axis in Axis] if what is None else [what]
     return asyncio.run(_run(config, path, faults, tasks, plain=plain))
@@ -74,10 +75,9 @@ def calibrate_sky(
     `receiver`: the address of its rigctld, or `sim`; None: a person finds the target. `svg`: the picture of the points.
     """
     config = load(path)
-    if config.rotor.hardware != "sim":
-        if at_s is not None:
-            raise CommandFailed("--at is for a simulated rotor: a real antenna points where the target is now")
-        _refuse_beside_running_box(path)
+    if config.rotor.hardware != "sim" and at_s is not None:
+        raise CommandFailed("--at is for a simulated rotor: a real antenna points where the target is now")
+    _refuse_beside_running_box(config, path)
     _refuse_stopped(config)
     later_s = 0.0 if at_s is None else at_s - time.time()
 
@@ -232,8 +232,12 @@ def _inject(faults: tuple[str, ...], station: Station) -> None:
         asyncio.get_running_loop().call_later(at_s, station.world.inject, name)
 
 
-def _refuse_beside_running_box(path: Path | None) -> None:
-    """Raises CommandFailed if the box is running: two programs could open the same serial port or I2C chip."""
+def _refuse_beside_running_box(config: Config, path: Path | None) -> None:
+    """Raises CommandFailed if the box is running: two programs could open the same serial port or I2C chip. Of a
+    simulated rotor only the box with the same sockets and files is in the way."""
+    if config.rotor.hardware == "sim":
+        make_sure_of(monitor_path(config.state.path, config.monitor.path, os.environ), path)
+        return
     for place in consoles(path):
         if box := connected(place):
             box.close()
@@ -244,13 +248,22 @@ def _refuse_beside_running_box(path: Path | None) -> None:
 
 
 def _refuse_stopped(config: Config) -> None:
-    """Raises CommandFailed if the box was stopped when it ran last: somebody may be at the mast still."""
-    if (stopped := build_latch_file(config).load()) is not None:
-        held = spoken(held_by(stopped.by, storm=stopped.storm))
+    """After a stop somebody may be at the mast still: a person at the terminal says that nobody is, and by that ends
+    the stop. Raises CommandFailed where nobody says so."""
+    kept = build_latch_file(config)
+    if (stopped := kept.load()) is None:
+        return
+    held = spoken(held_by(stopped.by, storm=stopped.storm))
+    if not sys.stdin.isatty():
         raise CommandFailed(
-            f"{held}: nothing turns in a calibration either. Start the box, say "
-            "resume there when nobody is at the mast, and end it again"
+            f"{held}: nothing turns in a calibration either. Call it in a terminal: there it asks whether somebody is "
+            "at the mast, and ends the stop"
         )
+    click.echo(_wrapped(f"{held}, and nothing turns in a calibration either.", Console()))
+    if not click.confirm("Is nobody at the mast, and shall the stop end?"):
+        raise CommandFailed("the stop stays: nothing was done")
+    if not kept.save(None):
+        raise CommandFailed("the stop stays: its file cannot be written")
 
 
 def _read_lines(typed: TypedAhead, events: asyncio.AbstractEventLoop) -> None:

@@ -70,7 +70,7 @@ def run_box(path: Path | None, faults: tuple[str, ...], *, plain: bool) -> None:
 
 def _app(path: Path | None, anew: Anew) -> App:
     config = load(path)
-    _make_sure_of(_monitor(config), path)
+    make_sure_of(_monitor(config), path)
     return App(config, path, anew=anew)
 
 
@@ -78,7 +78,7 @@ def _monitor(config: Config) -> Path:
     return monitor_path(config.state.path, config.monitor.path, os.environ)
 
 
-def _make_sure_of(monitor: Path, path: Path | None) -> None:
+def make_sure_of(monitor: Path, path: Path | None) -> None:
     """That no box runs with these sockets, or with this file: it drives the same rotor. Raises CommandFailed."""
     file = path.resolve() if path else None
     same = [box for box in boxes() if box.monitor == monitor.absolute() or (file is not None and box.config == file)]

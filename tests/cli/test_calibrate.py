@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -176,6 +177,16 @@ def test_not_beside_a_box_that_runs(start: Start, tmp_path: Path) -> None:
     assert "Traceback" not in text
 
 
+def test_not_beside_a_simulated_box_with_the_same_file(start: Start, tmp_path: Path) -> None:
+    path = kept_station(tmp_path)
+    with socket.socket(socket.AF_UNIX) as box:
+        box.bind(str(console_path(tmp_path / "monitor")))
+        box.listen()
+        text, code = finish(start("--config", str(path)))
+    assert code == 1
+    assert "a box runs already" in " ".join(text.split())
+
+
 def kept_station(folder: Path) -> Path:
     path = folder / "station.toml"
     path.write_text(f'[state]\npath = "{folder / "state.json"}"\n[monitor]\npath = "{folder / "monitor"}"\n' + STATION)
@@ -192,8 +203,8 @@ def test_nothing_turns_after_a_stop_of_the_box_that_nobody_has_released(
         text, code = finish(start("--config", str(path), *tasks))
         assert code == 1
         words = " ".join(text.split())
-        assert f"{'storm park' if storm else 'stopped'} by panel before the restart: " in words
-        assert "say resume there" in words
+        assert f"{'storm park' if storm else 'stopped'} by the panel before the restart: " in words
+        assert "Call it in a terminal: there it asks whether somebody is at the mast" in words
 
 
 def test_a_stop_during_a_calibration_holds_for_the_next_program(start: Start, tmp_path: Path) -> None:
@@ -207,4 +218,22 @@ def test_a_stop_during_a_calibration_holds_for_the_next_program(start: Start, tm
     assert stopped.by.startswith("console")
     text, code = finish(start("--config", str(path), "azimuth"))
     assert code == 1
-    assert "say resume there" in " ".join(text.split())
+    assert "Call it in a terminal" in " ".join(text.split())
+
+
+@pytest.mark.parametrize(("answer", "left"), [("y", False), ("n", True)])
+def test_at_a_terminal_a_person_says_that_nobody_is_at_the_mast(
+    start_in_terminal: Callable[..., Any], tmp_path: Path, answer: str, left: bool
+) -> None:
+    path = kept_station(tmp_path)
+    kept = LatchFile(tmp_path / FILE_NAME)
+    kept.save(Latch("keyboard"))
+    calibration = start_in_terminal("calibrate", "--config", path)
+    asked = calibration.until("Is nobody at the mast, and shall the stop end")
+    assert "stopped by the keyboard before the restart: nothing moves until resume" in " ".join(asked.split())
+    calibration.press(f"{answer}\r")
+    calibration.until("Setting up the azimuth" if not left else "the stop stays: nothing was done")
+    assert (kept.load() is not None) is left
+    if not left:
+        calibration.press("q")
+    calibration.ends()

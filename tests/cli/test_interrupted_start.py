@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import os
+import random
 import signal
+import subprocess
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from release.environment import START
 from rotator.cli import main as commands
 
 Start = Callable[..., Any]
@@ -37,3 +42,28 @@ def test_while_the_box_is_built(start: Start, config: Path) -> None:
     os.close(writer)
     assert code == 130
     assert box.errors.strip() == ""
+
+
+@pytest.mark.parametrize("command", ["run", "where", "doctor"])
+def test_at_random_moments_of_the_start(command: str, tmp_path: Path) -> None:
+    """With the launcher of the Debian package, from the first moment on: Python itself is not up then."""
+    launcher = tmp_path / "rotator"
+    launcher.write_text(START.format(home=sys.prefix))
+    launcher.chmod(0o755)
+    chance = random.Random(command)
+    for _ in range(8):
+        after_s = 0.03 * (2.0 / 0.03) ** chance.random()
+        begun = subprocess.Popen(
+            [launcher, command], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+        with suppress(subprocess.TimeoutExpired):
+            begun.wait(after_s)
+        begun.send_signal(signal.SIGINT)
+        said, _ = begun.communicate(timeout=60)
+        assert "Traceback" not in said, f"after {after_s:.3f} s: {said[-800:]}"
+
+
+def test_the_installer_writes_the_same_launcher() -> None:
+    script = (Path(__file__).parents[2] / "install/version.sh").read_text()
+    launcher = script[script.index("launcher() {") :].partition("cat <<END\n")[2].partition("END\n")[0]
+    assert launcher == START.format(home="$1")
