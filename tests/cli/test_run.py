@@ -74,13 +74,13 @@ def test_every_fault_of_the_file_at_once_and_nothing_touched(rotator: Rotator, c
     assert re.fullmatch(r"rotator \S+ starts with \S+\n", done.stdout)
     first, *faults = done.stderr.splitlines()
     assert first == f"{config}: 5 mistakes"
-    keys = [fault.strip().split(" ")[2] for fault in faults]
+    keys = [fault.partition(": ")[2].partition(" = ")[0] for fault in faults]
     assert keys == [
         "rotor.hardwear",
         "rotor.hardware",
         "azimuth.tolerance_deg",
         "relays.azimuth_cw",
-        "link[0].protocol",
+        "the first [[link]]: protocol",
     ]
     assert "did you mean hardware?" in done.stderr
     assert not (tmp_path / "gs232").is_symlink()
