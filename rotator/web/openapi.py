@@ -38,7 +38,7 @@ _KINDS: dict[str, Schema] = {
     "text or null": or_null(TEXT),
     "number": NUMBER,
     "number or null": or_null(NUMBER),
-    "true or false": YES,
+    "boolean": YES,
     "list of text": list_of(TEXT),
 }
 SINCE = {
