@@ -24,6 +24,7 @@ import click
 from rotator.assembly.settings import build_mount
 from rotator.cli.failed import FAULTY, CommandFailed
 from rotator.cli.faults import FaultInjector, parse_faults
+from rotator.cli.utc import day_and_time
 from rotator.config.axes import AxisTable
 from rotator.config.load import load
 from rotator.config.model import Config
@@ -36,8 +37,8 @@ from rotator.views.pass_svg import Flown, draw
 from rotator.views.trace import Sample
 
 NO_SKY = (
-    "--at is for a box that knows satellites: write [station] with latitude_deg and longitude_deg, or locator, and "
-    "[sky] elements or fetch into the file of --config"
+    "--at is for a box that knows satellites: write [station] and below it locator, and "
+    "[sky] elements or fetch, into the file of --config"
 )
 
 
@@ -72,6 +73,7 @@ def rehearse_pass(
     try:
         if target is not None:
             flown, tracked = next_pass(config, target, time.time() if at_s is None else at_s)
+            click.echo(_begins(flown, tracked.begin_utc_s), err=True)
         else:
             flown = find_pass(word or shipped_names()[0])
     except PassError as fault:
@@ -105,6 +107,13 @@ def rehearse_pass(
     click.echo(json.dumps(summary.as_dict()) if as_json else _sentence(flown, summary, arduino=arduino))
     if summary.faults:
         raise CommandFailed("\n         ".join(("at the end of the pass:", *summary.faults)), FAULTY)
+
+
+def _begins(flown: Pass, begin_utc_s: float) -> str:
+    return (
+        f"{flown.name} rises {day_and_time(begin_utc_s)} UTC, for {flown.end_s / 60:.0f} min, up to "
+        f"{flown.highest_deg:.0f}°. The flight in simulated time takes a minute, or some on a Pi."
+    )
 
 
 def _listed() -> str:

@@ -22,8 +22,8 @@ from rotator.cli.utc import day_and_time, iso, local_time
 from rotator.config.load import load
 from rotator.config.model import Config
 from rotator.config.places import INSTALLED
-from rotator.config.station import NO_PLACE
-from rotator.orbits.catalogue import Catalogue, Unknown
+from rotator.config.station import no_place
+from rotator.orbits.catalogue import NO_SATELLITES, Catalogue, Unknown
 from rotator.orbits.earth import Site
 from rotator.orbits.passes import Pass
 from rotator.orbits.passes import passes as passes_of
@@ -37,8 +37,8 @@ NO_PASS = "no pass in this time"
 
 
 def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bool) -> None:
-    config = load(path or (INSTALLED if INSTALLED.exists() else None))
-    site, catalogue = _sky(config)
+    config = load(_file(path))
+    site, catalogue = _sky(config, _file(path))
     at_s = time.time() if at_s is None else at_s
     try:
         target = find(words, site, catalogue)
@@ -71,8 +71,8 @@ def show_where(path: Path | None, words: str, at_s: float | None, *, as_json: bo
 def show_passes(
     path: Path | None, names: tuple[str, ...], from_s: float | None, hours: float, least_deg: float, *, as_json: bool
 ) -> None:
-    config = load(path or (INSTALLED if INSTALLED.exists() else None))
-    site, catalogue = _sky(config)
+    config = load(_file(path))
+    site, catalogue = _sky(config, _file(path))
     from_s = time.time() if from_s is None else from_s
     try:
         targets = [find(name, site, catalogue) for name in names] or _all(site, catalogue)
@@ -103,8 +103,8 @@ def show_passes(
 
 
 def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json: bool) -> None:
-    config = load(path or (INSTALLED if INSTALLED.exists() else None))
-    site, catalogue = _sky(config)
+    config = load(_file(path))
+    site, catalogue = _sky(config, _file(path))
     if not config.sky.follow:
         raise CommandFailed(sky_plan.NOTHING)
     followed = sky_plan.followed_by(config, site, catalogue)
@@ -127,11 +127,16 @@ def show_plan(path: Path | None, from_s: float | None, hours: float, *, as_json:
         click.echo(line)
 
 
-def _sky(config: Config) -> tuple[Site, Catalogue]:
+def _file(path: Path | None) -> Path | None:
+    """The configuration that a command reads."""
+    return path or (INSTALLED if INSTALLED.exists() else None)
+
+
+def _sky(config: Config, file: Path | None) -> tuple[Site, Catalogue]:
     """Raises CommandFailed without a place. Says which files could not be read."""
     site = build_site(config.station)
     if site is None:
-        raise CommandFailed(NO_PLACE)
+        raise CommandFailed(no_place(file))
     catalogue = build_catalogue(config)
     for fault in catalogue.faults:
         click.echo(f"[sky] elements: {fault}", err=True)
@@ -141,7 +146,7 @@ def _sky(config: Config) -> tuple[Site, Catalogue]:
 def _all(site: Site, catalogue: Catalogue) -> list[Target]:
     """Every satellite whose elements sgp4 takes."""
     if not catalogue.satellites:
-        raise Unknown("name a target: there are no elements of satellites ([sky] elements names files of them)")
+        raise Unknown(NO_SATELLITES)
     targets: list[Target] = []
     for elements in catalogue.satellites:
         try:

@@ -6,15 +6,20 @@ Knows the two ways to name a place, how exact it must be, the antenna's beam, an
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 from pydantic import Field, field_validator, model_validator
 
 from rotator.config.table import Table
 
-NO_PLACE = (
-    "the configuration names no place: write [station] with latitude_deg and longitude_deg, or locator, into its file "
-    "(`rotator config > station.toml` makes one), and name that with --config"
-)
+
+def no_place(file: Path | None) -> str:
+    """What to write into this file; None: the box runs without one, or its name is not known here."""
+    where = f"into {file}" if file else "into its file (`rotator config > station.toml` makes one; then --config)"
+    return f'the box does not know where it stands: write [station] and below it locator = "JO62qm" {where}'
+
+
+NO_PLACE = no_place(None)
 _LOCATOR = re.compile(r"[A-R]{2}[0-9]{2}[A-X]{2}(?:[0-9]{2}(?:[A-X]{2}(?:[0-9]{2})?)?)?", re.IGNORECASE)
 
 

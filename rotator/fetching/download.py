@@ -47,7 +47,7 @@ LEAST_SHARE = 0.5
 AHEAD_S = 10 * DAY_S
 """Published elements are for a moment no further ahead than this."""
 MOST_WRONG = 1000
-"""So many more wrong sets than right ones, and the rest is not looked at."""
+"""With this many more wrong sets than right ones the rest is not looked at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,11 +90,9 @@ def ask(question: Question) -> Answer:
             return Answer(answer.code, "the server leads elsewhere too often, or to a place that is no http")
         return Answer(answer.code, f"the server answers {answer.code} {answer.reason}".rstrip())
     except URLError as fault:
-        return Answer(0, f"no answer: {_words(fault.reason)}")
-    except TimeoutError:
-        return Answer(0, "no answer in time")
+        return Answer(0, no_answer(fault.reason))
     except (OSError, HTTPException, ValueError) as fault:
-        return Answer(0, f"no answer: {_words(fault)}")
+        return Answer(0, no_answer(fault))
 
 
 def _opened(question: Question) -> HTTPResponse:
@@ -143,8 +141,8 @@ def _request(question: Question, address: str) -> Request:
 
 def _taken(question: Question, response: HTTPResponse) -> Answer:
     content = _read(response)
-    if content is None:
-        return Answer(0, f"more than {MOST_BYTES // 1_000_000} MB, or longer than {WHOLE_S:g} s under way")
+    if isinstance(content, str):
+        return Answer(0, content)
     try:
         sets = checked(content, question.utc_s)
     except ValueError as fault:
@@ -162,14 +160,16 @@ def _taken(question: Question, response: HTTPResponse) -> Answer:
     return Answer(response.status, sets=sets, etag=etag, modified=modified)
 
 
-def _read(response: HTTPResponse) -> bytes | None:
-    """None: it is too large, or too slow. A connection that breaks raises IncompleteRead."""
+def _read(response: HTTPResponse) -> bytes | str:
+    """A sentence if it is too large, or too slow. A connection that breaks raises IncompleteRead."""
     pieces, size, late_s = [], 0, time.monotonic() + WHOLE_S
     while piece := response.read(PIECE_BYTES):
         pieces.append(piece)
         size += len(piece)
-        if size > MOST_BYTES or time.monotonic() > late_s:
-            return None
+        if size > MOST_BYTES:
+            return f"the answer has more than {MOST_BYTES // 1_000_000} MB: name an address with fewer satellites"
+        if time.monotonic() > late_s:
+            return f"the answer took longer than {WHOLE_S:g} s"
     # A read of pieces does not tell that the connection broke in the middle.
     if response.length:
         raise HTTPException(f"{response.length} bytes are missing")
@@ -198,8 +198,9 @@ def checked(content: bytes, utc_s: float) -> int:
     return len(good)
 
 
-def _words(fault: object) -> str:
-    if isinstance(fault, TimeoutError):
-        return "none in time"
+def no_answer(fault: object) -> str:
+    """For a person, in one line."""
     said = getattr(fault, "strerror", None) or str(fault) or type(fault).__name__
-    return " ".join(str(said).split())
+    if isinstance(fault, TimeoutError):
+        said = f"it took longer than {ANSWER_S:g} s"
+    return f"no answer: {' '.join(str(said).split())}"

@@ -20,7 +20,7 @@ log = logging.getLogger(__name__)
 UNANSWERED = "the box ended before the answer came"
 DAMAGED = "the record of earlier fetches was damaged"
 FORGOTTEN_S = 7 * REFUSED_S
-"""The record of an address that is no longer in the configuration is kept for so long."""
+"""The record of an address that is no longer in the configuration is kept for this time."""
 
 
 class Fetcher:
@@ -71,9 +71,22 @@ class Fetcher:
                 for address, each in (damaged if kept is None else kept).items()
                 if address in self._addresses or abs(now.utc_s - each.asked_utc_s) < FORGOTTEN_S
             }
-            # Else a box that runs for an hour at a time would find the same fault for ever.
+            # Without this a box that runs for an hour at a time would find the same fault for ever.
             if self._fetches != kept:
                 self._store.save(self._fetches)
+        for address in self._addresses:
+            self._tell_waiting(address, now)
+
+    def _tell_waiting(self, address: str, now: Moment) -> None:
+        """An earlier run has asked in vain, and servers block who asks again too soon."""
+        asked, wait_s = self._fetches.get(address), self._left_s(address, now)
+        if asked is not None and asked.trouble and wait_s > 0:
+            log.warning(
+                "%s: %s; asked again in %.1f h. A file of elements that you send by the page is read at once",
+                address,
+                asked.trouble,
+                wait_s / 3600,
+            )
 
     def _left_s(self, address: str, now: Moment) -> float:
         assert self._begun is not None

@@ -23,6 +23,7 @@ SUFFIXES = (".tle", ".txt", ".json", ".csv")
 """What is read from a folder; a file named in full may have any name."""
 MOST_BYTES = 64_000_000
 """The whole public catalogue as JSON has 20 MB."""
+NO_SATELLITES = 'No satellites are known: write elements = ["FILE"] below [sky], or name the Sun, the Moon or a planet'
 STILL_READ = "the files of elements are still being read: try again in a moment"
 _PARENTHESES = re.compile(r"\(([^)]*)\)")
 _AHEAD_S = 10 * DAY_S
@@ -133,9 +134,7 @@ class Catalogue:
         near = difflib.get_close_matches(plain(name), shown, n=3, cutoff=0.6)
         meant = _perhaps(list(dict.fromkeys(shown[each] for each in near)))
         if not self._sets:
-            raise Unknown(
-                f'"{name}" is not known{meant or ";"} there are no satellites: [sky] elements names files of them'
-            )
+            raise Unknown(f'there is no target "{name}"{meant or "."} {NO_SATELLITES}')
         raise Unknown(f'"{name}" is not among the {len(self._sets)} satellites known{meant}')
 
     def _read(self, path: Path) -> _Kept:

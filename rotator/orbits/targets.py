@@ -17,6 +17,7 @@ from rotator.orbits.satellite import Satellite
 from rotator.orbits.sight import Sight, Target
 
 _LOCATOR = re.compile(r"[A-R]{2}[0-9]{2}(?:[A-X]{2}(?:[0-9]{2})?)?", re.IGNORECASE)
+_AZIMUTH = re.compile(r"[0-9]{1,3}([.,][0-9]*)?")
 _LONG_PATH = ("long", "lp")
 _SHORT_PATH = ("short", "sp")
 
@@ -56,6 +57,8 @@ def find(words: str, site: Site, catalogue: Catalogue) -> Target:
     except Unknown:
         station = _station(words, site)
         if station is None:
+            if _AZIMUTH.fullmatch(words):
+                raise Unknown(f'"{words}" is an azimuth without an elevation: write both, such as {words} 30') from None
             raise
         return station
 

@@ -21,6 +21,8 @@ from rotator.orbits.twins import one_of_each
 from rotator.orders import Aim
 from rotator.tracking.next_flight import Wanted
 
+_ANYWHERE = Site(0.0, 0.0)
+
 
 class KnownSky:
     """`site` None: the file names no place; directions alone are known then."""
@@ -71,9 +73,10 @@ class KnownSky:
     def find(self, words: str) -> Wanted | Aim:
         """A target that moves, or a fixed direction. Raises Unknown, NotThere."""
         site = self.site
-        target = fixed(words) if site is None else find(words, site, self._catalogue)
+        # A name that means nothing anywhere is told first, then that the place is not known.
+        target = find(words, site or _ANYWHERE, self._catalogue)
         match target:
-            case Fixed(_, where):
+            case Fixed(_, where) if site is not None or fixed(words) is not None:
                 return Aim(where.azimuth_deg, max(0.0, where.elevation_deg))
             case _ if site is None:
                 raise Unknown(NO_PLACE)

@@ -21,7 +21,7 @@ def errors(words: list[str], capsys: pytest.CaptureFixture[str]) -> tuple[int, s
         ("sky pases", 2, ("rotator: no such command 'pases'. Did you mean 'passes'?", "`rotator sky --help`")),
         ("doctor --jsn", 2, ("rotator: no such option '--jsn'", "`rotator doctor --help`")),
         ("point a b", 2, ("rotator: invalid value for 'AZIMUTH': 'a' is no number", "`rotator point --help`")),
-        ("sky where sun", 1, ("rotator: the configuration names no place: write [station]", "rotator:")),
+        ("sky where sun", 1, ("rotator: the box does not know where it stands: write [station]", "rotator:")),
         ("run --config .", 2, (".: 1 mistake", "  is a folder: name the file in it")),
     ],
 )

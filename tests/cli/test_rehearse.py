@@ -190,11 +190,11 @@ def test_a_target_is_tracked_in_its_next_pass_by_the_box_itself(rotator_here: Ro
 @pytest.mark.parametrize(
     ("file", "name", "said"),
     [
-        ('[station]\nlocator = "JO62qm"\n', "iss", '"iss" is not known; there are no satellites'),
+        ('[station]\nlocator = "JO62qm"\n', "iss", 'there is no target "iss". No satellites are known'),
         (
             "[rotor]\n",
             "moon",
-            "the configuration names no place: write [station] with latitude_deg and longitude_deg, or locator",
+            "the box does not know where it stands: write [station] and below it locator = ",
         ),
         ("[station]\nlatitude_deg = -85\nlongitude_deg = 0\n", "cas a", "Cas A does not rise within 7 days"),
     ],

@@ -100,12 +100,12 @@ def test_without_a_place_the_keys_are_named(tmp_path: Path) -> None:
     result = told(tmp_path, "where", "sun", place="")
     assert result.exit_code == 1
     assert "[station]" in said_by(result)
-    assert "latitude_deg and longitude_deg, or locator" in said_by(result)
+    assert f'write [station] and below it locator = "JO62qm" into {tmp_path}' in said_by(result)
 
 
 def test_without_elements_a_near_name_is_told_all_the_same(tmp_path: Path) -> None:
     said = said_by(told(tmp_path, "where", "jupitr", elements=tmp_path / "gone.tle"))
-    assert '"jupitr" is not known; perhaps Jupiter? there are no satellites: [sky] elements names' in said
+    assert 'there is no target "jupitr"; perhaps Jupiter? No satellites are known: write elements = ' in said
 
 
 def test_a_file_that_cannot_be_read_is_named_and_the_sun_still_found(tmp_path: Path) -> None:

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from rotator.fetching.download import ask
-from rotator.fetching.fetcher import Fetcher
+from rotator.fetching.download import ask, no_answer
+from rotator.fetching.fetcher import UNANSWERED, Fetcher
 from rotator.fetching.manners import Moment
 from rotator.store.fetches import FetchesFile, file_of
 from tests.fetching.http_server import Said, serving
@@ -295,3 +295,36 @@ def test_a_server_elsewhere_may_be_named_by_a_redirect(tmp_path: Path, server: S
         station = Station(tmp_path, old.address())
         station.wait(0)
     assert station.elements == server.content
+
+
+def test_a_slow_answer_is_told_with_its_time() -> None:
+    assert no_answer(TimeoutError("timed out")) == "no answer: it took longer than 15 s"
+
+
+@pytest.mark.parametrize("hours", [0.0, 0.5])
+def test_a_box_that_may_not_ask_yet_says_why_and_what_helps(
+    station: Station, server: Said, caplog: pytest.LogCaptureFixture, hours: float
+) -> None:
+    server.status = 500
+    station.wait(0)
+    caplog.clear()
+    station.start()
+    station.wait(hours * HOUR_S)
+    assert len(server.asked) == 1
+    assert "the server answers 500" in caplog.text
+    assert "asked again in 2.0 h" in caplog.text, "a clock may have jumped by an hour, so that time does not count"
+    assert "you send by the page is read at once" in caplog.text
+
+
+def test_a_question_that_the_end_of_the_box_has_cut_off_is_told_at_the_next_start(
+    station: Station, server: Said, caplog: pytest.LogCaptureFixture
+) -> None:
+    station.wait(0)
+    record = station.folder / "fetches.json"
+    kept = json.loads(record.read_text(encoding="utf-8"))
+    kept["asked"][0]["trouble"] = UNANSWERED
+    record.write_text(json.dumps(kept), encoding="utf-8")
+    caplog.clear()
+    station.start()
+    station.wait(10.0)
+    assert UNANSWERED in caplog.text

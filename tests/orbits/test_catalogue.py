@@ -67,7 +67,7 @@ def test_a_name_of_two_satellites_is_asked_about(tmp_path: Path) -> None:
 
 
 def test_without_elements_the_key_is_named() -> None:
-    with pytest.raises(Unknown, match=r"\[sky\] elements"):
+    with pytest.raises(Unknown, match=r"write elements = .* below \[sky\]"):
         Catalogue([]).find("iss")
 
 

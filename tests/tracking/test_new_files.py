@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
+from rotator.orbits.catalogue import Catalogue, Unknown
+from rotator.orders import Aim
+from rotator.tracking.known_sky import KnownSky
 from tests.tracking.tracked_box import ELEMENTS, FEBRUARY_S, Box
 
 
@@ -40,3 +44,22 @@ def test_what_is_in_no_file_is_refused_after_one_look(folder: Path) -> None:
     box.wait(3.0)
     assert box.tracker.state.startswith('ended: "nothing-1" is not among the 3 satellites known')
     assert box.tracker.track("nothing-1") != "", "no file is new"
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("foo", 'there is no target "foo"'),
+        ("10", '"10" is an azimuth without an elevation: write both, such as 10 30'),
+        ("359,5", '"359,5" is an azimuth without an elevation'),
+        ("sun", "the box does not know where it stands"),
+        ("JO62qm", "the box does not know where it stands"),
+    ],
+)
+def test_without_a_place_a_name_that_means_nothing_is_told_first(words: str, said: str) -> None:
+    with pytest.raises(Unknown, match=re.escape(said)):
+        KnownSky(None, Catalogue(())).find(words)
+
+
+def test_without_a_place_a_direction_is_known() -> None:
+    assert KnownSky(None, Catalogue(())).find("180 45") == Aim(180.0, 45.0)
