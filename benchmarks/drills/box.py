@@ -26,7 +26,14 @@ from hw.safety.lines_off import switch_off
 from rotator.assembly.hands import hands
 from rotator.assembly.links import session_maker
 from rotator.assembly.panel import panel_thread
-from rotator.assembly.settings import build_controller, build_learnt, build_mount, build_offsets, build_relays_file
+from rotator.assembly.settings import (
+    build_controller,
+    build_learnt,
+    build_mount,
+    build_offsets,
+    build_relays_file,
+    build_tries_file,
+)
 from rotator.assembly.station import Station
 from rotator.cli.rehearse import simulated
 from rotator.config.links import Link
@@ -97,13 +104,16 @@ class Box:
         )
         assert self.station.world is not None
         self.world: SimRotor = self.station.world
-        learnt, relays = build_learnt(config), build_relays_file(config)
+        memory = folder.with_name("memory")
+        memory.mkdir(exist_ok=True)
+        learnt, relays = build_learnt(config), build_relays_file(config, memory)
         commissioning = Axis(drill.commissioning) if drill.commissioning else None
-        trusts = relays.load() if relays else None
-        kept = LatchFile(folder / latch.FILE_NAME)
-        stopped = kept.load()
+        trusts = relays.begin() if relays else None
+        kept, tried = LatchFile(folder / latch.FILE_NAME, memory), build_tries_file(config, memory)
+        assert tried is not None, "the rotor of a drill outlives its program"
+        stopped, tries = kept.load(), tried.load()
         controller = build_controller(
-            config, learnt.load(), commissioning, trusts=trusts, latch=stopped, panel=config.panel.fitted
+            config, learnt.load(), commissioning, trusts=trusts, tries=tries, latch=stopped, panel=config.panel.fitted
         )
         self.events = EventWatch(clock)
         """The watch over the event loop that serves the links; the drill ticks for it."""
@@ -115,8 +125,10 @@ class Box:
             after_good_step=self.station.beat,
             events=self.events,
             keep_latch=kept.save,  # the thread that writes it takes no simulated time
+            keep_tries=tried.save,
         )
-        self._autosave = Autosave(self.loop, None, build_offsets(config), learnt, relays)
+        tried.save(tries)
+        self._autosave = Autosave(self.loop, None, build_offsets(config), learnt, relays, tries=tried)
         self._kept_s = clock()
         self._mount = build_mount(config)
         self._numbers = itertools.count(1)

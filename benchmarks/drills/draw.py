@@ -11,6 +11,7 @@ from benchmarks.drills.arcs import draw_arc
 from benchmarks.drills.boxes import BOTH, KINDS, ROTORS, Mast, draw_mast
 from benchmarks.drills.browser import draw_browser
 from benchmarks.drills.mounts import mounted
+from benchmarks.drills.outages import draw_outages
 from benchmarks.drills.script import CLOCK, COMMON_LINKS, PANEL, PEOPLE, PROGRAM, WORLD, Arg, Drill, Event
 from benchmarks.drills.stories import stories
 from benchmarks.drills.unusual import prolonged, relinked, tabled, unusual
@@ -51,6 +52,7 @@ def _drill(mast: Mast, seconds: float, events: list[Event], seed: str) -> Drill:
     events = events + draw_browser(seed, mast, seconds, [event.at_s for event in events] or [0.0])
     other = random.Random(f"{seed} other")
     events, seconds = prolonged(other, mast, tabled(other, relinked(other, events)), seconds)
+    outages, seconds = draw_outages(seed, mast, seconds)
     return Drill(
         kind=mast.rotor.kind,
         profile=mast.rotor.profile,
@@ -58,7 +60,7 @@ def _drill(mast: Mast, seconds: float, events: list[Event], seed: str) -> Drill:
         start_deg=mast.start_deg,
         tables=mast.tables,
         commissioning=mast.commissioning,
-        events=tuple(sorted(events, key=lambda event: event.at_s)),
+        events=tuple(sorted(events + outages, key=lambda event: event.at_s)),
         seed=seed,
     )
 

@@ -85,6 +85,8 @@ class AxisCase:
     """The chip of its control box does not hear: only its supply stops it, as the master a welded relay."""
     misplaced: bool = False
     """Something may hold it where neither its limits nor its sensor say so."""
+    drifts: bool = False
+    """Its sensor has drifted: it meets one stop at several angles."""
     beside_deg: float = 0.0
     """How far a control box may turn to stand where its drifted sensor said it was when it was to hold."""
     stalls: bool = False
@@ -94,6 +96,8 @@ class AxisCase:
     patience_s: float = TRY_S
     """How long it may take to see that it stands."""
     beyond_s: float = 0.0
+    at_stops_s: float = 0.0
+    """How long it was driven against its stops since a person let it go."""
     away_s: float = 0.0
     idle_s: float = 0.0
     welded_s: float = 0.0
@@ -136,7 +140,7 @@ class Judges:
         self.cases = cases
         self._orders = orders
         self._master = master
-        self._acknowledged_s = self._released_s = self._pressed_s = 0.0
+        self._acknowledged_s = self._ended_s = self._released_s = self._pressed_s = 0.0
         self._now_s = self._past_s = 0.0
         self.unattended_s = math.inf
         """Since when the control thread gets no turn, or the program is dead."""
@@ -153,8 +157,9 @@ class Judges:
 
     def look(self, now_s: float, axes: list[AxisTruth]) -> None:
         self._past_s, self._now_s = now_s - self._now_s, now_s
-        if self._orders.acknowledged_s != self._acknowledged_s:
-            self._acknowledged_s = self._orders.acknowledged_s
+        stops_s = self._orders.acknowledged_s, self._orders.ended_at_s
+        if stops_s != (self._acknowledged_s, self._ended_s):
+            self._acknowledged_s, self._ended_s = stops_s
             for truth, case in zip(axes, self.cases, strict=True):
                 case.beyond_s = case.standing_s = 0.0  # the next order is another try, also where current flows on
                 case.winds_down_s = now_s if truth.relayed else now_s + truth.coasts_s + START_S
@@ -162,6 +167,7 @@ class Judges:
             self._released_s = self._orders.released_s
             for case in self.cases:
                 case.tries_s.clear()
+                case.at_stops_s = 0.0
         pressed, self._pressed_s = self._orders.pressed_s != self._pressed_s, self._orders.pressed_s
         for truth, case in zip(axes, self.cases, strict=True):
             if pressed and truth.name == self._orders.lacking and not case.shows_ends:
@@ -239,8 +245,21 @@ class Judges:
         if truth.at_stop != truth.power and not (case.trusted and beyond_deg > over_deg):
             return
         case.beyond_s += self._past_s
+        self._again(truth, case)
         if case.beyond_s > max(BEYOND_S, case.patience_s) + LOOK_S:
             self._accuse(BEYOND, truth, f"{case.beyond_s:.2f} s in all, at {truth.shaft_deg:.1f}°")
+
+    def _again(self, truth: AxisTruth, case: AxisCase) -> None:
+        """Against a stop once more, though no person has let it go: a link's stop and a restart are none.
+
+        Where it stands still within its range it takes a second time to tell a stop from ice.
+        """
+        pressed = truth.name == self._orders.lacking and not case.shows_ends
+        if truth.at_stop != truth.power or not truth.relayed or case.counts or case.drifts or pressed:
+            return
+        case.at_stops_s += self._past_s
+        if case.at_stops_s > TRIES * max(BEYOND_S, case.patience_s) + LOOK_S:
+            self._accuse(BEYOND, truth, f"{case.at_stops_s:.2f} s since a person let it go, at {truth.shaft_deg:.1f}°")
 
     def _away(self, truth: AxisTruth, case: AxisCase, orders: AxisOrders) -> None:
         goals, here_deg = orders.goals.values(), truth.shaft_deg + case.shift_deg

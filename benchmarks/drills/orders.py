@@ -83,7 +83,9 @@ class Orders:
         self.acknowledged_s = 0.0
         """When anybody last stopped both axes, or a person let it go: faults are acknowledged."""
         self.released_s = 0.0
-        """When a person last let it go, or began the program anew."""
+        """When a person last let it go. A restart of the program is no person."""
+        self.ended_at_s = 0.0
+        """When the program last ended."""
         self.pressed_s = 0.0
         """When the axis that was never set up was last pressed; a person watches it."""
         self._panel = FrontPanel()
@@ -138,7 +140,8 @@ class Orders:
         stopped = (self.latched or self._storms) and now_s - self._stopped_s > TAKEN_S
         parked = stopped and not self.latched
         self._forget(now_s)
-        self._release(now_s)
+        self._free(now_s)
+        self.ended_at_s = now_s
         self._parked = parked and not self.latched
         self.latched = self.latched or stopped
         self._shifts = Shifts()
@@ -371,10 +374,14 @@ class Orders:
                 self._left(event)
 
     def _release(self, now_s: float) -> None:
+        self._free(now_s)
+        self.acknowledged_s = self.released_s = now_s
+
+    def _free(self, now_s: float) -> None:
+        """No stop is in force any more."""
         self.latched, self._storm = self._panel.pressed, False
         self._storms = self._parked = False
         self._silenced.forget()
-        self.acknowledged_s = self.released_s = now_s
         if self._knob is not None and now_s - self._knob.at_s < UNSEEN_S:
             self._note_panel(self._knob)  # the panel sees the turn only now
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from benchmarks.drills.box import Box, configured
+from benchmarks.drills.card import refuse
 from benchmarks.drills.judges import Judges, Violation
 from benchmarks.drills.scene import KEEP_THEIR_ORDER, axis_cases, begins_anew, build_orders, lapse, spoil
 from benchmarks.drills.script import CLOCK, PANEL, PROGRAM, WORLD, Drill, Event
@@ -30,6 +31,8 @@ STARTED_S = 1000.0
 STEP_S = 0.05
 """How often the world is looked at while no control cycle comes."""
 FAILS = "the program ends with an exception, or its sentinel kills it"
+CARD_ENDS_LATER = 2.0
+"""The card refuses once the program has ended, before it begins again: what it says is older than the next run."""
 STALLED_S = 1.0
 """Links whose event loop has stood still for longer have lost their orders."""
 OUTSIDE = ("zero", "full")
@@ -81,6 +84,8 @@ class _Play:
         self._sectors = Sectors(self._config, self._cases)
         self._judges.goes_round = self._orders.goes_round = bool(self._sectors)
         self._period_s = 1 / self._config.control.rate_hz
+        self._card_ends = False
+        """The card refuses from the next end of the program on."""
         self._blind = False
         """The reading thread hangs."""
         self._stand: frozenset[str] = frozenset()
@@ -235,6 +240,11 @@ class _Play:
 
     def _befall(self, event: Event) -> None:
         now_s = self._now_s
+        if event.what == "card":
+            self._card_ends = event.number(0) == CARD_ENDS_LATER
+            if not self._card_ends:
+                refuse(self._folder, refuses=bool(event.number(0)))
+            return
         spoil(self._config, self._cases, self._judges, event)
         self._troubles.begin(event.what, event.args)
         if event.what == "fault":
@@ -285,6 +295,9 @@ class _Play:
             kept.rename(self._folder)
         else:
             self._box.end()
+        if self._card_ends:
+            refuse(self._folder, refuses=True)
+            self._card_ends = False
         self._stalled_s, self._unheard = None, []
         self._orders.forget_all(self._now_s)
         self._pass(event.number(0), dead=True)

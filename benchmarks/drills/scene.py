@@ -149,7 +149,7 @@ def spoil(config: Config, cases: tuple[AxisCase, AxisCase], judges: Judges, even
             case "obstacle":
                 case.misplaced = True
             case "drift":
-                case.misplaced = True
+                case.misplaced = case.drifts = True
                 case.slack_deg += abs(event.number(2))
                 # A control box follows its own pot: where the other one drifts, it is held beside its place.
                 if config.rotor.type == "digipot":

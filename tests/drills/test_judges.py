@@ -168,6 +168,41 @@ def test_against_a_stop_again_after_a_person() -> None:
     assert mast.run(1.5, coil=1) == []
 
 
+@pytest.mark.parametrize("ends", ["stop", "program"])
+def test_against_its_stop_again_and_again_though_no_person_has_let_it_go(ends: str) -> None:
+    mast = Mast(at_deg=361.0)
+    found: list[str] = []
+    for _ in range(8):
+        mast.order("rotctld", "jog", "cw")
+        found += mast.run(1.0, coil=1)
+        if ends == "stop":
+            mast.order("gs232b", "stop")
+        else:
+            mast.orders.forget_all(mast.now_s)
+        mast.run(1.0)
+    assert judges.BEYOND in found
+
+
+def test_a_person_lets_it_go_against_its_stop_again() -> None:
+    mast = Mast(at_deg=361.0)
+    for _ in range(8):
+        mast.order("rotctld", "jog", "cw")
+        assert mast.run(1.0, coil=1) == []
+        mast.order("console", "resume")
+        assert mast.run(1.0) == []
+
+
+def test_a_restart_of_the_program_is_no_new_beginning_of_tries() -> None:
+    mast = Mast()
+    found: list[str] = []
+    for _ in range(4):
+        mast.order("rotctld", "aim", 300.0, 0.0)
+        found += mast.run(1.0, coil=1, dps=0.0)
+        mast.orders.forget_all(mast.now_s)
+        mast.run(5.0)
+    assert found == [judges.STANDING_CURRENT]
+
+
 def test_beyond_its_limits_before_the_stop() -> None:
     mast = Mast(at_deg=361.0)
     mast.azimuth.stop_high_deg = 400.0
