@@ -28,6 +28,7 @@ from rotator.assembly.settings import (
     build_mount,
     build_offsets,
     build_relays_file,
+    build_tries_file,
 )
 from rotator.assembly.sky import build_sky
 from rotator.assembly.station import Station, fitted_panel
@@ -35,7 +36,7 @@ from rotator.assembly.tracking import build_tracking
 from rotator.calibrating.at_start import watch_at_start
 from rotator.calibrating.stops import only_stops
 from rotator.config.model import Config
-from rotator.config.places import console_path, monitor_path
+from rotator.config.places import console_path, monitor_path, runtime_folder
 from rotator.links.console import ConsoleSocket
 from rotator.links.wire import LinkError, Wire
 from rotator.monitor.socket import MonitorSocket
@@ -51,11 +52,12 @@ from rotator.runtime.dead_threads import dead_threads
 from rotator.runtime.display import DisplayThread
 from rotator.runtime.engine import Engine, process_end
 from rotator.runtime.event_watch import EventWatch
-from rotator.runtime.latch_thread import LatchThread
+from rotator.runtime.latch_thread import TRIES_THREAD, LatchThread
 from rotator.runtime.loop import ControlLoop
 from rotator.runtime.service_manager import ServiceManager
 from rotator.spoken import held_by
 from rotator.store import counts
+from rotator.store.tries import NOTHING
 from rotator.views import lcd
 from rotator.web.build import build_page, build_pairings
 
@@ -96,18 +98,22 @@ class App:
         self._service_manager = ServiceManager(os.environ, time.monotonic)
         self._events, page_events = EventWatch(time.monotonic), EventWatch(time.monotonic)
         self.mount = mount = build_mount(config)
-        learnt, relays_file = build_learnt(config), build_relays_file(config)
-        latch_file = build_latch_file(config)
+        memory = runtime_folder(os.environ)
+        learnt, relays_file = build_learnt(config), build_relays_file(config, memory)
+        latch_file, tries_file = build_latch_file(config, memory), build_tries_file(config, memory)
         # A new start by the page knows the stop even where a full disk has not taken it.
         stopped = latch_file.load() or self._anew.latch
         self._latch = LatchThread(latch_file.save, stopped)
-        kept = learnt.load(), relays_file.load() if relays_file else None, stopped
+        kept = learnt.load(), relays_file.begin() if relays_file else None, stopped
         axis = self._anew.sets_up
+        # A person who sets an axis up releases it.
+        tries = tries_file.load() if tries_file and not axis else NOTHING
+        self._tries = LatchThread(tries_file.save if tries_file else lambda _: True, tries, name=TRIES_THREAD)
         self._calibration = _calibration_of(config, axis, path) if axis and path else None
         self.loop = ControlLoop(
             calibration_controller(config, axis, *kept)
             if axis
-            else build_controller(config, kept[0], trusts=kept[1], latch=stopped, panel=True),
+            else build_controller(config, kept[0], trusts=kept[1], tries=tries, latch=stopped, panel=True),
             self.station.rotor,
             time.monotonic,
             1 / config.control.rate_hz,
@@ -115,6 +121,7 @@ class App:
             events=self._events,
             page_events=page_events,
             keep_latch=self._latch.note,
+            keep_tries=self._tries.note,
         )
         self._tracking = build_tracking(config, self.loop, mount)
         self._pairings = build_pairings(config, self._tracking.clock_is_known)
@@ -163,7 +170,7 @@ class App:
         display = self.station.display
         self._display = DisplayThread(display, self.lcd_rows, time.monotonic) if display else None
         self._engine = Engine(self.loop, self.station.rotor)
-        self._autosave = Autosave(self.loop, path, build_offsets(config), learnt, relays_file)
+        self._autosave = Autosave(self.loop, path, build_offsets(config), learnt, relays_file, tries=tries_file)
         self._tasks: list[asyncio.Task[Any]] = []
         """The end of one of these is the end of the box."""
         self._side_tasks: list[asyncio.Task[Any]] = []
@@ -229,6 +236,7 @@ class App:
             Part.blocking("closing the hardware", self.station.close),
             Part.blocking("the last autosave", self._autosave.close),
             Part.blocking("keeping a stop", self._latch.close),
+            Part.blocking("keeping vain tries", self._tries.close),
             Part.quick("the service manager", self._service_manager.close),
         ]
 
@@ -239,6 +247,7 @@ class App:
             self._tasks.append(asyncio.create_task(process_end(self.station.sentinel.pid), name="sentinel"))
         self._autosave.keep_relays()
         self._latch.start()
+        self._tries.start()
         if (latched := self.loop.status.latch) is not None:
             log.warning("%s", held_by(latched.by, storm=latched.storm))
         if self._anew.holder is not None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from hw.ports import AngleSource, Axis, Direction
-from rotator.faults import Fault, Missing, Notice
+from rotator.faults import Fault, FaultKind, Missing, Notice
 from rotator.orders import Mode
 
 
@@ -38,6 +38,30 @@ class Trust(Enum):
 Trusts = tuple[Trust, Trust]
 """Of the relays clockwise or up, and of the other way."""
 ALL_OPEN: Trusts = (Trust.OPEN, Trust.OPEN)
+
+Places = tuple[float | None, float | None]
+"""Angles met clockwise or up, and the other way; None: none was."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tries:
+    """What one motor was tried for in vain: the next run of the program goes on from there."""
+
+    faults: int = 0
+    """How often a fault has stopped it lately."""
+    kind: FaultKind | None = None
+    """The latest of those faults."""
+    stood_deg: Places = (None, None)
+    """Where the driven axis stood still last."""
+    stops_deg: Places = (None, None)
+    """The stops that it has met: only a person lets it go there again."""
+    pressed: bool = False
+    """It has no calibration, and presses did not move it."""
+    driven: bool = False
+    """Its latest run has not been seen to move it."""
+
+
+NO_TRIES = Tries()
 
 AT_END_NOISES, AT_END_MOST_DEG = 5.0, 1.0
 """A reading beyond an end of the range by up to so many times the noise, and by so much at most, is that end. Five
@@ -88,6 +112,8 @@ class AxisStatus:
     """Its motor as learnt, clockwise or up first, then the other way; None: the drive has nothing to learn."""
     trusts: Trusts = ALL_OPEN
     """What is known of its two relays."""
+    tries: Tries = NO_TRIES
+    """What it was tried for in vain."""
     correction_deg: float = 0.0
     """How much further the boom points than the axis reads, as the mount really stands."""
     waiting: bool = False

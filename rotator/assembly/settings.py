@@ -27,12 +27,14 @@ from rotator.control.sky.offsets import Offsets, Points, offsets
 from rotator.control.sky.pointing_model import PointingModel
 from rotator.faults import Missing
 from rotator.orders import Mode
-from rotator.status import ALL_OPEN, Latch, LearntMotor, Trusts
+from rotator.status import ALL_OPEN, NO_TRIES, Latch, LearntMotor, Tries, Trusts
 from rotator.store import relays
 from rotator.store.latch import FILE_NAME as LATCH_NAME
 from rotator.store.latch import LatchFile
 from rotator.store.learnt import LearntFile, Motors
 from rotator.store.relays import RelaysFile
+from rotator.store.tries import FILE_NAME as TRIES_NAME
+from rotator.store.tries import TriesFile
 
 
 def build_offsets(config: Config) -> Offsets:
@@ -64,14 +66,22 @@ def build_sector(table: ForbiddenTable, shift: Offsets) -> Sector:
     )
 
 
-def build_relays_file(config: Config) -> RelaysFile | None:
-    """The file in which a doubt about a relay survives the program; None where the rotor does not, or has no relays."""
+def build_relays_file(config: Config, memory: Path | None = None) -> RelaysFile | None:
+    """The file in which a doubt about a relay survives the program; None where the rotor does not, or has no relays.
+
+    `memory`: a folder in memory, for a card that refuses; None: there is none.
+    """
     kept = config.keeps_files and config.rotor.switched
-    return RelaysFile(Path(config.state.path).with_name(relays.FILE_NAME)) if kept else None
+    return RelaysFile(Path(config.state.path).with_name(relays.FILE_NAME), memory) if kept else None
 
 
-def build_latch_file(config: Config) -> LatchFile:
-    return LatchFile(Path(config.state.path).with_name(LATCH_NAME))
+def build_tries_file(config: Config, memory: Path | None = None) -> TriesFile | None:
+    """The file of what motors were tried for in vain; None where the rotor does not outlive the program."""
+    return TriesFile(Path(config.state.path).with_name(TRIES_NAME), memory) if config.keeps_files else None
+
+
+def build_latch_file(config: Config, memory: Path | None = None) -> LatchFile:
+    return LatchFile(Path(config.state.path).with_name(LATCH_NAME), memory)
 
 
 def build_learnt(config: Config) -> LearntFile:
@@ -99,11 +109,12 @@ def build_controller(
     commissioning: Axis | None = None,
     *,
     trusts: Mapping[Axis, Trusts] | None = None,
+    tries: Mapping[Axis, Tries] | None = None,
     latch: Latch | None = None,
     panel: bool = False,
 ) -> Controller:
-    """`learnt`: the motors as earlier runs learnt them; `trusts`: what an earlier run knew of the relays; `latch`: the
-    stop that was latched when it ended.
+    """`learnt`: the motors as earlier runs learnt them; `trusts`: what an earlier run knew of the relays; `tries`: what
+    it tried its motors for in vain; `latch`: the stop that was latched when it ended.
 
     `commissioning`: an axis to be treated as never set up.
 
@@ -117,6 +128,7 @@ def build_controller(
             limits,
             known.get(axis),
             (trusts or {}).get(axis, ALL_OPEN),
+            tries=(tries or {}).get(axis, NO_TRIES),
             commissioning=axis is commissioning,
             attended=commissioning is not None,
         )
@@ -145,6 +157,7 @@ def axis_settings(
     learnt: Motors | None,
     trusts: Trusts = ALL_OPEN,
     *,
+    tries: Tries = NO_TRIES,
     commissioning: bool,
     attended: bool = False,
 ) -> AxisSettings:
@@ -174,6 +187,7 @@ def axis_settings(
             confirmable=config.kind.confirmable,
             own_motor=config.kind.own_motor,
             master=config.kind.switches_supply,
+            tries=tries,
         )
     return SwitchedSettings(
         axis=axis,
@@ -191,6 +205,7 @@ def axis_settings(
         learnt=learnt and (_motor(learnt[0]), _motor(learnt[1])),
         homing=homing(config, axis, shift),
         trusts=trusts,
+        tries=tries,
         look=True,
         attended=attended,
     )

@@ -16,6 +16,7 @@ from rotator.control.sky.offsets import Offsets
 from rotator.runtime.loop import ControlLoop
 from rotator.store.learnt import LearntFile, Motors
 from rotator.store.relays import RelaysFile
+from rotator.store.tries import TriesFile
 
 log = logging.getLogger(__name__)
 
@@ -23,6 +24,10 @@ CALIBRATIONS_EVERY_S = 1.0
 CALIBRATIONS_AGAIN_S = 10.0
 """The pause after a calibration that could not be saved."""
 LEARNT_EVERY_S = 600.0
+UNKEPT = (
+    "the box cannot keep what it knows of the relays and motors: {trouble}. Look for a full or read-only card; "
+    "look at the relays before the Pi starts again"
+)
 
 
 class Autosave:
@@ -38,13 +43,17 @@ class Autosave:
         offsets: Offsets,
         learnt: LearntFile,
         relays: RelaysFile | None = None,
+        *,
+        tries: TriesFile | None = None,
     ) -> None:
-        """`relays`: the file of the relays; None: the rotor does not outlive the program, or has none."""
+        """`relays`: the file of the relays; None: the rotor does not outlive the program, or has none. `tries`: the
+        file of vain tries; None: the same."""
         self._loop = loop
         self._path = path
         self._offsets = offsets
         self._learnt = learnt
         self._relays = relays
+        self._tries = tries
         self._saving = threading.Lock()
         """`close` may come while another thread still saves."""
         self._saved = {axis: loop.status.axis(axis).calibration for axis in Axis}
@@ -80,6 +89,8 @@ class Autosave:
         with self._saving:
             if self._relays:
                 self._relays.save({axis: self._loop.status.axis(axis).trusts for axis in Axis}, ending=ending)
+            files = [file for file in (self._relays, self._tries) if file and file.trouble]
+            self._loop.unkept = tuple(UNKEPT.format(trouble=file.trouble) for file in files[:1])
 
     def _keep_learnt(self, *, ending: bool) -> None:
         with self._saving:

@@ -1,45 +1,48 @@
-"""Writes a latched stop to its file at once, in a thread of its own: the control loop never waits for a disk.
+"""Writes a latched stop, or a vain try, to its file at once, in a thread of its own: control never waits for a disk.
 
-Knows when to write, and when to try again on a card that refuses. `rotator.store.latch` knows the file's form.
+Knows when to write, and when to try again on a card that refuses. `rotator.store` knows the files' forms.
 """
 
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from typing import Generic, TypeVar
 
-from rotator.status import Latch
+T = TypeVar("T")
 
-LATCH_THREAD = "latch"
-"""The name of the thread."""
+LATCH_THREAD, TRIES_THREAD = "latch", "tries"
+"""The names of the threads."""
 AGAIN_S = 10.0
 """The pause after a failed write: a dying card is not written for each press."""
 JOIN_S = 2.0
 
 
-class LatchThread:
+class LatchThread(Generic[T]):
     """`note` may be called from any thread and never waits; of several notes the newest is written."""
 
-    def __init__(self, save: Callable[[Latch | None], bool], latch: Latch | None, *, again_s: float = AGAIN_S) -> None:
+    def __init__(
+        self, save: Callable[[T], bool], kept: T, *, again_s: float = AGAIN_S, name: str = LATCH_THREAD
+    ) -> None:
         """`save` writes the file, and returns False if that failed; the thread calls it.
 
-        `latch`: what the file's last run has left; a damaged file is replaced with it.
+        `kept`: what the file's last run has left; a damaged file is replaced with it.
         """
         self._save = save
-        self._newest = latch
+        self._newest = kept
         self._again_s = again_s
         self._news = threading.Condition()
         self._unwritten = self._ending = False
-        self._thread = threading.Thread(target=self._run, name=LATCH_THREAD, daemon=True)
+        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
 
     def start(self) -> None:
         self.note(self._newest)
         self._thread.start()
 
-    def note(self, latch: Latch | None) -> None:
-        """This is in force from now on; None: nothing is latched."""
+    def note(self, newest: T) -> None:
+        """This is in force from now on."""
         with self._news:
-            self._newest, self._unwritten = latch, True
+            self._newest, self._unwritten = newest, True
             self._news.notify()
 
     def end(self) -> None:
@@ -59,8 +62,8 @@ class LatchThread:
         while True:
             with self._news:
                 self._news.wait_for(lambda: self._unwritten)
-                self._unwritten, latch = False, self._newest
-            done = self._save(latch)
+                self._unwritten, newest = False, self._newest
+            done = self._save(newest)
             with self._news:
                 # A stop may have come while the disk was slow: the end waits for it too.
                 if self._ending and not self._unwritten and (done or last_try):

@@ -10,6 +10,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 
 from hw.ports import Axis, HardwareError
 from rotator.control.controller import Controller
@@ -19,7 +20,7 @@ from rotator.runtime.event_watch import EventWatch
 from rotator.runtime.inbox import Inbox
 from rotator.runtime.journal import Journal
 from rotator.runtime.sensor_thread import SensorThread
-from rotator.status import Latch, Status
+from rotator.status import Latch, Status, Tries
 
 log = logging.getLogger(__name__)
 
@@ -51,17 +52,19 @@ class ControlLoop:
         events: EventWatch | None = None,
         page_events: EventWatch | None = None,
         keep_latch: Callable[[Latch | None], object] = lambda _latch: None,
+        keep_tries: Callable[[dict[Axis, Tries]], object] = lambda _tries: None,
     ) -> None:
         """`events`: the watch over the event loop that serves the links; None: there are no links.
 
         `page_events`: the same for the page.
 
-        `keep_latch` is told of each latched stop and of each release, in the control thread. It must not wait.
+        `keep_latch` is told of each latched stop and of each release, `keep_tries` of what motors are tried for in
+        vain, in the control thread. They must not wait.
         """
         self._controller = controller
         self._after_good_step = after_good_step
         self._events, self._page_events = events, page_events
-        self._keep_latch = keep_latch
+        self._keep_latch, self._keep_tries = keep_latch, keep_tries
         self._rotor = rotor
         self._clock = clock
         self._period_s = period_s
@@ -73,6 +76,8 @@ class ControlLoop:
         self._stopping = False
         self._failure: Exception | None = None
         """The bug that ended another thread without which nothing may move."""
+        self.unkept: tuple[str, ...] = ()
+        """What cannot be written to its file, and why, for a person. Set by who writes it."""
         self._late_s = 0.0
         self._supply_cut = self._links_lost = False
         self.status: Status = controller.status(clock())
@@ -127,8 +132,12 @@ class ControlLoop:
                 self._journal.note(DRIVES[axis], str(fault))
         self._controller.note_driven(now_s, driven)
         self.status = self._controller.status(now_s, self._late_s)
+        if self.unkept:
+            self.status = replace(self.status, notices=self.status.notices + self.unkept)
         if self.status.latch != before.latch:
             self._keep_latch(self.status.latch)
+        if (tries := _tries(self.status)) != _tries(before):
+            self._keep_tries(tries)
         self._switch_supply()
         self._log(before)
         self._sign_of_life()
@@ -235,3 +244,7 @@ class ControlLoop:
             self._journal.note(HEARTBEAT, "")
         except HardwareError as fault:
             self._journal.note(HEARTBEAT, str(fault))
+
+
+def _tries(status: Status) -> dict[Axis, Tries]:
+    return {axis: status.axis(axis).tries for axis in Axis}

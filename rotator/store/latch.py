@@ -12,7 +12,7 @@ from typing import Any
 
 from rotator.status import Latch
 from rotator.store.forms import Form
-from rotator.store.json_file import JsonFile
+from rotator.store.spared import SparedFile
 
 FILE_NAME = "latch.json"
 """Beside the state file."""
@@ -35,8 +35,9 @@ class Kept(Enum):
 class LatchFile:
     """Call `load` first, then `save` after each change. Failures go to the log, and nothing is raised."""
 
-    def __init__(self, path: Path) -> None:
-        self._file = JsonFile(path, FORM, "a latched stop")
+    def __init__(self, path: Path, memory: Path | None = None) -> None:
+        """`memory`: a folder that outlives the program, and not a boot; None: there is none."""
+        self._file = SparedFile(path, FORM, "a latched stop", memory)
         self._kept = Kept.NOTHING
 
     def load(self) -> Latch | None:

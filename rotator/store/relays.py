@@ -2,6 +2,7 @@
 
 Knows the file's form, and what the end of a program leaves uncertain. Does not know how a doubt arises or ends. While
 the program runs the file says that each relay may be closed: after a crash or a power cut that is all that is known.
+The same holds without a file, and where the card refuses to be written: what it says may be older than the last run.
 The file is written at the start, at a proper end, and when a relay is suspected or cleared: seldom.
 """
 
@@ -12,14 +13,16 @@ from pathlib import Path
 from typing import Any
 
 from hw.ports import Axis
-from rotator.status import ALL_OPEN, Trust, Trusts
+from rotator.status import Trust, Trusts
 from rotator.store.forms import Form
-from rotator.store.json_file import JsonFile
+from rotator.store.spared import SparedFile
 
 FILE_NAME = "relays.json"
 """Beside the state file."""
 FORM = Form("rotator relays")
 UNKNOWN: Trusts = (Trust.UNSEEN, Trust.UNSEEN)
+REFUSED_EVERY = 10
+"""A card that refuses is written at every change, and else each so many times."""
 
 
 def after(trusts: Trusts, *, proper: bool) -> Trusts:
@@ -31,20 +34,43 @@ def after(trusts: Trusts, *, proper: bool) -> Trusts:
 
 
 class RelaysFile:
-    """Call `load` first, then `save` now and then.
+    """Call `begin` first, then `save` now and then.
 
     Failures go to the log, and nothing is raised.
     """
 
-    def __init__(self, path: Path) -> None:
-        self._file = JsonFile(path, FORM, "what is known of the relays")
+    def __init__(self, path: Path, memory: Path | None = None) -> None:
+        """`memory`: a folder that outlives the program, and not a boot; None: there is none."""
+        self._file = SparedFile(path, FORM, "what is known of the relays", memory)
         self._written: dict[Axis, Trusts] = {}
+        self._tried: dict[Axis, Trusts] = {}
+        """What the card refused last."""
+        self._refused = 0
+
+    @property
+    def trouble(self) -> str:
+        """Why the card refused the last change; empty: it did not."""
+        return self._file.trouble
+
+    @property
+    def outlives(self) -> bool:
+        """Whether what is known would outlive a killed program."""
+        return self._file.outlives
+
+    def begin(self) -> dict[Axis, Trusts]:
+        """What may be believed as a run of the program begins; from now on the file says that it runs."""
+        in_memory, kept = self._file.in_memory, self.load()
+        self.save(kept)
+        if in_memory or not self.trouble:
+            return kept
+        # It may have refused the run before this one too.
+        return {axis: after(each, proper=False) for axis, each in kept.items()}
 
     def load(self) -> dict[Axis, Trusts]:
-        """What the last run of the program left; without a file no relay has ever been closed."""
+        """What the last run of the program left."""
         return self._file.load(
             _parse,
-            absent=dict.fromkeys(Axis, ALL_OPEN),
+            absent=dict.fromkeys(Axis, UNKNOWN),
             damaged=dict.fromkeys(Axis, UNKNOWN),
             consequence="ignored, the axes are watched before a relay closes",
         )
@@ -52,8 +78,16 @@ class RelaysFile:
     def save(self, trusts: Mapping[Axis, Trusts], *, ending: bool = False) -> None:
         """Write it, if it has changed. `ending`: the program ends properly, and no relay is closed any more."""
         kept = {axis: after(each, proper=ending) for axis, each in trusts.items()}
-        if kept != self._written and self._file.save(_content(kept)):
-            self._written = kept
+        if kept == self._written:
+            return
+        self._refused = self._refused + 1 if kept == self._tried else 0
+        if self._refused % REFUSED_EVERY:
+            return
+        self._tried = kept
+        if self._file.save(_content(kept)):
+            self._written, self._tried = kept, {}
+        else:
+            self._written = {}
 
 
 def _content(trusts: Mapping[Axis, Trusts]) -> dict[str, object]:
@@ -62,7 +96,7 @@ def _content(trusts: Mapping[Axis, Trusts]) -> dict[str, object]:
 
 def _parse(content: dict[str, Any]) -> dict[Axis, Trusts]:
     axes = dict(content["axes"])
-    return {axis: _trusts(axes[axis.value]) if axis.value in axes else ALL_OPEN for axis in Axis}
+    return {axis: _trusts(axes[axis.value]) if axis.value in axes else UNKNOWN for axis in Axis}
 
 
 def _trusts(table: Mapping[str, Any]) -> Trusts:

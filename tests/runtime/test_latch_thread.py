@@ -49,7 +49,7 @@ def left_in(path: Path) -> Latch | None:
     return LatchFile(path).load()
 
 
-def begun(path: Path) -> LatchThread:
+def begun(path: Path) -> LatchThread[Latch | None]:
     file = LatchFile(path)
     thread = LatchThread(file.save, file.load())
     thread.start()
@@ -138,7 +138,7 @@ def test_what_was_noted_last_is_in_the_file_whenever_the_card_is_slow_or_refuses
             assert (found.by.removesuffix(BEFORE), found.storm) == (newest.by, newest.storm), script
 
 
-def happen(thread: LatchThread, event: Latch | str | None) -> None:
+def happen(thread: LatchThread[Latch | None], event: Latch | str | None) -> None:
     if isinstance(event, str):
         thread.end()
     else:

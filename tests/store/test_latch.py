@@ -9,6 +9,7 @@ import pytest
 
 from rotator.status import Latch
 from rotator.store.latch import DAMAGED, LatchFile
+from rotator.store.whole import NEW
 
 STOP, STORM = Latch("page#2"), Latch("console#3", storm=True)
 
@@ -93,3 +94,15 @@ def test_a_damaged_file_may_have_held_a_stop(path: Path, text: str, caplog: pyte
     assert len(caplog.records) == 1
     assert file.save(DAMAGED)
     assert LatchFile(path).load() == Latch("the damaged file latch.json before the restart")
+
+
+def test_memory_keeps_a_stop_that_the_card_refuses(tmp_path: Path) -> None:
+    path, memory = tmp_path / "latch.json", tmp_path / "memory"
+    blocked = path.with_name(path.name + NEW)
+    blocked.mkdir()
+    assert not LatchFile(path, memory).save(STOP)
+    assert LatchFile(path, memory).load() == Latch(f"{STOP.by} before the restart")
+    blocked.rmdir()
+    assert LatchFile(path, memory).save(STOP)
+    assert LatchFile(path).load() == Latch(f"{STOP.by} before the restart")
+    assert not list(memory.iterdir())

@@ -8,7 +8,8 @@ import pytest
 
 from hw.ports import Axis
 from rotator.status import ALL_OPEN, Trust, Trusts
-from rotator.store.relays import UNKNOWN, RelaysFile
+from rotator.store.relays import REFUSED_EVERY, UNKNOWN, RelaysFile, after
+from rotator.store.whole import NEW
 
 AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
 SUSPECTED: dict[Axis, Trusts] = {AZ: (Trust.WELDED, Trust.OPEN), EL: (Trust.OPEN, Trust.DOUBTED)}
@@ -19,8 +20,62 @@ def path(tmp_path: Path) -> Path:
     return tmp_path / "run" / "relays.json"
 
 
-def test_without_a_file_no_relay_was_ever_closed(path: Path) -> None:
-    assert RelaysFile(path).load() == {AZ: ALL_OPEN, EL: ALL_OPEN}
+def refuse(path: Path) -> Path:
+    """A folder stands where the new content would be written: the card refuses until it is gone."""
+    blocked = path.with_name(path.name + NEW)
+    blocked.mkdir(parents=True, exist_ok=True)
+    return blocked
+
+
+def test_without_a_file_each_relay_may_be_closed(path: Path) -> None:
+    assert RelaysFile(path).load() == {AZ: UNKNOWN, EL: UNKNOWN}
+
+
+def test_from_its_beginning_on_the_file_says_that_the_program_runs(path: Path) -> None:
+    RelaysFile(path).save(SUSPECTED, ending=True)
+    assert RelaysFile(path).begin() == SUSPECTED
+    assert RelaysFile(path).load() == {AZ: (Trust.WELDED, Trust.UNSEEN), EL: (Trust.UNSEEN, Trust.DOUBTED)}
+
+
+def test_what_a_card_says_that_refuses_may_be_older_than_the_last_run(path: Path) -> None:
+    RelaysFile(path).save(SUSPECTED, ending=True)
+    refuse(path)
+    file = RelaysFile(path)
+    assert file.begin() == {AZ: (Trust.WELDED, Trust.UNSEEN), EL: (Trust.UNSEEN, Trust.DOUBTED)}
+    assert file.trouble
+    assert not file.outlives
+
+
+@pytest.mark.parametrize("ending", [False, True])
+def test_memory_keeps_what_the_card_refuses(path: Path, tmp_path: Path, *, ending: bool) -> None:
+    memory = tmp_path / "memory"
+    RelaysFile(path, memory).save({AZ: ALL_OPEN, EL: ALL_OPEN}, ending=True)
+    blocked = refuse(path)
+    file = RelaysFile(path, memory)
+    file.begin()
+    file.save(SUSPECTED, ending=ending)
+    assert file.trouble
+    assert file.outlives
+    left = {axis: after(each, proper=ending) for axis, each in SUSPECTED.items()}
+    assert RelaysFile(path, memory).begin() == left
+    blocked.rmdir()
+    assert RelaysFile(path, memory).begin()[AZ][0] is Trust.WELDED
+    assert not list(memory.iterdir())
+    assert RelaysFile(path).load()[AZ][0] is Trust.WELDED
+
+
+def test_a_card_that_refuses_is_not_written_each_time(path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    file = RelaysFile(path)
+    blocked = refuse(path)
+    file.save(SUSPECTED)
+    blocked.rmdir()
+    file.save(SUSPECTED)
+    assert not path.exists()
+    for _ in range(REFUSED_EVERY):
+        file.save(SUSPECTED)
+    assert path.exists()
+    assert not file.trouble
+    assert len(caplog.records) == 1
 
 
 def test_a_proper_end_keeps_what_was_known(path: Path) -> None:

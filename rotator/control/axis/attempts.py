@@ -13,15 +13,18 @@ from rotator.control.axis.relay_state import RelayState
 from rotator.control.axis.short_runs import STANDING_FAULTS, ShortRuns
 from rotator.control.sky.mount import Range
 from rotator.faults import POT, Fault, FaultKind, Notice
+from rotator.status import NO_TRIES, Tries
 
 
 class Attempts:
     """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time."""
 
-    def __init__(self, axis: Axis, limits: Range, sensor: str = POT) -> None:
-        self._faults = FaultLatch(sensor)
+    def __init__(self, axis: Axis, limits: Range, sensor: str = POT, before: Tries = NO_TRIES) -> None:
+        """`before`: what earlier runs of the program have tried."""
+        fault = Fault(before.kind or FaultKind.STANDS_STILL, axis, "")
+        self._faults = FaultLatch(sensor, before=fault, tries=before.faults)
         self._short_runs = ShortRuns(axis)
-        self._stops = MetStops(axis, limits)
+        self._stops = MetStops(axis, limits, before)
         self._now_s = 0.0
         self._angle_deg: float | None = None
         self._relays = RelayState()
@@ -39,6 +42,13 @@ class Attempts:
     @property
     def notices(self) -> tuple[Notice, ...]:
         return self._stops.notices
+
+    def tries(self, now_s: float) -> Tries:
+        """What the next run of the program has to know."""
+        faults = self._faults.tries(now_s)
+        in_vain = self.fault is None and self._short_runs.in_vain
+        kind = self._faults.kind if faults else None
+        return Tries(faults, kind, self._stops.stood_deg, self._stops.stops_deg, driven=in_vain)
 
     def note_relays(self, relays: RelayState, speed_dps: float) -> None:
         """The relays have changed. `speed_dps`: of the motor that runs now; 0: none runs."""

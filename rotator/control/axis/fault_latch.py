@@ -1,7 +1,7 @@
 """The fault that stops one axis: which one is kept, when it ends, and who may end it.
 
-Knows what is wrong now, what was wrong first, and how often lately a motor was stopped by a fault. Does not know how a
-fault is found, nor how a motor is stopped.
+Knows what is wrong now, what was wrong first, and how often lately a motor was stopped by a fault, also before the
+program began. Does not know how a fault is found, nor how a motor is stopped.
 """
 
 from __future__ import annotations
@@ -15,14 +15,22 @@ TRIES = 3
 TRIES_WITHIN_S = 600.0
 """After this many faults within this time only a person may have the motor tried again, or the time."""
 
+OFTEN = f"tried {TRIES} times in {TRIES_WITHIN_S / 60:g} minutes: only `resume` or that time acknowledges it"
+
 
 class FaultLatch:
     """Keeps the first fault until it is acknowledged; one that only cutting the supply ends replaces any other."""
 
-    def __init__(self, sensor: str = POT) -> None:
+    def __init__(self, sensor: str = POT, *, before: Fault | None = None, tries: int = 0) -> None:
+        """`tries`: how often faults had stopped the motor when the program began; `before`: the latest of them."""
         self._sensor = sensor
         """What reads the angle, in a word: each fault names it."""
-        self.fault: Fault | None = None
+        self.kind = before.kind if before and tries else None
+        """Of the latest fault that stopped the motor; None: there was none lately."""
+        self._before = tries
+        """They count from the first moment that is known on."""
+        tried = replace(before, measured=f"before the program began again; {OFTEN}") if before else None
+        self.fault = self._named(tried if tries >= TRIES else None)
         self._cause: Fault | None = None
         """The fault whose cause is still present. It stays after an acknowledgement."""
         self._tries_s: deque[float] = deque(maxlen=TRIES)
@@ -34,6 +42,7 @@ class FaultLatch:
         `cause`: the part that is still present, so it returns after an acknowledgement. `tries`: how often the motor
         was on in vain before.
         """
+        self._begin(now_s)
         self._cause = cause
         if self.fault and self.fault.passing:
             self.fault = self._named(found)
@@ -45,13 +54,15 @@ class FaultLatch:
             return False
         if not fault.passing:
             self._tries_s.extend([now_s] * tries)
+            self.kind = fault.kind if tries else self.kind
         if self.needs_person(now_s):
-            often = (
-                f"tried {TRIES} times in {TRIES_WITHIN_S / 60:g} minutes: only `resume` or that time acknowledges it"
-            )
-            fault = replace(fault, measured=f"{fault.measured}; {often}")
+            fault = replace(fault, measured=f"{fault.measured}; {OFTEN}")
         self.fault = self._named(fault)
         return True
+
+    def tries(self, now_s: float) -> int:
+        """How often faults have stopped the motor lately."""
+        return self._before + sum(now_s - tried_s < TRIES_WITHIN_S for tried_s in self._tries_s)
 
     def needs_person(self, now_s: float) -> bool:
         """Whether the motor was tried too often lately for a link to acknowledge its fault."""
@@ -59,12 +70,17 @@ class FaultLatch:
 
     def acknowledge(self, now_s: float, *, by_person: bool) -> bool:
         """End the fault. While its cause is present, it returns at once. Returns whether it has been acknowledged."""
+        self._begin(now_s)
         if by_person:
             self._tries_s.clear()
         elif self.needs_person(now_s):
             return False
         self.fault = self._named(self._cause)
         return True
+
+    def _begin(self, now_s: float) -> None:
+        self._tries_s.extend([now_s] * self._before)
+        self._before = 0
 
     def _named(self, fault: Fault | None) -> Fault | None:
         """The same fault, naming the sensor of this axis."""

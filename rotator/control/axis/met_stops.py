@@ -1,6 +1,7 @@
 """The places at which a driven axis stood still: an end stop, or ice. A link does not drive it there again.
 
-Knows each direction's place until a person releases the axis. Knows no motor and no reading.
+Knows each direction's place until a person releases the axis, also from before the program began. Knows no motor and
+no reading.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.relay_faults import WAYS
 from rotator.control.sky.mount import Range
 from rotator.faults import FaultKind, Notice
+from rotator.status import NO_TRIES, Places, Tries
 
 KEPT_OFF_DEG = 2.0
 """The axis ends this far before a stop that it has met."""
@@ -19,14 +21,16 @@ SAME_DEG = 3.0
 
 
 class MetStops:
-    def __init__(self, axis: Axis, limits: Range) -> None:
+    def __init__(self, axis: Axis, limits: Range, before: Tries = NO_TRIES) -> None:
+        """`before`: what an earlier run of the program has met."""
         self._axis = axis
         self._limits = limits
-        self._stood: Mapping[Direction, float] = {}
+        self._stood: Mapping[Direction, float] = _by_way(before.stood_deg)
         """Where it stood still last, by direction."""
         self._stops: Mapping[Direction, float] = {}
         self.limits = limits
         """How far the axis may turn now."""
+        self._keep(_by_way(before.stops_deg))
 
     def stood_still(self, kind: FaultKind, direction: Direction, angle_deg: float) -> None:
         """A fault of that kind: driven in this direction, the axis stood there."""
@@ -39,6 +43,14 @@ class MetStops:
         """A person releases the axis."""
         self._stood = {}
         self._keep({})
+
+    @property
+    def stood_deg(self) -> Places:
+        return self._stood.get(Direction.PLUS), self._stood.get(Direction.MINUS)
+
+    @property
+    def stops_deg(self) -> Places:
+        return self._stops.get(Direction.PLUS), self._stops.get(Direction.MINUS)
 
     @property
     def notices(self) -> tuple[Notice, ...]:
@@ -59,3 +71,8 @@ class MetStops:
         if Direction.MINUS in stops:
             low_deg = min(high_deg, max(low_deg, stops[Direction.MINUS] + KEPT_OFF_DEG))
         self.limits = Range(low_deg, high_deg)
+
+
+def _by_way(places_deg: Places) -> Mapping[Direction, float]:
+    ways = zip((Direction.PLUS, Direction.MINUS), places_deg, strict=True)
+    return {way: place_deg for way, place_deg in ways if place_deg is not None}

@@ -29,7 +29,7 @@ from rotator.control.sky.plan import Path
 from rotator.control.sky.pointing import AimGoal
 from rotator.control.sky.sectors import UNKNOWN
 from rotator.faults import Fault, FaultKind, Notice
-from rotator.status import AxisStatus
+from rotator.status import AxisStatus, Tries
 
 
 class PositionedAxis(AxisBase[PositionedSettings]):
@@ -39,7 +39,7 @@ class PositionedAxis(AxisBase[PositionedSettings]):
         # A model jumps where it is corrected, and it does not scatter.
         super().__init__(settings, settings.speed_dps if settings.source is AngleSource.MEASURED else math.inf)
         self._lease_s = lease_s
-        self._faults = FaultLatch(settings.sensor)
+        self._faults = _latch(settings)
         servo = settings.accel_dps2 is not None and settings.source is AngleSource.MEASURED
         self._stray = StrayWatch(
             settings.axis,
@@ -214,9 +214,21 @@ class PositionedAxis(AxisBase[PositionedSettings]):
 
     def status(self, now_s: float, *, starts: int | None = None, more: tuple[Notice, ...] = ()) -> AxisStatus:
         notices = (*(each for each in (self._condition.notice, self._sensing.notice) if each), *more)
-        return self._status(now_s, starts, drive=self._drive, noise_deg=self._readings.noise_deg, notices=notices)
+        status = self._status(now_s, starts, drive=self._drive, noise_deg=self._readings.noise_deg, notices=notices)
+        faults = self._faults.tries(now_s)
+        measured = self._settings.source is AngleSource.MEASURED
+        in_vain = measured and self.fault is None and self._stray.in_vain
+        return replace(status, tries=Tries(faults, self._faults.kind if faults else None, driven=in_vain))
 
     @property
     def _drive(self) -> Direction:
         """The direction in which the drive turns it to where it was sent; OFF: it is there, or it holds."""
         return self._law.towards(self._sent.steer, self._sensing.angle_deg) if self._sent else Direction.OFF
+
+
+def _latch(settings: PositionedSettings) -> FaultLatch:
+    """With the fault of an earlier run of the program, where the motor was tried too often."""
+    before = Fault(settings.tries.kind or FaultKind.NOT_FOLLOWING, settings.axis, "")
+    if before.kind is FaultKind.NOT_FOLLOWING and settings.master:
+        before = unstoppable(before, master=True)
+    return FaultLatch(settings.sensor, before=before, tries=settings.tries.faults)

@@ -14,7 +14,7 @@ from rotator.control.axis.motion import Motor
 from rotator.control.axis.readings import Window
 from rotator.control.sky.mount import Range
 from rotator.faults import Missing
-from rotator.status import ALL_OPEN, Trusts
+from rotator.status import ALL_OPEN, NO_TRIES, Tries, Trusts
 
 NEAR_DEG = 0.5
 """How far from its place a positioned axis may come to rest, where its drive leaves no dead band."""
@@ -49,6 +49,8 @@ class SwitchedSettings:
     """What reads the angle, in a word for the messages of faults."""
     attended: bool = False
     """A person watches the antenna, and drives it to its stops on purpose. A relay in doubt forbids nothing then."""
+    tries: Tries = NO_TRIES
+    """What earlier runs of the program have tried in vain."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +74,8 @@ class PositionedSettings:
     """While it is to hold, neither wind nor a hand can turn it: only its own motor."""
     master: bool = False
     """Whether an output switches its motor's supply."""
+    tries: Tries = NO_TRIES
+    """What earlier runs of the program have tried in vain."""
     sensor: str = "pot"
     """What reads the angle, in a word for the messages of faults."""
 

@@ -73,6 +73,11 @@ class ShortRuns:
         self.tries = 0
         """Runs without motion since the last fault."""
 
+    @property
+    def in_vain(self) -> bool:
+        """Whether the present run, or one before it, has not been seen to move the axis."""
+        return self.tries > 0 or (not self._moved and (self._run is not None or self._ended is not None))
+
     def forget(self) -> None:
         """The fault is acknowledged, or the readings mean other places."""
         self._smoothed.forget()

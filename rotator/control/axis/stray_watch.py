@@ -79,6 +79,11 @@ class StrayWatch:
         """How often it was sent elsewhere in vain before the present move."""
         return self._vain.count
 
+    @property
+    def in_vain(self) -> bool:
+        """Whether its latest moves have not been seen to bring it nearer."""
+        return self._vain.any
+
     def struck(self) -> None:
         """A fault has stopped the axis: its tries are counted."""
         self._vain.struck()

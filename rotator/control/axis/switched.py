@@ -243,6 +243,7 @@ class SwitchedAxis(AxisBase[SwitchedSettings]):
             calibration=calibration.points if calibration else None,
             learnt=self._law.learnt,
             trusts=self._gate.trusts,
+            tries=self._faults.tries(now_s),
             waiting=self._gate.waiting,
         )
 

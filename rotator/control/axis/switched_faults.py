@@ -5,6 +5,8 @@ Knows the watches that find faults, and the latch that keeps one. Does not stop 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from rotator.control.axis.attempts import Attempts
 from rotator.control.axis.readings import Reading
 from rotator.control.axis.relay_gate import RelayGate
@@ -15,6 +17,7 @@ from rotator.control.axis.vain_presses import VainPresses
 from rotator.control.axis.weld_watch import TURNS
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, FaultKind, Notice
+from rotator.status import Tries
 
 WHY_IT_TURNS = (FaultKind.RELAY_WELDED, FaultKind.TURNS_BY_ITSELF)
 """Faults that say more than the notice TURNS."""
@@ -27,8 +30,13 @@ class SwitchedFaults:
         self._axis = settings.axis
         self._counts = settings.homing is not None
         self._gate = gate
-        self._attempts = Attempts(settings.axis, settings.limits, settings.sensor)
-        self._vain = VainPresses()
+        self._attempts = Attempts(settings.axis, settings.limits, settings.sensor, settings.tries)
+        self._vain = VainPresses(before=settings.tries.pressed)
+        self._calibrated = settings.calibration is not None
+        self._changes: int | None = None
+        """Of the contact by which it counts, by the latest reading; None: there was no reading yet."""
+        self._silent = False
+        """It has not changed since the latest run began."""
         self._astray: Fault | None = None
         """What is wrong with the motion, by the latest reading."""
         self._lost: str | None = None
@@ -56,6 +64,9 @@ class SwitchedFaults:
 
         `unbelievable`: what is wrong with the sensor itself.
         """
+        self._calibrated = sensing.calibration is not None
+        self._silent = self._silent and not homing and reading.condition.changes == self._changes
+        self._changes = reading.condition.changes
         for at_s, angle_deg in sensing.places:
             found = self._gate.see(at_s, angle_deg, reading.condition)
             if sensing.calibration is None:
@@ -101,6 +112,15 @@ class SwitchedFaults:
         self._gate.note_relays(relays)
         self._attempts.note_relays(relays, speed_dps)
         self._vain.note_relays(relays)
+        self._silent = self._silent or relays.closed
+
+    def tries(self, now_s: float) -> Tries:
+        """What the next run of the program has to know."""
+        tries = self._attempts.tries(now_s)
+        if self._counts:
+            return replace(tries, driven=self._silent and self.fault is None)
+        pressed = self._vain.enough and not self._calibrated
+        return replace(tries, driven=tries.driven and self._calibrated, pressed=pressed)
 
     def notices(self, now_s: float) -> tuple[Notice, ...]:
         """What a person should know of its motion though it stops nothing."""

@@ -23,6 +23,11 @@ class VainMoves:
         self._lasts_s = 0.0
         self._least_deg = 0.0
 
+    @property
+    def any(self) -> bool:
+        """Whether the present move, or one before it, has not been seen to bring it nearer."""
+        return self.count > 0 or self._since_s is not None
+
     def see(self, sent_s: float, nearer_deg: float, coming_deg: float, *, begins: bool) -> None:
         """`sent_s`: for how long, in all, it was sent somewhere. `nearer_deg`: how far, in all, it came nearer to that.
 

@@ -22,9 +22,12 @@ IN_VAIN = Notice("presses did not move it: no program turns it before a person h
 class VainPresses:
     """Give it every change of the relays (`note_relays`) and every good reading (`see`), in order of time."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, before: bool = False) -> None:
+        """`before`: they did not in an earlier run of the program."""
         self._smoothed = Smoothed()
         self.forget()
+        if before:
+            self._count, self._pressed_s = ENOUGH, ENOUGH_S
 
     def forget(self) -> None:
         """A person has looked."""

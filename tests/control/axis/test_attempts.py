@@ -8,6 +8,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.attempts import Attempts
 from rotator.control.sky.mount import Range
 from rotator.faults import Fault, FaultKind
+from rotator.status import NO_TRIES, Tries
 from tests.control.axis.switch import Switch
 
 MINUS, OFF, PLUS = Direction
@@ -21,8 +22,8 @@ JUMPS = Fault(FaultKind.POT_JUMPS, Axis.AZIMUTH, "3 jumps")
 class Tried:
     """An axis that stands wherever it is put, at 20 readings a second."""
 
-    def __init__(self, at_deg: float = 448.0) -> None:
-        self.attempts = Attempts(Axis.AZIMUTH, LIMITS)
+    def __init__(self, at_deg: float = 448.0, before: Tries = NO_TRIES) -> None:
+        self.attempts = Attempts(Axis.AZIMUTH, LIMITS, before=before)
         self._switch = Switch(lambda relays: self.attempts.note_relays(relays, 6.0))
         self.at_deg, self.now_s = at_deg, 100.0
         self.look(1.0)
@@ -158,3 +159,47 @@ def test_after_a_link_s_acknowledgement_one_press_in_vain_is_a_fault_and_after_a
     tried.drive(OFF)
     told = tried.look(2.0)
     assert (told is None) is by_person
+
+
+# --- over the end of the program
+
+
+def test_the_next_run_goes_on_from_the_tries_of_this_one() -> None:
+    tried = Tried()
+    for _ in range(2):
+        tried.run_into(END)
+        tried.acknowledged()
+    left = tried.attempts.tries(tried.now_s)
+    assert left == Tries(2, END.kind, (448.0, None), (448.0, None))
+    next_run = Tried(before=left)
+    assert next_run.attempts.fault is None
+    assert next_run.attempts.limits == Range(0.0, 446.0)
+    next_run.run_into(JUMPS, MINUS)
+    assert not next_run.acknowledged()
+    assert next_run.acknowledged(by_person=True)
+    assert next_run.attempts.tries(next_run.now_s) == NO_TRIES
+
+
+def test_a_run_is_in_vain_until_it_is_seen_to_move_the_axis_or_a_fault_counts_it() -> None:
+    def in_vain() -> bool:
+        return tried.attempts.tries(tried.now_s).driven
+
+    tried = Tried(at_deg=100.0)
+    assert not in_vain()
+    tried.drive(PLUS)
+    tried.look(0.3)
+    assert in_vain()
+    tried.drive(OFF)
+    tried.look(1.0)
+    assert in_vain()
+    tried.drive(PLUS)
+    tried.at_deg = 101.0
+    tried.look(0.3)
+    assert not in_vain()
+    tried.drive(OFF)
+    tried.look(1.0)
+    tried.drive(PLUS)
+    tried.look(0.5)
+    assert in_vain()
+    tried.attempts.note(STANDS, tried.now_s, cause=None)
+    assert not in_vain()

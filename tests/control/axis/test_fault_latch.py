@@ -138,3 +138,35 @@ def test_a_fault_names_the_sensor_of_its_axis_also_when_it_comes_back() -> None:
     assert "azimuth: encoder jumps: by 40°" in str(latch.fault)
     latch.acknowledge(2.0, by_person=True)
     assert "azimuth: encoder jumps: by 40°" in str(latch.fault)
+
+
+# --- tried by an earlier run of the program
+
+
+def test_what_an_earlier_run_tried_counts_for_its_whole_time_anew() -> None:
+    latch = FaultLatch(before=STANDS, tries=2)
+    assert (latch.fault, latch.kind, latch.tries(5000.0)) == (None, STANDS.kind, 2)
+    latch.note(None, 5000.0, cause=None, tries=0)
+    assert (latch.tries(5599.9), latch.tries(5600.0)) == (2, 0)
+    assert not tried(latch, 5599.9)
+
+
+def test_tried_three_times_it_begins_with_its_fault_which_a_link_does_not_end() -> None:
+    latch = FaultLatch("limit switches", before=STANDS, tries=TRIES)
+    assert latch.fault is not None
+    assert (latch.fault.kind, latch.fault.sensor) == (STANDS.kind, "limit switches")
+    assert latch.fault.measured.startswith("before the program began again; tried 3 times")
+    assert not latch.acknowledge(5000.0, by_person=False)
+    assert not latch.acknowledge(5599.9, by_person=False)
+    assert latch.acknowledge(5600.0, by_person=False)
+
+
+def test_a_person_ends_what_an_earlier_run_left() -> None:
+    latch = FaultLatch(before=STANDS, tries=TRIES)
+    assert latch.acknowledge(5000.0, by_person=True)
+    assert (latch.fault, latch.tries(5000.0)) == (None, 0)
+
+
+def test_without_tries_an_earlier_fault_is_none() -> None:
+    latch = FaultLatch(before=STANDS)
+    assert (latch.fault, latch.kind, latch.tries(0.0)) == (None, None, 0)

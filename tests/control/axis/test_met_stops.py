@@ -10,6 +10,7 @@ from hw.ports import Axis, Direction
 from rotator.control.axis.met_stops import MetStops
 from rotator.control.sky.mount import Range
 from rotator.faults import FaultKind
+from rotator.status import Tries
 
 MINUS, PLUS = Direction.MINUS, Direction.PLUS
 LIMITS = Range(0.0, 450.0)
@@ -84,3 +85,14 @@ def test_wherever_it_stood_its_limits_shrink_and_stay_a_range(met: list[tuple[Fa
     for kind, way, angle_deg in met:
         stops.stood_still(kind, way, angle_deg)
         assert 0.0 <= stops.limits.min_deg <= stops.limits.max_deg <= 450.0
+
+
+def test_the_next_run_of_the_program_knows_each_stop_and_where_it_stood_once(stops: MetStops) -> None:
+    stops.stood_still(END, PLUS, 440.0)
+    stops.stood_still(STANDS, MINUS, 20.0)
+    next_run = MetStops(Axis.AZIMUTH, LIMITS, Tries(stood_deg=stops.stood_deg, stops_deg=stops.stops_deg))
+    assert (next_run.limits, next_run.notices) == (Range(0.0, 438.0), stops.notices)
+    next_run.stood_still(STANDS, MINUS, 21.0)
+    assert next_run.limits == Range(23.0, 438.0)
+    next_run.forget()
+    assert (next_run.stood_deg, next_run.stops_deg, next_run.limits) == ((None, None), (None, None), LIMITS)

@@ -17,8 +17,8 @@ CYCLE_S = 0.05
 class Pot:
     """Of a rotor that turns so fast while its relay is on; its readings scatter by so much, rms."""
 
-    def __init__(self, speed_dps: float, noise_deg: float) -> None:
-        self.presses = VainPresses()
+    def __init__(self, speed_dps: float, noise_deg: float, *, before: bool = False) -> None:
+        self.presses = VainPresses(before=before)
         self.switch = Switch(self.presses.note_relays)
         self.chance = random.Random(3)
         self.speed_dps, self.noise_deg = speed_dps, noise_deg
@@ -99,3 +99,13 @@ def test_a_person_who_has_looked_begins_anew() -> None:
     pot.press(2.0)
     pot.rest(1.0)
     assert not pot.presses.enough
+
+
+def test_presses_of_an_earlier_run_of_the_program_count_until_one_moves_it_or_a_person_has_looked() -> None:
+    pot = Pot(6.0, 0.1, before=True)
+    assert pot.presses.enough
+    pot.press(1.0)
+    assert not pot.presses.enough
+    looked = VainPresses(before=True)
+    looked.forget()
+    assert not looked.enough

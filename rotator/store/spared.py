@@ -1,0 +1,70 @@
+"""A JSON file on the card with a second place for a card that refuses: full, read-only, or dying.
+
+The second place is the service's folder in memory: it outlives a killed program, not a boot. Knows which of the two is
+the newer one: the second file is there only while the first could not be written, or is behind. Does not know what the
+content means.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+
+from rotator.store.forms import Form
+from rotator.store.json_file import JsonFile, Parse, T
+
+
+class SparedFile:
+    """As `JsonFile`. `memory`: the folder in memory; None: there is none.
+
+    Failures go to the log, and nothing is raised.
+    """
+
+    def __init__(self, path: Path, form: Form, what: str, memory: Path | None) -> None:
+        self._card = JsonFile(path, form, what)
+        self._memory = JsonFile(memory / path.name, form, what) if memory else None
+
+    @property
+    def path(self) -> Path:
+        """On the card."""
+        return self._card.path
+
+    @property
+    def trouble(self) -> str:
+        """Why the card refused the last content; empty: it did not."""
+        return self._card.trouble
+
+    @property
+    def outlives(self) -> bool:
+        """Whether the last content outlives a killed program: one of the two places has it."""
+        return not self._card.trouble or (self._memory is not None and not self._memory.trouble)
+
+    @property
+    def in_memory(self) -> bool:
+        """Whether an earlier run in this boot left something newer than what is on the card."""
+        return self._memory is not None and self._memory.path.exists()
+
+    def load(self, parse: Parse[T], *, absent: T, damaged: T, consequence: str) -> T:
+        """The newer content. As `JsonFile.load`."""
+        newer = self._memory if self._memory is not None and self.in_memory else self._card
+        return newer.load(parse, absent=absent, damaged=damaged, consequence=consequence)
+
+    def save(self, content: Mapping[str, object]) -> bool:
+        """Write it to the card; in memory where the card refuses. False: the card refuses."""
+        if not self._card.save(content):
+            self.note(content)
+            return False
+        self.forget_note()
+        return True
+
+    def note(self, content: Mapping[str, object]) -> None:
+        """Write it in memory alone: it may change often, and cards wear."""
+        if self._memory is not None:
+            self._memory.save(content)
+
+    def forget_note(self) -> None:
+        """The card has it all."""
+        if self._memory is not None:
+            with suppress(OSError):
+                self._memory.path.unlink(missing_ok=True)

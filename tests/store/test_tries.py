@@ -1,0 +1,130 @@
+"""What a motor was tried for in vain survives: on the card, and in memory where the card refuses or would wear."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from hw.ports import Axis
+from rotator.faults import FaultKind
+from rotator.status import NO_TRIES, Tries
+from rotator.store.tries import TriesFile
+from rotator.store.whole import NEW
+
+AZ, EL = Axis.AZIMUTH, Axis.ELEVATION
+NOTHING = {AZ: NO_TRIES, EL: NO_TRIES}
+TRIED = {AZ: Tries(2, FaultKind.END_STOP, (445.9, None), (445.9, None)), EL: Tries(pressed=True)}
+
+
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    return tmp_path / "run" / "tries.json"
+
+
+@pytest.fixture
+def memory(tmp_path: Path) -> Path:
+    return tmp_path / "memory"
+
+
+def refuse(path: Path) -> Path:
+    """A folder stands where the new content would be written: the card refuses until it is gone."""
+    blocked = path.with_name(path.name + NEW)
+    blocked.mkdir(parents=True)
+    return blocked
+
+
+def test_without_a_file_nothing_was_tried_and_nothing_is_written(path: Path) -> None:
+    file = TriesFile(path)
+    assert file.load() == NOTHING
+    file.save(NOTHING)
+    assert not path.exists()
+
+
+def test_the_next_run_goes_on_from_what_was_tried(path: Path) -> None:
+    TriesFile(path).save(TRIED)
+    assert TriesFile(path).load() == TRIED
+
+
+def test_what_a_person_has_released_is_tried_anew(path: Path) -> None:
+    file = TriesFile(path)
+    file.save(TRIED)
+    file.save(NOTHING)
+    assert TriesFile(path).load() == NOTHING
+
+
+def test_who_has_not_looked_into_the_file_clears_it(path: Path) -> None:
+    TriesFile(path).save(TRIED)
+    TriesFile(path).save(NOTHING)
+    assert TriesFile(path).load() == NOTHING
+
+
+def test_a_run_that_was_not_seen_to_move_the_axis_counts_and_wears_no_card(path: Path, memory: Path) -> None:
+    file = TriesFile(path, memory)
+    file.load()
+    file.save(TRIED)
+    on_card = path.read_bytes()
+    file.save(TRIED | {AZ: replace(TRIED[AZ], driven=True)})
+    assert path.read_bytes() == on_card
+    assert TriesFile(path, memory).load()[AZ] == replace(TRIED[AZ], faults=3)
+    file.save(TRIED)
+    assert TriesFile(path, memory).load() == TRIED
+
+
+def test_the_same_is_not_written_twice(path: Path) -> None:
+    file = TriesFile(path)
+    file.save(TRIED)
+    path.unlink()
+    file.save(TRIED)
+    assert not path.exists()
+    again = TriesFile(path)
+    again.load()
+    again.save(NOTHING)
+    assert not path.exists()
+
+
+@pytest.mark.parametrize("ran", [False, True])
+def test_memory_keeps_what_the_card_refuses(path: Path, memory: Path, *, ran: bool) -> None:
+    TriesFile(path, memory).save(NOTHING)
+    blocked = refuse(path)
+    file = TriesFile(path, memory)
+    assert file.load() == NOTHING
+    assert file.save(TRIED | {AZ: replace(TRIED[AZ], driven=ran)})
+    assert file.trouble
+    assert TriesFile(path, memory).load() == TRIED | {AZ: replace(TRIED[AZ], faults=2 + ran)}
+    blocked.rmdir()
+    later = TriesFile(path, memory)
+    later.save(later.load())
+    assert not later.trouble
+    assert TriesFile(path).load() == TriesFile(path, memory).load() == later.load()
+
+
+def test_without_a_place_in_memory_a_refusing_card_is_said(path: Path) -> None:
+    refuse(path)
+    file = TriesFile(path)
+    assert not file.save(TRIED)
+    assert file.trouble
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('"faults": 2', '"faults": 99'),
+        ('"faults": 2', '"faults": NaN'),
+        ("445.9", "1e400"),
+        ("445.9", "-1001"),
+        ('"END_STOP"', '"NO_SUCH_KIND"'),
+        ('"pressed": true', '"pressed": 1'),
+        ('"axes"', '"exes"'),
+        ("{", "["),
+    ],
+)
+def test_a_damaged_file_is_not_believed(path: Path, old: str, new: str, caplog: pytest.LogCaptureFixture) -> None:
+    TriesFile(path).save(TRIED)
+    path.write_text(path.read_text().replace(old, new))
+    file = TriesFile(path)
+    assert file.load() == NOTHING
+    assert len(caplog.records) == 1
+    file.save(NOTHING)
+    assert TriesFile(path).load() == NOTHING
