@@ -23,19 +23,19 @@ ASSUMED = Notice("angle not certain until the rotor has had time for a full trav
 UNFED = Notice("no supply for the control boxes until the fault is acknowledged", "BOX OFF")
 UNSEEN = Notice("no supply for the control boxes before each sensor has shown where its axis is", "BOX OFF")
 UNSEEN_S = 2.0
-"""A sensor that is well shows it sooner."""
+"""A sensor that works shows a place sooner."""
 NEAR_DEG = 10.0
 """No control box turns its rotor further from one reading to the next."""
 FIRST_READINGS = 5
-"""The first place is believed when so many readings, and most of all, have shown it."""
+"""Readings that must agree on the first place; they must also be the majority."""
 MOVED_READINGS, LATEST_READINGS = 20, 27
-"""A place further off is believed when so many of the latest readings have shown it: a spark on the wire lasts less
-long, and a crackling wiper shows other places in between."""
+"""Latest readings that must agree on a place further off. A spark on the wire is shorter, and a crackling wiper
+shows other places in between."""
 
 
 class BoxRotor(PositionedRotor):
-    """Says of an axis that its angle is only assumed, from the start until the box must have arrived; and that its box
-    turned otherwise than it was told, and so has lost its supply.
+    """Reports that an angle is only assumed, from the start until the box must have arrived. Also reports that a box
+    turned the wrong way or too far, so that its supply was cut.
     """
 
     def __init__(
@@ -75,8 +75,8 @@ class BoxRotor(PositionedRotor):
 class FollowedBox:
     """The pot of the rotor, or another sensor, on an axis for which the drive has only a modelled angle.
 
-    `calibration` turns the sensor's readings into degrees on the rotor's own scale; a reading that is not within
-    `healthy`, as of a broken wire, shows no place, and neither do a few that jump.
+    `calibration` turns the readings into degrees on the rotor's own scale. A reading outside `healthy`, as from
+    a broken wire, shows no place; nor does a short jump.
     """
 
     def __init__(
@@ -94,13 +94,13 @@ class FollowedBox:
         self._calibration = calibration
         self._healthy = healthy
         self._place_deg: float | None = None
-        """Where the model was put last."""
+        """The last angle that the sensor gave to the model."""
         self._latest_deg: deque[float] = deque(maxlen=LATEST_READINGS)
-        """What the latest readings have shown; not a number: no place."""
+        """The latest readings in degrees; not a number: the reading shows no place."""
         drive.measured(axis)
 
     def read(self) -> float:
-        """The sensor's reading, in the sensor's own unit; the model takes over its place. Raises HardwareError."""
+        """The reading in the sensor's own unit. The model takes its angle from it. Raises HardwareError."""
         raw = self._sensor.read()
         healthy = self._healthy.low_raw <= raw <= self._healthy.high_raw
         angle_deg = self._calibration.degrees(raw) if healthy else math.nan

@@ -23,7 +23,7 @@ def no_switches(_axis: Axis) -> frozenset[Direction]:
 
 
 class PlainRotor:
-    """Default answers: no relays, no switched supply, no index contact, no coast that is counted, nothing to check."""
+    """Default answers: no relays, no switched supply, no index contact, no counted coast, no thread to check."""
 
     def driven(self, _axis: Axis) -> Direction:
         return Direction.OFF
@@ -47,7 +47,7 @@ class PlainRotor:
 class GuardedRotor(PlainRotor):
     """A drive whose commands expire, and the guard that ends them: a thread, or a call by the simulated clock.
 
-    `operator_must`: what the operator must do at once where the drive cannot be switched off, for the log.
+    `operator_must`: for the log: the operator's immediate action if the drive cannot be switched off.
     """
 
     def __init__(
@@ -61,8 +61,8 @@ class GuardedRotor(PlainRotor):
         self.sensors = sensors
         self._drive = drive
         self._ends = ends
-        # Only the guard's thread reads this clock, and the thread runs in real time only. A simulated clock passes its
-        # own time to `enforce`.
+        # Only the guard's thread reads this clock, and it runs only in real time. A simulated clock passes its own time
+        # to `enforce`.
         self._guard = Guard(drive, time.monotonic, operator_must=operator_must)
 
     def condition(self, axis: Axis) -> Condition:

@@ -33,7 +33,7 @@ class CountedAxis:
     """A pulse counter as an angle sensor, with the reason why its count may be wrong.
 
     Two threads use it: the sensor thread reads, and the control thread places. `master`: a relay switches the motors'
-    supply. `within_deg`: how exactly its homing ends at the angle that is placed then.
+    supply. `within_deg`: the possible error of the angle after homing.
     """
 
     source = AngleSource.COUNTED
@@ -60,11 +60,11 @@ class CountedAxis:
         """Why the stored count is not trusted. The counter's own reason is in its `trouble`."""
         self._reported_s = 0.0
         self._moved = False
-        """It has moved since its last angle at rest was reported."""
+        """Whether it has moved since its last angle at rest was reported."""
         self._reported_lost = False
 
     def begin(self, kept: counts.Place) -> None:
-        """Start from the count that the last run stored."""
+        """Start with the count that the last run stored."""
         match kept.standing:
             case counts.Standing.KNOWN if not self._counter.reaches(kept.angle_deg):
                 self._doubt = f"its kept count of {kept.angle_deg:g}° is beyond its ends"
@@ -104,18 +104,18 @@ class CountedAxis:
 
     @property
     def coasts(self) -> bool:
-        """After its relays have opened: it may still turn, and its count is right so far."""
+        """Whether it may still turn after its relays opened. Until now its count is right."""
         return self._moved and not self._doubt and not self._counter.trouble
 
     def start(self, close_relay: Callable[[], Direction]) -> Direction:
-        """Start the motor if its file is ready for a move; OFF: ask again. Raises HardwareError.
+        """Start the motor if the file marks its axis as moving; OFF: ask again. Raises HardwareError.
 
-        One step for the sensor thread: an angle read between the two would be written as one at rest.
+        For the sensor thread mark and relay are one step: a reading between them would be stored as an angle at rest.
         """
         with self._lock:
             if self._counts_writer and not self._counts_writer.may_start(self._axis):
                 return Direction.OFF
-            moved, self._moved = self._moved, True  # also where the line fails: its relay may have closed
+            moved, self._moved = self._moved, True  # also if the line fails: its relay may have closed
             way = close_relay()
             self._moved = moved or way is not Direction.OFF
             return way
@@ -151,7 +151,7 @@ class CountedAxis:
             return
         now_s = self._clock()
         if self._counter.trouble:
-            # Again and again: a card may have refused it, and the file must not keep an angle that is wrong.
+            # Repeat it: a card may have refused the write, and the file must not keep a wrong angle.
             if not self._reported_lost or now_s - self._reported_s >= KEEP_EVERY_S:
                 self._reported_s, self._reported_lost = now_s, True
                 self._counts_writer.lost(self._axis)
@@ -162,7 +162,7 @@ class CountedAxis:
 
 
 class CountedRotor(RelayRotor):
-    """`axes`: the axes that count pulses. Any other axis has only its sensor in `sensors`."""
+    """`axes`: the axes that count pulses. Another axis has only its sensor in `sensors`."""
 
     def __init__(
         self,

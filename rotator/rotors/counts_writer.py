@@ -1,7 +1,7 @@
 """Writes the counts of a rotor's axes to their file, in a thread of its own: a write may take a second.
 
-Knows that the control loop must not wait for a disk, and that a motor may start only when the file marks its axis as
-moving. Does not know the file's form, nor when an angle is worth a write: `rotator.store.counts` does.
+Knows that the control loop must not wait for a disk, and that a motor may start only after the file marks its axis
+as moving. Does not know the file's form, nor which angle to write: `rotator.store.counts` does.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Later = Callable[[Callable[[], None]], object]
 
 
 def at_once(job: Callable[[], None]) -> None:
-    """Runs a job now: for simulated time, where a write takes no time."""
+    """Run a job now: for simulated time, where a write takes no time."""
     job()
 
 
@@ -38,9 +38,8 @@ class Mark(Enum):
 class CountsWriter:
     """`later` runs the writing jobs; None: the writer starts a thread for them, which `close` ends.
 
-    May be used from any thread. The caller lets no `rests` come between a `may_start` that is True and the relay that
-    closes. After `close` no motor may start, and the other calls do nothing: a sensor thread may run longer than the
-    rotor.
+    May be used from any thread. After `may_start` returned True, the caller must not call `rests` before the relay
+    closes. After `close` no motor may start, and the other calls do nothing: a sensor thread may outlive the rotor.
     """
 
     def __init__(self, file: CountsFile, later: Later | None = None) -> None:
@@ -49,14 +48,14 @@ class CountsWriter:
         self._run_later: Later = self._pool.submit if self._pool else later or at_once
         self._marks = dict.fromkeys(Axis, Mark.NONE)
         self._requests = dict.fromkeys(Axis, 0)
-        """The number of the latest request for a mark. What comes of an older one, or of one that a rest has followed,
-        does not count: the file may say by then that the axis stands."""
+        """The number of the latest request for a mark. The result of an older request is ignored, and so is one that a
+        rest followed: the file may already say that the axis stands."""
         self._lock = threading.RLock()
-        """Reentrant: `at_once` runs its jobs within a call."""
+        """Reentrant, because `at_once` runs its jobs within a call."""
         self._closed = False
 
     def load(self) -> dict[Axis, Place]:
-        """The counts of the last run. Call this before any other method."""
+        """The counts of the last run. Call this first."""
         return self._file.load()
 
     def may_start(self, axis: Axis) -> bool:
@@ -81,7 +80,7 @@ class CountsWriter:
             self._later(lambda: self._file.rest(now_s, axis, angle_deg))
 
     def lost(self, axis: Axis) -> None:
-        """The count of the axis may be wrong. Say so again now and then: a card may have refused it."""
+        """The count of the axis may be wrong. Call this repeatedly: a card may have refused the write."""
         self._later(lambda: self._file.lose(axis))
 
     def homed(self, axis: Axis, angle_deg: float) -> None:
@@ -109,7 +108,7 @@ class CountsWriter:
         self._marks[axis] = mark
 
     def _mark(self, axis: Axis, request: int) -> None:
-        """In the writing thread."""
+        """Runs in the writing thread."""
         done = self._file.start(axis)
         with self._lock:
             if request == self._requests[axis]:

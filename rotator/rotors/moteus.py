@@ -1,4 +1,4 @@
-"""Two moteus controllers as the control loop sees them.
+"""Two moteus controllers, as the control loop sees them.
 
 Knows their faults, that a controller may have lost its position, and that the operator then confirms it. Does not know
 how an order reaches a controller: `hw.moteus.bus` does, and `hw.moteus.wire` in simulated time.

@@ -13,7 +13,7 @@ from rotator.control.axis.readings import Condition
 from rotator.control.commands import Command, Errand
 
 AddAlarm = Callable[[Callable[[], float | None], Callable[[float], None]], None]
-"""`add_alarm(due_s, ring)` of a simulated clock: it calls `ring(now_s)` when its time reaches `due_s()`."""
+"""`add_alarm(due_s, ring)` of a simulated clock: the clock calls `ring(now_s)` when it reaches `due_s()`."""
 
 
 class Rotor(Protocol):
@@ -23,7 +23,7 @@ class Rotor(Protocol):
     """The angle sensor of each axis. The sensor thread reads them, not the control thread."""
 
     def condition(self, axis: Axis) -> Condition:
-        """The state of the axis beside its angle. The sensor thread calls this right after it has read the sensor."""
+        """The state of the axis, without its angle. The sensor thread calls this right after each reading."""
 
     def obey(self, axis: Axis, command: Command) -> Direction:
         """Carry out the command. Raises HardwareError.
@@ -36,7 +36,7 @@ class Rotor(Protocol):
         relays."""
 
     def run(self, errand: Errand) -> None:
-        """Carry out an errand, which the controller gives once. Raises HardwareError."""
+        """Carry out an errand. The controller gives each errand once. Raises HardwareError."""
 
     def closed_contacts(self) -> frozenset[Axis]:
         """The axes whose index contact is closed now, for a lamp. From any thread. Raises HardwareError."""
@@ -48,16 +48,16 @@ class Rotor(Protocol):
         """Switch off all motors and their supply. False: no relay switches the supply. Raises HardwareError."""
 
     def restore(self) -> None:
-        """Allow the motors' supply again. It comes on with the next motor that runs."""
+        """Allow the motors' supply again. It is switched on with the next motor."""
 
     def coasts(self) -> bool:
-        """After `off`: a motor turns on, and its sensor counts the way. From any thread."""
+        """Whether a motor still turns after `off` and its sensor still counts. From any thread."""
 
     def start(self) -> None:
         """Begin in real time: start the guard and all other threads."""
 
     def begin(self, add_alarm: AddAlarm) -> None:
-        """Begin on a simulated clock, where there are no threads. Called in place of `start`."""
+        """Begin on a simulated clock, without threads. Called in place of `start`."""
 
     def check(self) -> None:
         """Raises HardwareError when the guard's thread has died: nothing may move, as no command would expire."""

@@ -1,7 +1,7 @@
 """Motors that go to an angle by themselves: servos, and control boxes that follow a digital pot.
 
-Knows that a drive takes angles on the rotor's own scale, and shifts the controller's angles to it. Does not know which
-drive it has.
+Knows that a drive takes angles on the rotor's own scale, and shifts the controller's angles to that scale. Does not
+know the kind of drive.
 """
 
 from __future__ import annotations

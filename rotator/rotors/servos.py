@@ -1,7 +1,7 @@
 """Two hobby servos as the control loop sees them.
 
-Knows the faults of the servo board, and when the first jump is over. Does not know where a servo really stands, because
-a servo reports nothing.
+Knows the faults of the servo board, and when the first jump is over. Does not know the real angle of a servo: a servo
+reports nothing.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A wish that the box ends and starts anew with its file, and what holds the antenna meanwhile.
+"""The request that the box ends and starts again with its file, and what holds the antenna meanwhile.
 
 Knows the latched stop and the person's hold that go on. Does not know the file: `rotator.cli.anew` starts
 the box again, and puts the last good file back where it cannot.
@@ -15,22 +15,22 @@ from rotator.status import Latch, Status
 
 
 class Anew:
-    """One for a whole run of the command. Asked from any thread; the command hears it by `on_asked`."""
+    """One object for a whole run of the command. `ask` may be called from any thread; it calls `on_asked`."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._asked = False
         self.on_asked: Callable[[], None] = lambda: None
         self.holder: Source | None = None
-        """The person who held the antenna: a new start lets no other program in."""
+        """The person who held the antenna. After the new start no other program may move it either."""
         self.latch: Latch | None = None
         """The stop that was latched."""
         self.sets_up: Axis | None = None
-        """The axis that is to be calibrated after this start; None: the box runs as ever."""
+        """The axis to calibrate after this start. None: a normal run."""
         self.refused = ""
-        """Why the file of the latest start could not be used: the one before it is back."""
+        """Why the file of the latest start could not be used. The file before it is in place again."""
         self.said: tuple[str, ...] = ()
-        """What the calibration that ended with the latest start has said."""
+        """The last message of the calibration that ended with the latest start."""
         self.again = False
         """The box has been started anew, by the page: it must come back with its page."""
 
@@ -39,7 +39,7 @@ class Anew:
         return self._asked
 
     def ask(self, status: Status, sets_up: Axis | None = None) -> None:
-        """End, and start anew. The antenna stops: as at every end of the box the relays open first."""
+        """End the box and start it again. The antenna stops: as at every end of the box, the relays open first."""
         with self._lock:
             if self._asked:
                 return
@@ -54,7 +54,7 @@ class Anew:
             self._asked = False
 
     def take(self) -> bool:
-        """Whether it was asked for. After that it may be asked for again."""
+        """Whether a new start was requested. This call also clears the request."""
         with self._lock:
             asked, self._asked = self._asked, False
             self.again = self.again or asked

@@ -1,4 +1,4 @@
-"""Saves calibrations taken over a link, what the motors taught, and what is known of their relays, while the box runs.
+"""Saves while the box runs: calibrations taken over a link, learnt values of the motors, knowledge of the relays.
 
 Knows when to save, and in which file. Other files do the writing. A failed write is logged, and never stops the box.
 """
@@ -62,7 +62,7 @@ class Autosave:
         learnt.note(self._motors())
 
     async def run(self) -> None:
-        """Save now and then, until cancelled."""
+        """Save again and again, until cancelled."""
         rounds = 0
         while True:
             await asyncio.sleep(CALIBRATIONS_EVERY_S)
@@ -85,7 +85,7 @@ class Autosave:
             self._keep_calibrations()
 
     def keep_relays(self, *, ending: bool = False) -> None:
-        """Save what is known of the relays: before the first of them closes, at each suspicion, and at the end."""
+        """Save the knowledge of the relays: before the first relay closes, at each suspicion, and at the end."""
         with self._saving:
             if self._relays:
                 self._relays.save({axis: self._loop.status.axis(axis).trusts for axis in Axis}, ending=ending)
@@ -103,7 +103,7 @@ class Autosave:
                 self._saved[axis] = points
 
     def _keep_calibration(self, axis: Axis, points: tuple[tuple[float, float], ...]) -> bool:
-        """False: it could not be saved, and has to be tried again. The log has each new reason once."""
+        """False: not saved, try again. The log has each new reason once."""
         if self._path is None:
             log.warning("%s: new calibration, lost at the end: run with --config to keep it", axis.value)
             return True

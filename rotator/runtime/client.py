@@ -28,9 +28,10 @@ class Rights:
     """What the connections of a link may do."""
 
     read_only: bool = False
-    """The link may ask and may not give orders, a stop included."""
+    """Queries only: no orders, not even a stop."""
     most_per_s: int = MOST_PER_S
-    """Orders a second from one connection that take effect at once. Of those beyond, the newest of each kind counts."""
+    """Orders a second from one connection that take effect at once. More orders wait for the next cycle, and then only
+    the newest of each kind counts."""
 
 
 class Client:
@@ -81,12 +82,12 @@ class Client:
         self._source = replace(self._source, host=host)
 
     def left(self) -> None:
-        """The connection has ended: what it began and left without an end ends with it."""
+        """The connection has ended. Its motion that has no end of its own, such as a held jog, ends too."""
         if self._has_ordered:
             self._loop.post(self._source, Leave())
 
     def note_refused(self, reason: str) -> None:
-        """Log that the protocol itself refused an order: it names an angle that the protocol does not have."""
+        """Log an order that the protocol itself refused: its angle does not exist in this protocol."""
         self._complain(f"refused: {reason}", self._ranges)
 
     def _forbidden(self, order: Order) -> Refusal | None:

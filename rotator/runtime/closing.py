@@ -1,4 +1,4 @@
-"""Stops the parts of a box one after the other, and logs each failure. A part that fails skips no other.
+"""Stops the parts of a box one after the other, and logs each failure. A failure of one part does not skip the next.
 
 Knows names, calls and failures. The app supplies the parts and their order.
 """
@@ -25,7 +25,7 @@ class Part:
 
     @classmethod
     def quick(cls, name: str, close: Callable[[], None]) -> Part:
-        """A part whose `close` waits for nothing, and belongs on the event loop."""
+        """A part whose `close` never waits. It runs on the event loop."""
 
         async def closed() -> None:
             close()
@@ -45,7 +45,7 @@ class Failures:
         self.noted: list[Exception] = []
 
     def note(self, name: str, failure: Exception, *, traceback: bool = False) -> None:
-        """`traceback`: log one with a HardwareError too; any other exception is a bug, and has one always."""
+        """`traceback`: log the traceback of a HardwareError too. Any other exception is a bug and always has one."""
         if any(failure is each for each in self.noted):
             return
         self.noted.append(failure)
@@ -57,7 +57,7 @@ class Failures:
         try:
             await part.close()
         except Exception as failure:
-            # A failure may have another one as its cause, which only the traceback shows.
+            # Only the traceback shows an earlier failure that caused this one.
             self.note(part.name, failure, traceback=True)
 
 
@@ -65,7 +65,8 @@ class Failures:
 async def closing(parts: Sequence[Part]) -> AsyncIterator[Failures]:
     """Close all parts at the end, in this order. A part that fails is logged, and the next one is closed.
 
-    What the body raises goes on to the caller. Else the first failure is raised once all parts are closed.
+    An exception of the body goes on to the caller. If the body raised none, the first failure of a part is raised after
+    all parts are closed.
     """
     failures = Failures()
     async with AsyncExitStack() as stack:

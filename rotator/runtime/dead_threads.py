@@ -1,8 +1,7 @@
-"""A thread that a mistake of the program has ended ends the box: what that thread did, nothing else does.
+"""A bug that ends one thread ends the whole box, because no other thread does its work.
 
-A dead thread makes no noise. Without its reader a link would answer nothing, also no `S`; a stop would not outlast a
-restart; a display would show old angles for days. The service manager starts the box again. Knows nothing of what the
-threads do.
+A dead thread is silent. Without its reader a link would not even obey `S`; a stop would not survive a restart; a
+display would show old angles for days. The service manager starts the box again. Does not know what the threads do.
 """
 
 from __future__ import annotations
@@ -19,9 +18,9 @@ log = logging.getLogger(__name__)
 
 @contextmanager
 def dead_threads(tell: Callable[[HardwareError], None]) -> Iterator[None]:
-    """Meanwhile `tell` hears of each thread of this process that an exception has ended. It is called in that thread.
+    """Inside this context `tell` is called for each thread of this process that ends by an exception, in that thread.
 
-    The exception goes into the log, also of a thread that dies while the box ends.
+    The exception goes into the log, also when the thread dies while the box ends.
     """
 
     def died(what: threading.ExceptHookArgs) -> None:

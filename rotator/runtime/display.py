@@ -17,7 +17,7 @@ log = logging.getLogger(__name__)
 DISPLAY_THREAD = "display"
 """The name of the thread."""
 REFRESH_S = 0.2
-"""The time between two looks at the rows, in seconds."""
+"""Seconds between two comparisons of the rows."""
 RESET_EVERY_S = 300.0
 """Seconds between two resets. Sparks of motor relays garble these displays, the program cannot read them back, and a
 reset repairs them."""
@@ -26,7 +26,7 @@ RETRY_S = 5.0
 
 
 class DisplayThread:
-    """`rows` gives the text of each row, at a moment of `clock`, in seconds."""
+    """`rows` gives the text of each row at a time of `clock`, in seconds."""
 
     def __init__(
         self,

@@ -23,7 +23,7 @@ JOIN_S = 2.0 + COAST_S
 
 
 async def process_end(pid: int) -> None:
-    """Wait for the end of the sentinel, which should outlive the program. Raises HardwareError when it ends."""
+    """Wait until the sentinel process ends, then raise HardwareError: the sentinel should outlive the program."""
     ended = asyncio.Event()
     handle = os.pidfd_open(pid)
     asyncio.get_running_loop().add_reader(handle, ended.set)
@@ -65,9 +65,9 @@ class ControlThread:
         try:
             self._loop.run()
         except Exception as fault:
-            # The loop has switched everything off on its way out; the failure goes to the caller of `join`.
+            # The loop has already switched everything off. `join` returns the failure.
             failure = fault
-        with suppress(RuntimeError):  # left behind, it has outlived the event loop
+        with suppress(RuntimeError):  # this thread was left behind, and the event loop has closed
             self._events.call_soon_threadsafe(self._end, failure)
 
     def _end(self, failure: Exception | None) -> None:
@@ -89,7 +89,7 @@ class Engine:
         thread = ControlThread(self.loop)
         self._rotor.start()
         thread.start()
-        self._thread = thread  # `halt` waits for a thread that runs
+        self._thread = thread  # only now: `halt` waits for a thread that runs
         return thread.ended
 
     async def halt(self) -> Exception | None:

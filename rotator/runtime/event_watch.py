@@ -1,6 +1,6 @@
-"""Whether an event loop still runs: one serves links and consoles, another the page. Without it no stop arrives there.
+"""Whether an event loop still runs: one serves links and consoles, another the page. If it hangs, no stop arrives.
 
-Knows moments. The event loop ticks in a task of its own; the control loop asks. Does not know what a stall ends.
+Knows times. The event loop ticks in a task of its own; the control loop asks. Does not know what a stall ends.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 TICK_S = 0.2
 LONGEST_S = 1.0
-"""The event loop stands still when it has not ticked for so long."""
+"""Without a tick for this time, in seconds, the event loop counts as stalled."""
 
 
 class EventWatch:
@@ -21,7 +21,7 @@ class EventWatch:
         self._ticked_s: float | None = None
 
     async def run(self) -> None:
-        """Tick until cancelled. After that the watch sleeps again: a box that ends has no event loop to watch."""
+        """Tick until cancelled. Then the watch reports no stall: a box that ends has no event loop to watch."""
         try:
             while True:
                 self.tick()

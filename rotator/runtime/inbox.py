@@ -20,7 +20,7 @@ class _Posted:
     can_wait: bool
 
     def replaces(self, other: _Posted) -> bool:
-        """Whether only this later order need be done: both wait, from one source, of one kind."""
+        """Whether this later order makes the other one superfluous: same source, same kind, both may wait."""
         waits = self.can_wait and other.can_wait
         return waits and self.source == other.source and _kind(self.order) == _kind(other.order)
 

@@ -25,7 +25,7 @@ class Journal:
         self._orders = LogLimit(clock)
 
     def note(self, device: str, failure: str) -> None:
-        """What a device fails with now; empty: it works."""
+        """Note the present failure of a device; empty: it works."""
         if failure == self._failures.get(device, ""):
             return
         self._failures[device] = failure

@@ -14,7 +14,7 @@ T = TypeVar("T")
 LATCH_THREAD, TRIES_THREAD = "latch", "tries"
 """The names of the threads."""
 AGAIN_S = 10.0
-"""The pause after a failed write: a dying card is not written for each press."""
+"""Seconds of pause after a failed write: a dying card must not be written at each press."""
 JOIN_S = 2.0
 
 
@@ -46,13 +46,13 @@ class LatchThread(Generic[T]):
             self._news.notify()
 
     def end(self) -> None:
-        """Let the thread write what is in force, and end. A failed write is tried once more. Returns at once."""
+        """Let the thread write the present state, and end. A failed write is tried once more. Returns at once."""
         with self._news:
             self._unwritten = self._ending = True
             self._news.notify()
 
     def close(self) -> None:
-        """As `end`, and wait for it. A disk that hangs is left behind. May be called twice."""
+        """As `end`, and wait for the thread; not for a disk that hangs. May be called twice."""
         self.end()
         if self._thread.is_alive():
             self._thread.join(JOIN_S)

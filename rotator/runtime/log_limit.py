@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 EVERY_S = 60.0
 MOST = 5
-"""Different texts per minute that are admitted: the angles of a moving target make each text different."""
+"""Different texts admitted in one minute. A limit is needed: the angles of a moving target make each text different."""
 
 
 class LogLimit:

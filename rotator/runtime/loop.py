@@ -25,17 +25,17 @@ from rotator.status import Latch, Status, Tries
 log = logging.getLogger(__name__)
 
 LATE_PERIODS = 1.5
-"""Without new readings for so many periods the loop acts all the same, and notices that the sensors are silent."""
+"""Periods the loop waits for new readings. Then it acts without them, and notices that the sensors are silent."""
 COAST_S = 1.5
-"""At its end the loop waits so long at most for a motor that coasts: the next run needs its count."""
+"""Longest wait, in seconds, for a motor that still coasts when the loop ends: the next run needs its count."""
 SUPPLY, HEARTBEAT, LINKS, PAGE_LOOP = "supply", "heartbeat", "the links", "the page"
 DRIVES = {axis: f"{axis.value} drive" for axis in Axis}
 MUST_OBEY = (SUPPLY, LINKS, *DRIVES.values())
-"""While one of these fails a relay may be closed, or no stop arrives: then the loop gives no sign of life."""
+"""Devices whose failure silences the sign of life: a relay may be closed, or no stop arrives."""
 
 
 class ControlLoop:
-    """`post` and `status` may be used from any thread; the rest by one thread only: `run`'s, or a rehearsal's.
+    """`post` and `status` may be used from any thread; all else from one thread only: that of `run`, or of a rehearsal.
 
     The loop calls `after_good_step` after each step in which the drives and the motors' supply obeyed. It may raise
     HardwareError.
@@ -75,7 +75,7 @@ class ControlLoop:
         self._listeners: list[Callable[[Source, Order], None]] = []
         self._stopping = False
         self._failure: Exception | None = None
-        """The bug that ended another thread without which nothing may move."""
+        """The bug that ended another thread. Without that thread nothing may move."""
         self.unkept: tuple[str, ...] = ()
         """What cannot be written to its file, and why, for a person. Set by who writes it."""
         self._late_s = 0.0
@@ -90,17 +90,16 @@ class ControlLoop:
         source that waits as well, so a flood of orders costs little and the newest wins.
         """
         try:
-            # First those who plan: else one could order a flight between a stop that has acted and its hearing of it.
+            # Tell the planners first. Otherwise a planner could order a flight after a stop that it does not know yet.
             for listener in self._listeners:
                 listener(source, order)
         finally:
             self._inbox.post(source, order, can_wait=can_wait)
 
     def overhear(self, listener: Callable[[Source, Order], None]) -> None:
-        """From now on tell this listener of every order too, before it acts, in the thread that posts it. It must not
-        wait.
+        """Call this listener with every order, before the order acts, in the thread that posts it. It must not wait.
 
-        Where no order arrives any more it hears of a stop, in the control thread.
+        While an event loop stands still and no order arrives, the control thread calls it with a stop.
         """
         self._listeners.append(listener)
 
@@ -127,7 +126,7 @@ class ControlLoop:
                 driven[axis] = self._rotor.obey(axis, command)
                 self._journal.note(DRIVES[axis], "")
             except HardwareError as fault:
-                # A relay that could not be opened is closed.
+                # A relay that could not be opened counts as closed.
                 driven[axis] = self._rotor.driven(axis)
                 self._journal.note(DRIVES[axis], str(fault))
         self._controller.note_driven(now_s, driven)
@@ -143,7 +142,7 @@ class ControlLoop:
         self._sign_of_life()
 
     def run(self) -> None:
-        """Act on every round of readings and on every order until `stop`. Relays are off when this returns."""
+        """Act on each round of readings and on each order until `stop`. Relays are off when this returns."""
         try:
             self._sensors.start()
             while not self._stopping:
@@ -177,7 +176,7 @@ class ControlLoop:
         self._wake.set()
 
     def leave(self) -> None:
-        """Let the sensors' thread end too, also where `run` hangs. May be called twice, from any thread."""
+        """End the sensor thread too, even if `run` hangs. May be called twice, from any thread."""
         self.stop()
         self._sensors.stop()
 
@@ -188,12 +187,12 @@ class ControlLoop:
             self._wake.clear()
 
     def _watch_links(self, now_s: float) -> None:
-        """While an event loop stands still, what it serves cannot stop the antenna: end what was ordered there."""
+        """While an event loop stands still, its links or its page cannot send a stop. So motion ordered there ends."""
         stalled_s = self._events.stalled_s(now_s) if self._events else 0.0
         if stalled_s:
             self._controller.links_lost()
             if not self._links_lost:
-                # A plan that is being computed for one of them has ended too.
+                # This also ends a plan that is being computed for one of them.
                 for listener in self._listeners:
                     listener(Source(LINKS), Stop())
         self._links_lost = bool(stalled_s)
@@ -204,7 +203,7 @@ class ControlLoop:
         self._journal.note(PAGE_LOOP, "it stands still: what was turned there has ended" if page_stalled_s else "")
 
     def _run_errands(self) -> None:
-        """Do the controller's single requests, such as passing the confirmed angle of an axis to its rotor."""
+        """Carry out the controller's errands, such as passing the confirmed angle of an axis to its rotor."""
         for errand in self._controller.errands:
             try:
                 self._rotor.run(errand)
@@ -213,7 +212,7 @@ class ControlLoop:
         self._controller.errands.clear()
 
     def _switch_supply(self) -> None:
-        """Cut the motors' supply when a fault asks for it; restore it after the acknowledgement. Try until done."""
+        """Cut the motors' supply when a fault requires it; restore it after the acknowledgement. Try until it works."""
         if self.status.cut == self._supply_cut:
             return
         try:
@@ -235,7 +234,7 @@ class ControlLoop:
     def _sign_of_life(self) -> None:
         """Feed the heartbeat line and the service manager, unless a relay may not have obeyed.
 
-        Without the signs of life they switch the motors off.
+        Without this sign of life they switch the motors off.
         """
         if self._journal.any_fails(MUST_OBEY):
             return

@@ -1,6 +1,6 @@
 """Reads the rotor's sensors in a thread of their own, so that a slow or hanging bus delays no order.
 
-Knows when to read. Does not know what a reading means: the axis judges it, its age too.
+Knows when to read. Does not know what a reading means: the axis judges it, and its age.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class SensorThread:
         on_round: Callable[[], None],
     ) -> None:
         self.failure: Exception | None = None
-        """The bug that ended the thread; None: it reads."""
+        """The bug that ended the thread; None: the thread runs."""
         self._rotor = rotor
         self._clock = clock
         self._period_s = period_s
@@ -43,7 +43,7 @@ class SensorThread:
 
     @property
     def readings(self) -> dict[Axis, Reading]:
-        """The latest reading of each axis; none before its first."""
+        """The latest reading of each axis. An axis without a reading yet is missing here."""
         return dict(self._readings)
 
     def read_all(self) -> None:
@@ -59,7 +59,7 @@ class SensorThread:
         self._stop.set()
 
     def join(self) -> None:
-        """A bus that hangs holds the thread. It is left behind: it reads only, and cannot move anything."""
+        """Wait for the end, but not for a bus that hangs: a thread that only reads cannot move anything."""
         if self._thread.is_alive():
             self._thread.join(timeout=JOIN_S)
 
@@ -69,11 +69,11 @@ class SensorThread:
             while not self._stop.is_set():
                 self.read_all()
                 self._on_round()
-                # When it has fallen behind, it goes on from now: a burst of readings would not help.
+                # If it is late, it goes on from now: a burst of readings would not help.
                 due_s = max(due_s + self._period_s, self._clock())
                 self._stop.wait(due_s - self._clock())
         except Exception as failure:
-            # The control thread raises it, and so stops the motors.
+            # The control thread raises this failure, which stops the motors.
             self.failure = failure
             self._on_round()
 

@@ -14,13 +14,13 @@ from contextlib import suppress
 from rotator.config.places import runtime_folder
 
 ALIVE_EVERY = 4
-"""Messages sent within the longest time that the service manager waits for one."""
+"""Messages sent within the longest silence that the service manager allows."""
 ANEW_S = 60.0
-"""So long may it take to end and to start anew."""
+"""Longest silence, in seconds, while the box ends and starts again."""
 
 
 class ServiceManager:
-    """`environment`: the process's. `clock` gives seconds. May be used from any thread. Raises nothing but `leave`."""
+    """`environment`: the process's. `clock` gives seconds. May be used from any thread. Only `leave` raises."""
 
     def __init__(self, environment: Mapping[str, str], clock: Callable[[], float]) -> None:
         address = environment.get("NOTIFY_SOCKET", "")
@@ -36,12 +36,12 @@ class ServiceManager:
         self._say("READY=1")
 
     def pausing(self) -> None:
-        """The box ends and starts anew in this process: it is silent for longer than usual."""
+        """The box ends and starts again in this process: allow a longer silence."""
         if self._every_s:
             self._say(f"WATCHDOG_USEC={ANEW_S * 1e6:.0f}")
 
     def resumed(self) -> None:
-        """The box has started anew: the usual silence counts again."""
+        """The box has started again: the usual limit of silence holds."""
         if self._every_s:
             self._say(f"WATCHDOG_USEC={self._every_s * ALIVE_EVERY * 1e6:.0f}")
 
@@ -56,7 +56,7 @@ class ServiceManager:
         self._say("STOPPING=1")
 
     def leave(self, name: str, text: str) -> None:
-        """Write a file for the commands that the service manager runs after the program has died. Raises OSError."""
+        """Write a file for the commands that the service manager runs after the program's death. Raises OSError."""
         if self._folder:
             (self._folder / name).write_text(text, encoding="utf-8")
 
@@ -73,7 +73,7 @@ class ServiceManager:
 
 
 def _longest_silence_s(environment: Mapping[str, str]) -> float:
-    """The time without a message after which it ends the program; 0: it does not watch this process."""
+    """After this silence, in seconds, the service manager ends the program. 0: it does not watch this process."""
     with suppress(ValueError):
         if int(environment.get("WATCHDOG_PID", os.getpid())) == os.getpid():
             return int(environment.get("WATCHDOG_USEC", "0")) / 1e6

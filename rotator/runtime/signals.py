@@ -1,8 +1,8 @@
 """Ctrl-C, SIGTERM and a closed terminal end motion at once, even while the main thread is stuck.
 
-Python runs a signal's handler in the main thread, between two instructions of it: a main thread that waits for a
-terminal or a disk never gets there. The interpreter also writes the signal's number into a socket, from whatever
-thread the kernel has interrupted; the thread of this file reads it there. Does not know what is to be ended.
+Python runs a signal's handler in the main thread, between two instructions. A main thread that waits for a terminal
+or a disk never gets there. But the interpreter also writes the signal's number into a socket, from the thread that
+the kernel interrupted; the thread of this file reads it there. Does not know what it ends.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class SignalThread:
 
     def __enter__(self) -> Self:
         signal.set_wakeup_fd(self._written.fileno(), warn_on_full_buffer=False)
-        # Ignored by `nohup` or `trap`: a person wants the box to outlive the terminal.
+        # `nohup` or `trap` ignore the signal: then the box must outlive its terminal.
         outlives = signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
         self._before = {
             signum: signal.signal(signum, _noted) for signum in ENDINGS if not (outlives and signum is signal.SIGHUP)
@@ -53,4 +53,4 @@ class SignalThread:
 
 
 def _noted(_signum: int, _frame: FrameType | None) -> None:
-    """The number has gone into the socket already."""
+    """Does nothing: the number is already in the socket."""
