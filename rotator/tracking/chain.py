@@ -1,8 +1,8 @@
-"""The chain of parts of passes that is worth most, one after another, with the time to turn from each to the next.
+"""The best chain of parts of passes, one after another, with the time to turn from each to the next.
 
-Each pass may be begun late or left early at its cuts, on each of its courses. The best chain is found by going back
-from the end (dynamic programming): what a part is worth is known when all that may follow it is. Knows no satellite
-and no mount.
+Each pass may be begun late or left early at its cuts, on each of its courses. The search goes back from the end
+(dynamic programming): the worth of a part includes the best chain that can follow it. Knows no satellite and no
+mount.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from rotator.tracking.travel import Travel
 
 LEAST_SHARE = 0.5
 LEAST_WORTH = 10.0
-"""A part of a pass must be worth half of all of it, or ten minutes overhead."""
+"""A part of a pass must be worth half of the whole pass, or ten minutes overhead."""
 EVEN = 1e-6
 NEARLY = 0.01
-"""Chains that differ by less in worth are as good as each other: the one that turns the antenna least is taken."""
+"""Chains that differ by less in worth count as equal. Then the one that turns the antenna least is taken."""
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A pass flown on one course from one look to another."""
+    """A pass, or a part of it, flown on one course from one look to another."""
 
     one: SeenPass
     course: Course
@@ -64,7 +64,7 @@ class Part:
 
 
 class _Line:
-    """A course with its cuts. `worth[at]`: of the best chain that begins this course at a cut."""
+    """A course with its cuts. `worth[at]`: worth of the best chain that begins this course at that cut."""
 
     def __init__(self, one: SeenPass, course: Course, least: float) -> None:
         self.one, self.course, self.looks = one, course, one.cuts
@@ -75,13 +75,13 @@ class _Line:
         self.ends = [0] * count
         self.follows: list[_Begin | None] = [None] * count
         self._ended = [(-inf, 0)] * (count + 1)
-        """The best worth of an end at a cut or later, counted from the first look of the pass, and that cut."""
+        """For an end at each cut or later: the best worth, counted from the first look of the pass, and the cut."""
 
     def place(self, at: int) -> Place:
         return self.course.places[self.looks[at]]
 
     def set_worth(self, at: int, follows: _Begin | None) -> None:
-        """Cut by cut from the last one back; `follows`: what is best after an end at this cut."""
+        """Call it for each cut, from the last back to the first. `follows`: the best chain after an end at this cut."""
         self.follows[at] = follows
         self._ended[at] = self._ended[at + 1]
         if not self.course.stands[self.looks[at]]:
@@ -99,7 +99,7 @@ class _Line:
 
 @dataclass(frozen=True, slots=True)
 class _Begin:
-    """A line begun at a cut. `others`: every course of the same pass."""
+    """The start of a line at a cut. `others`: every course of the same pass."""
 
     others: Sequence[_Line]
     line: _Line
@@ -111,15 +111,15 @@ class _Begin:
 
 
 class _Later:
-    """The begins found so far, from the last moment back."""
+    """The begins found until now, from the latest time back."""
 
     def __init__(self, travel: Travel) -> None:
         self._travel = travel
         self._before_s: list[float] = []
-        """Their moments with the sign turned, so that they rise."""
+        """Their times with the sign reversed, so that the list rises."""
         self._begins: list[tuple[float, Place, _Begin]] = []
         self._best: list[int] = []
-        """Which of the begins up to each is worth most."""
+        """For each begin: the index of the most valuable one up to it."""
 
     def add(self, at_s: float, begin: _Begin) -> None:
         self._before_s.append(-at_s)
@@ -128,7 +128,7 @@ class _Later:
         self._best.append(len(self._best) if begin.worth >= self._begins[best][0] else best)
 
     def best(self, ready_s: float, place: Place) -> _Begin | None:
-        """The one to go to from this place; the antenna has to be there `SPARE_S` after `ready_s`, or later."""
+        """The best next begin from this place. The antenna must be there `SPARE_S` after `ready_s`, or later."""
         anywhere = bisect_right(self._before_s, -(ready_s + self._travel.longest_s))
         most, found = 0.0, None
         if anywhere:
@@ -145,7 +145,7 @@ class _Later:
 def best_chain(
     flyable: Sequence[tuple[SeenPass, Sequence[Course]]], stands_deg: Place, travel: Travel, from_s: float
 ) -> list[Part]:
-    """In order. `flyable`: each pass with its courses. `stands_deg`: where the antenna stands at `from_s`."""
+    """The parts in order. `flyable`: each pass with its courses. `stands_deg`: the antenna's place at `from_s`."""
     of_pass = [[_Line(one, course, _least(one, ways)) for course in ways] for one, ways in flyable]
     cuts = [
         (one.moments_s[look], number, at) for number, (one, _) in enumerate(flyable) for at, look in enumerate(one.cuts)
@@ -169,13 +169,13 @@ def best_chain(
 
 
 def ready_s(one: SeenPass, begin_s: float, from_s: float) -> float:
-    """When the antenna must stand waiting, in a plan that is made at `from_s`. What is up already waits for nothing."""
+    """When the antenna must be in place, in a plan made at `from_s`. A pass that is already up needs no waiting."""
     up_already = one.found.aos_s is None or one.found.aos_s < from_s
     return begin_s if up_already else begin_s - SPARE_S
 
 
 def _first(of_pass: Sequence[Sequence[_Line]], stands_deg: Place, travel: Travel, from_s: float) -> _Begin | None:
-    """The begin that is worth most among those that the antenna reaches from where it stands."""
+    """The most valuable begin among those that the antenna reaches from its place."""
     most, best = EVEN, None
     for lines in of_pass:
         for line in lines:
@@ -187,7 +187,7 @@ def _first(of_pass: Sequence[Sequence[_Line]], stands_deg: Place, travel: Travel
 
 
 def _nearest(begin: _Begin, place: Place, free_s: float, travel: Travel, from_s: float) -> _Begin:
-    """Of the courses that are worth as much, the one that begins nearest to where the antenna stands."""
+    """Of equally valuable courses, the one that begins nearest to the antenna's place."""
     one, at = begin.line.one, begin.at
     within_s = ready_s(one, one.moments_s[begin.line.looks[at]], from_s) - free_s
     as_good = [
@@ -200,6 +200,6 @@ def _nearest(begin: _Begin, place: Place, free_s: float, travel: Travel, from_s:
 
 
 def _least(one: SeenPass, ways: Sequence[Course]) -> float:
-    """What a part has to be worth."""
+    """The least worth of a part that is flown."""
     most = max(course.gained[-1] for course in ways)
     return min(LEAST_SHARE * most, LEAST_WORTH * one.followed.priority) * (1 - EVEN)

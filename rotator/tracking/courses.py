@@ -1,7 +1,7 @@
 """The courses on which the antenna can fly one pass: on each turn of azimuth, over the top, or with an unwind in it.
 
-Knows where the axes are at each look and what each second is worth there: nothing behind trees and roofs, and half as
-much at the horizon as overhead. Knows no other pass.
+Knows the axis angles at each look and the worth of each second there: nothing behind trees and roofs, and half as much
+at the horizon as overhead. Knows no other pass.
 """
 
 from __future__ import annotations
@@ -21,24 +21,24 @@ from rotator.tracking.planned import Followed
 from rotator.tracking.travel import Travel
 
 LOOKS = 720
-"""The path of a pass is looked at every `STEP_S`, and that of a long one so many times."""
+"""Looks at the path of a pass: one every `STEP_S` seconds, and this number in a long pass."""
 CUTS = 240
 CUT_S = 15.0
-"""Where a pass may be begun late or left early: this far apart, or so many places in a long pass."""
+"""Cuts, where a pass may be begun late or left early: seconds between two cuts, or their number in a long pass."""
 WORST_SHARE = 0.5
-"""Of the worth that the best course has: a course with less is not looked at."""
+"""A course with less than this share of the best course's worth is not considered."""
 
 
 @dataclass(frozen=True, slots=True)
 class SeenPass:
-    """A pass of a followed target, as far as it is not over yet, looked at at even moments."""
+    """The rest of a pass of a followed target, sampled at even times, the looks."""
 
     found: Pass
     followed: Followed
     moments_s: Sequence[float]
     directions: Sequence[tuple[float, float]]
     rates: Sequence[float]
-    """What a minute is worth at each of them."""
+    """The worth of a minute at each look."""
 
     @property
     def step_s(self) -> float:
@@ -46,28 +46,28 @@ class SeenPass:
 
     @property
     def cuts(self) -> Sequence[int]:
-        """The looks at which it may be begun late or left early, and its two ends."""
+        """The looks at which the pass may be begun late or left early, and its two ends."""
         last = len(self.moments_s) - 1
         return [*range(0, last, self.apart), last]
 
     @property
     def apart(self) -> int:
-        """So many looks are from one cut to the next."""
+        """Looks from one cut to the next."""
         return max(1, round(CUT_S / self.step_s), math.ceil(len(self.moments_s) / CUTS))
 
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """All of a pass on one course. Each list has an item for each look."""
+    """A whole pass on one course. Each list has an item for each look."""
 
     places: Sequence[Place]
     over: Sequence[bool]
     stands: Sequence[bool]
-    """Whether the antenna may begin or end there: not beside a sector, nor on the way from one turn to another."""
+    """Whether the antenna may begin or end at each look: not beside a sector, nor while it turns to another turn."""
     gained: Sequence[float]
-    """What is gained up to each look."""
+    """The worth gained up to each look."""
     lost_s: Sequence[float]
-    """For how long the antenna is more than 10° off up to each look."""
+    """Up to each look: the time for which the antenna is more than 10° off."""
 
 
 def seen_pass(found: Pass, followed: Followed, mount: Mount, from_s: float, until_s: float) -> SeenPass:
@@ -86,7 +86,7 @@ def seen_pass(found: Pass, followed: Followed, mount: Mount, from_s: float, unti
 
 
 def _sight(found: Pass, followed: Followed, at_s: float) -> Sight:
-    """A satellite that comes down during the pass stays where it was highest."""
+    """A satellite that decays during the pass is taken at its highest place."""
     try:
         return followed.target.sight(at_s)
     except NotThere:
@@ -94,7 +94,7 @@ def _sight(found: Pass, followed: Followed, at_s: float) -> Sight:
 
 
 def courses(one: SeenPass, mount: Mount, travel: Travel) -> list[Course]:
-    """Every course that is worth flying."""
+    """All courses worth flying."""
     plain = [_on_one_way(one, mount, way, travel) for way in _reaching(one, mount)]
     found = [course for course in plain if course.gained[-1] > 0]
     if not found:
@@ -107,7 +107,7 @@ def courses(one: SeenPass, mount: Mount, travel: Travel) -> list[Course]:
 
 
 def _reaching(one: SeenPass, mount: Mount) -> list[Way]:
-    """The ways of which a part is within the range."""
+    """The ways that lie at least partly within the range."""
     turned_deg = list(
         accumulate(
             ((after[0] - before[0] + 180.0) % 360.0 - 180.0)
@@ -140,7 +140,7 @@ def _on_one_way(one: SeenPass, mount: Mount, way: Way, travel: Travel) -> Course
 
 
 def _changed(one: SeenPass, before: Course, after: Course, travel: Travel) -> Course | None:
-    """From one way to another in the middle of the pass, at the best moment; None where no moment is worth it."""
+    """The change from one course to another in the middle of the pass, at the best look. None: no look is worth it."""
     last = len(one.moments_s) - 1
     step_s = one.step_s
     most, best = max(before.gained[-1], after.gained[-1]), None
@@ -176,5 +176,5 @@ def _changed(one: SeenPass, before: Course, after: Course, travel: Travel) -> Co
 
 
 def _looks(travel_s: float, step_s: float) -> int:
-    """How many looks later the antenna is there."""
+    """The looks that pass until the antenna is there."""
     return max(1, math.ceil(travel_s / step_s))

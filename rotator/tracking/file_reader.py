@@ -1,7 +1,7 @@
 """Reads files of elements for the running box: a large one in a process of its own.
 
-Parsing ten megabytes keeps the interpreter busy for seconds, and the control loop has none other. Knows sizes alone;
-`rotator.orbits` knows the forms.
+Parsing ten megabytes keeps the interpreter busy for seconds, and the control loop needs the same interpreter. Knows
+only sizes; `rotator.orbits` knows the forms.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from rotator.orbits.catalogue import Found, read_file
 from rotator.own_process import OwnProcess
 
 LARGE_BYTES = 200_000
-"""Some hundred satellites: a smaller file is read in some milliseconds, and a process takes half a second to begin."""
+"""Bytes of some hundred satellites. A smaller file takes some milliseconds; the start of a process, half a second."""
 LONGEST_S = 120.0
 
 
 class FileReader:
-    """`read` belongs to one thread, `close` to any."""
+    """`read` may be called from one thread only, `close` from any."""
 
     def __init__(self) -> None:
         self._process = OwnProcess(LONGEST_S, once=True)
@@ -29,5 +29,5 @@ class FileReader:
         return self._process.compute(read_file, path)
 
     def close(self) -> None:
-        """A file that is being read is given up."""
+        """Give up a file that is being read."""
         self._process.close()

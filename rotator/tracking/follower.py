@@ -1,7 +1,7 @@
 """Flies the plan of many passes: one after the other, while no other sender has the antenna.
 
-Knows when another sender has ordered last, and rests for a while then. A target that a person names comes before the
-plan (`tracker`). What the plan holds is computed elsewhere.
+Knows the last order of another sender, and pauses after it. A target that a person names comes before the plan
+(`tracker`). The plan itself is computed elsewhere.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from rotator.tracking.tracker import TRACK, Box, Flown, Tracker, lost
 log = logging.getLogger(__name__)
 
 REST_S = 600.0
-"""For so long after the latest order of another sender the plan is not flown on."""
+"""Seconds without an order of another sender, before the plan goes on."""
 AGAIN_S = 600.0
-"""The plan is made anew so often: elements and clock may have changed."""
+"""Seconds until the plan is made again: elements and clock may have changed."""
 NOT_YET_S = 5.0
-"""Where an angle or the elements are not known yet, it looks again so much later."""
+"""Seconds until the next try if an angle or the elements are not known yet."""
 
 
 class FollowPlanner(Protocol):
@@ -37,10 +37,10 @@ class FollowPlanner(Protocol):
 
 
 class Follower:
-    """`heard` may be called from any thread, `step` from one only. `followed`: what the configuration asks for now.
+    """`heard` may be called from any thread, `step` from one only. `followed`: the targets of the configuration.
 
-    `begun_s`: when the program began, on the loop's clock. Who ordered last before that is not known, so the plan rests
-    first. None: no antenna has outlived an earlier run.
+    `begun_s`: when the program began, on the loop's clock. The last sender before that is not known, so the plan pauses
+    first. None: a simulated antenna, which an earlier program cannot have moved.
     """
 
     def __init__(
@@ -62,21 +62,21 @@ class Follower:
         self._changed = False
         self._flown: Flown | None = None
         self._lock = threading.Lock()
-        """Between the last look at who has ordered and the order of a flight, no other order is heard."""
+        """Makes "check the last sender, then order the flight" one step: no other order is heard in between."""
 
     def heard(self, source: Source, order: Order) -> None:
-        """An order of any sender. A person who gives the antenna back lets the plan go on at once."""
+        """An order of any sender. When a person gives the antenna back, the plan goes on at once."""
         if source != TRACK and deed_of(order) is not None:
             rest_s = 0.0 if isinstance(order, GiveBack) else REST_S
             with self._lock:
                 self._rests_until_s = self._box.status().at_s + rest_s
 
     def plan_again(self) -> None:
-        """From any thread: what is followed, or its priority, has changed. A pass that is flown is flown to its end."""
+        """From any thread: the targets or their priorities have changed. The present pass is flown to its end."""
         self._changed = True
 
     def step(self, now: Now) -> None:
-        """Look once. It may compute for seconds."""
+        """Do what is due now. May compute for seconds."""
         if self._changed:
             self._changed, self._again_utc_s = False, now.utc_s
         status = self._box.status()
@@ -122,7 +122,7 @@ class Follower:
             log.info("the plan's next pass: %s", upcoming.flight.order.name)
 
     def _fly(self, flight: NextFlight, now: Now) -> bool:
-        """The plan took a while: a stop or another sender may have come since. Returns whether none has."""
+        """Order the flight, unless a stop or another sender came since the plan began. Returns whether it did."""
         with self._lock:
             status = self._box.status()
             if not self._may_fly(status, now):

@@ -1,7 +1,7 @@
-"""What the words of a person mean, by the elements that are known now.
+"""Finds the target that a person's words mean, with the elements that are known now.
 
-Knows the station and the catalogue. `find` may be called from any thread, `refresh` from one: a catalogue that is read
-anew replaces the old one whole.
+Knows the station and the catalogue. `find` may be called from any thread, `refresh` from one only: a new catalogue
+replaces the old one whole.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _ANYWHERE = Site(0.0, 0.0)
 
 
 class KnownSky:
-    """`site` None: the file names no place; directions alone are known then."""
+    """`site` None: the configuration has no place of the station; then only fixed directions are known."""
 
     def __init__(self, site: Site | None, catalogue: Catalogue) -> None:
         self.site = site
@@ -34,17 +34,17 @@ class KnownSky:
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """What is wrong with the files of elements."""
+        """The errors in the files of elements."""
         return self._catalogue.faults
 
     @property
     def elements(self) -> tuple[Elements, ...] | None:
-        """The newest set of each satellite: the same object until one is new. None: nothing has been read yet."""
+        """The newest set of each satellite; the same object until a set changes. None: nothing has been read yet."""
         return self._elements
 
     @property
     def by_file(self) -> dict[Path, tuple[Elements, ...]]:
-        """What was read from each file."""
+        """The elements of each file."""
         return self._catalogue.by_file
 
     def has_news(self) -> bool:
@@ -52,7 +52,7 @@ class KnownSky:
         return self._catalogue.has_news()
 
     def refresh(self) -> bool:
-        """Read the files that have changed. Returns whether one has."""
+        """Read the files that have changed. Returns whether there was one."""
         fresh = copy.copy(self._catalogue)
         changed = fresh.refresh()
         self._catalogue = fresh
@@ -61,7 +61,7 @@ class KnownSky:
         return changed
 
     def satellites(self) -> list[Satellite]:
-        """Those whose elements sgp4 takes, by name; one of those that fly as one; without air, as sent."""
+        """By name: those that sgp4 accepts; of several on one orbit, one; without refraction, as programs send."""
         if self.site is None:
             return []
         found = []

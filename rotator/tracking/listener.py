@@ -1,7 +1,7 @@
-"""Hears the orders of every link, and has the pass flown of the satellite that they follow.
+"""Hears the orders of every link. If they follow a satellite, it orders the flight of that pass.
 
-Knows moments and sources. What is recognised, and how surely, is the sky's room; whether the flight takes the place of
-the stream is decided in control, for the orders of some seconds have come since.
+Knows times and sources. `rotator.orbits` recognises the satellite, and how surely. Control decides whether the flight
+replaces the stream, because the stream has sent further orders meanwhile.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from rotator.tracking.tracker import Box, Planner
 log = logging.getLogger(__name__)
 
 MOST_WAITING = 500
-"""Orders that are kept until they are looked at; a flood pushes the oldest out."""
+"""Orders kept for the next step; in a flood the oldest are lost."""
 
 AGAIN_S = 30.0
-"""A flight that has ended while its stream goes on is planned again this much after the plan before: a person had taken
-the antenna, and has given it back."""
+"""Seconds from one plan to the next for the same stream. A second plan is needed if the flight ended and the stream
+goes on: a person took the antenna and gave it back."""
 
 
 class StreamListener:
@@ -54,7 +54,7 @@ class StreamListener:
         self._wanted = wanted
         self._watch = StreamWatch(sky.satellites(), wanted())
         self._planned: Recognised | None = None
-        """Whose pass was planned last, and when, on the loop's clock."""
+        """The satellite of the last plan, and when it was planned, on the loop's clock."""
         self._planned_s = 0.0
 
     def hear(self, source: Source, order: Order) -> None:
@@ -65,7 +65,7 @@ class StreamListener:
         self._watch.know(self._sky.satellites(), self._wanted())
 
     def step(self, clock: Callable[[], Now]) -> None:
-        """Look at what was heard. It may compute for seconds."""
+        """Process the orders heard. May compute for seconds."""
         if (flown := self._box.status().flown) is not None:
             self._watch.used(flown.name)
         moved: set[Source] = set()
@@ -80,7 +80,7 @@ class StreamListener:
                 self._keep_flown(found, clock())
 
     def _keep_flown(self, found: Recognised, now: Now) -> None:
-        """Its orders go on, and move the antenna: have the pass flown, unless it is."""
+        """The stream goes on and moves the antenna: order the flight of its pass, unless it is already flown."""
         status = self._box.status()
         if status.recognised or status.controlled_by != str(found.source):
             return

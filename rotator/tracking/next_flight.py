@@ -1,4 +1,4 @@
-"""The next flight to a target of the sky: its pass that is on or comes next, planned whole.
+"""The next flight to a target in the sky: its present or next pass, planned whole.
 
 Knows the target, the station and the antenna as it stands. It computes for up to some seconds, so `planner` gives it a
 process of its own. Knows no clock and no thread: both its moments are arguments.
@@ -23,22 +23,22 @@ from rotator.orbits.targets import find
 from rotator.orders import Fly
 
 AHEAD_S = 7 * 86_400.0
-"""A target that does not rise within this time is not waited for."""
+"""Longest wait for a target to rise, in seconds."""
 LONGEST_S = 1800.0
-"""A target that is up for longer is flown in pieces."""
+"""Longest flight, in seconds. A longer pass is flown in pieces."""
 SATELLITE_ROW_S, SLOW_ROW_S = 1.0, 20.0
-"""The time between two rows of the path."""
+"""Seconds between two rows of the path."""
 JUDGED_S = 60.0
-"""The error to be expected is looked at so often in a pass."""
+"""Samples of the expected error in a pass."""
 
 
 class NeverRises(Exception):  # noqa: N818 - a sentence about a target
-    """It does not come over the horizon within `AHEAD_S`. The text names it."""
+    """The target does not rise within `AHEAD_S`. The text names it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Now:
-    """One moment on two clocks: UTC in seconds since 1970, and the control loop's clock."""
+    """One time on two clocks: UTC in seconds since 1970, and the control loop's clock."""
 
     utc_s: float
     loop_s: float
@@ -47,13 +47,13 @@ class Now:
 
     @property
     def apart_s(self) -> float:
-        """What is added to the loop's clock to have UTC."""
+        """UTC minus the loop's clock, in seconds."""
         return self.utc_s - self.loop_s
 
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """A target as a plain value, for another process. `elements`: those of a satellite; None for all others."""
+    """A target as a plain value, for another process. `elements`: of a satellite; None for all other targets."""
 
     words: str
     site: Site
@@ -87,7 +87,7 @@ def next_flight(wanted: Wanted, antenna: Antenna, now: Now) -> NextFlight:
 def flight_between(
     target: Target, found: Pass, span_s: tuple[float, float], antenna: Antenna, now: Now, *, begin_on: Way | None = None
 ) -> NextFlight:
-    """The part of a pass from one moment of UTC to another, planned whole. `begin_on`: as in `plan_flight`."""
+    """The part of a pass between two times of UTC, planned whole. `begin_on`: as in `plan_flight`."""
     begin_s, end_s = span_s
     path = target_path(target, begin_s, end_s, now.apart_s)
     order = plan_flight(target.name, path, antenna, now.loop_s, begin_on=begin_on).order
@@ -97,7 +97,7 @@ def flight_between(
 
 
 def rest_flight(wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
-    """What is left of a pass that is on, as a program sends it already. Raises NotThere, Unknown."""
+    """The rest of a present pass that a program already sends. Raises NotThere, Unknown."""
     target = wanted.target()
     rest = rest_of_pass(target, now.utc_s)
     path = KnownPath(
@@ -109,7 +109,7 @@ def rest_flight(wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
 
 
 def target_path(target: Target, begin_s: float, end_s: float, apart_s: float) -> KnownPath:
-    """Where it is from one moment of UTC to another, on a clock that is `apart_s` behind UTC."""
+    """The target's path between two times of UTC, on a clock that is `apart_s` behind UTC."""
     row_s = SATELLITE_ROW_S if isinstance(target, Satellite) else SLOW_ROW_S
     count = max(2, math.ceil((end_s - begin_s) / row_s) + 1)
     moments_s = [min(begin_s + index * row_s, end_s) for index in range(count - 1)] + [max(end_s, begin_s + row_s)]
@@ -121,7 +121,7 @@ def target_path(target: Target, begin_s: float, end_s: float, apart_s: float) ->
 
 
 def _span(found: Pass, now_s: float) -> tuple[float, float]:
-    """The pass, or its part from now on, as far as one flight goes."""
+    """Begin and end of the pass or of its rest, cut to the longest flight."""
     begin_s = now_s if found.aos_s is None else max(found.aos_s, now_s)
     end_s = math.inf if found.los_s is None else found.los_s
     return begin_s, min(end_s, begin_s + LONGEST_S)

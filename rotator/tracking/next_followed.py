@@ -14,7 +14,7 @@ from rotator.tracking.schedule import schedule
 
 PLANNED_S = 86_400.0
 SOON_S = 2.0
-"""A flight whose antenna sets off within this time is begun."""
+"""A flight is ordered when its antenna sets off within this time, in seconds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class WantedOften:
     min_culmination_deg: float
 
     def followed(self) -> Followed:
-        """As the plan of many passes takes it. Raises NotThere, Unknown."""
+        """The same target for the plan of many passes. Raises NotThere, Unknown."""
         return Followed(self.wanted.target(), self.priority, self.min_culmination_deg)
 
 
@@ -39,7 +39,7 @@ class Upcoming:
 
 
 def next_followed(followed: tuple[WantedOften, ...], antenna: Antenna, now: Now) -> Upcoming | None:
-    """None: there is nothing to fly for a day."""
+    """None: nothing to fly within a day."""
     wishes = [each.followed() for each in followed]
     targets = {each.target.name: each.target for each in wishes}
     planned = schedule(wishes, antenna, now.utc_s, now.utc_s + PLANNED_S)

@@ -1,6 +1,6 @@
-"""Plans in a process of its own: a plan is seconds of computing, and the control loop shares one interpreter with it.
+"""Plans in a process of its own: a plan takes seconds, and would hold the interpreter that the control loop needs.
 
-Knows which plans there are. Knows nothing of how they are computed.
+Knows the kinds of plans. Does not know how they are computed.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from rotator.tracking.next_followed import Upcoming, WantedOften, next_followed
 from rotator.tracking.program import CannotFly, Program, program_flight
 
 LONGEST_S = 120.0
-"""A plan that takes longer is given up."""
+"""Longest time for a plan, in seconds. Then it is given up."""
 Result = TypeVar("Result")
 
 
@@ -45,7 +45,7 @@ class ProcessPlanner:
         return self._compute(program_flight, program, antenna, now)
 
     def close(self) -> None:
-        """From any thread. A plan that is under way fails, and none is made any more."""
+        """From any thread. The present plan fails, and each later one too."""
         self._process.close()
 
     def _compute(self, job: Callable[..., Result], *given: Any) -> Result:
@@ -54,5 +54,5 @@ class ProcessPlanner:
         except (NeverRises, NotThere, Unknown, CannotFly):
             raise
         except Exception as failure:
-            # Also what no plan should raise: it ends this plan, not the thread that asks for plans.
+            # A bug in a plan ends this plan too, but not the thread that asked for it.
             raise RuntimeError(f"the plan could not be made ({failure or type(failure).__name__})") from failure

@@ -1,7 +1,7 @@
 """A flight along a timed table that a person has handed in (program track).
 
-Knows from when its moments count. It computes for up to some seconds, so `planner` gives it a process of its own.
-Knows no clock and no thread.
+Knows the time from which a table counts. It computes for up to some seconds, so `planner` gives it a process of its
+own. Knows no clock and no thread.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from rotator.tracking.next_flight import AHEAD_S, LONGEST_S, NextFlight, Now
 
 
 class CannotFly(Exception):  # noqa: N818 - a sentence about a table
-    """The antenna cannot follow it, or it is over. The text tells."""
+    """The antenna cannot follow the table, or the table is over. The text says which."""
 
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """`from_loop_s`: the moment from which a table counts that is not in UTC, on the control loop's clock."""
+    """`from_loop_s`: start of a table that is not in UTC, on the control loop's clock."""
 
     table: TimedTable
     from_loop_s: float
 
 
 def program_flight(program: Program, antenna: Antenna, now: Now) -> NextFlight:
-    """What is left of it, or a piece of that; checked whole before its beginning. Raises CannotFly."""
+    """The rest of the table, or its next piece. Before its beginning the whole table is checked. Raises CannotFly."""
     table = program.table
     later_s = -now.apart_s if table.utc else program.from_loop_s
     begin_s, end_s = (at_s + later_s for at_s, _, _ in (table.rows[0], table.rows[-1]))

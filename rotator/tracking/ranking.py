@@ -1,7 +1,7 @@
-"""The priorities that belong to an order: what a person drags further up counts more than what stands below it.
+"""The priorities for an order of targets: the higher a person drags a target, the more it counts.
 
-Knows numbers alone. The numbers of the configuration keep their places in the list and the names move, so its scale
-stays: 10, 5, 1 stay 10, 5, 1. Two equal numbers would leave the order without a meaning: the upper one becomes larger.
+Knows only numbers. The numbers of the configuration keep their places in the list and only the names move, so the
+scale stays: 10, 5, 1 stay 10, 5, 1. Of two equal numbers the upper one becomes larger, so that the order counts.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 MOST = 1000.0
-"""Beyond this all numbers shrink by one factor: only their ratios count."""
+"""The largest priority. Beyond it all numbers shrink by one factor, because only their ratios count."""
 
 
 def ranked(priorities: Sequence[float]) -> list[float]:
-    """From the priorities of all targets, in any order, to those of the places from the first to the last."""
+    """The priority of each place in the list, from the first on. `priorities`: of all targets, in any order."""
     places = sorted(priorities)
     for index in range(1, len(places)):
         if places[index] <= places[index - 1]:

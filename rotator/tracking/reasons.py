@@ -1,6 +1,6 @@
 """Why a pass is left out of the plan, or flown in part: sentences for a person.
 
-Knows what is planned. Decides nothing.
+Knows the plan. Does not decide anything.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from rotator.tracking.courses import SeenPass
 from rotator.tracking.planned import SPARE_S, Followed, PlannedPass
 
 NEAR_S = 300.0
-"""A flight that begins or ends so near may leave no time to turn the antenna."""
+"""Seconds: a flight this near may leave no time to turn the antenna."""
 LITTLE = 0.02
-"""Minutes: so little is not worth a word."""
+"""Minutes: a shorter loss is not mentioned."""
 
 
 def too_low(found: Pass, followed: Followed) -> str:
@@ -26,7 +26,7 @@ def too_low(found: Pass, followed: Followed) -> str:
 
 
 def unseen(one: SeenPass) -> str:
-    """No course of this pass is worth anything."""
+    """Why no course of this pass is worth anything."""
     if any(one.rates):
         return "the rotor does not reach it"
     on_already = one.found.aos_s is not None and one.found.aos_s < one.moments_s[0]
@@ -34,7 +34,7 @@ def unseen(one: SeenPass) -> str:
 
 
 def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
-    """Which flights are worth more."""
+    """Names the flights that are worth more."""
     begin_s, end_s = one.moments_s[0], one.moments_s[-1]
     during = _between(flown, begin_s - SPARE_S, end_s + SPARE_S)
     rivals = during or _between(flown, begin_s - NEAR_S, end_s + NEAR_S)
@@ -56,7 +56,7 @@ def left_out(one: SeenPass, flown: Sequence[PlannedPass]) -> str:
 
 
 def in_part(part: Part, before: str | None, after: str | None) -> str:
-    """Which flights take its beginning or its end; empty for a pass of which nothing is lost."""
+    """Names the flights that take its beginning or its end; empty: nothing of the pass is lost."""
     gained, priority = part.course.gained, part.one.followed.priority
     late = gained[part.first] > LITTLE * priority
     early = gained[-1] - gained[part.last] > LITTLE * priority

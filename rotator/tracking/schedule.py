@@ -1,7 +1,7 @@
-"""The plan of many passes: which the antenna flies, and from when to when where two are up at once.
+"""The plan of many passes: which of them the antenna flies, and who gets which part when two are up at once.
 
-Knows what each part of a pass is worth on each of its courses, and turns the chain of parts that is worth most into
-flights. Knows no clock: time is an argument, in seconds since 1970 (UTC).
+Knows the worth of each part of a pass on each of its courses, and makes flights of the best chain of parts. Knows no
+clock: time is an argument, in seconds since 1970 (UTC).
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from rotator.tracking.reasons import in_part, left_out, too_low, unseen
 from rotator.tracking.travel import Travel
 
 START_S = 5.0
-"""Where there is time the antenna sets off this much earlier still: the steps are planned then, and motors start."""
+"""Extra seconds before the antenna sets off, if there is time: for the planning of the steps and the motors' start."""
 
 
 def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, until_s: float) -> tuple[PlannedPass, ...]:
-    """Every pass of the followed targets between two moments, by rise: flown or left out, and why.
+    """Every pass of the followed targets between two times, in order of rise: flown or left out, and why.
 
-    `antenna`: where it stands at `from_s`, with mount and motors. To fly one of them, at its `set_off_s`: `plan_flight`
-    with the target's path from `begin_s` to `end_s`, and with `begin_on`. A long pass may be flown in several parts;
-    each is an item.
+    `antenna`: its place at `from_s`, its mount and motors. To fly one of the passes, call `plan_flight` at its
+    `set_off_s`, with the target's path from `begin_s` to `end_s` and with `begin_on`. A long pass may be flown in
+    several parts; each part is an item.
     """
     travel = Travel(antenna)
     planned: list[PlannedPass] = []
@@ -53,7 +53,7 @@ def schedule(followed: Sequence[Followed], antenna: Antenna, from_s: float, unti
 
 
 def widened(parts: Sequence[Part], stands_deg: Place, travel: Travel, from_s: float) -> list[Part]:
-    """The same parts, each left as late and begun as early, to a few seconds, as its neighbours allow."""
+    """The same parts, each begun as early and left as late as its neighbours allow, to a few seconds."""
     found: list[Part] = []
     place, free_s = stands_deg, from_s
     for index, part in enumerate(parts):
@@ -82,7 +82,7 @@ def _flights(parts: Sequence[Part], travel: Travel, from_s: float) -> Iterator[P
         before = parts[index - 1].one.found.name if index else None
         after = parts[index + 1].one.found.name if index + 1 < len(parts) else None
         flight = Flight(
-            # So early that it comes in time from anywhere: a person may have moved it since the pass before.
+            # Early enough from any place: a person may have moved the antenna since the last pass.
             set_off_s=max(free_s, part.begin_s - SPARE_S - travel.longest_s - START_S),
             begin_s=part.begin_s,
             end_s=part.end_s,

@@ -1,8 +1,8 @@
 """Whether this computer's clock has been set by a time server, and how far it may be off: a Raspberry Pi has no clock
 of its own.
 
-Knows two ways to ask: the kernel, which every time service tells (adjtimex(2)), and systemd's `timedatectl`, which asks
-the kernel for a service that may not. Does not know what depends on the answer.
+Knows two ways to ask: the kernel, which every time service informs (adjtimex(2)); and systemd's `timedatectl`, which
+asks the kernel for a service without that right. Does not know the use of the answer.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import ctypes
 import subprocess
 
 TOLD_S = 1.0
-"""A clock that a person calls right may be off by this; so may one of which the system tells no less."""
+"""Error in seconds assumed for a clock that a person calls right, or if the system reports no smaller one."""
 CRYSTAL_SHARE = 0.1
 """The kernel lets its largest error grow by 500 ppm. A computer's crystal is off by a tenth of that."""
 
@@ -34,9 +34,10 @@ _ERROR = 5
 _TIMEDATECTL = ("timedatectl", "show", "--property=NTPSynchronized", "--value")
 PATIENCE_S = 10.0
 SET_AGAIN_S, UNSET_AGAIN_S, LONG_UNSET_AGAIN_S = 600.0, 5.0, 30.0
-"""How soon it asks again. A clock that is set seldom gets lost; one that is not set is waited for."""
+"""Seconds that an answer is kept: "set" for long, because it seldom changes; "not set" for a short time, because
+the operator waits for it."""
 SOON_S = 120.0
-"""After this time without a network it may take hours."""
+"""Seconds after which an unset clock is asked less often: without a network it may take hours."""
 
 
 class SystemClock:
@@ -44,14 +45,14 @@ class SystemClock:
 
     def __init__(self) -> None:
         self.is_set = False
-        """As of the latest look."""
+        """The result of the latest `look`."""
         self.error_s = TOLD_S
-        """How far it may be off, as of the latest look."""
+        """How far the clock may be off in seconds, at the latest `look`."""
         self._again_s = 0.0
         self._unset_since_s: float | None = None
 
     def look(self, now_s: float) -> None:
-        """Ask again, where the last answer is old. `now_s`: on any clock that only goes forward."""
+        """Ask again if the last answer is old. `now_s`: on any clock that only goes forward."""
         if now_s >= self._again_s:
             by_kernel, self.error_s = _by_kernel()
             self.is_set = by_kernel if (told := _by_timedatectl()) is None else told
@@ -74,7 +75,7 @@ def _by_timedatectl() -> bool | None:
 
 
 def _by_kernel() -> tuple[bool, float]:
-    """Whether it is set, and its error in seconds. If the kernel does not tell: it is not."""
+    """Whether it is set, and its error in seconds. If the kernel does not answer: not set."""
     asked = _Timex()
     try:
         state = int(ctypes.CDLL(None).adjtimex(ctypes.byref(asked)))

@@ -1,6 +1,6 @@
 """The thread of the tracker: looks twice a second, and reads files of elements at its start and when they change.
 
-Knows time and threads. Does not know what is tracked.
+Knows time and threads. Does not know the target.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ log = logging.getLogger(__name__)
 LOOK_S = 0.5
 REFRESH_S = 60.0
 AGAIN_S = 2.0
-"""After a mistake of the program the next look comes this much later."""
+"""Seconds of pause after a bug of the program."""
 
 
 class TrackingThread:
@@ -55,24 +55,24 @@ class TrackingThread:
         self._new_files = False
         self._refreshed_s = -math.inf
         self._told: tuple[str, ...] = ()
-        """The faults of files of elements that the log has."""
+        """The faults of files of elements that are already in the log."""
         self._failure = ""
-        """The latest mistake of the program."""
+        """The latest bug of the program, as text."""
         self._thread = threading.Thread(target=self._run, name="tracking", daemon=True)
 
     def start(self) -> None:
         self._thread.start()
 
     def stop(self) -> None:
-        """Returns when the thread has ended; a plan or a file that is under way is given up."""
+        """Returns when the thread has ended. A plan or a file in work is given up."""
         self._stopping.set()
         self._planner.close()
         self._reader.close()
-        if self._thread.is_alive():  # a box that could not start has not begun it
+        if self._thread.is_alive():  # it never started if the start of the box failed
             self._thread.join()
 
     def clock_is_known(self) -> bool:
-        """From any thread: this computer's clock is right, by the system or by a person's word."""
+        """From any thread: whether this computer's clock is right, as the system or a person says."""
         return self._clock.is_set or self.tracker.clock_told
 
     def _now(self) -> Now:
@@ -84,7 +84,7 @@ class TrackingThread:
         return self.sky.elements
 
     def plan_again(self) -> None:
-        """From any thread: the plan of many passes may be another one. A pass that is flown is flown to its end."""
+        """From any thread: make the plan of many passes again. The present pass is flown to its end."""
         self._follower.plan_again()
 
     def read_again(self) -> None:
@@ -113,7 +113,7 @@ class TrackingThread:
         self._follower.step(self._now())
 
     def _failed(self, failure: Exception) -> None:
-        """A mistake of the program ends what is tracked, and the thread goes on: a dead one would answer nothing."""
+        """A bug of the program ends the tracking. The thread goes on, because a dead thread would answer nothing."""
         if repr(failure) != self._failure:
             log.error("tracking: the program has a mistake; please report it", exc_info=failure)
         self._failure = repr(failure)
@@ -121,7 +121,7 @@ class TrackingThread:
         self._stopping.wait(AGAIN_S)
 
     def _tell(self) -> None:
-        """Each fault of a file of elements once."""
+        """Log each fault of a file of elements once."""
         for fault in self.sky.faults:
             if fault not in self._told:
                 log.warning("[sky] elements: %s", fault)

@@ -1,7 +1,7 @@
-"""Tracks one target from pass to pass: what a person asked for, the plan that is flown, and when a new one is due.
+"""Tracks one target from pass to pass: a person's request, the plan that is flown, and when a new plan is due.
 
-Knows the status of the box, and gives orders as a link does. Another sender that takes the antenna ends it. Plans are
-computed elsewhere, for that takes long. Moments are arguments.
+Knows the status of the box, and gives orders as a link does. Another sender that takes the antenna ends the tracking.
+Plans are computed elsewhere, because that takes long. Times are arguments.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ log = logging.getLogger(__name__)
 
 TRACK = Source(TRACKER)
 PLAN = "plan"
-"""In place of a target: the plan of many passes."""
+"""The word for the plan of many passes, in place of a target."""
 TAKES_EFFECT_S = 2.0
-"""Time from an order until the status shows that the antenna is this room's."""
+"""Seconds from an order until the status must show it."""
 JUMPED_S = 0.25
-"""A clock that was set by more makes a new plan."""
+"""A change of the clock by more seconds makes a new plan."""
 FRESH_S = 600.0
 BEFORE_S = 120.0
 """A plan that is older than `FRESH_S` is made again `BEFORE_S` before its pass, with the newest elements."""
@@ -46,7 +46,7 @@ class Planner(Protocol):
         """Raises NeverRises, NotThere, Unknown; RuntimeError where the plan could not be made."""
 
     def plan_rest(self, wanted: Wanted, antenna: Antenna, now: Now) -> Fly:
-        """What is left of a pass that is on. Raises NotThere, RuntimeError."""
+        """The rest of a present pass. Raises NotThere, RuntimeError."""
 
     def plan_program(self, program: Program, antenna: Antenna, now: Now) -> NextFlight:
         """Raises CannotFly, RuntimeError."""
@@ -61,12 +61,12 @@ class Finder(Protocol):
 
 
 class Box(Protocol):
-    """The box, as this room sees it. No call waits."""
+    """The box, as this file sees it. No call waits."""
 
     def status(self) -> Status: ...
 
     def antenna(self) -> Antenna | None:
-        """As it stands; None: its angles are not known."""
+        """The antenna as it stands; None: its angles are not known."""
 
     def refusal(self, order: Order) -> str:
         """Why the rotor cannot obey this order; empty: it can."""
@@ -85,7 +85,7 @@ class Flown:
 
 @dataclass(frozen=True, slots=True)
 class Tracked:
-    """What a person asked for. `program`: what the words stand for, where it is a table and no target.
+    """A person's request. `program`: the table that the words stand for, if it is no target.
 
     `flown`: None before its first plan.
     """
@@ -101,7 +101,7 @@ NOTHING = Tracked("")
 class Tracker:
     """`track`, `off` and `clock_is_right` may be called from any thread, `step` from one only.
 
-    `clock_trusted`: whether its clock counts as right without a person's word.
+    `clock_trusted`: whether the computer's clock counts as right without a person's word.
     """
 
     def __init__(self, finder: Finder, planner: Planner, box: Box, clock_trusted: Callable[[], bool]) -> None:
@@ -114,45 +114,45 @@ class Tracker:
         self._lock = threading.Lock()
         self._tracked = NOTHING
         self._before = NOTHING
-        """What was tracked before a request that has no plan yet. If it cannot be planned, this goes on."""
+        """The tracking before a request that has no plan yet. It goes on if the request cannot be planned."""
         self._refused = ""
-        """Why the latest request has been refused, while what was tracked before it goes on."""
+        """Why the latest request was refused, while the tracking before it goes on."""
         self._asked = 0
-        """How many requests there were: a plan for an earlier one is not flown."""
+        """The number of requests. A plan for an earlier request is not flown."""
         self._looks_again = False
-        """The name is not known, and files are new: it is looked for again when they have been read."""
+        """Whether the name is not known and files are new: then it is searched again after they are read."""
         self._held_by = ""
-        """Who has stopped the antenna, or has let it go on after a stop or a fault, since the request."""
+        """The source of a stop or of a release since the request. Tracking ends then."""
         self._mover = ""
-        """Who moved the antenna at the request."""
+        """The source that moved the antenna at the time of the request."""
         self._ordered_s = -math.inf
-        """When this room last ordered a motion, on the loop's clock: the status may not show it yet."""
+        """When the tracker last ordered a motion, on the loop's clock. The status may not show it yet."""
         self._ended = ""
-        """Why the latest tracking has ended by itself."""
+        """Why the latest tracking ended by itself."""
         self._follows = True
-        """The plan of many passes may be flown; `off` ends that, `plan` begins it again."""
+        """Whether the plan of many passes may be flown: `off` forbids it, `plan` allows it again."""
 
     @property
     def following(self) -> bool:
-        """Whether the plan of many passes has the antenna, as far as this room is concerned."""
+        """Whether the tracker leaves the antenna to the plan of many passes."""
         with self._lock:
             return self._follows and not self._tracked.words
 
     @property
     def wants_new_files(self) -> bool:
-        """The files of elements shall be read again before the next `step`."""
+        """Whether the files of elements must be read again before the next `step`."""
         return self._looks_again
 
     def read_new_files(self) -> None:
-        """They have been read."""
+        """The files of elements have been read again."""
         self._looks_again = False
 
     def heard(self, source: Source, order: Order) -> None:
-        """An order of any sender. What a stop has ended does not begin by itself, also where a plan is under way."""
+        """An order of any sender. After a stop nothing begins again by itself, not even a plan in work."""
         status = self._box.status()
         match order:
             case Release() if not (status.latched or status.faults):
-                pass  # it has let nothing go on
+                pass  # it released nothing
             case Stop() | SetMode() | LetGo() | Release() | Take(stops=True) | Park(storm=True) if source != TRACK:
                 with self._lock:
                     self._held_by = str(source)
@@ -163,7 +163,7 @@ class Tracker:
     def state(self) -> str:
         """`off`, `planning`, `tracking`, or `ended: ` and the reason.
 
-        `refused: ` and the reason: the latest request cannot be tracked, and what was tracked before goes on.
+        `refused: ` and the reason: the latest request cannot be tracked, and the tracking before it goes on.
         """
         with self._lock:
             if self._tracked.words and self._refused:
@@ -173,7 +173,7 @@ class Tracker:
             return f"ended: {self._ended}" if self._ended else "off"
 
     def track(self, words: str) -> str:
-        """Begin to track. Returns why not; empty: it does. `plan`: what the configuration follows."""
+        """Begin to track. Returns why not; empty: it tracks. `plan`: the targets that the configuration follows."""
         if words == PLAN:
             self._begin(NOTHING, follows=True)
             return ""
@@ -199,14 +199,14 @@ class Tracker:
         return ""
 
     def program(self, table: TimedTable) -> str:
-        """Begin to track a timed table, once. Returns why not; empty: it does."""
+        """Begin to track a timed table, once. Returns why not; empty: it tracks."""
         if table.utc and not self.clock_trusted():
             return CLOCK_UNSURE
         self._begin(Tracked(table.name, Program(table, self._box.status().at_s)), follows=self._follows)
         return ""
 
     def off(self) -> None:
-        """End it. The antenna stops, where this room moves it."""
+        """End the tracking. The antenna stops if the tracker moves it."""
         self._begin(NOTHING, follows=False)
         self._stop()
 
@@ -219,7 +219,7 @@ class Tracker:
             return True
 
     def fail(self, reason: str) -> None:
-        """End what is tracked, because the program itself has failed. The antenna stops, where this room moves it."""
+        """End the tracking because of a bug of the program. The antenna stops if the tracker moves it."""
         with self._lock:
             words, asked = self._tracked.words, self._asked
         if words:
@@ -232,7 +232,7 @@ class Tracker:
         self.clock_told = True
 
     def clock_trusted(self) -> bool:
-        """By the system, or by a person's word."""
+        """Whether the clock is right, as the system or a person says."""
         return self.clock_told or self._clock_trusted()
 
     def _begin(self, tracked: Tracked, *, follows: bool, looks_again: bool = False) -> None:
@@ -248,12 +248,12 @@ class Tracker:
             self._asked += 1
 
     def _order(self, order: Order) -> None:
-        """The caller holds the lock: no request comes between its last look at them and this order."""
+        """The caller holds the lock, so no request can come between its last check and this order."""
         self._ordered_s = self._box.status().at_s
         self._box.order(order)
 
     def _stop(self) -> None:
-        """Stop the antenna, where this room moves it, or has just ordered that."""
+        """Stop the antenna if the tracker moves it or has just ordered a motion."""
         status = self._box.status()
         if status.controlled_by == str(TRACK) or status.at_s < self._ordered_s + TAKES_EFFECT_S:
             self._box.order(Stop(BOTH))
@@ -261,7 +261,7 @@ class Tracker:
     # --- from its thread
 
     def step(self, now: Now) -> None:
-        """Look once. It may compute for seconds."""
+        """Do what is due now. May compute for seconds."""
         with self._lock:
             tracked, asked, held_by = self._tracked, self._asked, self._held_by
             words, flown = tracked.words, tracked.flown
@@ -287,7 +287,7 @@ class Tracker:
             return
         status = self._box.status()
         with self._lock:
-            # The plan took a while: another request, a stop or another sender may have come since.
+            # The plan took seconds: another request, a stop or another sender may have come meanwhile.
             if asked != self._asked or self._held_by or status.latched:
                 return
             taken = status.controlled_by not in ("", str(TRACK), self._mover)
@@ -300,12 +300,12 @@ class Tracker:
 
     def _plan(self, words: str, antenna: Antenna, now: Now) -> NextFlight:
         wanted = self._finder.find(words)
-        if isinstance(wanted, Aim):  # the words mean a direction now: a file of elements has gone
+        if isinstance(wanted, Aim):  # the file of elements has gone, and the words now mean a direction
             raise Unknown(f'"{words}" is no moving target any more')
         return self._planner.plan(wanted, antenna, now)
 
     def _refuse(self, asked: int, tracked: Tracked, reason: str) -> None:
-        """It cannot be planned. What was tracked before goes on; if that was itself, its flight ends with it."""
+        """The request cannot be planned. The tracking before it goes on; a flight of the request itself ends."""
         with self._lock:
             if asked != self._asked:
                 return
@@ -336,7 +336,7 @@ def _is_over(flown: Flown, now: Now) -> bool:
 
 
 def lost(flown: Flown, status: Status, now: Now) -> str:
-    """Why the antenna is not this room's any more; empty: it is."""
+    """Why the tracker has lost the antenna; empty: it still has it."""
     if status.at_s < flown.ordered_s + TAKES_EFFECT_S or now.utc_s >= flown.flight.end_utc_s - 1.0:
         return ""
     if status.latched:
