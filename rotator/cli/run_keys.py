@@ -122,6 +122,6 @@ def _to_first_slip(typed: str) -> str:
 
 
 def _on_its_way(status: Status) -> bool:
-    """Whether the antenna turns, homes, or flies a pass or waits for one."""
-    homes = status.azimuth.homing or status.elevation.homing
-    return status.moving or homes or status.flown is not None
+    """Whether the antenna turns, also by itself, homes, or flies a pass or waits for one."""
+    axes = status.azimuth, status.elevation
+    return status.moving or any(axis.homing or axis.by_itself_dps for axis in axes) or status.flown is not None

@@ -143,6 +143,15 @@ def test_q_asks_once_while_the_antenna_is_on_its_way() -> None:
     assert keys.key("q")
 
 
+def test_q_asks_too_where_the_antenna_turns_by_itself() -> None:
+    """As with a welded relay: the box that sees it should not go by one slip."""
+    bench = BenchBox(at=(100.0, 30.0))
+    for step in range(60):
+        bench.stands_near(100.0 + step * 0.3)
+    assert bench.status().azimuth.by_itself_dps > 5.0
+    assert not RunKeys(bench).key("q")
+
+
 @given(st.lists(st.sampled_from(ANY_KEY), max_size=40))
 def test_no_keys_without_a_whole_word_start_anything(keys: list[str]) -> None:
     bench = BenchBox()

@@ -112,6 +112,11 @@ class BenchBox:
         self._raw[Axis.ELEVATION] = self._pot(Axis.ELEVATION, elevation_deg)
         self.wait(LOOK_S)
 
+    def stands_near(self, azimuth_deg: float) -> None:
+        """The wind, or a relay that is stuck, has turned it there within the last cycle."""
+        self._raw[Axis.AZIMUTH] = self._pot(Axis.AZIMUTH, azimuth_deg)
+        self.wait(PERIOD_S)
+
     def breaks(self, axis: Axis) -> None:
         """The wiper of this axis's pot comes off, and the box has noticed."""
         self._raw[axis] = 0.0
