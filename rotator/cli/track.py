@@ -63,7 +63,7 @@ def _table(words: str) -> list[str] | None:
 
     try:
         text = read_plain(path, MOST_BYTES).decode("utf-8-sig")
-        read_table(text, path.stem, str(path))
+        read_table(text, path.stem, str(path), turns=True)
     except OSError as fault:
         raise CommandFailed(f"{path}: {fault.strerror}") from None
     except UnicodeDecodeError:

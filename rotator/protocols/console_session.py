@@ -120,7 +120,7 @@ class ConsoleSession:
     def _track_table(self, name: str) -> str:
         lines, self._table = self._table, []
         try:
-            table = read_table("\n".join(lines), name, "the table")
+            table = read_table("\n".join(lines), name, "the table", turns=True)
         except TableError as mistake:
             return str(mistake)
         return self._operating.program(table)

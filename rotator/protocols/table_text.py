@@ -12,6 +12,7 @@ from datetime import UTC, datetime
 
 from rotator.control.sky.angles import great_circle_deg
 from rotator.control.sky.known_path import Row
+from rotator.control.sky.named_turns import names_turns
 from rotator.control.sky.timed_table import TimedTable
 
 COLUMNS = ("t", "az", "el")
@@ -22,7 +23,8 @@ LEAST_S = 0.001
 FARTHEST_DEG = 45.0
 """Between rows further apart on the sky the curve is a guess: over the zenith, or a jump from side to side."""
 SINCE_1970_S = 1e9
-"""From so many seconds on, t counts from 1970."""
+"""A larger t counts from 1970."""
+FARTHEST_AZIMUTH_DEG = 720
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?")
 _COMMA = re.compile(r"[-+]?[0-9]+,[0-9]+")
 _UTC = re.compile(r"[0-9]{4}-?[0-9]{2}-?[0-9]{2}[T ][0-9:.]+(?:Z|[-+][0-9:]+)?", re.IGNORECASE)
@@ -32,8 +34,10 @@ class TableError(ValueError):
     """The text holds no table. It says where, with the line, and why."""
 
 
-def read_table(text: str, name: str, place: str) -> TimedTable:
-    """`place`: where the text stands, for the error. Raises TableError."""
+def read_table(text: str, name: str, place: str, *, turns: bool = False) -> TimedTable:
+    """`place`: where the text stands, for the error. `turns`: azimuth may be above 360 and elevation above 90; then the
+    table names its turns, and all of its angles stay as they stand. Raises TableError.
+    """
     lines = text.splitlines()
     if not lines:
         raise TableError(f"{place}: is empty. {FORM}")
@@ -49,7 +53,7 @@ def read_table(text: str, name: str, place: str) -> TimedTable:
     for number, values in table:
         if not "".join(values).strip():
             continue
-        row = _row(f"{place}:{number}", header, values)
+        row = _row(f"{place}:{number}", header, values, turns=turns)
         if rows and row[0] <= rows[-1][0]:
             raise TableError(f"{place}:{number}: t must rise from row to row: {row[0]:g} comes after {rows[-1][0]:g}")
         if rows and row[0] - rows[-1][0] < LEAST_S:
@@ -68,6 +72,8 @@ def read_table(text: str, name: str, place: str) -> TimedTable:
     lasts_s = rows[-1][0] - rows[0][0]
     if lasts_s > LONGEST_S:
         raise TableError(f"{place}: lasts {lasts_s / 3600:.0f} h; t is in seconds, and a day is the most")
+    if not names_turns(rows):
+        rows = [(t_s, azimuth_deg % 360.0, elevation_deg) for t_s, azimuth_deg, elevation_deg in rows]
     return TimedTable(name, tuple(rows), tuple(numbers), utc=rows[0][0] >= SINCE_1970_S)
 
 
@@ -77,7 +83,7 @@ def _separator(line: str) -> str:
     return f" with commas between; {found} stands there" if found else ""
 
 
-def _row(place: str, header: list[str], values: list[str]) -> Row:
+def _row(place: str, header: list[str], values: list[str], *, turns: bool) -> Row:
     if len(values) != len(header):
         has = (
             f"{place}: has {len(values)} value{'s' if len(values) > 1 else ''}, and the first line names {len(header)}"
@@ -86,9 +92,10 @@ def _row(place: str, header: list[str], values: list[str]) -> Row:
     named = {column: value.strip() for column, value in zip(header, values, strict=True)}
     t_s = _utc_s(place, named["t"]) if _UTC.fullmatch(named["t"]) else _number(place, "t", named["t"])
     azimuth_deg, elevation_deg = (_number(place, column, named[column]) for column in COLUMNS[1:])
-    if not (-360 <= azimuth_deg <= 360 and -90 <= elevation_deg <= 90):
+    most_az_deg, most_el_deg = (FARTHEST_AZIMUTH_DEG, 180) if turns else (360, 90)
+    if not (-360 <= azimuth_deg <= most_az_deg and -90 <= elevation_deg <= most_el_deg):
         raise TableError(f"{place}: azimuth {azimuth_deg:g}, elevation {elevation_deg:g} is no direction")
-    return t_s, azimuth_deg % 360.0, elevation_deg
+    return t_s, azimuth_deg, elevation_deg
 
 
 def _utc_s(place: str, text: str) -> float:

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from rotator.control.sky.flight_plan import Antenna, plan_flight
+from rotator.control.sky.flight_plan import Antenna, plan_as_told, plan_flight
 from rotator.control.sky.known_path import KnownPath, Row
+from rotator.control.sky.named_turns import axis_rows, names_turns, on_the_sky, smooth_turns
 from rotator.control.sky.timed_table import TimedTable, hindrance, smooth
 from rotator.tracking.next_flight import AHEAD_S, LONGEST_S, NextFlight, Now
 
@@ -35,6 +36,8 @@ def program_flight(program: Program, antenna: Antenna, now: Now) -> NextFlight:
         raise CannotFly(f"{table.name} is over")
     if begin_s > now.loop_s + AHEAD_S:
         raise CannotFly(f"{table.name} begins in {(begin_s - now.loop_s) / 86_400:.0f} days, which is not waited for")
+    if names_turns(table.rows):
+        return _as_told(table, later_s, antenna, now)
     points = smooth(table.rows)
     if fault := hindrance(table, points, antenna.mount):
         raise CannotFly(f"{table.name}, {fault}")
@@ -43,6 +46,21 @@ def program_flight(program: Program, antenna: Antenna, now: Now) -> NextFlight:
     path = _between([(at_s + later_s, az_deg, el_deg) for at_s, az_deg, el_deg in points], begin_s, piece_s)
     order = replace(plan_flight(table.name, path, antenna, now.loop_s).order, sets_s=end_s, table=True)
     return NextFlight(begin_s + now.apart_s, piece_s + now.apart_s, order)
+
+
+def _as_told(table: TimedTable, later_s: float, antenna: Antenna, now: Now) -> NextFlight:
+    """The table names its turns: nothing is chosen. Raises CannotFly."""
+    points = smooth_turns(table.rows)
+    axes = axis_rows(table, points, antenna.mount)
+    if isinstance(axes, str):
+        raise CannotFly(f"{table.name}, {axes}")
+    axes = tuple((at_s + later_s, azimuth_deg, elevation_deg) for at_s, azimuth_deg, elevation_deg in axes)
+    begin_s, end_s = max(axes[0][0], now.loop_s), axes[-1][0]
+    piece_s = min(end_s, begin_s + LONGEST_S)
+    sky = [on_the_sky((at_s + later_s, azimuth_deg, elevation_deg)) for at_s, azimuth_deg, elevation_deg in points]
+    path = _between(sky, begin_s, piece_s)
+    order = plan_as_told(table.name, path.rows, axes, antenna, now.loop_s, span_s=(begin_s, piece_s))
+    return NextFlight(begin_s + now.apart_s, piece_s + now.apart_s, replace(order, sets_s=end_s, table=True))
 
 
 def _between(rows: list[Row], begin_s: float, end_s: float) -> KnownPath:

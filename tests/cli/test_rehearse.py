@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 import subprocess
 from collections.abc import Callable
 from itertools import pairwise
@@ -177,7 +178,9 @@ def test_a_target_is_tracked_in_its_next_pass_by_the_box_itself(rotator_here: Ro
     config, trace = tmp_path / "station.toml", tmp_path / "trace.csv"
     config.write_text(f'[station]\nlocator = "JO62qm"\n[sky]\nelements = ["{ELEMENTS}"]\n')
     words = ("rehearse", "--config", config, "--target", "iss", "--at", "2025-02-07T15:50:00Z", "--json")
-    summary = figures(rotator_here(*words, "--trace", trace))
+    done = rotator_here(*words, "--trace", trace)
+    assert re.match(r"ISS rises 07 Feb \d\d:\d\d:\d\d UTC, for \d+ min, up to \d+°. The flight .* takes", done.stderr)
+    summary = figures(done)
     assert summary["p95_deg"] < 4.0
     rows = [dict(zip(COLUMNS, map(float, row.split(",")), strict=True)) for row in trace.read_text().splitlines()[1:]]
     assert rows[0]["t"] == pytest.approx(-120.0)

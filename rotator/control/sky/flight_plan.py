@@ -7,10 +7,11 @@ loop: what it returns is an order. Knows nothing of who asks, nor of sensors.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rotator.control.sky.known_path import KnownPath
+from rotator.control.sky.known_path import KnownPath, Row
 from rotator.control.sky.mount import Mount, Range
 from rotator.control.sky.pointing import LEAST_WEIGHT
 from rotator.control.sky.route import STEP_S, Speeds, Way
@@ -77,6 +78,32 @@ def plan_flight(name: str, path: KnownPath, antenna: Antenna, now_s: float, begi
             _axis_plan(Trail(begin_s, elevations_deg, up), elevation, mount.elevation, now_s),
         ),
     )
+
+
+def plan_as_told(
+    name: str, rows: Sequence[Row], axes: Sequence[Row], antenna: Antenna, now_s: float, *, span_s: tuple[float, float]
+) -> Fly:
+    """A part of a path of which each axis angle is told already: the motors' steps alone are planned.
+
+    `rows`: directions; `axes`: axis angles. `span_s`: the part's beginning and end.
+    """
+    mount, (begin_s, end_s) = antenna.mount, span_s
+    moments_s = [begin_s + index * PLAN_STEP_S for index in range(max(2, int((end_s - begin_s) / PLAN_STEP_S) + 1))]
+    azimuths_deg, elevations_deg = ([_between(axes, axis, at_s) for at_s in moments_s] for axis in (1, 2))
+    even = [1.0] * len(moments_s)
+    return Fly(
+        name,
+        tuple(rows),
+        _axis_plan(Trail(begin_s, azimuths_deg, even), antenna.azimuth, mount.azimuth, now_s),
+        _axis_plan(Trail(begin_s, elevations_deg, even), antenna.elevation, mount.elevation, now_s),
+    )
+
+
+def _between(rows: Sequence[Row], column: int, at_s: float) -> float:
+    after = min(max(bisect_right(rows, at_s, key=lambda row: row[0]), 1), len(rows) - 1)
+    a, b = rows[after - 1], rows[after]
+    share = min(max((at_s - a[0]) / (b[0] - a[0]), 0.0), 1.0)
+    return a[column] + share * (b[column] - a[column])
 
 
 def _axis_plan(trail: Trail, motor: PlannedMotor, limits: Range, now_s: float) -> AxisPlan:
