@@ -208,7 +208,7 @@ def _console(event: Event) -> str:
             return "panel " + " ".join(f"{word:.3g}" if isinstance(word, float) else str(word) for word in words)
         case "track", (str(words),) if words.startswith(TABLE):
             rows = ["t,az,el", *words.removeprefix(TABLE).split(";")]
-            return "\n".join(("table", *(f"table {row}" for row in rows), "track-table the table"))
+            return "\n".join(("table", *(f"table {row}" for row in rows), "track-table table"))
         case "track", (words,):
             return f"track {words}"
         case "ask", ():

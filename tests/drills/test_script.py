@@ -108,7 +108,7 @@ def test_a_campaign_fills_its_hours_with_all_kinds() -> None:
             "console",
             "track",
             ("table 0,10,5;9,20,6",),
-            b"table\ntable t,az,el\ntable 0,10,5\ntable 9,20,6\ntrack-table the table\n",
+            b"table\ntable t,az,el\ntable 0,10,5\ntable 9,20,6\ntrack-table table\n",
         ),
     ],
 )
