@@ -51,30 +51,6 @@ class HardwareError(Exception):
 # --- motors
 
 
-class SwitchedDrive(Protocol):
-    """Two motors that are only on or off, in two directions each: relays. The angle comes from an `AngleSensor`."""
-
-    def drive(self, axis: Axis, direction: Direction, until_s: float) -> Direction:
-        """Run `axis` in this direction until `until_s` at the latest; OFF stops it now. Returns the direction now on.
-
-        The drive itself enforces three rules, so that no caller can bypass them. Opposite directions are never on
-        together. A reversal waits for its dead time: meanwhile OFF is returned, and the caller asks again. Each command
-        expires, after 0.5 s at most. Raises HardwareError when the lines cannot be set.
-        """
-
-    def off(self) -> None:
-        """Switch everything off now. From any thread. Raises HardwareError when the lines cannot be set."""
-
-    def cut(self) -> bool:
-        """Switch everything off, and the motors' supply too, until `restore`: the answer to a welded relay.
-
-        Returns False where no relay for the supply is wired. Raises HardwareError when the lines cannot be set.
-        """
-
-    def restore(self) -> None:
-        """Allow the motors' supply again. It is switched on with the next motor that runs."""
-
-
 class PositionedDrive(Protocol):
     """Two motors that go to an angle by themselves: moteus controllers, servos, control boxes."""
 

@@ -1,5 +1,5 @@
-"""Where a control box has turned its rotor, as far as it can be known: a model, its bounds, the lead at rest, and
-whether the box obeys.
+"""A model of the rotor that a control box turns: its angle, the bounds of that angle, the lead at rest, and whether
+the box obeys.
 
 Knows the box's speed and that it stands still within its dead band. Does not know the chip, nor a bus. All angles are
 degrees on the rotor's own scale; a direction is -1 or 1.
@@ -10,16 +10,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 SLOW, FAST = 0.75, 1.25
-"""A motor is this much slower or faster than the file says, at the worst."""
+"""A motor may be slower or faster than the configured speed by this factor."""
 TIGHT_DEG = 0.1
-"""Bounds this close are one angle."""
+"""Degrees: bounds this close count as one angle."""
 RESTS_S = 1.0
 RESTS_DEG = 0.5
-"""A rotor that has turned less than this for so long rests."""
+"""A rotor rests when it has turned by less than these degrees for these seconds."""
 MOVED_DEG = 3.0
-"""Only a rest after such a turn shows the dead band: the rotor came to it from one side."""
+"""Degrees: only a rest after a turn this long shows the dead band, because the rotor came to it from one side."""
 LEARNING = 0.5
-"""The share of what one rest shows that is taken over."""
+"""The weight of a new rest against the lead learnt before."""
 
 
 class BoxModel:
@@ -30,7 +30,7 @@ class BoxModel:
     ) -> None:
         self.angle_deg = angle_deg
         self.known = False
-        """The bounds have met within the dead band once, or the rotor was measured."""
+        """Whether the bounds have met within the dead band, or the rotor was measured."""
         self._bounds_deg: tuple[float, float] | None = (low_deg, high_deg)
         """None: the model is exact."""
         self._speed_dps = speed_dps
@@ -72,7 +72,7 @@ class BoxModel:
     def way(self, target_deg: float, before: int, turn_back_deg: float) -> int:
         """The direction of the move to the target. `before`: that of the last move, kept for small corrections.
 
-        Where the model has arrived and the rotor may not have, the side on which it may still be decides.
+        If the model has arrived but the rotor may not have, the side on which the rotor may still be decides.
         """
         ahead_deg = target_deg - self.angle_deg
         if abs(ahead_deg) > turn_back_deg or (before == 0 and abs(ahead_deg) > turn_back_deg / 2):
@@ -87,17 +87,17 @@ class BoxModel:
 
 
 class Obedience:
-    """Whether a box turns as its step says, by where its rotor is measured while it has its supply."""
+    """Whether a box turns towards its step: judged by the measured angle while the box has its supply."""
 
     def __init__(self) -> None:
         self._nearest_deg: float | None = None
-        """Where the rotor had last come nearer to its step."""
+        """The measured angle when the rotor last came nearer to its step."""
 
     def forget(self) -> None:
         self._nearest_deg = None
 
     def astray_deg(self, angle_deg: float, wiper_deg: float) -> float:
-        """How far it has turned otherwise, measured at `angle_deg` now."""
+        """How far it has turned away from its step, or past it. `angle_deg`: measured now."""
         before_deg = angle_deg if self._nearest_deg is None else self._nearest_deg
         nearer = (wiper_deg - angle_deg) * (angle_deg - before_deg) > 0
         self._nearest_deg = angle_deg if nearer else before_deg
@@ -106,27 +106,27 @@ class Obedience:
 
 @dataclass(slots=True)
 class RestLead:
-    """How far before the wiper the rotor rests, for each direction: what the file says, until a pot shows better.
+    """How far before the wiper the rotor rests, for each direction: as configured, until a pot measures it.
 
-    Never less than nothing, never more than twice the file's dead band: a stalled motor rests too.
+    It stays between 0 and twice the configured dead band, because a stalled motor rests too.
     """
 
     dead_band_deg: float
     coast_deg: float
-    """How far the motor turns on after the box has switched it off."""
+    """The coast: how far the motor turns on after the box has switched it off."""
     _learnt: dict[int, float] = field(default_factory=dict)
     _aim: tuple[float, int] | None = None
     """The wiper's angle and the direction of the move."""
     _came_from_deg: float | None = None
-    """Where the present move began, as measured."""
+    """The measured angle at which the present move began."""
     _last: tuple[float, float] | None = None
-    """The last angle that was another one, and when it was measured first."""
+    """The angle measured last, and since when it has been the same."""
 
     def of(self, way: int) -> float:
         return self._learnt.get(way, max(0.0, self.dead_band_deg - self.coast_deg))
 
     def ordered(self, wiper_deg: float, way: int, now_s: float) -> None:
-        """The wiper was sent there for a move in that direction."""
+        """The wiper was set to this angle, for a move in this direction."""
         if self._aim != (wiper_deg, way):
             if self._aim is None or self._aim[1] != way:
                 self._came_from_deg = None
@@ -134,7 +134,7 @@ class RestLead:
             self._last = None if self._last is None else (self._last[0], now_s)
 
     def forget(self) -> None:
-        """The wiper was set to where the rotor is: the rest that follows shows no dead band."""
+        """The wiper was set to the rotor's own angle. So the next rest shows no dead band."""
         self._aim = self._came_from_deg = None
 
     def seen(self, angle_deg: float, now_s: float) -> None:

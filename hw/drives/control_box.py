@@ -15,7 +15,7 @@ from hw.drives.scale import CommandScale
 from hw.ports import HardwareError
 
 LEAST_TURN_BACK_DEG = 1.0
-"""A target that comes back by less does not reverse the motor: many programs send whole degrees, which flicker."""
+"""Degrees: a target that goes back by less does not reverse the motor. Whole degrees of many programs flicker."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class BoxSpec:
     start_deg: float = 0.0
     """The model's angle when the program starts."""
     start_known: bool = False
-    """The rotor stands there for certain: in a simulation that begins anew."""
+    """Whether the rotor surely stands there: in a simulation from the beginning."""
     speed_dps: float = 6.0
     dead_band_deg: float = 2.0
     coast_deg: float = 1.0
@@ -51,16 +51,16 @@ class ControlBox:
         self.until_s: float | None = None
         """When the present command expires; None: there is no command."""
         self.deaf = False
-        """The supply was cut under its command by a stop of the other axis: no aim counts before its own stop."""
+        """A stop of the other axis cut the supply during its command. It ignores aims until it is stopped."""
         self._obedience = Obedience()
         self._chip = chip
         self._range_deg = spec.range_deg or ends_deg
         self._way = 0
         """The direction in which the wiper leads: that of the last move, -1 or 1; 0 before the first one."""
         self._held = False
-        """It was held, and has not been ordered since."""
+        """It was held, and not ordered since."""
         self._measured = False
-        """It was measured since its last order: no later measurement corrects a hold."""
+        """It was measured since its last order. Then no later measurement corrects a hold."""
         self._step: int | None = None
         """The last step sent to the chip; None: the chip may be at any step."""
         self._now_s = now_s
@@ -78,24 +78,24 @@ class ControlBox:
 
     @property
     def known(self) -> bool:
-        """Whether the rotor is where the model has it, give or take the dead band. A stop by the wiper needs that."""
+        """Whether the model's angle is right within the dead band. A stop by the wiper needs that."""
         return self.model.known
 
     def advance(self, now_s: float, powered: bool) -> None:
-        """Move the model on to `now_s`."""
+        """Advance the model to `now_s`."""
         past_s, self._now_s = max(0.0, now_s - self._now_s), now_s
         if powered and self._step is not None:
             self.model.advance(self.scale.angle_deg(self._step), self.lead.of(-1), self.lead.of(1), past_s)
 
     def found(self, angle_deg: float, now_s: float) -> None:
-        """The rotor was measured at `angle_deg`: the model goes on from there, and the lead is learnt at rest."""
+        """The rotor was measured at `angle_deg`: the model continues from there, and at rest the lead is learnt."""
         if not self._measured:
             self._measured, self._held = True, False
         self.model.found(angle_deg)
         self.lead.seen(angle_deg, now_s)
 
     def astray_deg(self, angle_deg: float) -> float:
-        """How far it has turned otherwise than its step says, measured at `angle_deg` now."""
+        """How far it has turned away from its step, or past it. `angle_deg`: measured now."""
         return 0.0 if self._step is None else self._obedience.astray_deg(angle_deg, self.scale.angle_deg(self._step))
 
     def order(self, angle_deg: float) -> None:
@@ -114,15 +114,15 @@ class ControlBox:
         self.lead.ordered(self.scale.angle_deg(self._step), self._way, self._now_s)
 
     def order_here(self) -> None:
-        """Send the step of the model's angle, also if it was the last one: without supply the chip forgets its step."""
+        """Send the step of the model's angle, even if it was sent before: a chip without supply forgets its step."""
         self._step = None
         self._stay()
 
     def hold(self) -> None:
         """Send the model's own angle: the error is then within the dead band, and the box stops.
 
-        A box that is held already keeps its step. Where a measured angle and the box's own pot disagree it would else
-        turn on with every hold, by as much as they disagree.
+        A box that is already held keeps its step. Otherwise, if a measured angle and the box's own pot disagree, each
+        hold would turn it on by that difference.
         """
         if self._step is not None and not self._held:
             self._stay()
@@ -130,11 +130,11 @@ class ControlBox:
         self.end()
 
     def end(self) -> None:
-        """There is no command any more."""
+        """End the command."""
         self.until_s, self.deaf = None, False
 
     def unfed(self) -> None:
-        """Its supply is cut."""
+        """Its supply was cut."""
         self.end()
         self._obedience.forget()
 
@@ -148,7 +148,7 @@ class ControlBox:
         self._send(self.scale.within(self.angle_deg))
 
     def _send(self, wiper_deg: float) -> None:
-        """The nearest step, unless the chip has it."""
+        """Send the nearest step, unless the chip already has it."""
         step = min(round(self.scale.value(wiper_deg)), STEPS - 1)
         if step != self._step:
             self._chip.write(step)

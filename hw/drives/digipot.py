@@ -1,10 +1,10 @@
 """A rotor of two control boxes that follow a knob, each knob replaced by a digital potentiometer: a positioned drive.
 
-Knows leases, the boxes' supply, and when a chip needs its step again. Does not know how one box behaves: that is
-`hw.drives.control_box`. The angle is modelled; `found` corrects the model where the rotor's own pot is measured.
+Knows leases, the boxes' supply, and when a chip needs its step again. Does not know how one box behaves:
+`hw.drives.control_box` does. The angle is modelled; `found` corrects the model if the rotor's own pot is measured.
 
-After a start the angle is only assumed. No step of a chip stops such a box: it would turn on to where the model is. So
-a stop then opens the relay of the supply.
+After a start the angle is only assumed. Then no step of the chip stops the box: it would turn on to the model's
+angle. So a stop then opens the relay of the supply.
 """
 
 from __future__ import annotations
@@ -20,10 +20,11 @@ from hw.drives.relays import LONGEST_LEASE_S
 from hw.ports import AngleSource, Axis, HardwareError, OutputLines
 
 ENABLE = "box_enable"
-"""The relay of the boxes' supply. A chip starts in the middle: a box with supply from power-on turns there."""
+"""The relay of the boxes' supply. A chip starts in the middle, so a box with supply from power-on would turn there."""
 
 LOST_STEP_DEG, ASTRAY_DEG = 2.5, 4.0
-"""A box that was measured to turn so far otherwise than its step says gets it again, and loses its supply."""
+"""Degrees away from its step, or past it: from the first on a box gets its step again, from the second on its supply
+is cut."""
 REFRESH_S = 1.0
 """Seconds until the steps are sent again: a dip of its supply erases a chip's step without a report."""
 
@@ -31,7 +32,7 @@ REFRESH_S = 1.0
 class DigipotDrive:
     """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock.
 
-    `enable`: the line `ENABLE`, where that relay is wired. The relay closes when both chips have a step.
+    `enable`: the line `ENABLE`, if that relay is wired. The relay closes when both chips have a step.
     Raises HardwareError for a wrong table of steps.
     """
 
@@ -50,11 +51,11 @@ class DigipotDrive:
         self._enable = enable
         self._powered = False
         self._astray_deg: dict[Axis, float] = {}
-        """How far each axis turned otherwise than its step says, when its supply was cut for that."""
+        """How far each axis had turned away from its step, or past it, when its supply was cut for that."""
         self.barred = False
-        """The supply stays off, whatever is aimed at, until `restore`."""
+        """The supply stays off until `restore`, even if aims come."""
         self._unseen: set[Axis] = set()
-        """The axes whose sensor has shown no place yet."""
+        """The axes whose sensor has not reported a place yet."""
         self._refresh_s = 0.0
         self._boxes = {
             Axis.AZIMUTH: ControlBox("azimuth box", *azimuth, clock()),
@@ -65,7 +66,7 @@ class DigipotDrive:
     # --- hw.ports.PositionedDrive
 
     def aim(self, axis: Axis, angle_deg: float, rate_dps: float, until_s: float) -> None:
-        """As the port says, in whole steps. `rate_dps` has no effect: orders come more often than the step changes.
+        """As the port says, in whole steps. `rate_dps` has no effect, because orders come more often than steps change.
 
         Refuses an angle outside the axis's table of steps, and moves nothing then.
         """
@@ -84,13 +85,13 @@ class DigipotDrive:
             self._feed(box, now_s)
 
     def hold(self, axis: Axis) -> None:
-        """Stop that box. Where only a cut supply stops it, the other box stops too, until its own hold or this aim."""
+        """Stop that box. If only a cut supply stops it, the other stops too, until its own hold or this axis's aim."""
         with self._changed:
             self._advance()
             self._stop(self._boxes[axis])
 
     def off(self) -> None:
-        """Stop both boxes. If one chip cannot be reached, the other box stops all the same. Raises HardwareError."""
+        """Stop both boxes, the second also if the chip of the first does not answer. Raises HardwareError."""
         with self._changed:
             self._advance()
             if self._powered and self._enable and not all(box.known for box in self._boxes.values()):
@@ -128,7 +129,7 @@ class DigipotDrive:
             return min([*moments, self._refresh_s] if self._powered else moments, default=None)
 
     def enforce(self, now_s: float) -> None:
-        """Hold each box whose command has expired; send the steps again when that is due. Raises HardwareError."""
+        """Hold each box whose command has expired. Send the steps again when due. Raises HardwareError."""
         with self._changed:
             self._advance()
             expired = [box for box in self._boxes.values() if box.until_s is not None and box.until_s <= now_s]
@@ -156,21 +157,21 @@ class DigipotDrive:
             return self._boxes[axis].angle_deg
 
     def measured(self, axis: Axis) -> None:
-        """A sensor is going to say where this axis is, by `found`. The boxes get no supply before it has: a box with
-        supply turns to its chip's step, and nothing else says which step means its place."""
+        """A sensor will report the place of this axis by `found`. Until then the boxes get no supply: a box with supply
+        turns to its chip's step, and only the sensor shows which step means its place."""
         with self._changed:
             self._unseen.add(axis)
 
     def unseen_s(self) -> float:
-        """For so long since the start there has been no supply, because a sensor has shown no place. 0: all have."""
+        """Seconds since the start without supply because a sensor has not reported a place. 0: all have."""
         with self._changed:
             return self._clock() - self._started_s if self._somewhere() else 0.0
 
     def found(self, axis: Axis, angle_deg: float) -> None:
         """The rotor was measured at `angle_deg` now; the model goes on from there.
 
-        A box that turns otherwise than its step says has lost that step, or does not hear its chip: it gets the step
-        again, and then loses its supply until `restore`.
+        A box that turns away from its step, or past it, has lost the step or its wire. It gets the step again, and if
+        that does not help its supply is cut until `restore`.
         """
         with self._changed:
             self._unseen.discard(axis)
@@ -185,12 +186,12 @@ class DigipotDrive:
                 self._astray_deg[axis] = astray_deg
 
     def astray_deg(self, axis: Axis) -> float:
-        """How far it turned otherwise than its step says before its supply was cut for that; 0: it was not."""
+        """How far it had turned away from its step, or past it, when its supply was cut for that; 0: not cut."""
         with self._changed:
             return self._astray_deg.get(axis, 0.0)
 
     def position_known(self, axis: Axis) -> bool:
-        """Whether the rotor must be where the model has it: a full travel is over, or it was measured."""
+        """Whether the model's angle must be right: the time for a full travel is over, or the rotor was measured."""
         with self._changed:
             self._advance()
             return self._boxes[axis].known
@@ -200,7 +201,7 @@ class DigipotDrive:
         return self._boxes[axis].resolution_deg
 
     def _somewhere(self) -> bool:
-        """Whether a box could turn from a place that its sensor has not shown. Without the relay it has supply."""
+        """Whether a sensor has not reported yet and the supply can be withheld, because its relay is wired."""
         return bool(self._unseen) and self._enable is not None
 
     def _advance(self) -> float:
@@ -210,9 +211,9 @@ class DigipotDrive:
         return now_s
 
     def _feed(self, ordered: ControlBox, now_s: float) -> None:
-        """Switch the boxes' supply on. The chip of `ordered` has its step; the other gets that of its box's angle.
+        """Switch the boxes' supply on. The chip of `ordered` has its step; the other gets the step of its box's angle.
 
-        Without the relay the other chip is left alone: its box is fed already, and stands where its step sent it.
+        Without the relay the other chip is not touched: its box already has supply, and stands at its step.
         """
         if self._powered:
             return
@@ -227,7 +228,7 @@ class DigipotDrive:
             try:
                 self._enable.set({ENABLE: True})
             except HardwareError:
-                # A line that fails may have switched all the same: the boxes count as fed until the supply is cut.
+                # A line that fails may have switched: the boxes count as supplied until the supply is cut.
                 with suppress(HardwareError):
                     self._cut()
                 raise
@@ -241,7 +242,7 @@ class DigipotDrive:
         box.hold()
 
     def _only_a_cut_stops(self, box: ControlBox) -> bool:
-        """Whether it may be turning from an unknown angle: its own command began that, and there is a relay."""
+        """Whether its own command may be turning it from an unknown angle, and the relay of the supply is wired."""
         return box.until_s is not None and not box.known and self._powered and self._enable is not None
 
     def _cut(self) -> None:

@@ -1,6 +1,6 @@
-"""The angle of one axis of a drive as an angle sensor, for drives that measure or model the angle themselves.
+"""The angle of one axis of a drive, as an angle sensor: for drives that measure or model the angle themselves.
 
-Knows no motor and no chip. Does not know how the angle is found: the drive does, and names the source.
+Knows no motor and no chip. Does not know how the angle is measured or modelled: the drive does.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from hw.ports import AngleSource, Axis
 def wait_until(
     changed: threading.Condition, due_s: float | None, clock: Callable[[], float], patience_s: float
 ) -> None:
-    """Sleep until `due_s` (None: nothing is due), until `changed`, or for `patience_s` seconds. `changed` is held."""
+    """Sleep until `due_s` (None: nothing is due), until `changed`, or for `patience_s`. The caller holds `changed`."""
     left_s = patience_s if due_s is None else min(patience_s, due_s - clock())
     if left_s > 0:
         changed.wait(left_s)
@@ -27,7 +27,7 @@ class AngleDrive(Protocol):
     angle_source: AngleSource
 
     def angle_deg(self, axis: Axis) -> float:
-        """Degrees on the rotor's own scale. Raises HardwareError where the angle is not known."""
+        """Degrees on the rotor's own scale. Raises HardwareError if the angle is not known."""
 
 
 class DriveAngle:

@@ -11,13 +11,14 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 
+from hw.drives.positioned import wait_until
 from hw.ports import Axis, Direction, HardwareError, LeaseWatch, OutputLines
 
 LONGEST_LEASE_S = 0.5
-"""No command lives longer, even if the caller asks for more: when the caller dies, the motor stops within 0.5 s."""
+"""Longest life of a command, even if the caller asks for more: when the caller dies, the motor stops within 0.5 s."""
 NEVER_S = float("-inf")
 MASTER_LINGER_S = 10.0
-"""How long the motors' supply stays on after the last motor stopped, so that its relay switches less often."""
+"""Seconds that the motors' supply stays on after the last motor stopped, so that its relay switches less often."""
 
 MASTER = "master"
 RELAYS: dict[tuple[Axis, Direction], str] = {
@@ -39,7 +40,7 @@ class _Motor:
 
 
 class RelayBank:
-    """Drives two motors through four output lines, and a master where one is wired.
+    """Drives two motors through four output lines, and through a master relay if one is wired.
 
     `clock` gives seconds; `until_s` of a command is on the same clock. `dead_time_s`: the pause before a reversal.
     `one_at_a_time`: never feed both motors together, for a small transformer; the second one gets OFF and the caller
@@ -65,14 +66,18 @@ class RelayBank:
         self._one_at_a_time = one_at_a_time
         self._master_until_s: float | None = None
         self._fed_until_s = NEVER_S
-        """Until then the motors have their supply so that a relay that did not open shows itself. A lease, as a
-        motor's: it ends unless it is renewed."""
+        """End of the present feed, in which the supply is on only to show a relay that did not open. It is a lease, as
+        for a motor: it ends unless it is renewed."""
         self._motors = {axis: _Motor() for axis in Axis}
         self._cut = False
         self._lock = threading.Condition()
         self._due_s: float | None = None
 
     def drive(self, axis: Axis, direction: Direction, until_s: float) -> Direction:
+        """Run `axis` in this direction until `until_s` at the latest; OFF stops it now. Returns the direction now on.
+
+        During the dead time of a reversal it returns OFF, and the caller asks again. Raises HardwareError.
+        """
         with self._lock:
             now_s = self._clock()
             motor = self._motors[axis]
@@ -87,8 +92,8 @@ class RelayBank:
             return motor.on
 
     def feed(self, axis: Axis, until_s: float) -> None:
-        """Open the relays of `axis`, and keep the motors' supply on until `until_s`: what turns then has a relay that
-        did not open. Does no more than the former where no master is wired. Raises HardwareError.
+        """Open the relays of `axis`, but keep the motors' supply on until `until_s`. If the motor still turns then, a
+        relay did not open. Without a master it only opens the relays. Raises HardwareError.
         """
         with self._lock:
             now_s = self._clock()
@@ -103,7 +108,7 @@ class RelayBank:
                 self._plan(now_s)
 
     def unfeed(self, axis: Axis) -> None:
-        """Open the relays of `axis`, and switch the motors' supply off unless the other motor runs, or is looked at.
+        """Open the relays of `axis`. Switch the motors' supply off, unless the other motor runs or a feed is on.
 
         The supply comes back with the next motor that runs. Raises HardwareError.
         """
@@ -119,11 +124,15 @@ class RelayBank:
 
     @property
     def supplied(self) -> bool:
-        """Whether the motors have their supply, as far as this box switches it."""
+        """Whether the master is on; True if no master is wired."""
         with self._lock:
             return not self._master_wired or self._master_until_s is not None
 
     def cut(self) -> bool:
+        """Switch everything off, and the motors' supply too, until `restore`: the answer to a welded relay.
+
+        False: no relay for the supply is wired. Raises HardwareError.
+        """
         with self._lock:
             if not self._master_wired:
                 return False
@@ -132,10 +141,12 @@ class RelayBank:
             return True
 
     def restore(self) -> None:
+        """Allow the motors' supply again. It is switched on with the next motor."""
         with self._lock:
             self._cut = False
 
     def off(self) -> None:
+        """Switch everything off now. From any thread. Raises HardwareError."""
         with self._lock:
             now_s = self._clock()
             everything = dict.fromkeys(RELAYS.values(), False)
@@ -183,12 +194,10 @@ class RelayBank:
         The check and the sleep are one step under the lock, so that a command given in between is not missed.
         """
         with self._lock:
-            left_s = patience_s if self._due_s is None else min(patience_s, self._due_s - self._clock())
-            if left_s > 0:
-                self._lock.wait(left_s)
+            wait_until(self._lock, self._due_s, self._clock, patience_s)
 
     def driven(self) -> dict[Axis, Direction]:
-        """The direction in which each motor is on now."""
+        """The present direction of each motor; OFF: both relays are open."""
         with self._lock:
             return {axis: motor.on for axis, motor in self._motors.items()}
 
@@ -215,7 +224,7 @@ class RelayBank:
         if self._master_wired:
             levels[MASTER] = True
             self._master_until_s = now_s + MASTER_LINGER_S
-        # A line that fails may have switched all the same: the relay counts as closed until it is opened.
+        # A line that fails may have switched: the relay counts as closed until it is opened.
         motor = self._motors[axis]
         motor.on = motor.last = direction
         try:
@@ -253,7 +262,7 @@ class RelayBank:
         if self._fed_until_s > now_s:
             leases_s.append(self._fed_until_s)
         if self._watch and self._renewed and not leases_s:
-            # The watch must hear of each end: it takes silence with a lease in force for a program that hangs.
+            # Tell the watch of each end. If it hears nothing during a lease, it takes the program for hung.
             self._watch.rest()
             self._renewed = False
         moments_s = leases_s

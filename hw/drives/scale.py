@@ -18,7 +18,7 @@ class CommandScale:
     """`points` are pairs of an angle in degrees and the device's number there, in any order; straight lines between.
 
     `name` opens each error. Raises HardwareError for fewer than two points, an angle given twice, or numbers that
-    neither all rise nor all fall.
+    do not all rise or all fall.
     """
 
     def __init__(self, name: str, points: Sequence[tuple[float, float]]) -> None:

@@ -1,4 +1,4 @@
-"""A rotor of two hobby servos on a PCA9685, as the program sees it: a positioned drive and two modelled angles.
+"""A rotor of two hobby servos on a PCA9685: a positioned drive and two modelled angles.
 
 Knows leases, the enable line, and how a board that has lost its supply is set up again. A servo moves only while the
 guard calls `enforce`: when the program hangs, each servo holds. Does not know where a servo really stands, because a
@@ -29,9 +29,8 @@ RETRY_S = 0.5
 class ServoDrive:
     """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock.
 
-    `enable`: the line `ENABLE`, where one is wired. `idle_off_s`: a servo that has not moved for so many seconds gets
-    no more pulses and is limp; None: it always holds. Raises HardwareError for two servos on one output, or a wrong
-    table of pulses.
+    `enable`: the line `ENABLE`, if it is wired. `idle_off_s`: a servo at rest for this time, in seconds, gets no pulses
+    and is limp; None: it always holds. Raises HardwareError for two servos on one output, or a wrong table of pulses.
     """
 
     angle_source = AngleSource.MODELLED
@@ -107,7 +106,7 @@ class ServoDrive:
             return self._due_s()
 
     def enforce(self, now_s: float) -> None:
-        """Move each pulse by as much as its slew rate allows; hold each servo whose command has expired.
+        """Move each pulse as far as its slew rate allows. Hold each servo whose command has expired.
 
         Raises HardwareError when the board does not answer; later calls set it up again.
         """
@@ -130,7 +129,7 @@ class ServoDrive:
             wait_until(self._changed, self._due_s(), self._clock, patience_s)
 
     def finish(self) -> None:
-        """After the guard has ended: a stop in a first jump that it has not carried out. Raises HardwareError."""
+        """After the guard's end: carry out a stop during a first jump, if the guard has not. Raises HardwareError."""
         with self._changed:
             jumps = any(axis.limp for axis in self._axes.values())
         if jumps:
@@ -149,7 +148,7 @@ class ServoDrive:
             return self._axes[axis].angle_deg
 
     def position_known(self, axis: Axis) -> bool:
-        """Whether the jump of the first pulse is over: there was time for the servo's whole travel."""
+        """Whether the jump of the first pulse is over: the time for the servo's whole travel has passed."""
         with self._changed:
             return self._axes[axis].settled_s <= self._clock()
 

@@ -49,11 +49,11 @@ class ServoAxis:
         self.angle_deg = spec.start_deg
         self.pulsing = False
         self.settled_s = float("inf")
-        """When the jump of the first pulse is over, even over the whole travel; infinite before the first pulse."""
+        """End of the jump of the first pulse, even for the whole travel; infinite before the first pulse."""
         self.moved_s = float("-inf")
         """When the pulse last changed."""
         self.limp = False
-        """Stopped during the jump of the first pulse: only the end of its pulses stops a servo then."""
+        """Stopped during the jump of the first pulse. Then only the end of its pulses stops a servo."""
         self._course: _Course | None = None
         self._stepped_s = float("-inf")
         self._jump_s = self._longest_jump_s
@@ -66,7 +66,7 @@ class ServoAxis:
         self.limp = False
 
     def hold(self, now_s: float) -> None:
-        """Keep the present pulse: a servo holds where its pulse sends it. One that still jumps gets no more pulses."""
+        """Keep the present pulse: a servo holds at the angle of its pulse. During the first jump, end the pulses."""
         self.limp = self.limp or (self.pulsing and now_s < self.settled_s)
         self._course = None
 
@@ -75,20 +75,20 @@ class ServoAxis:
             self.hold(now_s)
 
     def wake(self, now_s: float) -> None:
-        """The chip sends pulses from now on. After `sleep(lost=True)` the servo jumps from an unknown angle."""
+        """The chip now starts to send pulses. After `sleep(lost=True)` the servo jumps from an unknown angle."""
         self.pulsing, self.moved_s = True, now_s
         if self._lost:
             self.settled_s = now_s + self._jump_s
 
     def sleep(self, *, lost: bool) -> None:
-        """The chip sends no pulse from now on. `lost`: the servo is limp, and wind may turn it."""
+        """The chip now stops its pulses. `lost`: the servo is limp, and wind may turn it."""
         self.pulsing = self.limp = False
         if lost:
             self.settled_s = float("inf")
             self._jump_s = self._longest_jump_s
 
     def stop_jump(self, now_s: float) -> None:
-        """The chip sends no pulse from now on, before the jump was over."""
+        """The chip now stops its pulses, before the jump is over."""
         self._jump_s = max(0.0, self.settled_s - now_s)
         self.pulsing = self.limp = False
         self.settled_s = float("inf")
@@ -114,7 +114,7 @@ class ServoAxis:
         return min(max(self._stepped_s + FRAME_S, self.settled_s), self._course.until_s)
 
     def next_deg(self, now_s: float) -> float:
-        """The angle of the next pulse: as near to the course as the slew rate allows. A late call makes no big step."""
+        """The angle of the next pulse: as near to the course as the slew rate allows, also after a late call."""
         if self._course is None or not self.pulsing:
             return self.angle_deg
         most_deg = self.spec.slew_dps * min(now_s - self._stepped_s, 2 * FRAME_S)
@@ -129,7 +129,7 @@ class ServoAxis:
 
     @property
     def _longest_jump_s(self) -> float:
-        """From the farther end of its travel to the angle of the first pulse."""
+        """Seconds from the farther end of its travel to the angle of the first pulse."""
         start_deg = self.angle_deg
         return max(start_deg - self.scale.low_deg, self.scale.high_deg - start_deg) / self.spec.slew_dps
 
@@ -139,6 +139,6 @@ class ServoAxis:
 
     @property
     def _arrived(self) -> bool:
-        """The command is to stay at one angle, and the pulse of that angle has been sent."""
+        """Whether the command is to stay at one angle, and the pulse of that angle has been sent."""
         course = self._course
         return course is not None and not self._lost and course.rate_dps == 0 and course.angle_deg == self.angle_deg

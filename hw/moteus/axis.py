@@ -20,20 +20,21 @@ MOVING_EVERY_S = 0.02
 PARKED_EVERY_S = 0.08
 """Seconds between two orders to an axis at rest: much shorter than the controller's watchdog time."""
 STALE_S = 0.3
-"""An answer older than so many seconds is not used. A shorter silence stops nothing: meanwhile the controller carries
-out its last order."""
+"""Seconds: an older answer is not used. A shorter silence stops nothing, because the controller carries out its last
+order."""
 FORGIVEN_S = 2.0
-"""After a silence up to this long the axis takes the next order without an acknowledgement: the controller stood and
-held meanwhile, and still knows its place."""
+"""Seconds: after a silence up to this the axis takes the next order without an acknowledgement. Meanwhile the
+controller stood and held, and it still knows its place."""
 ERRAND_S = 2.0
-"""An operator's request is dropped when it cannot be delivered to the controller within so many seconds."""
+"""Seconds: an operator's request that cannot be delivered to the controller in this time is dropped."""
 
 MOVES_DPS, STANDS_DPS = 0.01, 0.5
-"""Faster than the first an axis moves; slower than the second one can look where it points."""
+"""Speeds in degrees a second: an axis faster than the first moves; slower than the second its angle can be read by
+eye."""
 
 
 class Wish(Enum):
-    """What the program wants of the axis."""
+    """The program's wish for the axis."""
 
     NOTHING = "nothing was ordered yet"
     LET_GO = "the operator released it"
@@ -47,7 +48,7 @@ class MoteusAxis:
     """
 
     def __init__(self, spec: MoteusSpec, *, look_only: bool = False) -> None:
-        """`look_only`: asks, and gives the controller nothing, its turn included."""
+        """`look_only`: only query the controller, and never give it an order or a position."""
         self.spec = spec
         self._look_only = look_only
         self.fault: str | None = None
@@ -60,22 +61,22 @@ class MoteusAxis:
         """When the present aim expires."""
         self.wish = Wish.NOTHING
         self.gap_s = 0.0
-        """How long it had been silent before the latest answer."""
+        """Seconds of silence before the latest answer."""
         self.misses = 0
-        """How many orders were not answered so far."""
+        """The number of orders without an answer since the start."""
         self.came_back = False
-        """The order before the latest answer was not answered."""
+        """Whether the order before the latest answer was not answered."""
         self._name = f"moteus {spec.can_id}"
         self._placing = Placing(spec)
         self._aim = (0.0, 0.0, 0.0)  # angle_deg, rate_dps, and the moment of the command
         self._errands: deque[Stop | SetOutput] = deque()
         self._errands_until_s = math.inf
         self._engaged = False
-        """This program has ordered the controller to move or to hold, so it has torque."""
+        """Whether this program has ordered the controller to move or to hold, so that it has torque."""
         self._ordered_to_hold = False
-        """The latest order with an answer was to hold."""
+        """Whether the latest answered order was to hold."""
         self._missed = True
-        """The latest order was not answered."""
+        """Whether the latest order was not answered."""
         self._next_s = -math.inf
 
     # --- what the program wants
@@ -95,7 +96,7 @@ class MoteusAxis:
         self._want(Wish.AIM)
 
     def hold(self) -> None:
-        """Decelerate and hold. An axis without torque, never aimed or released by the operator, stays without."""
+        """Decelerate and hold. An axis that was never aimed, or that the operator released, stays without torque."""
         if self.wish is Wish.AIM:
             self._want(Wish.HOLD)
 
@@ -105,7 +106,7 @@ class MoteusAxis:
         self._want(Wish.LET_GO)
 
     def acknowledge(self, now_s: float) -> None:
-        """Clear the fault; a fault whose cause is still there comes back. Raises HardwareError: no answer."""
+        """Clear the fault. If its cause is still present, it comes back. Raises HardwareError: no answer."""
         self._must_answer(now_s)
         self.fault = None
         self._send_first(now_s + ERRAND_S, Stop())
@@ -127,7 +128,7 @@ class MoteusAxis:
             )
         self.hold()
         self._placing.doubt()
-        # First take the torque away: a controller that holds would turn the motor by as much as its scale shifts.
+        # First take the torque away. A controller that holds would turn the motor by the shift of its scale.
         self._send_first(now_s + ERRAND_S, Stop(), SetOutput(self.spec.revolutions(agreed_deg), exactly))
 
     def _want(self, wish: Wish) -> None:
@@ -143,7 +144,7 @@ class MoteusAxis:
 
     @property
     def busy(self) -> bool:
-        """A request of the operator has not been carried out yet."""
+        """Whether a request of the operator is not carried out yet."""
         return bool(self._errands)
 
     @property
@@ -155,7 +156,7 @@ class MoteusAxis:
 
     @property
     def at_rest(self) -> bool:
-        """The bus may be closed: every request is carried out, and the axis holds or has no torque."""
+        """Whether the bus may be closed: each request is carried out, and the axis holds or has no torque."""
         if self.fault or self.wish in (Wish.NOTHING, Wish.LET_GO):
             return not self._errands
         return self._ordered_to_hold and not self.moving
@@ -165,7 +166,7 @@ class MoteusAxis:
         return self.answer is not None and not self._placing.unknown
 
     def silent_s(self, now_s: float) -> float:
-        """How long ago it answered last; infinite: never."""
+        """Seconds since its last answer; infinite: it never answered."""
         return now_s - self.heard_s
 
     @property
@@ -233,7 +234,7 @@ class MoteusAxis:
             return
         given_rev = self._placing.see(answer)
         if given_rev is not None and not self._errands and not self._look_only:
-            # The same as in `confirm`; only a person clears a fault.
+            # As in `confirm`. But a fault stays: only a person clears it.
             loosen = [] if answer.mode in (Mode.STOPPED, Mode.FAULT) else [Stop()]
             self._send_first(math.inf, *loosen, SetOutput(given_rev, exactly=False))
         if self._errands:

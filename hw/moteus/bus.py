@@ -27,15 +27,15 @@ log = logging.getLogger(__name__)
 MOTEUS_THREAD = "moteus"
 """The name of the thread."""
 EXCHANGE_S = 0.15
-"""The longest time for one request and its answer, in seconds."""
+"""Longest time for one request and its answer, in seconds."""
 SILENCE_S = 2.0
-"""After so many seconds without any answer the connection is opened again."""
+"""Seconds without any answer, after which the connection is opened again."""
 BACK_OFF_S = (0.03, 2.0)
 """The shortest and the longest pause before the next attempt to connect, in seconds."""
 FIRST_ANSWER_S = 0.7
-"""`start` waits for the first answers up to so many seconds: a healthy bus needs a tenth of that."""
+"""Seconds that `start` waits for the first answers at most. A healthy bus needs a tenth of that."""
 SAID_EVERY_S = 10.0
-"""A bad cable gets one line in the log in so many seconds."""
+"""Seconds between two log lines about a bad cable."""
 COMING_TO_REST_S = 2.0
 """The longest time, in seconds, for the motors to stop when the program ends."""
 
@@ -50,9 +50,9 @@ class MoteusBus:
         self._port = port
         self._closing = threading.Event()
         self._met = threading.Event()
-        """Both controllers have answered, or the first try has failed."""
+        """Set when both controllers have answered, or when the first try has failed."""
         self._lively = False
-        """A controller has answered on the present connection."""
+        """Whether a controller has answered on the present connection."""
         self._said_s, self._unsaid = -math.inf, 0
         self._lock = threading.Lock()
         self._waker: tuple[asyncio.AbstractEventLoop, asyncio.Event] | None = None
@@ -67,7 +67,7 @@ class MoteusBus:
         self._met.wait(FIRST_ANSWER_S)
 
     def close(self) -> None:
-        """Let both axes come to rest and hold, then end the thread; the controllers' watchdogs guard them from then on.
+        """Let both axes come to rest and hold, then end the thread. After that the controllers' watchdogs guard them.
 
         May be called twice, and without `start`.
         """

@@ -1,4 +1,4 @@
-"""A rotor of two moteus controllers, as the program sees it: a positioned drive and two angle sensors.
+"""A rotor of two moteus controllers: a positioned drive and two angle sensors.
 
 Knows leases, and that several threads use the drive while one thread serves the controllers. Does not know the library
 nor the CAN bus: `hw.moteus.bus` sends the orders and passes on the answers.
@@ -18,10 +18,10 @@ from hw.ports import AngleSource, Axis, HardwareError
 
 
 class MoteusDrive:
-    """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock. `look_only`: the
-    controllers are only asked.
+    """Safe to call from any thread. `clock` gives seconds; `until_s` of an aim is on the same clock. `look_only`: only
+    query the controllers.
 
-    Raises HardwareError where both axes have one CAN id.
+    Raises HardwareError if both axes have the same CAN id.
     """
 
     angle_source = AngleSource.MEASURED
@@ -55,7 +55,7 @@ class MoteusDrive:
         self.on_news()
 
     def hold(self, axis: Axis) -> None:
-        """Decelerate, and hold at the angle of rest. An unreachable controller does so by its watchdog."""
+        """Decelerate, and hold at the angle of rest. The watchdog of an unreachable controller does the same."""
         with self._lock:
             self._axes[axis].hold()
         self.on_news()
@@ -95,27 +95,27 @@ class MoteusDrive:
             return self._reached(axis).angle_deg(self._clock())
 
     def position_known(self, axis: Axis) -> bool:
-        """False where the encoder cannot tell the turn after power-on. `confirm` makes the position known."""
+        """False: after power-on the encoder cannot tell the turn. `confirm` makes the position known."""
         with self._lock:
             return self._axes[axis].position_known
 
     def forgiven(self, axis: Axis) -> bool:
-        """Whether the axis, silent now, would obey without an acknowledgement if it answered at once."""
+        """Whether the axis, if it is silent now and answered at once, would obey without an acknowledgement."""
         with self._lock:
             return self._axes[axis].silent_s(self._clock()) <= FORGIVEN_S
 
     def faults(self) -> dict[Axis, str]:
-        """For each stopped axis: what stopped it, in a sentence. A fault stays until `acknowledge`."""
+        """For each stopped axis: the fault, as a sentence. It stays until `acknowledge`."""
         with self._lock:
             return {name: axis.fault for name, axis in self._axes.items() if axis.fault}
 
     def limits(self) -> dict[Axis, Limit]:
-        """For each limited axis: what limits its controller without a fault, the position bounds for example."""
+        """For each limited axis: the limit that its controller meets without a fault, such as the position bounds."""
         with self._lock:
             return {name: axis.limited_by for name, axis in self._axes.items() if axis.limited_by}
 
     def misses(self, axis: Axis) -> int:
-        """How many orders its controller has not answered so far."""
+        """The number of orders that its controller has not answered since the start."""
         with self._lock:
             return self._axes[axis].misses
 
@@ -127,7 +127,7 @@ class MoteusDrive:
     # --- on an operator's request only
 
     def acknowledge(self, axis: Axis) -> None:
-        """Clear the axis's fault; a fault whose cause is still there comes back. Raises HardwareError: no answer."""
+        """Clear the axis's fault. If its cause is still present, it comes back. Raises HardwareError: no answer."""
         with self._lock:
             self._reached(axis).acknowledge(self._clock())
         self.on_news()
@@ -156,7 +156,7 @@ class MoteusDrive:
             return self._axes[axis].order(now_s)
 
     def next_order_s(self) -> float:
-        """The moment the next order is due."""
+        """When the next order is due."""
         with self._lock:
             return min(axis.due_s() for axis in self._axes.values())
 
@@ -188,12 +188,12 @@ class MoteusDrive:
 
     @property
     def at_rest(self) -> bool:
-        """Both axes hold, or have no torque, and every request is delivered: the bus may be closed."""
+        """Whether the bus may be closed: both axes hold or have no torque, and each request is delivered."""
         with self._lock:
             return all(axis.at_rest for axis in self._axes.values())
 
     def _reached(self, axis: Axis) -> MoteusAxis:
-        """The axis. Raises HardwareError where the connection is lost, and for longer than an answer is used."""
+        """The axis. Raises HardwareError if the connection is lost and its last answer is too old."""
         found = self._axes[axis]
         if self._offline and found.silent_s(self._clock()) > STALE_S:
             raise HardwareError(self._offline)

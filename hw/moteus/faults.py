@@ -18,7 +18,7 @@ class Fault:
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """What limits a running controller: its name, and a text of 13 characters at most for the LCD."""
+    """A limit that a running controller meets: its name, and a text of 13 characters at most for the LCD."""
 
     name: str
     short: str
@@ -59,7 +59,7 @@ LIMITS: dict[int, Limit] = {
     104: Limit("braking that feeds the supply", "BRAKING"),
     105: Limit("field weakening", "FIELD WEAK"),
 }
-"""These are not faults: the controller runs, and something limits it."""
+"""Not faults: the controller runs, but meets a limit."""
 
 
 def explain(code: int) -> Fault:

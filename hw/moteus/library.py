@@ -14,8 +14,8 @@ LINE_S = 0.05
 """The adapter's time limit for one line, in seconds. The library's default is longer than the other axis's watchdog."""
 
 WRITE_S = 1.0
-"""An adapter that stops reading holds the thread up for so long, in seconds. pyserial takes a write that has succeeded
-for a failure when the thread had no turn for longer, and a thread of a busy machine may wait for half a second."""
+"""Seconds for which an adapter that stops reading may block the thread. Not shorter: pyserial takes a good write for a
+failure if the thread did not run for longer, and on a busy machine a thread may wait for half a second."""
 
 
 def library() -> Any:

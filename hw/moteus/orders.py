@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 WATCHDOG_S = 0.5
-"""After so many seconds without an order the controller decelerates and stops by itself."""
+"""Seconds without an order, after which the controller decelerates and stops by itself."""
 
 
 class Mode(IntEnum):
@@ -23,7 +23,7 @@ class Mode(IntEnum):
 
 
 class Home(IntEnum):
-    """What the controller knows of its position: nothing, the angle within a rotor turn, or the output's position."""
+    """The controller's knowledge of its position: none, the angle within a rotor turn, or the output's position."""
 
     RELATIVE = 0
     ROTOR = 1
@@ -44,10 +44,10 @@ class MoteusSpec:
     max_torque_nm: float = math.nan
     """NaN: as configured in the controller."""
     geared: bool = True
-    """The only encoder is before a gear: at power-on the controller does not know in which turn of the gear it is."""
+    """Whether the only encoder is before a gear: then the controller does not know the gear's turn at power-on."""
     min_deg: float = 0.0
     max_deg: float = 360.0
-    """The axis's range: it shows in which turn the antenna stands."""
+    """The axis's range. It shows in which turn the antenna stands."""
 
     def revolutions(self, angle_deg: float) -> float:
         """The controller's position at that angle."""
@@ -58,7 +58,7 @@ class MoteusSpec:
         return (position_rev - self.zero_rev) / self.rev_per_turn * 360
 
     def turns_deg(self, angle_deg: float, beyond_deg: float) -> list[float]:
-        """Every angle in the range, and so far beyond its ends, at which the antenna points as at `angle_deg`."""
+        """Each angle in the range, or up to `beyond_deg` beyond it, at which the antenna points as at `angle_deg`."""
         least = math.ceil((self.min_deg - beyond_deg - angle_deg) / 360)
         most = math.floor((self.max_deg + beyond_deg - angle_deg) / 360)
         return [angle_deg + 360 * turn for turn in range(least, most + 1)]

@@ -1,11 +1,11 @@
-"""In which turn an axis stands: what a controller's position is worth after power-on, after silence, after a restart.
+"""The turn in which an axis stands: whether a controller's position is right after power-on, silence or a restart.
 
 Knows home states, the two kinds of encoder, and the range of the axis. Knows no orders: the caller gives the controller
 the position that `see` returns.
 
 After power-on a controller knows its angle within one turn at most, of the motor or of the antenna: 270° comes back as
--90°. The angle is taken for the one turn that lies in the axis's range. Where two turns lie in it (45° and 405° of
-450°), or none does, a person has to say which.
+-90°. The turn is the one that lies in the axis's range. If two turns lie in it (45° and 405° of 450°), or none, a
+person has to say which.
 """
 
 from __future__ import annotations
@@ -15,13 +15,14 @@ import math
 from hw.moteus.orders import Answer, Home, Mode, MoteusSpec
 
 BEYOND_DEG = 5.0
-"""An antenna without power may be pushed this far beyond its range. So near an end, both ends of a full circle fit."""
+"""Degrees that an antenna without power may be pushed beyond its range. This near to an end, both ends of a full
+circle are possible."""
 CONTRADICTS_DEG = 90.0
-"""A person's eye is better than this."""
+"""Degrees: a person's eye is better than this."""
 SAME_TURN_REV = 0.5
-"""Two answers in a row that differ by less, in turns of the antenna, are in the same turn: none is driven so fast."""
+"""Turns of the antenna: two successive answers that differ by less are in the same turn. No antenna is so fast."""
 MOVED = (Mode.POSITION, Mode.TIMEOUT)
-"""A controller in one of these modes was moved since its power-on, by a program that knew where it stood."""
+"""In these modes a program has moved the controller since power-on, and that program knew its position."""
 LOST = "was switched on and does not know which way the antenna points: look at the antenna and confirm its angle"
 
 
@@ -33,19 +34,19 @@ class Placing:
         self.unknown = LOST
         """Why the angle is not known, as the end of a sentence; empty: it is known."""
         self.given_rev: float | None = None
-        """The position that the controller has yet to take for its present one; None: it has the right one."""
+        """The position that must still be given to the controller as its present one; None: its position is right."""
         self._shift_rev = 0.0
-        """What its present position lacks."""
+        """The error of its present position: what must be added."""
         self._last_rev = math.nan
-        """The position of the last answer; NaN: there was none, or a person has changed the scale since."""
+        """The position of the last answer; NaN: no answer, or a person has changed the scale since."""
         self._first = True
-        """No answer came yet in this run of the program."""
+        """Whether no answer has come yet in this run of the program."""
 
     def angle_deg(self, answer: Answer) -> float:
         return self._spec.degrees(answer.position_rev + self._shift_rev)
 
     def see(self, answer: Answer) -> float | None:
-        """Take an answer. Returns the position that the controller has to be given, if any."""
+        """Take an answer. Returns the position to give to the controller; None: none is needed."""
         if not math.isfinite(answer.position_rev):
             self._lose("has no position: check its encoder")
         elif self.given_rev is not None and self._took(answer, self.given_rev):
@@ -58,18 +59,18 @@ class Placing:
         return self.given_rev
 
     def doubt(self) -> None:
-        """A person or a sensor says where it stands: a turn that the controller was not given yet is forgotten."""
+        """A person or a sensor will give its angle. Forget the turn that the controller has not got yet."""
         if self.given_rev is not None:
             self._lose(LOST)
 
     def confirmed(self) -> None:
-        """The controller has taken the angle that a person or a sensor gave it. Its next position is right."""
+        """The controller has taken the angle from a person or a sensor. Its next position is right."""
         self.unknown, self.given_rev, self._shift_rev, self._last_rev = "", None, 0.0, math.nan
 
     def agreed_deg(self, answer: Answer, angle_deg: float) -> float | None:
-        """The angle meant by a person who sees the antenna at `angle_deg`; None: the encoder contradicts.
+        """The exact angle when a person sees the antenna at `angle_deg`; None: the encoder contradicts.
 
-        An encoder that knows the angle within a turn needs the turn only.
+        An encoder that knows the angle within a turn needs only the turn.
         """
         if self._spec.geared or answer.home == Home.RELATIVE or not math.isfinite(answer.position_rev):
             return angle_deg
@@ -85,12 +86,12 @@ class Placing:
         return abs(answer.position_rev - self._last_rev) < self._spec.span_rev(360.0) * SAME_TURN_REV
 
     def _took(self, answer: Answer, given_rev: float) -> bool:
-        """The answer may be older than the order. Then it has the old home state, or the old turn."""
+        """Whether the controller has taken the position. An answer older than the order has the old state or turn."""
         near = abs(answer.position_rev - given_rev) < self._spec.span_rev(360.0) * SAME_TURN_REV
         return answer.home == Home.OUTPUT and near
 
     def _find(self, answer: Answer) -> None:
-        """The first answer since power-on, or since the program began."""
+        """Find the turn from the first answer after power-on, or after the program began."""
         shown_deg = self._spec.degrees(answer.position_rev)
         fitting = self._spec.turns_deg(shown_deg, BEYOND_DEG)
         if answer.home == Home.RELATIVE or (answer.home == Home.ROTOR and self._spec.geared):
@@ -98,7 +99,7 @@ class Placing:
         elif self._first and shown_deg in fitting and self._settled_before(answer):
             self.unknown = ""
         elif self._spec.geared:
-            # At first: a place that it cannot have. Later: it has come back elsewhere, for it lost its supply.
+            # First answer: an impossible place. Later answer: another place, because the controller lost its supply.
             self._lose(self._outside(shown_deg) if self._first else self.unknown or LOST)
         elif len(fitting) == 1:
             self._lose("")
@@ -115,7 +116,7 @@ class Placing:
             self._lose(self._outside(shown_deg))
 
     def _settled_before(self, answer: Answer) -> bool:
-        """Whether before this run of the program a person has confirmed the angle, or a program has moved the axis."""
+        """Whether, before this run, a person confirmed the angle or a program moved the axis."""
         return answer.home == Home.OUTPUT and (self._spec.geared or answer.mode in MOVED)
 
     def _outside(self, shown_deg: float) -> str:

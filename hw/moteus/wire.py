@@ -15,7 +15,7 @@ from hw.moteus.orders import WATCHDOG_S, Answer, MoteusSpec, Move, Order, Query,
 from hw.ports import Axis
 
 Patience = Callable[[Awaitable[Any]], Awaitable[Any]]
-"""Waits for a call of the library with a time limit. Raises TimeoutError."""
+"""Wait for a call of the library, with a time limit. Raises TimeoutError."""
 
 
 class Wire:

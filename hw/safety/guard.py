@@ -40,8 +40,8 @@ class Expiring(Protocol):
 
 
 class Guard:
-    """Guards one drive. `clock`: seconds, for the thread. `operator_must`: what the operator must do at once where the
-    drive cannot be switched off, for the log.
+    """Guards one drive. `clock`: seconds, for the thread. `operator_must`: for the log: the operator's immediate action
+    if the drive cannot be switched off.
     """
 
     def __init__(self, drive: Expiring, clock: Callable[[], float], *, operator_must: str = "") -> None:
@@ -68,7 +68,7 @@ class Guard:
                 self._thread.join(timeout=2 * PATIENCE_S)
 
     def check(self) -> None:
-        """Raises HardwareError when the thread has ended although it was not stopped: then no command would expire."""
+        """Raises HardwareError if the thread has ended without `stop`: then no command would expire."""
         if self._started and not self._stopping.is_set() and not self._thread.is_alive():
             raise HardwareError("the guard, which ends expired commands, has died")
 
@@ -92,7 +92,7 @@ class Guard:
             self._report(failure)
 
     def _report(self, failure: Exception) -> None:
-        """Log a failure and what the operator must do, the first time only. A bug is logged with its traceback."""
+        """Log a failure and the operator's action, the first time only. A bug is logged with its traceback."""
         bug = None if isinstance(failure, HardwareError) else failure
         text = repr(bug) if bug else str(failure)
         # A bug is known by its type: its text may differ at each of 20 tries a second, and would fill the log.

@@ -1,6 +1,6 @@
 """A line that changes its level at each beat, for a one-shot that cuts the motors' supply when the beats stop.
 
-Knows one output. Does not know when to beat: the control loop does, after each step that went well.
+Knows one output. Does not know when to beat: the control loop does, after each good step.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Opens the relays of a program that has died, for the service manager: `python -I -S off_at_once.py FILE`.
 
-FILE is what the program left there: the chip, the level that is on, and the lines. A start of Python with its packages
-takes seconds on a small Pi, and the motor runs meanwhile. So this file loads next to nothing: no package, no other file
-of ours, no configuration. It asks the kernel itself (linux/gpio.h, the second version of its interface) to take the
-lines as outputs that are off, and gives them back. Knows nothing of what the lines switch.
+The program wrote FILE before: the chip, the level that means on, and the lines. A start of Python with its packages
+takes seconds on a small Pi, and the motor runs meanwhile. So this file loads almost nothing: no package, no other file
+of the project, no configuration. It asks the kernel itself (linux/gpio.h, second version of the interface) for the
+lines as outputs that are off, and gives them back. Does not know what the lines switch.
 """
 
 from __future__ import annotations
@@ -44,14 +44,14 @@ def understood(text: str) -> tuple[str, dict[str, int], bool]:
 
 
 def request(offsets: list[int], *, active_low: bool) -> bytearray:
-    """What the kernel is asked for: these lines as outputs that are off."""
+    """The request to the kernel: these lines as outputs that are off."""
     flags = OUTPUT | (ACTIVE_LOW if active_low else 0)
     padded = offsets + [0] * (MOST_LINES - len(offsets))
     return bytearray(REQUEST.pack(*padded, b"rotator-off", flags, len(offsets), 0, 0))
 
 
 def switch_off(chip: str, offsets: list[int], *, active_low: bool, patience_s: float = PATIENCE_S) -> None:
-    """Take the lines at their off level, and release them. Raises OSError: EBUSY where a program holds them on."""
+    """Take the lines at their off level, and release them. Raises OSError; EBUSY: a program still holds them."""
     give_up_s = time.monotonic() + patience_s
     file = os.open(chip, os.O_RDWR | os.O_CLOEXEC)
     while True:

@@ -1,4 +1,4 @@
-"""The program's side of the sentinel: starts the process, and reports every lease of a relay to it.
+"""The program's side of the sentinel: starts the process, and reports each lease of a relay to it.
 
 Knows the child process and its pipe. Does not know when a relay is on: the relay bank calls `renew` and `rest`.
 """
@@ -19,9 +19,9 @@ from hw.safety.lines_off import RelayLines
 from hw.safety.sentinel_process import READY
 
 START_S = 20.0
-"""How long the process may take to start."""
+"""Seconds allowed for the start of the process."""
 END_S = 6.0
-"""How long the process may take to end, before it is killed."""
+"""Seconds allowed for the end of the process, before it is killed."""
 PIPE_BYTES = 4096
 """The pipe's size. It is small: when the sentinel stops reading, the pipe is full after minutes of motion, and `renew`
 raises."""
@@ -87,7 +87,7 @@ class Sentinel:
 
     def _send(self, command: bytes) -> None:
         """Raises OSError."""
-        if self._pipe.closed:  # the kernel may have given its number to another file
+        if self._pipe.closed:  # another file may have its number now
             raise BrokenPipeError(errno.EPIPE, os.strerror(errno.EPIPE))
         os.write(self._pipe.fileno(), command)
 

@@ -26,10 +26,10 @@ from hw.ports import HardwareError
 from hw.safety.lines_off import RelayLines, switch_off
 
 SILENCE_S = LONGEST_LEASE_S + 0.2
-"""A running program writes `+` or `-` again before its longest lease ends. After so many silent seconds it hangs."""
+"""Seconds of silence after which the program hangs: it writes `+` or `-` again before its longest lease ends."""
 READY = b"ready\n"
 PATIENCE_S = 5.0
-"""How long, in seconds, the sentinel waits for the kernel to free the lines of a dead process."""
+"""Seconds that the sentinel waits until the kernel has freed the lines of a dead process."""
 
 _MCL_CURRENT_AND_FUTURE = 3
 
@@ -55,8 +55,8 @@ def _read_until_end(commands: int, program: int) -> bool:
         left_s = None if last_on_s is None else max(0.0, last_on_s + SILENCE_S - time.monotonic())
         ready, _, _ = select.select([commands], [], [], left_s)
         if not ready:
-            # The program is stopped, frozen or starved. Its lines are free only when it is dead, and a dead program
-            # cannot switch them on again. If it died meanwhile, with the pipe still open in a child, the signal fails.
+            # The program is stopped, frozen or starved. Kill it: only then its lines are free, and it cannot switch
+            # them on again. The signal fails if it has just died and a child still holds the pipe open.
             with suppress(OSError):
                 signal.pidfd_send_signal(program, signal.SIGKILL)
             return False

@@ -1,4 +1,4 @@
-"""A cam on a rotor's shaft that closes a contact every few degrees: its geometry, and why counting it can be exact.
+"""A cam on a rotor's shaft that closes a contact every few degrees: its geometry, and why the count can be exact.
 
 Knows angles, widths and the motor's speed. Does not know when the contact changes, and does not count.
 
@@ -8,12 +8,12 @@ The geometry. The cam divides the scale into zones, even ones closed, odd ones t
     contact      open   |   closed   |  open  |   closed   |  open
     begins at          c+0       c+closed   c+spacing   c+spacing+closed
 
-Both edges of a closure are counted, each is one zone: turning plus, zone + 1, turning minus, zone - 1. A rotor that
-closes the contact turning plus stands at the low edge of zone 0; it stops there, or in the gap beyond. Turned back from
-inside, it leaves over the low edge into zone -1; turned back from the gap, it enters zone 0 over its high edge. A count
-of closures alone would have to know which of the two happened. A count of zones need not: the same closure met from the
-other side is the same zone, so the count cannot be off by one. `play_deg` between shaft and cam shifts each edge for a
-shaft that turns minus, and changes no count.
+Both edges of a closure are counted. Each edge is one zone: zone + 1 when turning plus, zone - 1 when turning minus. A
+rotor that turns plus and closes the contact is at the low edge of zone 0. It stops inside zone 0, or in the gap beyond.
+Turned back from inside, it leaves over the low edge into zone -1. Turned back from the gap, it enters zone 0 over its
+high edge. A count of closures alone would have to know which of the two happened. A count of zones need not: from both
+sides the same closure is the same zone, so the count cannot be off by one. `play_deg` between shaft and cam shifts each
+edge for a shaft that turns minus, and changes no count.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from hw.ports import Direction
 
 BEYOND = 2.0
-"""A shaft is at most so many closures beyond the end of its range."""
+"""Closures that a shaft may stand beyond the end of its range, at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,12 +36,12 @@ class Cam:
     closed_deg: float
     """The part of the spacing in which the contact is closed."""
     closes_at_deg: float
-    """Any one angle at which the contact closes when the shaft turns clockwise or up."""
+    """One angle at which the contact closes when the shaft turns clockwise or up. Any such angle will do."""
     speed_dps: float
     coast_s: float = 0.5
-    """How long the shaft turns on after its relay opened: five time constants of a motor that slows down."""
+    """Seconds that the shaft turns on after its relay opened: five time constants of the motor."""
     play_deg: float = 0.0
-    """A shaft that turns back meets each edge this much later: gear play before the cam, spring of the contact."""
+    """Degrees by which a shaft that turns back meets each edge later: gear play, and spring of the contact."""
     low_deg: float = -math.inf
     """The lower end stop."""
     high_deg: float = math.inf
@@ -72,8 +72,8 @@ class Cam:
         return zone + (angle_deg >= self.begins_deg(zone + 1))
 
     def zones(self, low_deg: float, high_deg: float) -> range:
-        """The zones of a shaft that stands between these angles. One that came down stands in its play: the cam is
-        above the shaft, by `play_deg` at most."""
+        """The possible zones of a shaft between these angles. If the shaft last turned minus, the cam may be above it,
+        by the play, `play_deg` at most."""
         return range(self.zone_at(low_deg), self.zone_at(high_deg + self.play_deg) + 1)
 
     def ahead(self, zone: int) -> frozenset[Direction]:

@@ -1,15 +1,15 @@
-"""An angle from a contact that shows neither direction nor place, by counting the zones of its cam (`hw.sensors.cam`).
+"""The angle from a contact that shows neither direction nor place: a count of the zones of its cam (`hw.sensors.cam`).
 
-Knows the cam, and when the motor was fed and the contact changed. Knows no GPIO line and no clock: moments are
-arguments, in seconds. `trouble` says why the count may be wrong; the count is then unreliable until the axis is placed
-again.
+Knows the cam, and the times at which the motor was powered and the contact changed. Knows no GPIO line and no clock:
+times are arguments, in seconds. `trouble` says why the count may be wrong. Then the count is unreliable until the axis
+is placed again.
 
-The rules come from what no rotor can do. It cannot cross a zone in less than half the time its speed allows: a change
-sooner than that undoes the one before (a bounce longer than the debounce, a trembling contact, a spark). A change much
-too soon is a doubled pulse. A change much too late is a missed pulse, or the motor was held.
+The rules follow from the limits of a rotor. It cannot cross a zone in less than half the time that its speed needs. A
+sooner change undoes the one before (a bounce longer than the debounce, a trembling contact, a spark). A change much too
+early is a doubled pulse. A change much too late means a missed pulse, or a motor that was held.
 
-One error stays unseen: a missed pulse with no pulse after it. The motor stops beyond it, the power goes, and the stored
-count is one short. The same happens when a pulse is missed while the motor runs at half its speed. Homing finds both.
+One error stays unseen: a missed pulse that no other pulse follows. The motor stops beyond it, the power fails, and the
+stored count is one too low. A pulse missed at half the motor's speed stays unseen too. Homing finds both.
 """
 
 from __future__ import annotations
@@ -25,28 +25,28 @@ from hw.sensors.cam import Cam
 from hw.sensors.shaft import ReckonedShaft
 
 LEAST_CROSSING = 0.5
-"""No zone is crossed in less than this share of the time that its width takes at full speed."""
+"""Share of a zone's time at full speed: no zone is crossed in less."""
 SLOW = 0.1
-"""Below this share of its speed a rotor may already have turned back: the nearer edge is the one it crossed."""
+"""Share of full speed: below it a rotor may already have turned back, and the nearer edge is the one it crossed."""
 NEAR = 0.4
-"""A standing rotor that crosses an edge was within this share of the zone's width."""
+"""Share of the zone's width: a standing rotor that crosses an edge was this near to it."""
 FORGIVEN = 0.2
-"""A given angle may lie in the wrong zone by at most this share of the two edges' distance."""
+"""Share of the distance between two edges: a given angle may lie in the wrong zone by at most this."""
 TOO_SOON, TOO_LATE = 0.5, 0.75
-"""A change that comes this share of the zone's width before, or after, its edge is due belongs to another zone."""
+"""Shares of the zone's width: a change this far before, or after, the angle of its edge belongs to another zone."""
 QUIET_PERIODS = 3.0
-"""Driven for so many periods without a change: the motor is held, or at its end stop, or the contact is dead."""
+"""Periods under power without a change: the motor is held, or at its end stop, or the contact is dead."""
 TURNING_CHANGES = 4
-"""So many changes at rest, as far apart as at full speed, show a motor that is still fed."""
+"""Changes at rest, as far apart as at full speed, that show a motor still under power."""
 FASTER = 2.0
-"""The measured speed may be this many times faster, or slower, than the configured speed."""
+"""Factor by which the measured speed may differ from the configured speed."""
 SLOWEST, EVEN = 0.3, 1.5
-"""A motor at this share of its configured speed at least, whose measured speeds differ by this factor at most, turns
-evenly."""
+"""A motor turns evenly at this share of its configured speed or more, if its measured speeds differ by at most this
+factor."""
 
 
 class CamCount:
-    """Call `drive` for each change of the motor's relays and `change` for each of the contact, in order of time."""
+    """Call `drive` for each change of the motor's relays, `change` for each change of the contact, in order of time."""
 
     def __init__(self, cam: Cam) -> None:
         self.cam = cam
@@ -54,29 +54,30 @@ class CamCount:
         self.trouble = ""
         """Why the count may be wrong; empty while the count is right."""
         self.changes = 0
-        """How many changes of the contact there were since the start."""
+        """The number of changes of the contact since the start."""
         self._shaft = ReckonedShaft(cam)
         self._crept = False
-        """The shaft has crossed an edge at rest, without a relay on."""
+        """Whether the shaft has crossed an edge at rest, without a relay on."""
         self._changed_s = -math.inf
         self._before: tuple[int, float] | None = None
         """Zone and angle before the last change, which the next change may undo."""
         self._last_step = 0
         self._undone = False
-        """The last change undid the one before it. The next change, if as soon, reverts that again."""
+        """Whether the last change undid the one before it. An equally soon next change restores that one."""
         self._run: tuple[tuple[int, float], ...] = ()
-        """The last three zones of this run, each with the moment of its entry."""
+        """The last three zones of this run, each with the time of entry."""
         self._undriven: deque[tuple[float, bool]] = deque(maxlen=TURNING_CHANGES)
-        """For each change at rest: its moment, and whether the contact closed."""
+        """For each change at rest: its time, and whether the contact closed."""
 
     # --- state
 
     def angle_deg(self) -> float:
-        """As of the last call: counted to the zone, reckoned by time within the zone, never beyond it."""
+        """The angle at the last call: the zone is counted; within the zone it is reckoned by time, never beyond it."""
         return self._shaft.angle_deg
 
     def ahead_deg(self, driven: Iterable[tuple[float, Direction]], at_s: float) -> float:
-        """The angle at `at_s` if the contact does not change and the motor is fed by `driven`: moments and directions.
+        """The angle at `at_s` if the contact does not change. `driven`: times from which, and directions in which, the
+        motor is powered.
 
         Does not change the count.
         """
@@ -89,15 +90,15 @@ class CamCount:
 
     @property
     def quiet(self) -> bool:
-        """Driven for three periods without a pulse."""
+        """Whether it was driven for three periods without a pulse."""
         return self._shaft.fed_deg > QUIET_PERIODS * self.cam.spacing_deg
 
     @property
     def turning(self) -> bool:
-        """The motor runs at its speed with no relay on: a contact has welded, or another supply feeds the motor."""
+        """Whether the motor runs at its speed with no relay on: a relay has welded, or it has another supply."""
         if not self.at_rest or len(self._undriven) < TURNING_CHANGES:
             return False
-        # Wind that rocks an antenna about an edge of the contact changes it as often, but never at a motor's pace.
+        # Wind can rock the antenna about an edge. Then the contact changes as often, but never as evenly.
         shares = [
             self._crossing_s(closed=closed) / max(later_s - earlier_s, 1e-6)
             for (earlier_s, closed), (later_s, _) in pairwise([*self._undriven, (self._shaft.at_s, False)])
@@ -109,7 +110,7 @@ class CamCount:
 
     @property
     def at_rest(self) -> bool:
-        """No relay is on, and the motor has stopped coasting."""
+        """Whether no relay is on and the motor has stopped coasting."""
         return self._shaft.at_rest
 
     # --- events
@@ -117,8 +118,8 @@ class CamCount:
     def place(self, at_s: float, angle_deg: float, *, closed: bool, within_deg: float = 0.0) -> bool:
         """The shaft stands at `angle_deg`. False: the contact's state contradicts the angle, and `trouble` says so.
 
-        A contact in the other state is accepted where the play or a much nearer edge of the zone explains it. With
-        `within_deg` the angle is only as good as that: exactly one zone so near must have the contact's state.
+        A contact in the other state is accepted if the play, or a very near edge of the zone, explains it.
+        `within_deg`: possible error of the angle. Then exactly one zone within it must have the contact's state.
         """
         if within_deg > 0.0:
             return self._place_near(at_s, angle_deg, within_deg, closed=closed)
@@ -141,7 +142,7 @@ class CamCount:
             self._doubt("driven for three periods, and the contact did not change")
 
     def drive(self, at_s: float, direction: Direction) -> None:
-        """The motor is fed in this direction from this moment on."""
+        """The motor is powered in this direction from this time on."""
         self.advance(at_s)
         if direction is self._shaft.fed:
             return
@@ -197,7 +198,7 @@ class CamCount:
         return not trouble
 
     def _zone_deg(self) -> tuple[float, float]:
-        """The lowest and the highest angle at which the shaft can be in this zone."""
+        """The lowest and the highest angle of a shaft in this zone."""
         low_deg = max(self.cam.begins_deg(self.zone) - self.cam.play_deg, self.cam.low_deg)
         return low_deg, min(self.cam.begins_deg(self.zone + 1), self.cam.high_deg)
 
@@ -213,7 +214,7 @@ class CamCount:
         return self._shaft.angle_deg - self.cam.begins_deg(self.zone) + self.cam.play_deg
 
     def _crossing_s(self, *, closed: bool) -> float:
-        """How long the contact stays closed, or open, at full speed."""
+        """Seconds that the contact stays closed, or open, at full speed."""
         width_deg = self.cam.closed_deg if closed else self.cam.spacing_deg - self.cam.closed_deg
         return width_deg / self.cam.speed_dps
 
@@ -251,7 +252,7 @@ class CamCount:
             self._doubt("the contact changed too late: a pulse was missed, or the motor was held")
 
     def _learn(self, at_s: float, direction: int) -> None:
-        """Measure the speed over one whole period in a run, from closing to closing: the width does not matter then."""
+        """Measure the speed over one period of a run, from closing to closing: the closed width does not affect it."""
         self._run = (*self._run[-2:], (self.zone, at_s))
         if self._shaft.fed != direction or self._run[0][0] != self.zone - 2 * direction:
             return

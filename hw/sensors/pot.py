@@ -26,7 +26,7 @@ class Reference:
         self._volts = 0.0
 
     def volts(self) -> float:
-        """The supply, at most REFERENCE_EVERY_S old. Raises HardwareError where it is missing or cannot be read."""
+        """The supply, at most REFERENCE_EVERY_S old. Raises HardwareError if it is missing or cannot be read."""
         now_s = self._clock()
         if self._read_s is None or now_s - self._read_s >= REFERENCE_EVERY_S:
             volts = self._adc.volts(self._channel)

@@ -1,7 +1,7 @@
 """The angle of an axis by counting the closures of a cam contact: rotors of the Alliance U-100 kind.
 
 Knows two streams of events, changes of the motor relays and changes of the contact, and puts them in order of time.
-Does not decide what they mean: `hw.sensors.cam_count` does. Only passes on the levels of the relays.
+Does not know what they mean: `hw.sensors.cam_count` does. It never changes a level of a relay itself.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ class _Driven:
 
 
 class TappedLines:
-    """The motor relays' lines, with a record of every change and its moment.
+    """The motor relays' lines, with a record of each change and its time.
 
-    It stands between the relay bank and the lines, so that it records every switching: a command, its expiry, `off`
-    from another thread, a supply that is cut.
+    It stands between the relay bank and the lines, so that it records each switching: by a command, by its expiry, by
+    `off` from another thread, by a cut supply.
     """
 
     def __init__(self, lines: OutputLines, clock: Callable[[], float]) -> None:
@@ -63,7 +63,7 @@ class TappedLines:
 class PulseCounter:
     """One axis as a `hw.ports.AngleSensor`. `read` gives degrees; before the first `place`, from an arbitrary angle.
 
-    `clock` is the kernel's monotonic time. Raises HardwareError where the debounce would hide whole closures.
+    `clock` is the kernel's monotonic time. Raises HardwareError if the debounce would hide whole closures.
     """
 
     source = AngleSource.COUNTED
@@ -102,7 +102,7 @@ class PulseCounter:
             for change in self._contact.changes()
         ]
         self._waiting.sort(key=lambda event: event.at_s)
-        # The kernel reports a change when its debounce is over: every change older than that has arrived.
+        # The kernel reports a change after its debounce. So all changes older than the debounce have arrived.
         settled_s = now_s - self._debounce_s
         while self._waiting and self._waiting[0].at_s <= settled_s:
             self._take(self._count, self._waiting.pop(0))
@@ -113,8 +113,8 @@ class PulseCounter:
     def place(self, angle_deg: float, within_deg: float = 0.0) -> bool:
         """The axis stands at that angle: a stored count, or an end stop. False: the contact's state contradicts it.
 
-        `within_deg`: the angle may be wrong by so much, and the contact decides. Only at rest. Forgets the count so
-        far. Raises HardwareError when the contact cannot be read.
+        `within_deg`: possible error of the angle; the contact decides within it. Call it only at rest. Forgets the
+        former count. Raises HardwareError if the contact cannot be read.
         """
         self.read()
         closed = self._contact.closed()
@@ -126,12 +126,12 @@ class PulseCounter:
 
     @property
     def changes(self) -> int:
-        """How many changes of the contact there were so far; two of them make one pulse."""
+        """The number of changes of the contact since the start; two of them make one pulse."""
         return self._count.changes
 
     @property
     def in_closure(self) -> bool:
-        """The contact is closed since the last counted change, or the last `place`."""
+        """Whether the contact is closed, by the last counted change or the last `place`."""
         return self._count.zone % 2 == 0
 
     @property
@@ -141,7 +141,7 @@ class PulseCounter:
 
     @property
     def at_rest(self) -> bool:
-        """No relay is on, and the motor has stopped coasting."""
+        """Whether no relay is on and the motor has stopped coasting."""
         return self._count.at_rest and not self._waiting
 
     @property
@@ -161,12 +161,12 @@ class PulseCounter:
 
     @property
     def turning(self) -> bool:
-        """The motor runs at its speed though no relay is on."""
+        """Whether the motor runs at its speed though no relay is on."""
         return self._count.turning
 
     @property
     def quiet(self) -> bool:
-        """Driven for three periods without a pulse."""
+        """Whether it was driven for three periods without a pulse."""
         return self._count.quiet
 
     @staticmethod

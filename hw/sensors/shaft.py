@@ -1,7 +1,7 @@
 """The angle of a shaft between two edges of its cam contact, by dead reckoning from the motor's supply.
 
-Knows the motor's speed in each direction, its lag, and how long it has been fed. Does not know the contact, and counts
-nothing: the caller gives the two angles between which the shaft must be. Has no clock: moments are arguments, in
+Knows the motor's speed in each direction, its lag, and how long it has been powered. Does not know the contact, and
+does not count: the caller gives the two angles between which the shaft must be. Has no clock: times are arguments, in
 seconds.
 """
 
@@ -23,15 +23,15 @@ class ReckonedShaft:
 
     def __init__(self, cam: Cam) -> None:
         self.at_s = -math.inf
-        """The moment up to which everything here holds."""
+        """The time of the present state."""
         self.angle_deg = 0.0
         self.speed_dps = 0.0
         self.fed = Direction.OFF
-        """The direction in which the motor is fed."""
+        """The direction in which the motor is powered."""
         self.fed_s = 0.0
-        """How many seconds the motor has been fed in this direction since the last edge."""
+        """Seconds under power in this direction since the last edge."""
         self.held_deg = 0.0
-        """How far the shaft should have turned beyond its two edges: a missed pulse, or a held motor, shows here."""
+        """How far the shaft should have turned beyond its two edges. It shows a missed pulse or a held motor."""
         self._cam = cam
         self._off_s = -math.inf
         self._speeds_dps = dict.fromkeys((Direction.PLUS, Direction.MINUS), cam.speed_dps)
@@ -48,15 +48,15 @@ class ReckonedShaft:
 
     @property
     def at_rest(self) -> bool:
-        """The motor has not been fed for as long as it coasts."""
+        """Whether the motor has been without power for longer than it coasts."""
         return self.fed is Direction.OFF and self.at_s - self._off_s >= self._cam.coast_s
 
     def place(self, at_s: float, angle_deg: float) -> None:
-        """The shaft stands at this angle at this moment."""
+        """The shaft stands at this angle at this time."""
         self.at_s, self.angle_deg, self.speed_dps, self.held_deg = at_s, angle_deg, 0.0, 0.0
 
     def feed(self, direction: Direction) -> None:
-        """The motor is fed in this direction from the present moment on."""
+        """The motor is powered in this direction from now on."""
         if direction is self.fed:
             return
         if direction is Direction.OFF:
@@ -70,7 +70,7 @@ class ReckonedShaft:
         self.angle_deg, self.fed_s, self.held_deg = edge_deg, 0.0, 0.0
 
     def advance(self, at_s: float, low_deg: float, high_deg: float) -> bool:
-        """Turn on up to `at_s`, and stay between these angles. False: no time passed, or nothing moves."""
+        """Turn until `at_s`, but stay between these angles. False: no time passed, or nothing moves."""
         seconds = at_s - self.at_s
         if not 0.0 < seconds < math.inf:
             self.at_s = max(at_s, self.at_s)

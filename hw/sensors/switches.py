@@ -1,8 +1,8 @@
 """Switches read together by name, and the directions that limit switches block.
 
 Knows the names, and the direction that each limit switch blocks. Does not know GPIO lines, and does not filter bounce:
-the caller reads often. A switch for safety is normally closed: a broken wire then reads as pressed, or as the limit
-reached.
+the caller reads often. A safety switch is normally closed, so that a broken wire reads as pressed or as a reached
+limit.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ LIMITS = {
 
 
 class LimitSwitches:
-    """Normally closed switches at the ends of the travel. `fitted`: the names of the wired switches, from LIMITS."""
+    """Normally closed switches at the ends of the travel. `fitted`: names of the wired switches, keys of LIMITS."""
 
     def __init__(self, inputs: SwitchInputs, fitted: Collection[str]) -> None:
         self._inputs = inputs
