@@ -111,7 +111,7 @@ OF_THE_STATION: tuple[Check[[Machine, Config]], ...] = (
     Check("serial ports", "those of the links are there, open, and free of consoles", links.serial_ports),
     Check("pseudo-terminals", "those of the links can be created", links.pseudo_terminals),
     Check("TCP ports", "those of the links are free or the box's; which are open to the network", links.tcp_ports),
-    Check("page's port", "TCP: it is free, or the box's; whether it is open to the network", links.page_port),
+    Check("page's port", "free, or the box's; open to the network?", links.page_port),
     Check("UDP ports", "the same for links that receive datagrams", links.udp_ports),
     Check(
         "elements", "the files can be read and are not old; fetching works",
